@@ -36,7 +36,7 @@ from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of, nodes_of, on_boundary
-from fem_reference.surface.rubber import require_law
+from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
@@ -205,7 +205,7 @@ def _solution(
         balance=balance(scene, structure, path, forces, surface, edges),
         snaps=tuple(path.snaps),
         fallback=fallback,
-        remarks=tuple(notes),
+        remarks=(*notes, *limit_notes(settings.get("law"), scene.material, status)),
         stretch=stretched,
     )
 

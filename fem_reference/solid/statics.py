@@ -32,7 +32,7 @@ from fem_reference.solving.path import Progress
 from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, require_upright
-from fem_reference.surface.rubber import require_law
+from fem_reference.surface.rubber import limit_notes, require_law
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
@@ -123,7 +123,7 @@ def _solved(
         load_factor=path.load_factor,
         actuators=wrenches,
         balance=balance(scene, structure, path, forces, edges, own),
-        remarks=tuple(notes),
+        remarks=(*notes, *limit_notes(law, scene.material, status)),
         stretch=stretch,
     )
 

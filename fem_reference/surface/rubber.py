@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Material
+from sheetbench.scenes import Material, Status
 from sheetbench.scenes.material import WORDS, Energy
 
 
@@ -46,3 +46,13 @@ def require_law(law: str, laws: Iterable[str], material: Material) -> None:
             f"law = '{law}': the material has no constants of it; give the scene [material] law = '{law}' "
             f"with {keys}, or take law = 'neo-hookean', which needs none"
         )
+
+
+def limit_notes(law: object, material: Material, status: Status) -> list[str]:
+    """Return a sentence on the law's limit where numbers have overflowed under a law that has one."""
+    if law != "gent" or status is not Status.NON_FINITE:
+        return []
+    return [
+        f"the law 'gent' lets no load bring I1 - 3 to its limit = {material.limit:g}, as what is prescribed "
+        "here may do: move the supports less, or give a larger limit"
+    ]

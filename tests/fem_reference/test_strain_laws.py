@@ -231,3 +231,14 @@ def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law: str,
     assert solution.load_factor == pytest.approx(found, abs=0.01)
     assert solution.displacement([[0.05, 0.05]])[0, 2] > 0.25 * sheet.length_x
     assert solution.comparable or f"beyond load factor {found:.2f}"[:-1] in solution.message
+
+
+def test_gent_beyond_its_limit_is_told_with_the_limit() -> None:
+    gent = next(rubber for rubber in RUBBERS if rubber.law == "gent").replace(limit=2.0)
+    far = {"edge": "x1", "motion": {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [0.15, 0.0, 0.0]]}}
+    supports = (Clamped(edge="x0"), Clamped.model_validate(far))
+    sheet = Sheet(length_x=0.1, length_y=0.05, thickness=0.002)
+    scene = Scene(name="too-far", sheet=sheet, material=gent, supports=supports)
+    found = fem_reference.solve(scene, "shell", elements=(2, 1))
+    assert found.status is Status.NON_FINITE and 0.5 < found.load_factor < 1.0
+    assert "beyond load factor 0." in found.message and "its limit = 2" in found.message

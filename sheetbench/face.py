@@ -111,18 +111,21 @@ def simulate(
     store: Path | None = None,
     frames: int = 0,
     progress: Callable[[float], None] | None = None,
+    precision: str = "double",
+    error: float | None = None,
+    radius: float | None = None,
     large: bool = False,
-    options: dict[str, float] | None = None,
     **keywords: Unpack[LatticeKeywords],
 ) -> History:
     """The lattice's motion from rest over `duration` [s], loads and weight on at t = 0.
 
-    integrator to frames: as of `lumped.simulate`; options: the integrator's own (`radius`, `error`);
-    progress: called with the time reached.
+    integrator to frames, and precision: as of `lumped.simulate`; error, radius: of the integrators that have
+    them; progress: called with the time reached.
     """
     model = resolve(scene_of(scene), Lattice.given(lattice, keywords), "motion")
     run: dict[str, Any] = {"integrator": integrator, "step": step, "every": every, "store": store}
-    return solvers.simulate(model, duration, **run, frames=frames, progress=progress, **(options or {}))
+    run |= {name: value for name, value in (("error", error), ("radius", radius)) if value is not None}
+    return solvers.simulate(model, duration, **run, frames=frames, precision=precision, progress=progress)
 
 
 @overload

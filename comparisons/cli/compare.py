@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import typer
@@ -51,6 +52,10 @@ def command(
             help="Compare the sheet's motion over so long, from rest.",
         ),
     ] = None,
+    animate: Annotated[
+        bool,
+        typer.Option("--animate", help="With --duration and --out: draw both sheets moving, side by side."),
+    ] = False,
     export: Export = None,
     large: Large = False,
     *,
@@ -77,6 +82,8 @@ def command(
         for option, value in statics.items():
             if value:
                 raise BadInput(f"{option}: is for statics; leave it out with --duration")
+        if animate and (output.out is None or output.no_pictures):
+            raise BadInput("--animate: needs --out, a folder to draw into, without --no-pictures")
         moving = scenes.load(scene)
         chosen = None if elements is None else parse_elements(elements)
         run = {"--duration": duration, "--reference": reference}
@@ -94,8 +101,10 @@ def command(
                 frames=FRAMES if output.out is not None else 0,
                 store=out.reserve("runs/"),
             )
-            out.show(both.report())
+            out.show(replace(both, animate=animate).report())
         return
+    if animate:
+        raise BadInput("--animate: needs --duration, how long the sheet is to move")
     loaded = load_static(scene)
     size = parse_elements(elements or str(ELEMENTS))
     named = lattice.calibration is not None or lattice.k is not None

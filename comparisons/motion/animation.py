@@ -7,7 +7,7 @@ of a README's, 480 pixels wide and below a megabyte.
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from comparisons.comparison.figure import HEIGHTS, colour_bar
-from comparisons.motion.frames import Frame, frames
+from comparisons.motion.frames import Frame, Surface, frames, surfaces
 from comparisons.report import offscreen
 from comparisons.report.stage import Stage
 from comparisons.report.vtk import plan_mesh
@@ -29,6 +29,7 @@ from sheetbench.scenes import History, Scene
 
 WIDTH, PER_INCH = 4.0, 160  # inches, pixels an inch
 COLOURS, PIXELS = 64, 480  # of a GIF: its palette, its width
+SURFACE_LINES = 8  # cells drawn on a reference's sheet along its shorter side
 PER_SECOND, MOST = 8, 34  # frames a second, and at most
 
 
@@ -37,44 +38,83 @@ def animate(scene: Scene, history: History, paths: Sequence[Path]) -> None:
     without off-screen drawing."""
     if impossible := offscreen.why_not():
         raise NoPicture(impossible)
-    shown = frames(history)
-    shown = shown[:: -(-len(shown) // MOST)]
-    images = _images(scene, shown)
+    _write(paths, _images(scene, [frames(history)]))
+
+
+def animate_both(scene: Scene, histories: Mapping[str, History], paths: Sequence[Path]) -> None:
+    """Write the frames of several models, side by side in one view; the rest as `animate`."""
+    if impossible := offscreen.why_not():
+        raise NoPicture(impossible)
+    both = [frames(one) if "lattice" in one.extra else surfaces(one) for one in histories.values()]
+    _write(paths, _images(scene, both, [one.label for one in histories.values()]))
+
+
+def _write(paths: Sequence[Path], images: list[Image.Image]) -> None:
     for path in paths:
         with whole(path) as partial:
             (_write_mp4 if path.suffix == ".mp4" else _write_gif)(partial, images)
 
 
-def _images(scene: Scene, shown: list[tuple[float, Frame]]) -> list[Image.Image]:
+def _images(
+    scene: Scene, runs: Sequence[Sequence[tuple[float, Frame | Surface]]], labels: Sequence[str] = ("",)
+) -> list[Image.Image]:
+    """A page a moment, of frames of one run or of several at the same times; labels: what each is called."""
+    moments = list(zip(*runs, strict=False))
+    moments = moments[:: -(-len(moments) // MOST)]
     plan = plan_mesh(scene.sheet, 16).points[:, :2]
     flat = np.column_stack([plan, np.zeros(len(plan))])
-    sheets = [flat + frame.displacement(plan) for _, frame in shown]
-    seen = np.vstack([flat, *sheets, *(rest + u for _, frame in shown for rest, u in frame.axes)])
-    heights = [1e3 * frame.mesh.point_data["displacement"][:, 2] for _, frame in shown]
+    every = [frame for moment in moments for _, frame in moment]
+    sheets = [flat + frame.displacement(plan) for frame in every]
+    seen = np.vstack([flat, *sheets, *(rest + u for frame in every for rest, u in frame.axes)])
+    heights = [1e3 * (sheet - flat)[:, 2] for sheet in sheets]
+    heights += [1e3 * frame.mesh.point_data["displacement"][:, 2] for frame in every]
     limits = (min(float(h.min()) for h in heights), max(float(h.max()) for h in heights) + 1e-9)
-    speed = (shown[-1][0] - shown[0][0]) * PER_SECOND / max(len(shown) - 1, 1)
+    speed = (moments[-1][0][0] - moments[0][0][0]) * PER_SECOND / max(len(moments) - 1, 1)
     images = []
-    for (time, frame), height in zip(shown, heights, strict=True):
-        held: Any = frame
-        stage = Stage(scene, held, 1.0, pixels=round(1.5 * WIDTH * PER_INCH))
-        stage.lattice(frame.mesh, height, limits, HEIGHTS)
-        for rest, u in frame.axes:
-            stage.chain(rest + u)
-        pixels, _ = stage.take(seen, np.empty((0, 3)))
-        images.append(_page(scene, pixels, f"t = {time:.3f} s   (shown at {speed:.2g} × real time)", limits))
+    for moment in moments:
+        views = []
+        for (_, frame), label in zip(moment, labels, strict=True):
+            view = _view(scene, frame, limits, seen, len(moment))
+            views.append((view, label))
+        said = f"t = {moment[0][0]:.3f} s   (shown at {speed:.2g} × real time)"
+        images.append(_page(scene, views, said, limits))
     return images
 
 
-def _page(scene: Scene, pixels: np.ndarray, said: str, limits: tuple[float, float]) -> Image.Image:
-    """A frame under its title and time, over its colour bar."""
+def _view(
+    scene: Scene, frame: Frame | Surface, limits: tuple[float, float], seen: np.ndarray, beside: int
+) -> np.ndarray:
+    """The pixels of a sheet, of so many beside each other."""
+    held: Any = frame
+    stage = Stage(scene, held, 1.0, pixels=round(1.5 * WIDTH * PER_INCH / beside))
+    if isinstance(frame, Frame):
+        stage.lattice(frame.mesh, 1e3 * frame.mesh.point_data["displacement"][:, 2], limits, HEIGHTS)
+    else:
+        plan = plan_mesh(scene.sheet).points[:, :2]
+        stage.surface(held, 1e3 * frame.displacement(plan)[:, 2], limits, HEIGHTS, SURFACE_LINES)
+    for rest, u in frame.axes:
+        stage.chain(rest + u)
+    return stage.take(seen, np.empty((0, 3)))[0]
+
+
+def _page(
+    scene: Scene, views: Sequence[tuple[np.ndarray, str]], said: str, limits: tuple[float, float]
+) -> Image.Image:
+    """Views with their labels, under the title and the time, over the colour bar."""
     title = plain(scene.title or scene.name, width=72)
     top, bottom = 0.19 + 0.15 * len(title.splitlines()), 0.42
-    height = WIDTH * pixels.shape[0] / pixels.shape[1] + top + bottom
+    pixels = views[0][0]
+    height = WIDTH / len(views) * pixels.shape[0] / pixels.shape[1] + top + bottom
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(WIDTH, height), dpi=PER_INCH, facecolor="white")
-        panel = figure.add_axes((0.0, bottom / height, 1.0, 1.0 - (top + bottom) / height))
-        panel.imshow(pixels, interpolation="lanczos")
-        panel.set_axis_off()
+        share = 1.0 / len(views)
+        for number, (view, label) in enumerate(views):
+            panel = figure.add_axes((number * share, bottom / height, share, 1.0 - (top + bottom) / height))
+            panel.imshow(view, interpolation="lanczos")
+            panel.set_axis_off()
+            figure.text(
+                (number + 0.5) * share, bottom / height, label, ha="center", va="bottom", fontsize=6.5
+            )
         figure.text(0.02, 1.0 - 0.04 / height, title, va="top")
         figure.text(0.02, 1.0 - (top - 0.15) / height, said, va="top", fontsize=6.5)
         bar = figure.add_axes((0.25, 0.28 / height, 0.5, 0.07 / height))

@@ -14,7 +14,7 @@ from comparisons.motion.frames import Frame
 from comparisons.motion.measures import difference, leading, measured_alike
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
-from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.report import Film, Picture, Write
 from sheetbench.answers.table import Column, Table, number
 from sheetbench.scenes import FieldMesh, History, Scene, Status
 from sheetbench.scenes.measured_history import COMPONENTS
@@ -23,12 +23,14 @@ from sheetbench.scenes.measured_history import COMPONENTS
 @dataclass(frozen=True, repr=False)
 class MotionComparison(Answer):
     """Histories by model, the lattice's first, the reference's last; uncertainty: how far the reference may
-    be off by its mesh and by its steps, as `largest` and `rms` are measured; None where it was not asked."""
+    be off by its mesh and by its steps, as `largest` and `rms` are measured; None where it was not asked;
+    animate: draw the sheets moving, side by side."""
 
     file_name = "motion"
     scene: Scene
     histories: dict[str, History]
     uncertainty: dict[str, float | None] = field(default_factory=dict)
+    animate: bool = False
 
     @property
     def reference(self) -> str:
@@ -91,7 +93,9 @@ class MotionComparison(Answer):
         return _measures(self), _differences(self), _runs(self)
 
     def figures(self) -> tuple[Picture, ...]:
-        return (Picture("motion", "comparisons.motion.comparison_figure:compose", (self,)),)
+        drawn = Picture("motion", "comparisons.motion.comparison_figure:compose", (self,))
+        film = "comparisons.motion.animation:animate_both"
+        return (drawn, Film("both", film, (self.scene, self.histories))) if self.animate else (drawn,)
 
     def notes(self) -> list[str]:
         own = (f"{name}: {note}" for name, history in self.histories.items() for note in history.notes())
@@ -206,15 +210,10 @@ def _write_samples(path: Path, found: MotionComparison, name: str) -> None:
 
 def _write_frames(path: Path, found: MotionComparison, name: str) -> None:
     history = found.histories[name]
-    frames.write_series(path, frames.frames(history) if "lattice" in history.extra else _meshes(found))
-
-
-def _meshes(found: MotionComparison) -> list[tuple[float, FieldMesh]]:
-    """Time [s] and mesh of every displacement that the reference kept."""
-    extra = found.histories[found.reference].extra
-    mesh: FieldMesh = extra["mesh"]
-    kept = zip(extra["frame_times"].tolist(), extra["frames"], strict=True)
-    return [(time, FieldMesh(mesh.points, mesh.cells, {"displacement": u})) for time, u in kept]
+    if "lattice" in history.extra:
+        frames.write_series(path, frames.frames(history))
+    else:
+        frames.write_series(path, [(time, sheet.mesh) for time, sheet in frames.surfaces(history)])
 
 
 def _write_difference(path: Path, found: MotionComparison) -> None:

@@ -6,7 +6,7 @@ the order of their edges in the scene.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -48,6 +48,31 @@ class Frame:
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m]."""
         return MidSurface(self.lattice, points).of(self.mesh.point_data["displacement"])
+
+
+@dataclass(frozen=True)
+class Surface:
+    """One moment of a reference's run: its mesh with displacements, and what samples its mid-surface."""
+
+    mesh: FieldMesh
+    sample: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    kept: np.ndarray
+    axes: tuple[tuple[np.ndarray, np.ndarray], ...] = ()
+
+    def displacement(self, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m]."""
+        return self.sample(self.kept, points)
+
+
+def surfaces(history: History) -> list[tuple[float, Surface]]:
+    """Time [s] and sheet of every displacement that a reference's run kept."""
+    extra = history.extra
+    mesh: FieldMesh = extra["mesh"]
+    found = []
+    for time, u in zip(extra["frame_times"].tolist(), np.array(extra["frames"]), strict=True):
+        moved = FieldMesh(mesh.points, mesh.cells, {"displacement": u})
+        found.append((time, Surface(moved, extra["sample"], u)))
+    return found
 
 
 def frames(history: History) -> list[tuple[float, Frame]]:

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+UNDAMPED = (
+    "nothing damps this sheet: it swings on and does not settle; give [material] loss_factor, damping_time "
+    "or damping_rate if it is to"
+)
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
 
 
@@ -128,6 +132,8 @@ class History(Answer):
             notes.append(f"steps of {taken} ms; the largest stable one is {number(1e3 * limit, '.4g')} ms")
         if failed := self.settings.get("failed_steps"):
             notes.append(f"{failed} steps failed and were made again, shorter")
+        if self.energies["kinetic"].any() and not self.energies["dissipated"].any():
+            notes.append(UNDAMPED)
         return [*notes, self.balance_note] if len(self.time) else notes
 
     @property

@@ -114,6 +114,8 @@ bench: install
 animations: install
 	@$(BIN)/sheetbench simulate two-edges-settling --duration 1 --animate --out $(OUT)/settling
 	@$(BIN)/sheetbench simulate actuated-edge --duration 1 --animate --out $(OUT)/actuated
+	@$(BIN)/sheetbench compare two-edges-settling --duration 1 --animate --no-uncertainty --out $(OUT)/both
+	@cp $(OUT)/both/both.gif docs/images/both.gif
 	@cp $(OUT)/settling/animation.gif docs/images/settling.gif
 	@cp $(OUT)/actuated/animation.gif docs/images/actuated.gif
 

@@ -21,7 +21,7 @@ EXPLANATION = (
     "u: the component of the largest displacement at the probes, extrapolated from three meshes "
     "(Richardson), ± its grid convergence index. off: the largest component of a model's extrapolated "
     "displacement less the shell's over the probes, of the shell's largest; ± both bars there. Two models "
-    "are told apart where they differ by more than both their bars at a probe; what is not may still differ."
+    "are distinguishable where they differ by more than both bars at a probe; others may still differ."
 )
 
 
@@ -37,7 +37,7 @@ class LimitRow:
     bar: Annotated[float | None, MILLIMETRES(".2g", "± u")] = None
     off: Annotated[float | None, PERCENT("z.2f")] = None
     bars: Annotated[float | None, PERCENT(".2g", "± off")] = None
-    differs_from: Annotated[str, Column("told apart from", prose=True)] = "none"
+    differs_from: Annotated[str, Column("differs from", prose=True)] = "none"
 
 
 @dataclass(frozen=True)

@@ -93,7 +93,7 @@ class Pair:
     b: Annotated[str, Column("and")]
     difference: Annotated[float, PERCENT("z.3f", "differ by")]
     bars: Annotated[float, PERCENT(".2g")]
-    distinguishable_at: Annotated[tuple[str, ...], Column("told apart at", none="nowhere")]
+    distinguishable_at: Annotated[tuple[str, ...], Column("distinguishable at", none="nowhere")]
 
     def document(self) -> dict[str, Any]:
         """For JSON."""

@@ -170,12 +170,13 @@ class Cells(Family):
         if self.law is not AREA_AND_STRAINS:
             every: np.ndarray = cells.energies(u, self.arrays)
             return every[:, None]
-        of_areas, of_strains = self.constants.copy(), self.constants.copy()
-        of_areas[:, 1:], of_strains[:, 0] = 0.0, 0.0
-        parts = [
-            cells.energies(u, self.arrays._replace(law=self.law.tag(each))) for each in (of_areas, of_strains)
-        ]
-        return np.stack(parts, axis=1)
+        stored = np.zeros((len(self), 2))
+        for column, part in enumerate((slice(0, 1), slice(1, None))):
+            own = np.zeros_like(self.constants)
+            own[:, part] = self.constants[:, part]
+            if own.any():
+                stored[:, column] = cells.energies(u, self.arrays._replace(law=self.law.tag(own)))
+        return stored
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
         """Return both sums, of the springs that there are."""

@@ -1,0 +1,142 @@
+"""The shape of answers: rows whose fields carry their columns, and what follows from tables and figures."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import sheetbench as sb
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import NoPicture, Picture
+from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, Column, Table
+from sheetbench.scenes.history import ENERGIES
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of every kind of field."""
+
+    model: str
+    grid: tuple[int, ...]
+    moved: Annotated[Mapping[str, float], MILLIMETRES("z.3f")]
+    error: Annotated[float | None, PERCENT(".2f", "off by")]
+    front: Annotated[bool, Column(words=("yes", ""))]
+    steps: Annotated[int, NUMBER("d", detail=True)] = 3
+
+    @property
+    def twice(self) -> Annotated[int, NUMBER("d")]:
+        return 2 * self.steps
+
+
+ROWS = [
+    Row("a", (9, 9, 2), {"ux": 1e-3, "uz": np.float64(-2e-3)}, 0.0123, True),
+    Row("b", (5, 5), {"ux": 0.0, "uz": 0.0}, None, False),
+]
+
+
+def compose(answer: Pair, style: object) -> Figure:
+    if not answer.drawn:
+        raise NoPicture("nothing moves")
+    figure = Figure()
+    figure.add_subplot().plot([0.0, 1.0])
+    return figure
+
+
+@dataclass(frozen=True, repr=False)
+class Pair(Answer):
+    """An answer of two rows."""
+
+    file_name = "pair"
+    drawn: bool = True
+
+    def document(self) -> dict[str, Any]:
+        return {"rows": len(ROWS)}
+
+    def tables(self) -> tuple[Table, ...]:
+        return (Table.of(Row, ROWS, "Rows", "rows"), Table.of(Row, 9 * ROWS, "Many", "many"))
+
+    def figures(self) -> tuple[Picture, ...]:
+        return (Picture("line", f"{__name__}:compose", (self,), formats=("svg",)),)
+
+
+def test_columns_are_those_of_the_fields() -> None:
+    table = Table.of(Row, ROWS, "Rows", "rows")
+    head = ["model", "grid", "ux [mm]", "uz [mm]", "off by [%]", "front", "steps"]
+    assert [column.header(shown=True) for column in table.columns] == head
+    assert table.shown_rows()[0] == ["a", "9×9×2", "1.000", "−2.000", "1.23", "yes", "3"]
+    assert table.shown_rows()[1] == ["b", "5×5", "0.000", "0.000", "–", "", "3"]
+    assert table.to_csv().splitlines()[:2] == [
+        "model,grid,ux [m],uz [m],off by,front,steps", "a,9×9×2,0.001,-0.002,0.0123,yes,3",
+    ]  # fmt: skip
+    assert "steps" not in table.to_latex() and "steps" in table.to_markdown()
+
+
+def test_fields_are_chosen_left_out_and_properties_may_be_columns() -> None:
+    chosen = Table.of(Row, ROWS, "", fields=("twice", "model"))
+    assert [c.name for c in chosen.columns] == ["twice", "model"] and chosen.rows[0] == (6, "a")
+    left = Table.of(Row, ROWS, "", without=("moved", "grid"), details=("error",))
+    assert [(c.name, c.detail) for c in left.columns][1:3] == [("off by", True), ("front", False)]
+    assert [c.name for c in Table.of(Row, [], "").columns] == [
+        "model",
+        "grid",
+        "moved",
+        "off by",
+        "front",
+        "steps",
+    ]
+
+
+def test_pandas_files_a_figure_and_a_prompt_follow_from_it(tmp_path: Path) -> None:
+    assert Pair().to_pandas().loc[0, "uz [m]"] == -2e-3 and len(Pair().to_pandas("many")) == 18
+    with pytest.raises(sb.BadInput, match="tables are rows, many"):
+        Pair().to_pandas("none")
+    assert len(Pair().plot().axes) == 1
+    with pytest.raises(sb.BadInput, match="figures are line"):
+        Pair().plot("none")
+    with pytest.raises(sb.BadInput, match="nothing moves"):
+        Pair(drawn=False).plot()
+    assert Pair().save(tmp_path) == () and Pair(drawn=False).save(tmp_path) == ("nothing moves",)
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "pair.json", "pair.md", "pair.tex", "rows.csv", "many.csv", "line.svg",
+    }  # fmt: skip
+    assert "… and 12 more rows" in repr(Pair()) and Pair()._repr_html_().count("<table>") == 2
+
+
+HISTORY = sb.History(
+    "lumped", "verlet", {}, sb.Status.CONVERGED, "", np.linspace(0.0, 1.0, 5),
+    {"P1": np.ones((5, 3)), "P2": np.zeros((5, 3))}, {name: np.ones(5) for name in ENERGIES},
+    {"x0": np.ones((5, 3))}, {}, 4, 0.1, 2.0,
+)  # fmt: skip
+
+
+def test_a_history_goes_on_to_pandas_and_xarray(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert list(HISTORY.to_pandas().columns[:3]) == ["time [s]", "P1.ux [m]", "P1.uy [m]"]
+    assert list(HISTORY.to_pandas("probes")["probe"]) == ["P1", "P2"]
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(sb.BadInput, match="pip install xarray"):
+        HISTORY.to_xarray()
+
+
+def test_a_history_is_a_dataset() -> None:
+    pytest.importorskip("xarray")
+    found = HISTORY.to_xarray()
+    assert float(found.displacement.sel(probe="P1", axis="z", time=1.0)) == 1.0
+    assert found.displacement.attrs == {"units": "m"} and found["reaction x0"].dims == ("time", "axis")
+
+
+def test_answers_of_one_model_have_tables_and_figures() -> None:
+    scene = sb.load("two-edges-clamped")
+    solution = sb.solve(scene, grid=3)
+    assert solution.document()["status"] == "converged" and solution.report().document["model"] == "lumped"
+    assert {"solution", "reactions"} <= {table.name for table in solution.tables()}
+    assert len(solution.plot().axes) == 2 and len(HISTORY.plot().axes) == 3
+    assert list(sb.calibrate(scene, grid=3).to_pandas("moduli").columns[:2]) == ["modulus", "unit"]
+    with pytest.raises(sb.BadInput, match="figures are none"):
+        sb.calibrate(scene, grid=3).plot()

@@ -199,6 +199,7 @@ SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is 
 DRAWS = (
     "figure",
     "style",
+    "layout",
     "probes_figure",
     "motion_figure",
     "comparison_figure",

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from sheetbench.answers.escape import terminal
-from sheetbench.answers.layout import text
 from sheetbench.answers.report import NoPicture, Picture, Report, Write
 from sheetbench.answers.table import Table
 from sheetbench.errors import BadInput
@@ -113,6 +112,8 @@ class Answer(ABC):
         return self.report().save(folder, figure)
 
     def __repr__(self) -> str:
+        from sheetbench.answers.layout import text
+
         title = terminal("  ".join(filter(None, self.heading()[:2])))
         tables = (text(table, ROWS) for table in self.printed())
         return "\n".join([title, "", *tables, *map(terminal, self.complaints())]).rstrip()

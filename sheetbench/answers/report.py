@@ -17,7 +17,6 @@ from sheetbench.answers.escape import html, markdown, terminal
 from sheetbench.answers.figure_style import PLAIN, FigureStyle, parse_figure
 from sheetbench.answers.files import folder as made
 from sheetbench.answers.files import to_json, write_text
-from sheetbench.answers.layout import text
 from sheetbench.answers.table import Table
 
 if TYPE_CHECKING:
@@ -150,6 +149,8 @@ class Report:
         return replace(self, pictures=tuple(picture.with_style(style) for picture in self.pictures))
 
     def __repr__(self) -> str:
+        from sheetbench.answers.layout import text
+
         heading = " ".join(filter(None, [self.title, self.subtitle]))
         return "\n".join(
             [

@@ -126,7 +126,7 @@ def test_a_judge_that_fails_is_an_answer_with_a_status(
     solution = CALCULIX.solve(SEED, {**CALCULIX.settings, "elements": 2})
     assert solution.status is Status.DIVERGED and solution.load_factor == 0.0
     assert np.all(solution.displacement(SEED.probe_points()) == 0.0)
-    (note,) = solution.notes
+    (note,) = solution.remarks
     assert re.fullmatch(said, note), note
 
 

@@ -60,7 +60,8 @@ def command(
         typer.Option(
             metavar="NAMES",
             help="young (or E), poisson (nu), density (rho), thickness (h), curvature_EDGE, tilt_EDGE (of a "
-            "clamp), damping_time, damping_rate; several with commas.",
+            "clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch; several "
+            "with commas.",
         ),
     ] = "young",
     model: Annotated[str, typer.Option(metavar="MODEL", help="lumped, shell or solid.")] = "lumped",

@@ -40,7 +40,7 @@ from comparisons.identification.refinement import GRID_ERROR, mesh_error, refine
 from comparisons.identification.residual_test import explained, runs
 from comparisons.identification.search import Nearest
 from comparisons.identification.starts import Fit, nearest
-from comparisons.identification.unknowns import DAMPING, Unknown, unknown
+from comparisons.identification.unknowns import DAMPING, VISCOUS, Unknown, unknown
 from comparisons.models.context import context, in_context
 from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import resolve
@@ -152,7 +152,7 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
         end = refined(asked.scene, asked.lattice, model, fit, best, asked.free_grid)
         model, fit, best, step, grids = end.model, end.fit, end.best, end.step, [*end.grids]
         bound = GRID_ERROR * np.abs(step)
-    elif asked.refine and asked.reference is not None:
+    elif asked.refine and asked.reference is not None and not _moving(measured):
         bound = _of_mesh(asked, fit, best)
     known = identifiability([u.name for u in unknowns], best.slopes, best.residuals)
     found = {
@@ -172,7 +172,7 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
         *remarks.on_bounds(fit, best),
         *remarks.on_grid(found, asked.model, asked.refine and not _moving(measured)),
     ]
-    if asked.reference is not None:
+    if asked.reference is not None and not _moving(measured):
         last = set_in(asked.scene, unknowns, best.x)
         solved = solve(resolve(last, asked.reference))
         warnings += strain_law.said(last, asked.reference.law, solved.stretch)
@@ -229,7 +229,7 @@ def _moving(measured: Measured) -> bool:
 
 
 def _check(measured: Measured, asked: _Question) -> None:
-    names, model = [u.name for u in asked.unknowns], asked.model
+    names = [u.name for u in asked.unknowns]
     repeated = {name for name in names if names.count(name) > 1}
     if not names or repeated:
         raise BadInput(f"unknown = '{','.join(names)}': name each once, and at least one")
@@ -247,14 +247,12 @@ def _check(measured: Measured, asked: _Question) -> None:
     else:
         resolve(asked.scene, asked.reference)
     moving = _moving(measured)
-    still = [name for name in names if name in DAMPING]
+    still = [name for name in names if name in DAMPING or name.startswith(VISCOUS)]
     if still and not moving:
         raise BadInput(
             f"unknown = '{still[0]}': an equilibrium does not depend on it; it takes a measured motion, "
             "a CSV with a column time [s]"
         )
-    if moving and model != "lumped":
-        raise BadInput(f"model = '{model}': a measured motion (column time) is followed by the lattice only")
     if asked.offset and not isinstance(measured, Surface):
         raise BadInput(
             f"offset = {asked.offset:g} m: of the points of a cloud from the mid-surface; displacements are "

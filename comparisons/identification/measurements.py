@@ -11,6 +11,9 @@ are samples of a motion from rest. Other columns are passed over.
 
 VTP or PLY: points (x, y, z) [m] of the deformed surface, in the scene's axes. Which material point each of
 them is need not be known.
+
+C3D: markers of a motion capture that have the names of probes, in the scene's axes; displacements are from
+the first frame, which is the sheet at rest at time 0.
 """
 
 from __future__ import annotations
@@ -22,6 +25,7 @@ from pathlib import Path
 
 import numpy as np
 
+from comparisons.measured.c3d import read_markers
 from comparisons.measured.columns import Columns, Row, read_columns
 from comparisons.measured.ply import read_points
 from sheetbench.errors import BadInput
@@ -91,10 +95,34 @@ Measured = Displacements | Surface
 
 def read(path: Path, scene: Scene) -> Measured:
     """The measurements of a file. Raises BadInput naming the file and what is wrong in it."""
-    measured = _cloud(path, scene.sheet) if path.suffix.lower() in CLOUDS else _table(path, scene)
+    kind = path.suffix.lower()
+    if kind == ".c3d":
+        measured: Measured = _markers(path, scene)
+    else:
+        measured = _cloud(path, scene.sheet) if kind in CLOUDS else _table(path, scene)
     if measured.scale == 0.0:
         raise BadInput(f"{path}: nothing moved: every displacement is 0")
     return measured
+
+
+def _markers(path: Path, scene: Scene) -> Displacements:
+    """Rows of the markers that have names of probes, frame by frame."""
+    found = read_markers(path)
+    of_probe = {_plain(name): point for name, point in scene.probes.items()}
+    named = [(i, point) for i, label in enumerate(found.labels) if (point := of_probe.get(_plain(label)))]
+    if not named:
+        raise BadInput(
+            f"{path}: markers {', '.join(found.labels)}; none has the name of a probe of scene "
+            f"'{scene.name}': {', '.join(scene.probes)}"
+        )
+    moved = [found.position[i] - found.position[i, 0] for i, _ in named]
+    points = np.repeat([point for _, point in named], len(found.time), axis=0)
+    _require_metres(np.nanmax(np.abs(np.concatenate(moved)), axis=0).tolist(), scene.sheet, str(path))
+    return Displacements(points, np.concatenate(moved), np.tile(found.time, len(named)), str(path))
+
+
+def _plain(label: str) -> str:
+    return "".join(label.lower().split())
 
 
 def _table(path: Path, scene: Scene) -> Measured:

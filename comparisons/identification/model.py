@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,11 +16,16 @@ from comparisons.models.grading import fixed
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import along
 from comparisons.models.spec import Elements, Lattice
-from sheetbench.scenes import Scene
+from sheetbench.scenes import History, Scene
 from sheetbench.scenes.grading import as_settings
 
 if TYPE_CHECKING:
     from lumped import Calibration
+
+MOTION_ERROR = (
+    1e-7  # of a lattice's step: adaptive steps change with the unknowns, differences must not see it
+)
+STEPS_PER_PERIOD = 200  # of a reference, fixed: frequencies within (2π/200)²/12
 
 
 @dataclass(frozen=True)
@@ -40,9 +46,14 @@ def lattice_model(scene: Scene, asked: Lattice) -> Model:
     def springs(here: Scene) -> Calibration:
         return chosen.on(here).springs
 
+    def run(here: Scene, end: float) -> History:
+        import lumped
+
+        return lumped.simulate(here, springs(here), end, error=MOTION_ERROR)
+
     def predictor(measured: Measured) -> Predictor:
         if isinstance(measured, Displacements) and measured.time is not None:
-            return motion(scene, springs, measured.time)
+            return motion(scene, run, measured.time)
         return lattice(scene, springs)
 
     return Model(settings, surface.plan_grid(scene.sheet.lengths, chosen.grid[:2]), predictor)
@@ -50,7 +61,26 @@ def lattice_model(scene: Scene, asked: Lattice) -> Model:
 
 def reference_model(model: Resolved[Elements]) -> Model:
     """A finite-element reference."""
+    import fem_reference
+
     along_x, along_y = along(model.scene, model.spec)[:2]
     axes = surface.plan_grid(model.scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
-    predict = reference(model)
-    return Model({"elements": [along_x, along_y], **model.spec.options}, axes, lambda measured: predict)
+    predict, options = reference(model), model.spec.options
+
+    @cache
+    def step() -> float:
+        lowest = fem_reference.modes(model.scene, "plate", elements=2, count=1).frequencies[0]
+        return float(1.0 / (STEPS_PER_PERIOD * lowest))
+
+    def run(here: Scene, end: float) -> History:
+        steps = {"step": step(), "every": step()}
+        return fem_reference.simulate(
+            here, model.spec.model, end, elements=(along_x, along_y), **steps, **options
+        )
+
+    def predictor(measured: Measured) -> Predictor:
+        if isinstance(measured, Displacements) and measured.time is not None:
+            return motion(model.scene, run, measured.time)
+        return predict
+
+    return Model({"elements": [along_x, along_y], **options}, axes, predictor)

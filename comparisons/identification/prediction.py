@@ -2,8 +2,8 @@
 
 statics through the lattice     exact derivatives (`lumped.sensitivity`)
 statics through a reference     central differences of whole solutions
-motion from rest, the lattice   central differences of whole runs (`lumped.simulate`), cubic in time between
-                                samples
+motion from rest                central differences of whole runs, of the lattice or of a reference, cubic in
+                                time between samples
 
 A predictor is called with unknowns, their x (see `comparisons.identification.unknowns`) and plan points (n,
 2) [m], and answers with displacements (n, 3) [m] and their slopes by x. It raises NotReached where the model
@@ -22,7 +22,7 @@ from comparisons.identification.unknowns import Unknown, put
 from comparisons.models.resolve import Resolved
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements
-from sheetbench.scenes import BadInput, Scene, Status
+from sheetbench.scenes import BadInput, History, Scene, Status
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -82,17 +82,15 @@ def reference(model: Resolved[Elements]) -> Predictor:
     return _by_differences(model.scene, displacement, STATIC_STEP)
 
 
-def motion(scene: Scene, springs_of: Callable[[Scene], Calibration], time: np.ndarray) -> Predictor:
-    """Motion of the lattice from rest; row i of the points is asked at time[i] [s]."""
+def motion(scene: Scene, run_of: Callable[[Scene, float], History], time: np.ndarray) -> Predictor:
+    """Motion from rest; row i of the points is asked at time[i] [s]; run_of: a scene's motion so long [s]."""
     from scipy.interpolate import CubicSpline
-
-    import lumped
 
     def displacement(here: Scene, points: np.ndarray) -> np.ndarray:
         places, which = np.unique(points, axis=0, return_inverse=True)
         probes = {f"m{i}": (float(x), float(y)) for i, (x, y) in enumerate(places)}
         here = here.replace(probes=probes)
-        run = lumped.simulate(here, springs_of(here), float(time.max()))
+        run = run_of(here, float(time.max()))
         if run.status is not Status.CONVERGED:
             raise NotReached(f"{run.label}: {run.status}: {run.message}")
         moved = CubicSpline(run.time, np.stack([run.probes[name] for name in probes], axis=1))(time)

@@ -1,6 +1,8 @@
 """The parameters of a scene by name: where each sits, its unit and what it may be.
 
 young, poisson, density, damping_time, damping_rate   of the material
+loss_factor                                           of the material, with its frequency or its band
+share_N, time_N                                       of the material's branch N of [[material.relaxation]]
 thickness                                             of the sheet
 curvature_EDGE                                        of the curved support, or of the chains, on an edge
 tilt_EDGE                                             of the clamp on an edge
@@ -19,7 +21,9 @@ from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.supports import LARGEST_TILT, Clamped, Curved
 
 MATERIAL = {"young": "Pa", "poisson": "", "density": "kg/m³", "damping_time": "s", "damping_rate": "1/s"}
-NAMES = (*MATERIAL, "thickness", "curvature_EDGE", "tilt_EDGE")
+MATERIAL |= {"loss_factor": ""}
+BRANCH = {"share": ("", 1.0), "time": ("s", inf)}  # unit and upper bound
+NAMES = (*MATERIAL, "share_N", "time_N", "thickness", "curvature_EDGE", "tilt_EDGE")
 
 
 @dataclass(frozen=True)
@@ -37,10 +41,19 @@ def parameter(scene: Scene, name: str) -> Parameter:
     """The parameter of this name. Raises BadInput where the scene has none."""
     if name in MATERIAL:
         low, high = (-0.99, 0.4999) if name == "poisson" else (0.0, inf)
+        if getattr(scene.material, name) is None:
+            raise BadInput(
+                f"'{name}': the scene's material has none; give a first guess, with frequency or band"
+            )
         return Parameter(name, MATERIAL[name], getattr(scene.material, name), low, high)
     if name == "thickness":
         return Parameter(name, "m", scene.sheet.thickness, 0.0, min(scene.sheet.lengths))
     kind, _, edge = name.partition("_")
+    if kind in BRANCH and edge.isdecimal():
+        if not 1 <= int(edge) <= len(scene.material.relaxation):
+            raise BadInput(f"'{name}': the material has {len(scene.material.relaxation)} branches")
+        value = getattr(scene.material.relaxation[int(edge) - 1], kind)
+        return Parameter(name, BRANCH[kind][0], value, 0.0, BRANCH[kind][1])
     if kind == "curvature":
         return Parameter(name, "1/m", _curvature(scene, edge), -inf, inf)
     if kind == "tilt":
@@ -67,6 +80,10 @@ def _with(scene: Scene, name: str, value: float) -> Scene:
     if name == "thickness":
         return scene.replace(sheet=scene.sheet.replace(thickness=value))
     kind, _, edge = name.partition("_")
+    if kind in BRANCH:
+        branches = list(scene.material.relaxation)
+        branches[int(edge) - 1] = branches[int(edge) - 1].replace(**{kind: value})
+        return scene.replace(relaxation=tuple(branches))
     if kind == "tilt":
         return scene.replace(supports=_changed(scene.supports, _is(Clamped, edge), tilt=value))
     bent = _is(Curved | Chain, edge)

@@ -1,0 +1,102 @@
+"""Material from a measured decay: E and loss factor at once, branches, markers of a motion capture."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+import fem_reference
+import lumped
+from comparisons.identification.identification import identify
+from comparisons.identification.measurements import Displacements, read
+from sheetbench.errors import BadInput
+from sheetbench.scenes import History, Relaxation, Scene, load
+from sheetbench.scenes.parameters import parameter, put
+
+TRUTH = load("one-edge-clamped").replace(loss_factor=0.12, frequency=3.0)
+GUESS = TRUTH.replace(young=40e6, loss_factor=0.05)
+
+
+def decay(run: History, end: float, noise: float, seed: int, rows: int = 100) -> Displacements:
+    """Deflections of P4 with noise, a share of the largest."""
+    at = np.linspace(0.01, end, rows)
+    clean = CubicSpline(run.time, run.probes["P4"])(at)
+    found = clean + noise * np.abs(clean).max() * np.random.default_rng(seed).standard_normal(clean.shape)
+    found[:, :2] = np.nan
+    return Displacements(np.tile(TRUTH.probes["P4"], (rows, 1)), found, at)
+
+
+def lattice_run(scene: Scene, end: float) -> History:
+    return lumped.simulate(scene, lumped.calibrate(scene.sheet, scene.material, (3, 3)), end, error=1e-8)
+
+
+@pytest.mark.parametrize("seeds", [range(1), pytest.param(range(20), marks=pytest.mark.nightly)])
+def test_young_and_loss_factor_from_a_decay_with_noise(seeds: range) -> None:
+    """95 % intervals hold in at least 18 of 20 seeds, and in the first."""
+    held = {"young": 0, "loss_factor": 0}
+    run = lattice_run(TRUTH, 1.5)
+    for seed in seeds:
+        found = identify(GUESS, decay(run, 1.5, 0.02, seed), list(held), grid=(3, 3))
+        assert found.explained and not found.warnings
+        for name, true in (("young", 54.5e6), ("loss_factor", 0.12)):
+            low, high = found.unknowns[name].interval
+            assert high - low < 0.15 * true
+            held[name] += low <= true <= high
+    assert min(held.values()) >= 0.9 * len(seeds), held
+
+
+def test_a_reference_follows_a_measured_motion() -> None:
+    """Within what a hundred steps a period leave, against finer ones."""
+    run = fem_reference.simulate(TRUTH, "shell", 0.15, elements=1, step=1e-3)
+    found = identify(
+        TRUTH.replace(young=50e6), decay(run, 0.15, 0.0, 0, 20), "young", model="shell", elements=1
+    )
+    assert found.unknowns["young"].value == pytest.approx(54.5e6, rel=5e-3)
+    assert found.settings["elements"] == [1, 1]
+
+
+def test_branches_are_parameters() -> None:
+    scene = load("one-edge-clamped").replace(relaxation=(Relaxation(0.2, 0.1), Relaxation(0.1, 1.0)))
+    assert parameter(scene, "time_2").value == 1.0
+    assert put(scene, "share_1", 0.3).material.relaxation[0].share == 0.3
+    for name in ("share_3", "loss_factor"):
+        with pytest.raises(BadInput, match=name):
+            parameter(scene, name)
+    still = Displacements(np.array([[0.1, 0.1]] * 3), np.full((3, 3), -1e-3))
+    with pytest.raises(BadInput, match="an equilibrium does not depend on it"):
+        identify(scene, still, "share_1")
+
+
+def capture(monkeypatch: pytest.MonkeyPatch, labels: list[str]) -> None:
+    """In the place of ezc3d: frames of markers that sink by a millimetre each."""
+    points = np.zeros((4, len(labels), 5))
+    points[2] = -1.0 * np.arange(5)
+    value: dict[str, Any] = {"LABELS": labels, "RATE": [100.0], "UNITS": ["mm"]}
+    point = {key: {"value": content} for key, content in value.items()}
+    content = {"parameters": {"POINT": point}, "data": {"points": points}}
+    monkeypatch.setitem(sys.modules, "ezc3d", SimpleNamespace(c3d=lambda path: content))
+
+
+def test_markers_with_names_of_probes_are_displacements(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "capture.c3d"
+    file.write_bytes(b"")
+    capture(monkeypatch, ["Base", "p 4"])
+    found = read(file, TRUTH)
+    assert isinstance(found, Displacements) and found.time is not None
+    assert found.time == pytest.approx([0.0, 0.01, 0.02, 0.03, 0.04])
+    assert found.displacement[:, 2] == pytest.approx([0.0, -1e-3, -2e-3, -3e-3, -4e-3])
+    assert found.points[0].tolist() == list(TRUTH.probes["P4"])
+    capture(monkeypatch, ["Base"])
+    with pytest.raises(BadInput, match=r"markers Base; none has the name of a probe.*P1, P2, P3, P4"):
+        read(file, TRUTH)
+    monkeypatch.setitem(sys.modules, "ezc3d", None)
+    with pytest.raises(BadInput, match="need ezc3d"):
+        read(file, TRUTH)

@@ -14,6 +14,7 @@ STUDIES = {
     "peers": "our models beside other people's codes, in one run",
     "reference-set": "the reference set of suite and score, computed anew",
     "reproduction": "the study of Habibi et al. in depth: its contradictions, the nearest sheets",
+    "rubber": "laws and constants of measured rubbers, and the stretch from which a linear lattice is off",
     "simulators": "other simulators with what is exported for them",
     "stability": "where each solver holds, degrades, refuses or breaks: eight published maps",
     "transfer": "every calibration on scenes that it was not made on, as the grid is refined",

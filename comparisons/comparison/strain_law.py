@@ -24,6 +24,7 @@ UNSAID = 1e-3  # without an error bar
 LEAST = 0.4  # of c − c_ref that is looked for
 MOST = 5000  # masses of a lattice that is pulled
 PULLS = (1e-5, 1e-2)  # P/E
+RUBBER, OFF = "neo-hookean", 0.02  # the law that soft sheets have at first, and what is off
 
 
 def of_lattice(lattice: Resolved[Lattice]) -> float:
@@ -55,8 +56,15 @@ def said(lattice: Resolved[Lattice], solutions: tuple[Solution, ...], bar: float
     nearest = min(off, key=lambda name: off[name])
     remedy = "" if nearest == law else f" Nearest to this lattice is --law {nearest}."
     by = 100.0 * off[law] * stretch
+    apart = abs(own - curving(RUBBER, material))
+    reach = ""
+    if apart > PULLS[1] and stretch > OFF / apart:
+        reach = (
+            f" Pulled one way this lattice is off by more than {100.0 * OFF:g} % of a rubber ({RUBBER}) "
+            f"from {few(100.0 * OFF / apart)} % stretch on; --calibration neo-hookean is not."
+        )
     its = nearest if off[nearest] <= PULLS[1] else "links linear in their elongation"
     return (
         f"At {few(100.0 * stretch)} % stretch the lattice's law of strain ({its}) "
-        f"and the {reference.model}'s ({law}) differ by up to {few(by)} %: not an error of the grid.{remedy}"
+        f"and the {reference.model}'s ({law}) differ by up to {few(by)} %: not an error of the grid.{remedy}{reach}"
     )

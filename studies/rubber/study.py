@@ -1,0 +1,166 @@
+"""Four silicones and Treloar's rubber: their laws and constants, and where a linear lattice is off.
+
+A lattice whose links are linear in their elongation (`consistent`) has E and ν of small strains alone. Beside
+the material's own law it is
+    pulled      by the force at which the law is stretched by ε (a strip free to contract)
+    hung        under its own weight so heavy that the law is stretched by ε where it is held; strips of the
+                law are summed up, l = ∫ λ(ρ g s) ds
+    blown up    clamped all around, by a pressure; beside the shell of the same law
+The errors are those of the end's displacement, of the top's where it is blown up.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from scipy.optimize import brentq
+
+import fem_reference
+import lumped
+from comparisons.identification.tensile.curves import read
+from comparisons.identification.tensile.laws import Fit, stress
+from comparisons.identification.tensile.tensile import TensileFit, identify_tensile
+from sheetbench.answers.table import Column, Table, unit
+from sheetbench.errors import BadInput
+from sheetbench.scenes import (
+    Clamped,
+    EdgeLoad,
+    Gravity,
+    Held,
+    Material,
+    Pressure,
+    Scene,
+    Sheet,
+    Solution,
+    Status,
+)
+
+SILICONES = ("Ecoflex 00-30", "Ecoflex 00-50", "Dragon Skin 10 MEDIUM", "Dragon Skin 30")
+TRELOAR = "Treloar 1944"
+UP_TO = 2.5  # stretch that soft robots see, and an elastomer's first law holds for
+STRETCHES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6)
+PRESSURES = (0.01, 0.05, 0.2, 0.5)  # over E
+SHEET, POISSON = Sheet(0.1, 0.05, 0.002), 0.499
+
+
+def curves(data: Path) -> dict[str, TensileFit]:
+    """The fits by name, of files under `data`: to UP_TO, of Treloar's rubber to its end."""
+    files = {name: data / "silicone-tensile" / f"{name}.csv" for name in SILICONES}
+    treloar = data / "treloar" / "uniaxial.csv"
+    for file in (*files.values(), treloar):
+        if not file.is_file():
+            raise BadInput(f"{file}: not there; its source and licence: docs/rubber.md")
+    found = {name: identify_tensile(read(str(file), up_to=UP_TO)) for name, file in files.items()}
+    with TemporaryDirectory() as folder:
+        headed = Path(folder) / "treloar.csv"
+        text = treloar.read_text(encoding="utf-8").replace(",Stress", ",engineering_stress [MPa]", 1)
+        headed.write_text(text, encoding="utf-8")
+        return {**found, TRELOAR: identify_tensile(str(headed))}
+
+
+def constants(fits: dict[str, TensileFit]) -> Table:
+    """A row per constant of the law that the data ask for."""
+    rows = []
+    for name, found in fits.items():
+        assert found.law is not None
+        covered = f"{found.covered['uniaxial'][1]:.2f}"
+        for key, value in found.law.constants.items():
+            of = unit("" if key == "limit" else "Pa")
+            interval = found.law.intervals[key]
+            rows.append((name, covered, found.law.law, found.law.rms, key, of, value, *interval))
+    columns = (
+        Column("material"),
+        Column("to stretch"),
+        Column("law"),
+        Column("misfit", "", "%", 100.0, ".1f"),
+        Column("constant"),
+        Column("unit"),
+        *(Column(head, form=".3g") for head in ("value", "from", "to")),
+    )
+    return Table("Constants and 95 % intervals", columns, tuple(rows), "constants", grouped=True)
+
+
+def pulled_and_hung(fits: dict[str, TensileFit]) -> Table:
+    """A row per material and way: the error of a `consistent` lattice at each stretch."""
+    rows = []
+    for name, found in fits.items():
+        assert found.law is not None
+        for way, error in (("pulled", pulled), ("hung", hung)):
+            rows.append((name, way, *(error(found.law, stretch) for stretch in STRETCHES)))
+    columns = (
+        Column("material"),
+        Column("way"),
+        *(Column(f"{100 * stretch:g} %", "", "%", 100.0, "z.1f") for stretch in STRETCHES),
+    )
+    return Table(
+        "Error of the end's displacement at a stretch", columns, tuple(rows), "stretch", grouped=True
+    )
+
+
+def _material(fit: Fit) -> Material:
+    return Material(2.0 * (1.0 + POISSON) * fit.energy.shear, POISSON, 1000.0)
+
+
+def _lattice(scene: Scene, grid: tuple[int, int] = (9, 5)) -> Solution:
+    return lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid))
+
+
+def _end(solution: Solution) -> float:
+    if solution.status not in (Status.CONVERGED, Status.STRAIN_OUTSIDE_MODEL):
+        return float("nan")
+    return float(solution.displacement(np.array([[SHEET.length_x, SHEET.length_y / 2.0]]))[0, 0])
+
+
+def _strip(fit: Fit, **acting: object) -> Scene:
+    held = (Held("x0", ("x", "z")), Held("y0", ("y", "z")))
+    return Scene("strip", SHEET, _material(fit), supports=held, **acting)  # type: ignore[arg-type]
+
+
+def pulled(fit: Fit, stretch: float) -> float:
+    """The lattice's elongation over the law's, less 1."""
+    pull = float(stress(fit.energy, "uniaxial", np.array([1.0 + stretch]))[0]) * SHEET.thickness
+    scene = _strip(fit, loads=(EdgeLoad("x1", force_per_length=(pull, 0.0, 0.0)),))
+    return _end(_lattice(scene)) / (stretch * SHEET.length_x) - 1.0
+
+
+def hung(fit: Fit, stretch: float) -> float:
+    """The same of a strip under its weight, stretched so where it is held."""
+    top = float(stress(fit.energy, "uniaxial", np.array([1.0 + stretch]))[0])
+
+    def elongation(share: float) -> float:
+        def over(at: float) -> float:
+            return float(stress(fit.energy, "uniaxial", np.array([1.0 + at]))[0]) - share * top
+
+        return float(brentq(over, 0.0, stretch))
+
+    middles = (np.arange(50) + 0.5) / 50
+    long = SHEET.length_x * float(np.mean([elongation(share) for share in middles]))
+    weight = top / (1000.0 * SHEET.length_x)
+    scene = _strip(fit, gravity=Gravity((weight, 0.0, 0.0)))
+    return _end(_lattice(scene)) / long - 1.0
+
+
+def blown(fit: Fit) -> Table:
+    """A clamped square under pressures: the top's height in both, and the lattice's error."""
+    laws = {"law": fit.law, **fit.constants} if fit.law != "neo-hookean" else {"law": fit.law}
+    rubber = Material.model_validate({**_material(fit).model_dump(exclude_none=True), **laws})
+    sheet, rows = Sheet(0.1, 0.1, 0.002), []
+    clamped = tuple(Clamped(edge) for edge in ("x0", "x1", "y0", "y1"))
+    for share in PRESSURES:
+        load = (Pressure(share * rubber.young * sheet.thickness / sheet.length_x),)
+        scene = Scene("blown", sheet, rubber, supports=clamped, loads=load)
+        at = np.array([[0.05, 0.05]])
+        truth = fem_reference.solve(scene, "shell", elements=6)
+        plain = scene.replace(material=_material(fit))
+        tops = [float(s.displacement(at)[0, 2]) for s in (truth, _lattice(plain, (13, 13)))]
+        rows.append((share, truth.stretch, *tops, tops[1] / tops[0] - 1.0))
+    columns = (
+        Column("p a/(E h)", form=".3g"),
+        Column("largest stretch", "", "%", 100.0, ".1f"),
+        Column("shell", "m", "mm", 1e3, ".3f"),
+        Column("lattice", "m", "mm", 1e3, ".3f"),
+        Column("error", "", "%", 100.0, "z.1f"),
+    )
+    return Table(f"Blown up, clamped square, {fit.law}", columns, tuple(rows), "blown")

@@ -66,5 +66,6 @@ def said(lattice: Resolved[Lattice], solutions: tuple[Solution, ...], bar: float
     its = nearest if off[nearest] <= PULLS[1] else "links linear in their elongation"
     return (
         f"At {few(100.0 * stretch)} % stretch the lattice's law of strain ({its}) "
-        f"and the {reference.model}'s ({law}) differ by up to {few(by)} %: not an error of the grid.{remedy}{reach}"
+        f"and the {reference.model}'s ({law}) differ by up to {few(by)} %: not an error of the grid."
+        f"{remedy}{reach}"
     )

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli import console
+from studies.rubber.study import blown, constants, curves, pulled_and_hung
 
 
 def command(
@@ -16,8 +17,6 @@ def command(
     ] = Path("../shared/data"),
 ) -> None:
     """Fit laws of rubber to measured tensile tests; pull, hang and blow up linear lattices of them."""
-    from studies.rubber.study import blown, constants, curves, pulled_and_hung
-
     fits = curves(data)
     for table in (constants(fits), pulled_and_hung(fits)):
         console.show(table)

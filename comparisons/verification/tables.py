@@ -16,12 +16,12 @@ COLUMNS = (
     Column("case"),
     Column("quantity", prose=True),
     Column("mesh"),
-    Column("expected", form=".5g"),
-    Column("whose", prose=True),
     Column("computed", form=".5g"),
+    Column("ok"),
+    Column("expected", form=".5g"),
     Column("off by", "", "%", 100.0, ".2f"),
     Column("held to"),
-    Column("ok"),
+    Column("whose", prose=True),
 )
 
 
@@ -56,12 +56,12 @@ def table(rows: Sequence[Row]) -> Table:
             row.case,
             row.quantity,
             row.mesh,
-            row.published,
-            row.source,
             row.computed,
+            "yes" if row.passed else "NO",
+            row.published,
             row.relative,
             f"± {number(row.tolerance)}" if row.relative is None else f"{number(100.0 * row.tolerance)} %",
-            "yes" if row.passed else "NO",
+            row.source,
         )
         for row in rows
     )

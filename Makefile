@@ -137,7 +137,7 @@ tests-of:
 
 # COUNT faults in FILE, and which of them its nearest tests do not notice
 mutants: $(VENV)/testing
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt cosmic-ray
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt $(EDITABLE) . cosmic-ray
 	@$(BIN)/python tests/helpers/mutants.py $(OUT)/mutants $(FILE) $(COUNT)
 
 wheel-check: install

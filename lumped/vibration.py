@@ -145,7 +145,8 @@ def frequency_slopes(
     """The `count` lowest frequencies (count,) [Hz] and their derivatives by spring constants [Hz per N/m].
 
     dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ), with ∂K/∂k the change of the tangent at rest, which is linear in k; for
-    frequencies that stand alone (of equal ones it gives the slope of a mean).
+    frequencies that stand alone (of equal ones it gives the slope of a mean); 0 of a motion that no spring
+    resists.
     """
     found = modes(scene, calibration, count, calibration.masses)
     problem = build_problem(scene, calibration)
@@ -162,7 +163,8 @@ def frequency_slopes(
             stiffness = [float(np.sum(shape * _product(changed, rest, shape))) for shape in found.shapes]
             sides.append(np.array(stiffness))
         squares = (sides[0] - sides[1]) / (2.0 * step) / modal
-        slopes[name] = squares / (2.0 * (2.0 * np.pi) ** 2 * found.frequencies)
+        of = 2.0 * (2.0 * np.pi) ** 2 * found.frequencies
+        slopes[name] = np.divide(squares, of, out=np.zeros_like(of), where=of > 0.0)
     return found.frequencies, slopes
 
 

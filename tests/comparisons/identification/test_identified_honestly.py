@@ -242,9 +242,6 @@ def test_an_equilibrium_knows_nothing_of_damping():
     still = Displacements(POINTS, solved(SEED))
     with pytest.raises(ValueError, match="does not depend on it"):
         identify(with_material(SEED, damping_rate=1.0), still, ["damping_rate"])
-    moving = replace(still, time=np.linspace(0.0, 1.0, 64))
-    with pytest.raises(ValueError, match="lattice only"):
-        identify(SEED, moving, ["young"], model="shell")
 
 
 def test_titles_of_the_picture_do_not_overlap():

@@ -8,7 +8,7 @@ import pytest
 from cases import with_material
 
 import fem_reference
-from comparisons.verification.locking import picture
+from comparisons.verification.locking import compose
 from fem_reference.verification import Row, run
 from fem_reference.verification.locking import POISSON
 from fem_reference.verification.mindlin_plates import deflection
@@ -79,5 +79,5 @@ def test_picture(tmp_path: Path) -> None:
         return relatively(f"locking-{model}", "w", "8 × 8", 1.0, "finer", 1.001, 0.02, at=at)
 
     rows = [made(model, ratio, 0.3) for model in ("plate", "solid") for ratio in (1e-5, 0.1)]
-    picture([tmp_path / "locking.png"], rows)
+    compose(rows).savefig(tmp_path / "locking.png")
     assert (tmp_path / "locking.png").stat().st_size > 5000

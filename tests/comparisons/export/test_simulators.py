@@ -101,8 +101,8 @@ def test_sofas_scene_holds_the_lattice() -> None:
         root = ElementTree.fromstring(to_sofa(lattice, scene))
         found = lattice_of(root)
         for kind, constants in (("rubber", (0, 8)), ("face", (0,))):  # SOFA has no such springs
-            none = {"corners": np.zeros((0, 4, 1), int), "rest": np.zeros(0), "stiffness": np.zeros(constants)}
-            found |= {f"{kind}_{key}": value for key, value in none.items()}
+            found[f"{kind}_corners"] = np.zeros((0, 4, 1), int)
+            found |= {f"{kind}_rest": np.zeros(0), f"{kind}_stiffness": np.zeros(constants)}
         u = READER["equilibrium"](found, READER["differences"](found), 1)
         truth = lattice.states[-1].displacement
         assert np.abs(u - truth).max() < 1e-6 * np.abs(truth).max()

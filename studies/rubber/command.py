@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli import console
+from studies.rubber.beam import beam
 from studies.rubber.study import blown, constants, curves, pulled_and_hung
 
 
@@ -15,11 +16,22 @@ def command(
     data: Annotated[
         Path, typer.Option(metavar="DIR", help="Where silicone-tensile/ and treloar/ are.")
     ] = Path("../shared/data"),
+    picture: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Also the block of silicone-beam/ (C3D), with its picture."),
+    ] = None,
 ) -> None:
-    """Fit laws of rubber to measured tensile tests; pull, hang and blow up linear lattices of them."""
+    """Fit laws of rubber to measured tensile tests; pull, hang and blow up linear lattices of them.
+
+    With --picture also let a block of silicone go, with one damper and with branches.
+    """
     fits = curves(data)
     for table in (constants(fits), pulled_and_hung(fits)):
         console.show(table)
     first = next(iter(fits.values())).law
     assert first is not None
     console.show(blown(first))
+    if picture is not None:
+        table, figure = beam(data)
+        console.show(table)
+        figure.savefig(picture, dpi=130)

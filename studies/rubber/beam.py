@@ -1,0 +1,125 @@
+"""A clamped silicone block let go, with three loads: what one damper does, and what branches do.
+
+Data: Dubied et al. 2022 (arXiv 2201.12560), srl-ethz/diffPD_sim2real, MIT: C3D files of 100 Hz. The tip is
+the mean of the first three markers, the base that of the others. A damped cosine through 2.5 s of a run has
+its frequency, damping ratio and drop. The shell (2 × 1 elements) has E and loss factor set once, at the
+lightest load; the load is a rigid rod on the tip's edge.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from matplotlib.figure import Figure
+from scipy.optimize import curve_fit
+
+import fem_reference
+from comparisons.measured.c3d import read_markers
+from sheetbench.answers.table import Column, Table
+from sheetbench.errors import Implausible
+from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet
+
+RUNS = {"no load": ("gravity", 0.0, 7.7), "52 g": ("load52", 0.052, 4.0), "101 g": ("load101", 0.101, 3.3)}
+RATE, THROUGH, PERIODS = 100.0, 250, 4.0  # 1/s; samples of a fit, periods of a picture
+YOUNG, LOSS, SET_AT, BAND = 296e3, 0.100, 7.75, (3.0, 8.0)  # Pa, –, Hz, Hz
+POISSON, DENSITY, STEPS = 0.49, 1070.0, 60.0  # –, kg/m³, of a period of SET_AT
+COLOURS = {"one damper": "#c44e52", "branches": "#4c72b0"}
+
+
+@dataclass(frozen=True)
+class Swing:
+    """A damped cosine through a tip's motion."""
+
+    load: str
+    what: str
+    frequency: Annotated[float, Column("frequency", "Hz", "Hz", 1.0, ".2f")]
+    damping: Annotated[float, Column("damping ratio", form=".3f")]
+    drop: Annotated[float, Column("drop", "m", "mm", 1e3, ".1f")]
+
+
+def cosine(
+    time: np.ndarray, end: float, size: float, damping: float, omega: float, phase: float
+) -> np.ndarray:
+    """end + size e^(−ζωt) cos(ωt + phase)."""
+    return end + size * np.exp(-damping * omega * time) * np.cos(omega * time + phase)
+
+
+def measured(file: Path, first: float) -> tuple[Swing, np.ndarray, np.ndarray]:
+    """The swing of a run, and its times [s] and tip's displacements [m] from the letting go on; first: about
+    its frequency [Hz]."""
+    along = read_markers(file).position[:, :, 0]
+    tip = np.nanmean(along[:3], axis=0) - np.nanmean(along[3:], axis=0)
+    moves = int(np.argmax(np.abs(tip - tip[:20].mean()) > 4e-3))
+    held, end = tip[moves - 12 : moves - 6].mean(), tip[-100:].mean()
+    time = np.arange(len(tip)) / RATE
+    part = slice(moves, moves + THROUGH)
+
+    def swinging(at: np.ndarray, size: float, damping: float, omega: float, phase: float) -> np.ndarray:
+        return cosine(at, end, size, damping, omega, phase)
+
+    start = (held - end, 0.06, 2 * np.pi * first, 0.3)
+    size, damping, omega, phase = curve_fit(
+        swinging, time[part] - time[moves], tip[part], start, maxfev=20000
+    )[0]
+    if size * (held - end) < 0.0:
+        phase += np.pi
+    let_go = time[moves] - ((phase + np.pi) % (2 * np.pi) - np.pi) / omega
+    frequency = omega / (2 * np.pi)
+    shown = (time > let_go) & (time < let_go + PERIODS / frequency)
+    swing = Swing("", "measured", frequency, damping, abs(held - end))
+    return swing, time[shown] - let_go, (tip[shown] - held) * np.sign(held - end)
+
+
+def computed(mass: float, what: str, end: float) -> tuple[Swing, np.ndarray, np.ndarray]:
+    """The shell's swing under this load [kg], its times and tip's displacements."""
+    material = Material(YOUNG, POISSON, DENSITY, loss_factor=LOSS, frequency=SET_AT)
+    if what == "branches":
+        branches = Material(YOUNG, POISSON, DENSITY, loss_factor=LOSS, band=BAND).branches
+        young = YOUNG / float(branches.storage_and_loss(SET_AT)[0])  # both as stiff where they are set
+        material = Material(young, POISSON, DENSITY, loss_factor=LOSS, band=BAND)
+    rods: list[Chain] = []
+    if mass:
+        rods.append(Chain("x1", segments=1, bending_stiffness=1.0, line_density=mass / 0.03, radius=1e-3))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Implausible)
+        scene = Scene(
+            "beam",
+            Sheet(0.1, 0.03, 0.03),
+            material,
+            Gravity((0, 0, -9.81)),
+            (Clamped("x0"),),
+            actuators=tuple(rods),
+            probes={"tip": (0.1, 0.015)},
+        )
+    step = 1.0 / (STEPS * SET_AT)
+    history = fem_reference.simulate(scene, "shell", end, elements=(2, 1), step=step, every=step)
+    tip = history.probes["tip"][:, 2]
+    rest = float(tip[-50:].mean())
+    guess = (rest, -rest, 0.05, 2 * np.pi * SET_AT / (1.0 + 12.0 * mass), 0.0)
+    found = curve_fit(cosine, history.time, tip, guess, maxfev=20000)[0]
+    return Swing("", what, found[3] / (2 * np.pi), abs(found[2]), -found[0]), history.time, tip
+
+
+def beam(data: Path) -> tuple[Table, Figure]:
+    """The table of all runs, and a picture of the first of each load. Raises BadInput for a missing file."""
+    rows: list[Swing] = []
+    figure = Figure(figsize=(10.2, 2.6), layout="constrained")
+    for axis, (load, (name, mass, first)) in zip(figure.subplots(1, 3), RUNS.items(), strict=True):
+        for run in "ab":
+            swing, time, tip = measured(data / "silicone-beam" / f"beam_{name}_V2_{run}.c3d", first)
+            rows.append(Swing(load, f"measured {run}", swing.frequency, swing.damping, swing.drop))
+            if run == "a":
+                axis.plot(time, 1e3 * tip, "k.", ms=3, label="measured")
+                end = float(time[-1])
+        for what, colour in COLOURS.items():
+            swing, time, tip = computed(mass, what, end)
+            rows.append(Swing(load, what, swing.frequency, swing.damping, swing.drop))
+            axis.plot(time, 1e3 * tip, color=colour, lw=1, label=what)
+        axis.set(title=load, xlabel="time [s]")
+    figure.axes[0].set_ylabel("tip [mm]")
+    figure.axes[0].legend(frameon=False, fontsize=7)
+    return Table.of(Swing, rows, "A silicone block let go", "beam", grouped=True), figure

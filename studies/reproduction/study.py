@@ -88,6 +88,7 @@ class Forensics:
             document=self.as_dict(),
             tables=(findings_table(self.findings()), *before, *report.tables[1:], *after),
             pictures=(*report.pictures, *drawn),
+            printed=None,
             settings={**report.settings, "parts": list(self.parts)},
         )
 

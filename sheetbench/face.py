@@ -15,18 +15,9 @@ from comparisons.models import solve as solvers
 from comparisons.models.context import in_context, large_in_context
 from comparisons.models.grids import Elements as Count
 from comparisons.models.grids import GridLike
+from comparisons.models.keywords import LatticeKeywords, SpringKeywords, StaticKeywords
 from comparisons.models.resolve import resolve, resolve_each
-from comparisons.models.spec import (
-    Elements,
-    Lattice,
-    LatticeKeywords,
-    Spec,
-    SpringKeywords,
-    StaticKeywords,
-    lattices,
-    parse,
-    spec_of,
-)
+from comparisons.models.spec import Elements, Lattice, Spec, lattices, parse, spec_of
 from comparisons.report.work import silent
 from sheetbench.choices import CALIBRATION, INTEGRATOR, REFERENCE, REFERENCES
 from sheetbench.errors import BadInput

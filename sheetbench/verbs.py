@@ -14,8 +14,9 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Unpack
 
 from comparisons.models.context import large_in_context
+from comparisons.models.keywords import LatticeKeywords, SpringKeywords
 from comparisons.models.resolve import resolve
-from comparisons.models.spec import Lattice, LatticeKeywords, SpringKeywords
+from comparisons.models.spec import Lattice
 from sheetbench.choices import REFERENCE, REFERENCES
 from sheetbench.errors import require_choice
 from sheetbench.scenes import AnyScene, Scene, scene_of

@@ -19,8 +19,9 @@ from typing import Unpack
 from comparisons.advice.answer import Advice, Tried
 from comparisons.advice.probing import Probing, Trial
 from comparisons.models.context import in_context
+from comparisons.models.keywords import SpringKeywords
 from comparisons.models.scales import Scales, scales
-from comparisons.models.spec import Lattice, Spec, SpringKeywords
+from comparisons.models.spec import Lattice, Spec
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
 from sheetbench.errors import BadInput

@@ -14,10 +14,11 @@ from comparisons.external.plugins import shown_name
 from comparisons.models.context import context, in_context
 from comparisons.models.expected_error import expected_error
 from comparisons.models.grids import Elements as Count
+from comparisons.models.keywords import StaticKeywords
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import has_room
 from comparisons.models.solve import solve
-from comparisons.models.spec import Elements, Lattice, Spec, StaticKeywords, parse
+from comparisons.models.spec import Elements, Lattice, Spec, parse
 from comparisons.report.work import Progress, silent
 from comparisons.runs.load import average
 from comparisons.runs.load import warnings as doubts

@@ -43,10 +43,11 @@ from comparisons.identification.starts import Fit, nearest
 from comparisons.identification.unknowns import DAMPING, VISCOUS, Unknown, unknown
 from comparisons.models.context import context, in_context
 from comparisons.models.grids import Elements as Count
+from comparisons.models.keywords import LatticeKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.sizes import along
 from comparisons.models.solve import solve
-from comparisons.models.spec import Elements, Lattice, LatticeKeywords
+from comparisons.models.spec import Elements, Lattice
 from comparisons.report.work import Progress, silent
 from lumped import identifiability
 from sheetbench.choices import REFERENCES

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import json
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
-from typing import Any, ClassVar, Self, TypedDict
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -35,43 +36,14 @@ _FROM_FILE = re.compile(r"(?P<file>.+\.py)(:(?P<object>\w+)(?![\w=]))?(:(?P<rest
 _COUNTS = re.compile(r"\d{1,9}(x\d{1,9})+")
 
 
-class SpringKeywords(TypedDict, total=False):
-    """The flat keywords of functions that list grids and calibrations."""
-
-    k: float | None
-    layer_distance: float | None
-    grading: Grading
-
-
-class LatticeKeywords(SpringKeywords, total=False):
-    """Those of every function that takes a `Lattice`."""
-
-    grid: GridLike
-    calibration: str | None
-
-
-class ModesKeywords(LatticeKeywords, total=False):
-    """Those of natural frequencies."""
-
-    masses: str | None
-
-
-class StaticKeywords(LatticeKeywords, total=False):
-    """Those of functions that solve statics; references follow them."""
-
-    linear: bool
-    symmetry: bool
-    branch: str
-
-
 @dataclass(frozen=True)
-class Spec:
+class Spec(ABC):
     """What all specs have in common; its fields are the settings of the model."""
 
     @property
+    @abstractmethod
     def model(self) -> str:
         """The model's name."""
-        raise NotImplementedError
 
     @property
     def settings(self) -> dict[str, Any]:

@@ -19,8 +19,9 @@ import numpy as np
 from comparisons.models.context import context, in_context
 from comparisons.models.expected_error import converges, finer_grid
 from comparisons.models.grids import Elements as Count
+from comparisons.models.keywords import ModesKeywords
 from comparisons.models.resolve import Resolved, resolve
-from comparisons.models.spec import Elements, Lattice, ModesKeywords
+from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
 from comparisons.modes.expected import expected_errors
 from comparisons.modes.pairing import cell_centres

@@ -19,9 +19,10 @@ import numpy as np
 from comparisons.models import sizes
 from comparisons.models.context import context, in_context
 from comparisons.models.grids import Elements as Count
+from comparisons.models.keywords import LatticeKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import simulate
-from comparisons.models.spec import Elements, Lattice, LatticeKeywords
+from comparisons.models.spec import Elements, Lattice
 from comparisons.motion.comparison_answer import MotionComparison
 from comparisons.motion.measures import difference
 from comparisons.report import amounts

@@ -1,0 +1,37 @@
+"""Flat keywords: the settings of a `Lattice` as functions take them one by one."""
+
+from __future__ import annotations
+
+from typing import TypedDict
+
+from comparisons.models.grids import GridLike
+from comparisons.models.spec import Grading
+
+
+class SpringKeywords(TypedDict, total=False):
+    """The flat keywords of functions that list grids and calibrations."""
+
+    k: float | None
+    layer_distance: float | None
+    grading: Grading
+
+
+class LatticeKeywords(SpringKeywords, total=False):
+    """Those of every function that takes a `Lattice`."""
+
+    grid: GridLike
+    calibration: str | None
+
+
+class ModesKeywords(LatticeKeywords, total=False):
+    """Those of natural frequencies."""
+
+    masses: str | None
+
+
+class StaticKeywords(LatticeKeywords, total=False):
+    """Those of functions that solve statics; references follow them."""
+
+    linear: bool
+    symmetry: bool
+    branch: str

@@ -28,7 +28,8 @@ if _TYPE_CHECKING:
     from comparisons.models.spec import Elements, External, Lattice, LatticePair
     from comparisons.modes.spectra import spectra as modes
     from comparisons.reproduction.reproduction import reproduce
-    from comparisons.scoring.suite_tables import report as suite
+    from comparisons.scoring.suite import suite
+    from comparisons.verification.answer import verify
     from sheetbench.face import calibrate, compare, simulate, solve, tradeoff
     from sheetbench.scenes import (
         BadInput,
@@ -54,7 +55,7 @@ if _TYPE_CHECKING:
         catalogue,
         load,
     )
-    from sheetbench.verbs import crosscheck, export, report, schema, score, stability, verify
+    from sheetbench.verbs import crosscheck, export, report, schema, score, stability
 
 _ELSEWHERE = {  # name: module and what it is called there; all else is of sheetbench.scenes
     "Cell": ("comparisons.cells.cell", "Cell"),
@@ -79,9 +80,9 @@ _ELSEWHERE = {  # name: module and what it is called there; all else is of sheet
     "simulate": ("sheetbench.face", "simulate"),
     "solve": ("sheetbench.face", "solve"),
     "stability": ("sheetbench.verbs", "stability"),
-    "suite": ("comparisons.scoring.suite_tables", "report"),
+    "suite": ("comparisons.scoring.suite", "suite"),
     "tradeoff": ("sheetbench.face", "tradeoff"),
-    "verify": ("sheetbench.verbs", "verify"),
+    "verify": ("comparisons.verification.answer", "verify"),
 }
 
 __all__ = [

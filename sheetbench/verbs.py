@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from comparisons.scoring.score import Score
     from comparisons.stability.extremes import Stability
     from lumped import Calibration
-    from sheetbench.answers.report import Report
 
 
 def export(
@@ -127,17 +126,6 @@ def stability(
             elements=elements,
             workers=workers,
         )
-
-
-def verify(cases: Sequence[str] | None = None) -> Report:
-    """Check the references against published values, all cases unless some are named.
-
-    The report's `met` says whether all pass. Raises BadInput for a case that does not exist.
-    """
-    from comparisons.verification.tables import report
-    from fem_reference.verification import run
-
-    return report(list(run(cases)))
 
 
 def report(folder: str | Path, out: str | Path | None = None) -> Path:

@@ -6,10 +6,14 @@ Nothing is solved. What is hardly meant (`sheetbench.scenes.plausibility`) stand
 from __future__ import annotations
 
 import shlex
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated, Any
 from warnings import catch_warnings, simplefilter
 
+import lumped
 from comparisons.models.grids import scene_grid
-from sheetbench.answers.report import Report
+from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Column, Table
 from sheetbench.choices import ELEMENTS
 from sheetbench.errors import Implausible
@@ -19,45 +23,72 @@ from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.words import in_words
 
 
-def check(scene: AnyScene, called: str | None = None) -> Report:
-    """The report of `sheetbench check`; called: the catalogue name or path that commands shall have."""
+@dataclass(frozen=True)
+class Part:
+    """A part of a scene, or of the models that solve it by default, in words."""
+
+    part: str
+    what: Annotated[str, Column(prose=True)]
+
+
+@dataclass(frozen=True, repr=False)
+class Check(Answer):
+    """A scene in words; called: the catalogue name or path that commands shall have."""
+
+    scene: Scene
+    called: str
+
+    file_name = "check"
+
+    @cached_property
+    def parts(self) -> list[Part]:
+        """The scene's parts, the default lattice and the default shell."""
+        models = ("lattice", _lattice(self.scene)), ("shell", _shell(self.scene))
+        return [Part(*part) for part in (*in_words(self.scene), *models)]
+
+    @cached_property
+    def warnings(self) -> list[str]:
+        """What is hardly meant."""
+        return [f"{self.called}: {slip}" for slip in slips(self.scene)]
+
+    @cached_property
+    def free(self) -> list[str]:
+        """Rigid motions that nothing stops."""
+        return free_rigid_motions(self.scene)
+
+    @cached_property
+    def foretold(self) -> list[str]:
+        """What the lattice's answer will be off by, as far as it is known before solving."""
+        known = lumped.polygons(self.scene, scene_grid(self.scene)) if self.scene.actuators else ""
+        return [known] if known else []
+
+    def document(self) -> dict[str, Any]:
+        return {
+            "scene": self.scene.document(),
+            "parts": [vars(part) for part in self.parts],
+            "free_rigid_motions": self.free,
+            "foretold": self.foretold,
+            "warnings": self.warnings,
+        }
+
+    def tables(self) -> tuple[Table, ...]:
+        return (Table.of(Part, self.parts, "What will be solved"),)
+
+    def notes(self) -> list[str]:
+        solve = f"Solve it with:\nsheetbench compare {shlex.quote(self.called)}"
+        return [*self.foretold, *([] if self.free else [solve])]
+
+    def complaints(self) -> list[str]:
+        floats = "the sheet can move as a rigid body: only `modes` and `simulate` can answer"
+        return [*self.warnings, *([floats] if self.free else [])]
+
+
+def check(scene: AnyScene, called: str | None = None) -> Check:
+    """Return a scene in words; called: the catalogue name or path that commands shall have."""
     called = called or (scene.name if isinstance(scene, Scene) else str(scene))
     with catch_warnings():
-        simplefilter("ignore", Implausible)  # they stand in the report
-        scene = scene_of(scene)
-    warnings = [f"{called}: {slip}" for slip in slips(scene)]
-    parts = [*in_words(scene), ("lattice", _lattice(scene)), ("shell", _shell(scene))]
-    free, foretold = free_rigid_motions(scene), _foretold(scene)
-    return Report(
-        name="check",
-        title=scene.name,
-        subtitle=scene.title,
-        tables=(Table("What will be solved", (Column("part"), Column("what", prose=True)), tuple(parts)),),
-        notes=(
-            *foretold,
-            *([] if free else [f"Solve it with:\nsheetbench compare {shlex.quote(called)}"]),
-        ),
-        complaints=(
-            *warnings,
-            *(["the sheet can move as a rigid body: only `modes` and `simulate` can answer"] if free else []),
-        ),
-        document={
-            "scene": scene.document(),
-            "parts": [{"part": part, "what": what} for part, what in parts],
-            "free_rigid_motions": free,
-            "foretold": foretold,
-            "warnings": warnings,
-        },
-    )
-
-
-def _foretold(scene: Scene) -> list[str]:
-    """What the lattice's answer will be off by, as far as it is known before solving."""
-    if not scene.actuators:
-        return []
-    from lumped import polygons
-
-    return [warning] if (warning := polygons(scene, scene_grid(scene))) else []
+        simplefilter("ignore", Implausible)  # they stand in the answer
+        return Check(scene_of(scene), called)
 
 
 def _lattice(scene: Scene) -> str:

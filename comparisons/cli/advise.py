@@ -50,4 +50,4 @@ def command(
         checked_tolerance(tolerance)
     with output.open(scene=loaded) as out:
         advice = advise(loaded, tolerance, budget, lattice.spec, calibration=calibration)
-        out.show(replace(advice, called=scene).report())
+        out.show(replace(advice, called=scene))

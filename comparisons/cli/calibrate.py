@@ -119,7 +119,8 @@ def command(
     The fitted methods train on the SCENE; without one, on the sheet under its own weight with one edge and
     with two adjacent edges clamped. --export is of the SCENE, or of the sheet with one edge clamped.
     """
-    from comparisons.calibration import damping, tables
+    from comparisons.calibration import damping
+    from comparisons.calibration.answer import SheetCalibration, to_toml
     from comparisons.calibration.calibrate import calibrate, expected, subject
     from comparisons.models.quantities import sides
     from comparisons.models.sizes import require_room
@@ -144,10 +145,8 @@ def command(
         foretold = scene is not None and k is None and layer_distance is None
         off = expected(of, springs) if foretold else None
         swinging = damping.ratios(of, springs)
-        report = tables.report(springs, of.sheet, of.material, off, swinging)
-        if export is not None:
-            report = out.export(export, of, springs, report, simulators or ())
+        out.export(export, of, springs, simulators or ())
         out.show(
-            report,
-            instead=tables.to_toml(springs.document()) + damping.to_toml(of.material) if toml else None,
+            SheetCalibration(springs, of, off, swinging),
+            instead=to_toml(springs) + damping.to_toml(of.material) if toml else None,
         )

@@ -101,7 +101,7 @@ def command(
                 frames=FRAMES if output.out is not None else 0,
                 store=out.reserve("runs/"),
             )
-            out.show(replace(both, animate=animate).report())
+            out.show(replace(both, animate=animate))
         return
     if animate:
         raise BadInput("--animate: needs --duration, how long the sheet is to move")
@@ -127,7 +127,6 @@ def command(
                 branch=branch,
                 others=model or (),
             )
-        report = comparison.report()
         if export is not None:
-            report = out.export(export, loaded, resolve(loaded, lattice.spec).springs, report)
-        out.show(report)
+            out.export(export, loaded, resolve(loaded, lattice.spec).springs)
+        out.show(comparison)

@@ -80,4 +80,4 @@ def command(
                 models=models,
                 codes=codes,
             )
-        out.show(checked.report())
+        out.show(checked)

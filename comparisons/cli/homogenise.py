@@ -71,4 +71,4 @@ def command(
             raise BadInput(f"--coefficient {text}: NAME=VALUE, the value a number") from None
     moduli = homogenise(of, cell_of(cell, length, of.sheet.thickness, hinge), given)
     with output.open(scene=of) as out:
-        out.show(moduli.report())
+        out.show(moduli)

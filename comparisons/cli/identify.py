@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -91,7 +90,7 @@ def command(
 
         curves = identify_tensile(tensile, area=area, up_to=up_to)
         with output.open(about={"tensile": tensile}) as out:
-            out.show(curves.report())
+            out.show(curves)
         return
     if scene is None or measured is None:
         raise BadInput("identify: give a SCENE and --measured FILE, or --tensile FILE")
@@ -118,5 +117,4 @@ def command(
             )
         except NotReached as error:
             out.stop(f"no answer with the scene's own values: {error}")
-        report = fit.report()
-        out.show(replace(report, settings={**report.settings, "measured": str(measured)}))
+        out.show(fit)

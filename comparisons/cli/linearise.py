@@ -56,4 +56,4 @@ def command(
             )
         except NoEquilibrium as error:
             out.stop(f"no linear form about the equilibrium: {error}; --about flat has one")
-        out.show(linearisation.report())
+        out.show(linearisation)

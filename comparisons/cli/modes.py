@@ -62,4 +62,4 @@ def command(
             )
         except NoEquilibrium as error:
             out.stop(f"no modes about the deformed sheet: {error}")
-        out.show(modes.report())
+        out.show(modes)

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from comparisons.report.work import Work
     from comparisons.runs.folder import Folder
     from lumped import Calibration
+    from sheetbench.answers.answer import Answer
     from sheetbench.answers.figure_style import FigureStyle
     from sheetbench.answers.report import Report, Write
     from sheetbench.scenes import Scene
@@ -45,6 +46,7 @@ class Output:
         self._folder = folder
         self._style = style
         self._store_files: list[str] = []
+        self._notes: list[str] = []
         self._spinner = ExitStack()
         self._progress: Callable[[Work | str], None] | None = None
 
@@ -60,20 +62,15 @@ class Output:
             self._folder.write(name, write)
 
     def export(
-        self,
-        folder: str | None,
-        scene: Scene,
-        springs: Calibration,
-        report: Report,
-        simulators: Sequence[str] = (),
-    ) -> Report:
-        """Return the report, with a note of what was written for other simulators if there is a folder."""
-        if folder is None:
-            return report
-        from comparisons.export.export import export
+        self, folder: str | None, scene: Scene, springs: Calibration, simulators: Sequence[str] = ()
+    ) -> None:
+        """Write the lattice for other simulators if there is a folder, and note it."""
+        if folder is not None:
+            from comparisons.export.export import export
 
-        note = export(folder, scene, springs, command_line(), self._options.overwrite, simulators)
-        return replace(report, notes=(*report.notes, note))
+            self._notes.append(
+                export(folder, scene, springs, command_line(), self._options.overwrite, simulators)
+            )
 
     def reserve(self, name: str) -> Path | None:
         """Return the path of a file, or of a folder if the name ends in "/", that a run fills by itself."""
@@ -105,15 +102,17 @@ class Output:
         console.warn(complaint)
         raise typer.Exit(NOT_CONVERGED)
 
-    def show(self, report: Report, instead: str | None = None) -> None:
+    def show(self, answer: Answer, instead: str | None = None) -> None:
         """Write the files, print the document, the tables or the text `instead` of them, and warn.
 
-        Exits with status 3 where the report says that the answer is incomplete.
+        Exits with status 3 where the answer is incomplete.
         """
+        report = answer.report()
         own = report.document.get("warnings", ())  # before those about the scene
         document = {**report.document, "warnings": [*own, *warned.shown]}
         pictures = () if self._options.no_pictures else report.pictures
-        report = replace(report, document=document, pictures=pictures).with_style(self._style)
+        notes = (*report.notes, *self._notes)
+        report = replace(report, document=document, pictures=pictures, notes=notes).with_style(self._style)
         missing: list[str] = []
         if self._folder is not None:
             missing = [f"No picture: {reason}" for reason in self._folder.report(report, self.progress)]

@@ -39,4 +39,4 @@ def command(
         reproduction = reproduce(parts, elements=parse_elements(elements), progress=out.progress)
         for name in reproduction.folders:
             out.reserve(name)
-        out.show(reproduction.report())
+        out.show(reproduction)

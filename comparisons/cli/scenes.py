@@ -7,7 +7,7 @@ from comparisons.cli.verb import OutputOptions
 
 def command(*, output: OutputOptions) -> None:
     """List the scenes that come with sheetbench; --out copies their files, to start from."""
-    from comparisons.check.catalogue import report
+    from comparisons.check.catalogue import Catalogue
 
     with output.open() as out:
-        out.show(report())
+        out.show(Catalogue())

@@ -38,4 +38,4 @@ def command(
 
     require_choice("--suite", suite, SUITES)
     with output.open(variant={"--suite": suite, "--case": sorted(case) if case else None}) as out:
-        out.show(score(answers, suite, case or ()).report())
+        out.show(score(answers, suite, case or ()))

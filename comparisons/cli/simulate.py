@@ -97,7 +97,5 @@ def command(
             progress=reached,
         )
         out.reserve("frames/")
-        shown = Simulation(history, loaded, truth, animate).report()
-        if export is not None:
-            shown = out.export(export, loaded, model.springs, shown)
-        out.show(shown)
+        out.export(export, loaded, model.springs)
+        out.show(Simulation(history, loaded, truth, animate))

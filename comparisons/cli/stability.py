@@ -59,4 +59,4 @@ def command(
                 reference=reference,
                 elements=elements,
             )
-        out.show(maps.report())
+        out.show(maps)

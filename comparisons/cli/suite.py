@@ -22,10 +22,10 @@ def command(
     --out writes its scenes, its values as CSV and JSON (CC-BY-4.0), and a form for answers.
     """
     from comparisons.scoring.cases import SUITES
-    from comparisons.scoring.suite_tables import report
+    from comparisons.scoring.suite import Suite
     from sheetbench.errors import require_choice
 
     if suite is not None:
         require_choice("--suite", suite, SUITES)
     with output.open(variant={"--suite": suite}) as out:
-        out.show(report(suite))
+        out.show(Suite(suite))

@@ -137,4 +137,4 @@ def command(
     with output.open(scene=loaded) as out:
         with out.campaign(campaign) as run:
             trade = measure(**run)
-        out.show(trade.report())
+        out.show(trade)

@@ -29,7 +29,7 @@ def command(
     output: PictureOptions,
 ) -> None:
     """Check the references against published values, one row each: exit status 3 unless all pass."""
-    from comparisons.verification import tables
+    from comparisons.verification.answer import Verification
     from fem_reference.verification import CASES, run
     from fem_reference.verification.locking import MODELS
     from sheetbench.errors import BadInput, require_choice
@@ -42,4 +42,4 @@ def command(
     chosen = list(MODELS) if locking else ["strain-laws"] if laws else case
     with output.open(variant={key: parts[key] for key in list(parts)[:2]}) as out:
         rows = list(run(chosen, starting=lambda name: out.progress(f"verifying {name} …")))
-        out.show(tables.report(rows, locking, laws))
+        out.show(Verification(rows, locking, laws))

@@ -180,7 +180,7 @@ class Identification(Answer):
         return [*self.warnings, *([] if self.converged else [ended])]
 
     def choices(self) -> dict[str, Any]:
-        return self.settings
+        return {**self.settings, "measured": self.measured.source}
 
     @property
     def succeeded(self) -> bool:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.calibration.tables import to_toml as springs_to_toml
+from comparisons.calibration.answer import to_toml as springs_to_toml
 from comparisons.live import answers
 from comparisons.live.answers import Answered, Sampled
 from comparisons.live.panel import Question
@@ -49,7 +49,7 @@ class Models:
         if question.copy == "scene":
             return to_toml(scene)
         springs = await self._on_thread(lambda: resolve(scene, question.lattice, "springs").springs)
-        return springs_to_toml(springs.document())
+        return springs_to_toml(springs)
 
     def close(self) -> None:
         """End both, whatever they are at."""

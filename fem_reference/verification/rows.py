@@ -12,8 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
+
+from sheetbench.answers.table import NUMBER, PERCENT, Column, number
 
 EXACT = "exact"
 THEORY = "theory"  # of the elements' order
@@ -28,15 +31,22 @@ class Row:
     """
 
     case: str
-    quantity: str
+    quantity: Annotated[str, Column(prose=True)]
     mesh: str
-    published: float
-    source: str
-    computed: float
-    relative: float | None
+    published: Annotated[float, NUMBER(".5g", "expected")]
+    source: Annotated[str, Column("whose", prose=True)]
+    computed: Annotated[float, NUMBER(".5g")]
+    relative: Annotated[float | None, PERCENT(".2f", "off by")]
     tolerance: float
-    passed: bool
+    passed: Annotated[bool, Column("ok", words=("yes", "NO"))]
     at: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def held_to(self) -> str:
+        """The tolerance, in per cent where it is relative."""
+        if self.relative is None:
+            return f"± {number(self.tolerance)}"
+        return f"{number(100.0 * self.tolerance)} %"
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -31,21 +31,56 @@ from lumped.sensitivity import sensitivity
 from lumped.springs import constants
 from lumped.springs.by_cell import EDGES_OWN
 from lumped.vibration import frequency_slopes
+from sheetbench.answers.table import PERCENT, Table
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.grading import Graded
+from sheetbench.scenes.summary import few
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
 FIXED_CONSTANTS = ("vertical", "layer_distance", "stretch", *EDGES_OWN)
 
 
 @dataclass(frozen=True)
+class FitRow:
+    """A spring that was fitted; width: half of its 95 % interval, None where the data do not see it."""
+
+    spring: str
+    share: str
+    width: Annotated[float | None, PERCENT(".2f", "±")]
+
+
+@dataclass(frozen=True, repr=False)
 class FittedCalibration(Calibration):
-    """A calibration from data: residual: largest relative miss of the targets; what: Identifiability of the
+    """A calibration from data: residual: largest relative miss of the targets; identifiability: of the
     springs varied, in their logarithms (area springs: in shares of the axial stiffness)."""
 
     residual: float = 0.0
     identifiability: Identifiability | None = None
+
+    def document(self) -> dict[str, Any]:
+        """The document of a calibration, with what the data tell of each spring: half widths of the 95 %
+        intervals as shares of the spring, of area springs as shares of the diagonal's stiffness."""
+        known = self.identifiability
+        fit = {
+            "residual": self.residual,
+            "half_widths": known.half_widths if known else {},
+            "singular_values": known.singular_values if known else [],
+        }
+        return {**super().document(), "fit": fit}
+
+    def tables(self) -> tuple[Table, ...]:
+        known = self.identifiability.half_widths if self.identifiability else {}
+        shares = {"area": "of the diagonal", "mid_area": "of the diagonal"}
+        rows = [
+            FitRow(name, shares.get(name, "of itself"), width if np.isfinite(width) else None)
+            for name, width in known.items()
+        ]
+        caption = "What the data tell of each spring: 95 % intervals"
+        return (*super().tables(), Table.of(FitRow, rows, caption, "fit"))
+
+    def notes(self) -> tuple[str, ...]:
+        return (f"the targets are met within {few(100 * self.residual)} %", *super().notes())
 
 
 def fit_static(

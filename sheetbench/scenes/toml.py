@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +17,13 @@ LARGE = 1e5  # written with an exponent, as 54.5e6
 
 def to_toml(scene: Scene) -> str:
     """The scene as the text of a file, from which `load` reads an equal one; all digits."""
+    return dumps(keys(scene))
+
+
+def dumps(data: Mapping[str, Any]) -> str:
+    """Return tables with headings as text; all digits."""
     text = tomlkit.document()
-    for key, value in keys(scene).items():
+    for key, value in data.items():
         text[key] = _headed(value)
     return tomlkit.dumps(text)
 

@@ -26,4 +26,4 @@ def command(
     with output.open() as out:
         with out.campaign(campaign) as run:
             result = study(count=scenes, compared=compared, **run)
-        out.show(result.report())
+        out.show(result)

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -27,8 +27,8 @@ from comparisons.runs.executors import Pool, processes
 from comparisons.runs.manifest import record
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import timing
-from sheetbench.answers.report import Report
-from sheetbench.answers.table import Column, Table
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.table import NUMBER, PERCENT, Table
 from sheetbench.scenes import Clamped, Curved, Gravity, Hinged, Material, PointLoad, Scene, Sheet, Status
 from sheetbench.scenes.supports import AnySupport
 
@@ -125,8 +125,23 @@ def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
 
 
 @dataclass(frozen=True)
-class Study:
+class Kept:
+    """What became of the cases with one tolerance."""
+
+    tolerance: Annotated[float, PERCENT(".3g")]
+    cases: Annotated[int, NUMBER("d")]
+    met: Annotated[float, PERCENT(".1f")]
+    largest: Annotated[float, PERCENT(".3g", "largest error")]
+    median: Annotated[float, PERCENT(".3g", "median error")]
+    within: Annotated[float, PERCENT(".1f", "within twice the cheapest")]
+    cost: Annotated[float | None, NUMBER(".2f", "median of time over the cheapest")]
+
+
+@dataclass(frozen=True, repr=False)
+class Study(Answer):
     """cases: one dictionary per scene and tolerance; skipped: scenes outside the range, and why."""
+
+    file_name = "advisor"
 
     cases: tuple[dict[str, Any], ...]
     skipped: dict[str, str]
@@ -142,10 +157,13 @@ class Study:
         ratios = [case["cost_ratio"] for case in self.cases if case.get("cost_ratio") is not None]
         return float(np.mean([ratio <= WITHIN for ratio in ratios])) if ratios else float("nan")
 
-    def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
+    def heading(self) -> tuple[str, str, str]:
+        return "The advisor on random scenes", "", ""
+
+    def document(self) -> dict[str, Any]:
         ratios = [case["cost_ratio"] for case in self.cases if case.get("cost_ratio") is not None]
         return {
+            **record(["advisor_study"]),
             "met": self.met,
             "within_factor_2": self.within,
             "cases": list(self.cases),
@@ -153,38 +171,20 @@ class Study:
             "skipped": self.skipped,
         }
 
-    def report(self) -> Report:
-        """What is shown of it."""
-        shares = f"met {100 * self.met:.1f} %; within twice the cheapest row {100 * self.within:.1f} %"
-        return Report(
-            name="advisor",
-            title="The advisor on random scenes",
-            document={**record(["advisor_study"]), **self.as_dict()},
-            tables=(self.table(),),
-            notes=(shares,),
-        )
+    def notes(self) -> tuple[str, ...]:
+        return (f"met {100 * self.met:.1f} %; within twice the cheapest row {100 * self.within:.1f} %",)
 
-    def table(self) -> Table:
-        """A row per tolerance."""
-        table_rows = []
+    def tables(self) -> tuple[Table, ...]:
+        rows = []
         for tolerance in sorted({case["tolerance"] for case in self.cases}):
             part = Study(tuple(c for c in self.cases if c["tolerance"] == tolerance), {})
             off = [c["actual_error"] for c in part.cases]
             ratios = [c["cost_ratio"] for c in part.cases if c.get("cost_ratio") is not None]
             typical = float(np.median(ratios)) if ratios else None
-            table_rows.append(
-                (tolerance, len(off), part.met, max(off), float(np.median(off)), part.within, typical)
+            rows.append(
+                Kept(tolerance, len(off), part.met, max(off), float(np.median(off)), part.within, typical)
             )
-        columns = (
-            Column("tolerance", "", "%", 100.0, ".3g"),
-            Column("cases", form="d"),
-            Column("met", "", "%", 100.0, ".1f"),
-            Column("largest error", "", "%", 100.0, ".3g"),
-            Column("median error", "", "%", 100.0, ".3g"),
-            Column("within twice the cheapest", "", "%", 100.0, ".1f"),
-            Column("median of time over the cheapest", "", "", 1.0, ".2f"),
-        )
-        return Table("Tolerances asked and kept", columns, tuple(table_rows), "advisor")
+        return (Table.of(Kept, rows, "Tolerances asked and kept", "advisor"),)
 
 
 def study(

@@ -47,4 +47,4 @@ def command(
                 seed=seed,
                 models=[name for name in study.MODELS if name in (model or study.MODELS)],
             )
-        out.show(coverage.report())
+        out.show(coverage)

@@ -16,20 +16,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from itertools import islice
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Write
+from sheetbench.answers.table import Table
 from sheetbench.scenes import Scene, Status
+from sheetbench.scenes.summary import few
 from studies.coverage import tables
 from studies.coverage.scenes import SEED, drawn_scenes
-
-if TYPE_CHECKING:
-    from sheetbench.answers.report import Report
 
 TRUTH = {"plate": 48, "shell": 32, "solid": 24}  # elements along the shorter side
 MODELS = tuple(TRUTH)
@@ -64,10 +67,12 @@ class Component:
         return self.error <= self.bar
 
 
-@dataclass(frozen=True)
-class Coverage:
+@dataclass(frozen=True, repr=False)
+class Coverage(Answer):
     """components: of all scenes, models and meshes; scenes: their names; skipped: scenes that were replaced,
     and why; truth: elements of the truth by model."""
+
+    file_name = "coverage"
 
     components: tuple[Component, ...]
     scenes: tuple[str, ...]
@@ -84,12 +89,14 @@ class Coverage:
         return [c for c in self.components if (c.model, c.elements) == (model, elements)]
 
     @property
-    def met(self) -> bool:
+    def succeeded(self) -> bool:
         """Whether every bar holds as often as is asked for, and is no looser."""
         return all(row["met"] for row in self.rows())
 
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document: lengths in metres."""
+    def heading(self) -> tuple[str, str, str]:
+        return "coverage", "how often the references' error bars hold the error, on drawn scenes", ""
+
+    def document(self) -> dict[str, Any]:
         return {
             "rows": self.rows(),
             "scenes": list(self.scenes),
@@ -98,9 +105,30 @@ class Coverage:
             "components": [{**asdict(c), "inside": c.inside} for c in self.components],
         }
 
-    def report(self) -> Report:
-        """What is shown of it."""
-        return tables.report(self)
+    def tables(self) -> tuple[Table, ...]:
+        return tables.shares(self), tables.misses(self)
+
+    def notes(self) -> list[str]:
+        inside = (
+            "inside: error ≤ bar. The truth is the same model on a finer graded mesh. Asked for: at least "
+            "95 % inside, and a median bar of no more than five times the error."
+        )
+        replaced = f"Replaced, for a model did not converge on a mesh: {', '.join(self.skipped)}."
+        return [inside, *([replaced] if self.skipped else [])]
+
+    def complaints(self) -> list[str]:
+        return [
+            f"{row['model']}, {row['elements']} elements: {100.0 * row['inside']:.1f} % inside, "
+            f"the median bar {few(row['loose'])} times the error"
+            for row in self.rows()
+            if not row["met"]
+        ]
+
+    def files(self) -> dict[str, Write]:
+        return {"components.csv": partial(write_text, text=tables.components(self).to_csv())}
+
+    def choices(self) -> dict[str, Any]:
+        return {"scenes": len(self.scenes)}
 
 
 def _row(model: str, elements: int, components: Sequence[Component]) -> dict[str, Any]:

@@ -2,52 +2,15 @@
 
 from __future__ import annotations
 
-from functools import partial
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from sheetbench.answers.files import write_text
-from sheetbench.answers.report import Report
 from sheetbench.answers.table import Column, Table
-from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from studies.coverage.study import Coverage
 
 _RATIO = ("", "", 1.0, ".3g")
-
-
-def report(coverage: Coverage) -> Report:
-    """What `sheetbench study coverage` shows."""
-    return Report(
-        name="coverage",
-        title="coverage",
-        subtitle="how often the references' error bars hold the error, on drawn scenes",
-        document=coverage.as_dict(),
-        tables=(shares(coverage), misses(coverage)),
-        notes=tuple(_notes(coverage)),
-        complaints=tuple(
-            f"{row['model']}, {row['elements']} elements: {100.0 * row['inside']:.1f} % inside, "
-            f"the median bar {few(row['loose'])} times the error"
-            for row in coverage.rows()
-            if not row["met"]
-        ),
-        attachments={"components.csv": partial(write_text, text=components(coverage).to_csv())},
-        settings={"scenes": len(coverage.scenes)},
-        met=coverage.met,
-    )
-
-
-def _notes(coverage: Coverage) -> list[str]:
-    sentences = [
-        "inside: error ≤ bar. The truth is the same model on a finer graded mesh. Asked for: at least 95 % "
-        "inside, and a median bar of no more than five times the error."
-    ]
-    if coverage.skipped:
-        sentences.append(
-            "Replaced, for a model did not converge on a mesh: " + ", ".join(coverage.skipped) + "."
-        )
-    return sentences
 
 
 def shares(coverage: Coverage) -> Table:

@@ -13,4 +13,4 @@ def command(*, output: PictureOptions) -> None:
     buckles sideways. A code of other units can be laid over both.
     """
     with output.open() as out:
-        out.show(measure(out.progress).report())
+        out.show(measure(out.progress))

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Annotated, Any
 
 import numpy as np
@@ -99,11 +99,8 @@ class MasterCurves(Answer):
 
     def document(self) -> dict[str, Any]:
         return {
-            "cantilever": [
-                {"load": d.load, "model": d.model, "exact": d.exact, "found": d.found, "error": d.error}
-                for d in self.drops
-            ],
-            "buckling": [{"width": b.width, "shell": b.shell, "lattice": b.lattice} for b in self.buckled],
+            "cantilever": [{**asdict(drop), "error": drop.error} for drop in self.drops],
+            "buckling": [asdict(one) for one in self.buckled],
             "narrow": self.narrow,
         }
 

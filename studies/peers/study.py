@@ -1,12 +1,14 @@
-"""Both questions in one run, as a report."""
+"""Both questions in one run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
+from typing import Annotated, Any
 
-from sheetbench.answers.report import Picture, Report
-from sheetbench.answers.table import Column, Table
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture
+from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table
 from studies.peers import settling, statics
 from studies.peers.row import PeerRow, faster
 
@@ -30,37 +32,55 @@ NOTES = (
 )
 
 
-def study(questions: Sequence[str], say: Callable[[str], None]) -> Report:
-    """Measure, one after the other, and show; say: told what is being measured."""
-    return report([row for name in questions for row in QUESTIONS[name](say)])
+@dataclass(frozen=True)
+class PeerLine:
+    """A code and size as a table has them; faster: how many times as long as the fastest of ours."""
+
+    code: Annotated[str, Column(prose=True)]
+    size: str
+    error: Annotated[float | None, PERCENT("z.3f")]
+    median: Annotated[float | None, MILLISECONDS(".4g", "time")]
+    faster: Annotated[float | None, NUMBER(".3g", "ours is faster")]
+    status: Annotated[str, Column(prose=True)]
 
 
-def report(rows: Sequence[PeerRow]) -> Report:
-    """What is shown of rows."""
-    questions = list(dict.fromkeys(row.question for row in rows))
-    documents = [{**asdict(row), "median": row.median, "faster": faster(row, rows)} for row in rows]
-    return Report(
-        name="peers",
-        title="Ours and other people's codes",
-        subtitle="error and time on Habibi et al.'s sheet, in one run",
-        document={"rows": documents},
-        tables=tuple(table(name, rows) for name in questions),
-        notes=NOTES,
-        pictures=(Picture("peers", "studies.peers.figure:compose", (rows,)),),
-    )
+@dataclass(frozen=True, repr=False)
+class Peers(Answer):
+    """What was measured of ours and of other people's codes."""
+
+    rows: Sequence[PeerRow]
+
+    file_name = "peers"
+
+    def heading(self) -> tuple[str, str, str]:
+        return "Ours and other people's codes", "error and time on Habibi et al.'s sheet, in one run", ""
+
+    def document(self) -> dict[str, Any]:
+        return {
+            "rows": [
+                {**asdict(row), "median": row.median, "faster": faster(row, self.rows)} for row in self.rows
+            ]
+        }
+
+    def tables(self) -> list[Table]:
+        return [self._table(question) for question in dict.fromkeys(row.question for row in self.rows)]
+
+    def _table(self, question: str) -> Table:
+        rows = [
+            PeerLine(row.code, row.size, row.error, row.median, faster(row, self.rows), row.status)
+            for row in self.rows
+            if row.question == question
+        ]
+        caption = f"{question.capitalize()} of Habibi et al.'s sheet"
+        return Table.of(PeerLine, rows, caption, question, text=TEXTS[question])
+
+    def notes(self) -> tuple[str, ...]:
+        return NOTES
+
+    def figures(self) -> tuple[Picture, ...]:
+        return (Picture("peers", "studies.peers.figure:compose", (self.rows,)),)
 
 
-def table(question: str, rows: Sequence[PeerRow]) -> Table:
-    """A row per code and size."""
-    columns = (
-        Column("code", prose=True),
-        Column("size"),
-        Column("error", "", "%", 100.0, "z.3f"),
-        Column("time", "s", "ms", 1e3, ".4g"),
-        Column("ours is faster", form=".3g"),
-        Column("status", prose=True),
-    )
-    kept = [row for row in rows if row.question == question]
-    shown = tuple((r.code, r.size, r.error, r.median, faster(r, kept), r.status) for r in kept)
-    caption = f"{question.capitalize()} of Habibi et al.'s sheet"
-    return Table(caption, columns, shown, question, text=TEXTS[question])
+def study(questions: Sequence[str], say: Callable[[str], None]) -> Peers:
+    """Measure, one after the other; say: called with what is being measured."""
+    return Peers([row for name in questions for row in QUESTIONS[name](say)])

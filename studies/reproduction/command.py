@@ -42,4 +42,4 @@ def command(
         forensics = study(parts, elements=parse_elements(elements), progress=out.progress)
         for name in forensics.models.folders:
             out.reserve(name)
-        out.show(forensics.report())
+        out.show(forensics)

@@ -8,8 +8,8 @@ nearest   which sheets come nearest to the tables, and what in the tables none o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from comparisons.models.grids import Elements
@@ -18,7 +18,9 @@ from comparisons.reproduction import findings as of_models
 from comparisons.reproduction.findings import Finding
 from comparisons.reproduction.reproduction import reproduce
 from comparisons.reproduction.tables import Reproduction, findings_table
-from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.table import Table
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes.seed import seed_inputs
 from studies.reproduction import findings, tables
@@ -31,10 +33,11 @@ from studies.reproduction.ratios import Ratio, ratios
 PARTS = ("errors", "tables", "settling", "nearest")
 
 
-@dataclass(frozen=True)
-class Forensics:
+@dataclass(frozen=True, repr=False)
+class Forensics(Answer):
     """What each part found; empty where a part was not asked for. models: what our models answer."""
 
+    file_name = Reproduction.file_name
     parts: tuple[str, ...]
     models: Reproduction
     checks: tuple[Check, ...] = ()
@@ -52,8 +55,7 @@ class Forensics:
         )
         return [*before, *of_models.all_of(self.models.answers, self.models.settling), *after]
 
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document: SI units, errors as fractions."""
+    def document(self) -> dict[str, Any]:
         document: dict[str, Any] = {
             **self.models.document(),
             "parts": list(self.parts),
@@ -76,21 +78,32 @@ class Forensics:
             }
         return document
 
-    def report(self) -> Report:
-        """What is shown of it: what `reproduce` shows, the other parts before and after."""
-        report = self.models.report()
+    def heading(self) -> tuple[str, str, str]:
+        title, _, lead = self.models.heading()
+        return title, "what was published, what the same inputs give, and what comes nearest to it", lead
+
+    def tables(self) -> list[Table]:
+        """What `reproduce` shows, the other parts before and after."""
         before = [tables.errors(self), tables.inputs(self)] if self.cells else []
         after = [tables.nearest(self), tables.ratios(self), tables.chords(self)] if self.scans else []
+        return [findings_table(self.findings()), *before, *self.models.tables()[1:], *after]
+
+    def figures(self) -> list[Picture]:
         drawn = [Picture("nearest", "studies.reproduction.figure:misfit", (self,))] if self.scans else []
-        return replace(
-            report,
-            subtitle="what was published, what the same inputs give, and what comes nearest to it",
-            document=self.as_dict(),
-            tables=(findings_table(self.findings()), *before, *report.tables[1:], *after),
-            pictures=(*report.pictures, *drawn),
-            printed=None,
-            settings={**report.settings, "parts": list(self.parts)},
-        )
+        return [*self.models.figures(), *drawn]
+
+    def complaints(self) -> list[str]:
+        return self.models.complaints()
+
+    def files(self) -> Mapping[str, Write]:
+        return self.models.files()
+
+    def choices(self) -> dict[str, Any]:
+        return {**self.models.choices(), "parts": list(self.parts)}
+
+    @property
+    def succeeded(self) -> bool:
+        return self.models.succeeded
 
 
 def study(

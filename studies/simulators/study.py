@@ -11,18 +11,18 @@ error: largest |component of u − u_shell| over 5 × 5 points, of the largest |
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from comparisons.export.mujoco import to_mjcf
 from comparisons.external.mujoco import MODEL, relax
 from comparisons.report.work import Progress, Work
-from sheetbench.answers.report import Report
-from sheetbench.answers.table import Column, Table
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.table import PERCENT, Column, Table
 from sheetbench.scenes import Scene
 from studies.simulators.mujoco import displacement, loaded, put
 from studies.transfer.scenes import transfer_scenes
@@ -39,11 +39,36 @@ TWISTS = np.linspace(0.2, 0.6, 9)  # D66/D of the rods
 class Row:
     """What was solved, and its error by scene, None where it has no such scene."""
 
-    name: str
-    errors: dict[str, float | None]
+    name: Annotated[str, Column("what")]
+    errors: Annotated[dict[str, float | None], PERCENT(".3g")]
 
 
-def study(progress: Progress) -> Report:
+@dataclass(frozen=True, repr=False)
+class Simulators(Answer):
+    """Errors of every simulator against the shell."""
+
+    rows: Sequence[Row]
+
+    file_name = "simulators"
+
+    def heading(self) -> tuple[str, str, str]:
+        size = f"{GRID}×{GRID} masses or vertices, the shell with {ELEMENTS} elements a side"
+        return "simulators", size, ""
+
+    def document(self) -> dict[str, Any]:
+        return {"rows": [vars(row) for row in self.rows]}
+
+    def tables(self) -> tuple[Table, ...]:
+        return (Table.of(Row, self.rows, "Error against the shell", "errors"),)
+
+    def notes(self) -> tuple[str, ...]:
+        return (
+            "nothing: no such scene there; exported links are let go flat, and where that takes too many "
+            "steps (a bent edge) from where our lattice rests",
+        )
+
+
+def study(progress: Progress) -> Simulators:
     """Carry it out. Needs MuJoCo."""
     import mujoco
 
@@ -67,28 +92,7 @@ def study(progress: Progress) -> Report:
             key=lambda one: max(error for error in one.errors.values() if error is not None),
         ),
     ]
-    return _report(rows)
-
-
-def _report(rows: list[Row]) -> Report:
-    columns = (Column("what"), *(Column(name, "", "%", 100.0, ".3g") for name in SCENES))
-    table = Table(
-        "Error against the shell",
-        columns,
-        tuple((one.name, *(one.errors[name] for name in SCENES)) for one in rows),
-        "errors",
-    )
-    return Report(
-        name="simulators",
-        title="simulators",
-        subtitle=f"{GRID}×{GRID} masses or vertices, the shell with {ELEMENTS} elements a side",
-        document={"rows": [vars(one) for one in rows]},
-        tables=(table,),
-        notes=(
-            "nothing: no such scene there; exported links are let go flat, and where that takes too many "
-            "steps (a bent edge) from where our lattice rests",
-        ),
-    )
+    return Simulators(rows)
 
 
 def _points(scene: Scene) -> np.ndarray:

@@ -11,7 +11,7 @@ from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.answers.figure_style import parse_figure
 from sheetbench.errors import BadInput, require_choice
 from studies.stability import STUDIES, survey
-from studies.stability.texts import report
+from studies.stability.texts import StabilityMaps
 
 
 def command(
@@ -52,4 +52,4 @@ def command(
                 grading=grading,
                 large=large,
             )
-        out.show(report(chosen, rows))
+        out.show(StabilityMaps(chosen, rows))

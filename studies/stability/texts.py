@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from comparisons.stability.rows import Row, doubtful, percent
-from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture
 from sheetbench.answers.table import Column, Table
 from studies.stability.study import Study
 
@@ -21,23 +23,46 @@ _COMMON = (
 )
 
 
-def report(studies: Sequence[Study], rows: list[Row]) -> Report:
-    """What `sheetbench study stability` shows of the rows of studies."""
-    of = {study.name: [row for row in rows if row["study"] == study.name] for study in studies}
-    broken = [row for row in rows if row["status"] in ("failed", "lost")]
-    return Report(
-        name="stability",
-        title="Where the solvers hold",
-        document={"rows": rows},
-        tables=tuple(table(study, of[study.name]) for study in studies),
-        complaints=tuple(f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in broken),
-        pictures=tuple(
-            Picture(study.name, "studies.stability.figure:compose", (study, of[study.name]))
-            for study in studies
-        ),
-        settings={"studies": list(of)},
-        met=not broken,
-    )
+@dataclass(frozen=True, repr=False)
+class StabilityMaps(Answer):
+    """The rows of studies: what `sheetbench study stability` shows."""
+
+    studies: Sequence[Study]
+    rows: list[Row]
+
+    file_name = "stability"
+
+    def of(self, study: Study) -> list[Row]:
+        """The rows of a study."""
+        return [row for row in self.rows if row["study"] == study.name]
+
+    @property
+    def broken(self) -> list[Row]:
+        """Rows without an answer."""
+        return [row for row in self.rows if row["status"] in ("failed", "lost")]
+
+    @property
+    def succeeded(self) -> bool:
+        return not self.broken
+
+    def heading(self) -> tuple[str, str, str]:
+        return "Where the solvers hold", "", ""
+
+    def document(self) -> dict[str, Any]:
+        return {"rows": self.rows}
+
+    def tables(self) -> list[Table]:
+        return [table(study, self.of(study)) for study in self.studies]
+
+    def complaints(self) -> list[str]:
+        return [f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in self.broken]
+
+    def figures(self) -> list[Picture]:
+        compose = "studies.stability.figure:compose"
+        return [Picture(study.name, compose, (study, self.of(study))) for study in self.studies]
+
+    def choices(self) -> dict[str, Any]:
+        return {"studies": [study.name for study in self.studies]}
 
 
 def table(study: Study, rows: list[Row]) -> Table:

@@ -68,4 +68,4 @@ def command(
                 elements=elements,
                 large=large,
             )
-        out.show(result.report())
+        out.show(result)

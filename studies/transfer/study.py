@@ -28,7 +28,8 @@ from comparisons.models.spec import Elements, Grading, Lattice, lattices
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
-from sheetbench.answers.report import Report
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.table import Table
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
 from studies.transfer import tables
@@ -47,9 +48,11 @@ LONG_EVERYWHERE = ((17, 17), (17, 25), (17, 33), (17, 49), (49, 17))  # on every
 LIMITS = (*TRAINING, *LINEAR)
 
 
-@dataclass(frozen=True)
-class Transfer:
+@dataclass(frozen=True, repr=False)
+class Transfer(Answer):
     """The study's rows by part; `failed`: a sentence for every run without an answer."""
+
+    file_name = "transfer"
 
     methods: tuple[str, ...]
     grids: tuple[int, ...]
@@ -61,13 +64,27 @@ class Transfer:
     left_out: list[dict[str, Any]] = field(default_factory=list)
     failed: list[str] = field(default_factory=list)
 
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench study transfer`: errors and misses are fractions."""
-        return dict(vars(self))
+    def heading(self) -> tuple[str, str, str]:
+        return "transfer", "calibrations judged on scenes that they were not made on", ""
 
-    def report(self) -> Report:
-        """What is shown of it."""
-        return tables.report(self)
+    def document(self) -> dict[str, Any]:
+        return dict(vars(self))  # errors and misses are fractions
+
+    def tables(self) -> list[Table]:
+        return tables.tables(self)
+
+    def notes(self) -> tuple[str, ...]:
+        return (tables.explanation(self),)
+
+    def complaints(self) -> list[str]:
+        return self.failed
+
+    def choices(self) -> dict[str, Any]:
+        return {"methods": self.methods, "grids": self.grids, "elements": self.elements}
+
+    @property
+    def succeeded(self) -> bool:
+        return not self.failed
 
 
 def transfer(

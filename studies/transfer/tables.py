@@ -6,28 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sheetbench.answers.report import Report
 from sheetbench.answers.table import Column, Table
 
 if TYPE_CHECKING:
     from studies.transfer.study import Transfer
 
 _PER_CENT = ("", "%", 100.0, "z.2f")
-
-
-def report(transfer: Transfer) -> Report:
-    """What `sheetbench study transfer` shows."""
-    return Report(
-        name="transfer",
-        title="transfer",
-        subtitle="calibrations judged on scenes that they were not made on",
-        document=transfer.as_dict(),
-        tables=tuple(tables(transfer)),
-        notes=(explanation(transfer),),
-        complaints=tuple(transfer.failed),
-        settings={"methods": transfer.methods, "grids": transfer.grids, "elements": transfer.elements},
-        met=not transfer.failed,
-    )
 
 
 def tables(transfer: Transfer) -> list[Table]:

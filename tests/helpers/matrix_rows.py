@@ -17,7 +17,7 @@ import pytest
 from commands import run
 
 from comparisons.cli.output import Output
-from sheetbench.answers.report import Report
+from sheetbench.answers.answer import Answer
 
 Row = tuple[tuple[str, ...], ...]
 
@@ -81,12 +81,12 @@ def check(
     capsys: pytest.CaptureFixture[str],
 ) -> int:
     """Run a command line: no traceback, exit status 0, 2 or 3, and each converged answer in balance."""
-    reports: list[Report] = []
+    answers: list[Answer] = []
     show = Output.show
 
-    def shown(self: Output, report: Report, instead: str | None = None) -> None:
-        reports.append(report)
-        show(self, report, instead)
+    def shown(self: Output, answer: Answer, instead: str | None = None) -> None:
+        answers.append(answer)
+        show(self, answer, instead)
 
     monkeypatch.setattr(Output, "show", shown)
     status = run(*arguments)
@@ -95,9 +95,9 @@ def check(
     assert "Traceback" not in said.err, said.err[-3000:]
     assert status in (0, 2, 3), said.err
     if status == 2:
-        assert said.err.strip() and not reports
-    for report in reports:
-        for solution in report.document.get("solutions", ()):
+        assert said.err.strip() and not answers
+    for answer in answers:
+        for solution in answer.document().get("solutions", ()):
             require_balanced(solution)
     return status
 

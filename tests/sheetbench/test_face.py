@@ -99,7 +99,7 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     ),
     "sb.modes": lambda scene: sb.modes(scene, grid=3, count=2, elements=2)[0].frequencies,
     "sb.simulate": lambda scene: sb.simulate(scene, 1e-3, grid=3).probes["P4"][-1],
-    "sb.check": lambda scene: sb.check(scene).tables[0].rows,
+    "sb.check": lambda scene: sb.check(scene).tables()[0].rows,
     "lumped.solve": lambda scene: lumped.solve(scene, sb.calibrate(NAME, grid=3)).displacement([[0.1, 0.1]]),
     "lumped.modes": lambda scene: lumped.modes(scene, sb.calibrate(NAME, grid=3), 2).frequencies,
     "lumped.simulate": lambda scene: lumped.simulate(scene, sb.calibrate(NAME, grid=3), 1e-3).time,

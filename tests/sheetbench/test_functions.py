@@ -58,7 +58,7 @@ def test_a_lattice_is_exported_from_python(tmp_path: Path) -> None:
 
 
 def test_the_other_functions_return_what_their_verbs_report_on(tmp_path: Path) -> None:
-    assert sb.schema()["properties"]["sheet"] and sb.suite("modes").tables
+    assert sb.schema()["properties"]["sheet"] and sb.suite("modes").tables()
     sb.export("one-edge-clamped", tmp_path / "lattice", grid=3)
     assert sb.report(tmp_path) == tmp_path / "report.html" and (tmp_path / "report.html").is_file()
     with pytest.raises(sb.BadInput, match="nosuch"):

@@ -8,7 +8,7 @@ import pytest
 from sheetbench.scenes import load
 from studies.peers import settling
 from studies.peers.row import PeerRow, faster, repeated
-from studies.peers.study import report
+from studies.peers.study import Peers
 
 ROWS = [
     PeerRow("statics", "lattice", "5 × 5", True, 3e-3, (0.001, 0.003, 0.002), "converged"),
@@ -31,7 +31,7 @@ def test_quick_solves_are_repeated_and_long_ones_are_not() -> None:
 
 
 def test_a_table_a_question() -> None:
-    found = report(ROWS)
+    found = Peers(ROWS).report()
     assert [table.name for table in found.tables] == ["statics", "settling"]
     (row,) = [row for row in found.document["rows"] if row["size"] == "16 × 16"]
     assert row["faster"] == pytest.approx(10.0) and row["median"] == 0.5

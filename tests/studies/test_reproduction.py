@@ -119,7 +119,7 @@ def test_supports_turned_as_one_turn_a_stiff_sheet_rigidly() -> None:
 
 
 def test_the_document(errors: Forensics) -> None:
-    document = errors.as_dict()
+    document = errors.document()
     assert {"parts", "inputs", "known_faults", "findings", "checks", "errors"} == set(document)
     assert document["errors"]["means"]["quoted"] == 0.048
     assert document["errors"]["cells"][1]["changes"] is True

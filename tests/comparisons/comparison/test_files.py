@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 import pyvista
 
-from comparisons.calibration import tables as calibration
+from comparisons.calibration import answer as calibration
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
 from comparisons.report import offscreen as rendering
@@ -129,8 +129,9 @@ def test_a_file_is_whole_or_absent(tmp_path: Path) -> None:
 def test_springs_as_toml_are_the_same_springs(scene: Scene) -> None:
     import lumped
 
-    found = lumped.calibrate(scene.sheet, scene.material, grid=(9, 13)).document()
-    table = tomllib.loads(calibration.to_toml(found))["springs"]
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 13))
+    found = springs.document()
+    table = tomllib.loads(calibration.to_toml(springs))["springs"]
     assert scenes.SpringTable(**table).grid == (9, 13, 2)
     lattice = {name: table.pop(name) for name in ("grid", "masses", "layer_distance")}
     assert table == found["springs"] and lattice == {name: found[name] for name in lattice}

@@ -13,7 +13,7 @@ import pytest
 from scipy.integrate import solve_bvp
 
 from comparisons.cli import main
-from comparisons.verification import tables as verification
+from comparisons.verification.answer import Verification
 from fem_reference.verification import (
     CASES,
     Case,
@@ -110,7 +110,7 @@ def test_values_of_this_project_are_not_called_somebody_else_s() -> None:
 def test_every_value_stands_beside_its_verdict_on_any_terminal() -> None:
     rows = [row for name in ("patch", "mindlin-clamped", "nafems-fv16") for row in rows_of(name)]
     for width in (50, 80, 160):
-        for table in verification.by_case(rows):
+        for table in Verification(rows).by_case():
             block, *_ = blocks(table, width)
             assert {"computed", "ok"} <= set(" ".join(block.head).split())
             assert len(re.findall(r"\b(?:yes|NO)\b", "\n".join(block.rows))) == len(table.rows)
@@ -207,6 +207,6 @@ def test_unknown_case_is_refused_before_anything_runs() -> None:
 
 def test_tables_show_a_case_and_mesh_each() -> None:
     rows = rows_of("patch")
-    tables = list(verification.by_case(rows))
+    tables = list(Verification(rows).by_case())
     assert len(tables) == 3 and sum(len(table.rows) for table in tables) == len(rows)
     assert "relative" not in tables[0].to_markdown()

@@ -132,6 +132,13 @@ def about(**changes: object) -> dict[str, object]:
     return {"scene": {**document, **changes}}
 
 
+class Said(Report):
+    """An answer that is its own report."""
+
+    def report(self) -> Report:
+        return self
+
+
 def report(*names: str) -> Report:
     return Report(
         "answer", "t", {"a": 1}, attachments={name: lambda path: path.write_text("x") for name in names}
@@ -270,7 +277,7 @@ def test_a_questions_own_warnings_stand_before_those_about_its_scene(
     with in_a_line():
         warnings.warn(Implausible("young = 54.5 Pa"), stacklevel=1)
         with OutputOptions("identify", json=True).open() as out:
-            out.show(Report("identification", "t", {"warnings": ["a poor fit"]}))
+            out.show(Said("identification", "t", {"warnings": ["a poor fit"]}))
     assert json.loads(capsys.readouterr().out)["warnings"] == ["a poor fit", "young = 54.5 Pa"]
 
 
@@ -279,7 +286,7 @@ def test_what_compiling_took_is_said_before_the_remarks_which_may_end_in_a_comma
 ) -> None:
     monkeypatch.setattr("comparisons.cli.output.clock.compiled", lambda: 23.2)
     with OutputOptions("advise").open() as out:
-        out.show(Report("advice", "t", {}, notes=("Solve it with:", "sheetbench compare x")))
+        out.show(Said("advice", "t", {}, notes=("Solve it with:", "sheetbench compare x")))
     *_, compiled, before, command = capsys.readouterr().out.splitlines()
     assert compiled.startswith("Kernels were compiled, once on this machine: 23.2 s")
     assert (before, command) == ("Solve it with:", "sheetbench compare x")

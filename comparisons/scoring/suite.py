@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
 from comparisons.scoring.answers import HEADERS
 from comparisons.scoring.reference import Reference, document, references
 from comparisons.scoring.score import Standing, own_models
+from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
-from sheetbench.answers.report import Report
+from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table
 
 CASE = ("name", "suite", "bar", "agreeing", "why")
@@ -23,50 +24,66 @@ say that they are the reference set {version} of sheetbench. The program has a l
 """
 
 
-def report(suite: str | None = None) -> Report:
-    """What `sheetbench suite` shows of all cases, or those of one suite."""
-    known = references(suite)
-    whole = document()
-    kept = {**whole, "cases": [case for case in whole["cases"] if case["name"] in known]}
-    suites = dict.fromkeys(case.suite for case in known.values())
-    texts = {
-        "LICENCE.txt": LICENCE.format(version=whole["version"]),
-        **{f"{name}.toml": _toml(case) for name, case in known.items()},
-        **{f"values-{name}.csv": _values(list(references(name).values())) for name in suites},
-        **{f"answers-{name}.csv": _form(list(references(name).values())) for name in suites},
-    }
-    return Report(
-        name="suite",
-        page="cases",
-        title=f"reference set {whole['version']}",
-        subtitle=f"{len(known)} cases, {whole['licence']}",
-        document=kept,
-        tables=(
-            Table.of(Reference, known.values(), "Cases of the reference set", "cases", fields=CASE),
-            *([standing(known)] if suite in (None, "statics") else []),
-        ),
-        notes=(
+class Suite(Answer):
+    """The cases of the reference set, or those of one suite: what `sheetbench suite` shows."""
+
+    file_name = "suite"
+    page_name = "cases"
+
+    def __init__(self, suite: str | None = None) -> None:
+        self.suite = suite
+        self.cases = references(suite)
+        self._whole = document()
+
+    def heading(self) -> tuple[str, str, str]:
+        subtitle = f"{len(self.cases)} cases, {self._whole['licence']}"
+        return f"reference set {self._whole['version']}", subtitle, ""
+
+    def document(self) -> dict[str, Any]:
+        kept = [case for case in self._whole["cases"] if case["name"] in self.cases]
+        return {**self._whole, "cases": kept}
+
+    def tables(self) -> list[Table]:
+        cases = Table.of(Reference, self.cases.values(), "Cases of the reference set", "cases", fields=CASE)
+        return [cases, *([self._standing()] if self.suite in (None, "statics") else [])]
+
+    def _standing(self) -> Table:
+        """How our own models and other programs fare on the statics, the best first."""
+        ours = own_models([case for case in self.cases.values() if case.suite == "statics"])
+        rows = sorted(ours, key=lambda one: one.score)
+        machine = self._whole["made_with"]["machine"].get("processor", "the machine that made the set")
+        text = (
+            "score: geometric mean of the errors on the statics, 100 % for a case that is refused; worst: of "
+            f"those answered; time: of a solve, geometric mean, on {machine}"
+        )
+        fields = ("model", "score", "worst_error", "worst", "refused", "seconds")
+        caption = "Our models and other programs on the statics"
+        return Table.of(Standing, rows, caption, "standing", fields=fields, text=text)
+
+    def notes(self) -> tuple[str, ...]:
+        return (
             "bar: what the reference's mesh leaves uncertain, of its largest value; agreeing: codes within "
             "that or 1 %",
             "--out DIR writes scenes, values and forms to fill in; sheetbench score answers-statics.csv",
-        ),
-        attachments={name: partial(write_text, text=text) for name, text in texts.items()},
-        settings={"suite": suite},
-    )
+        )
+
+    def files(self) -> dict[str, Write]:
+        by_suite = {case.suite: list(references(case.suite).values()) for case in self.cases.values()}
+        texts = {
+            "LICENCE.txt": LICENCE.format(version=self._whole["version"]),
+            **{f"{name}.toml": _toml(case) for name, case in self.cases.items()},
+            **{f"values-{name}.csv": _values(cases) for name, cases in by_suite.items()},
+            **{f"answers-{name}.csv": _form(cases) for name, cases in by_suite.items()},
+        }
+        return {name: partial(write_text, text=text) for name, text in texts.items()}
+
+    def choices(self) -> dict[str, Any]:
+        return {"suite": self.suite}
 
 
-def standing(cases: Mapping[str, Reference]) -> Table:
-    """How our own models and other programs fare on the statics, the best first."""
-    ours = own_models([case for case in cases.values() if case.suite == "statics"])
-    rows = sorted(ours, key=lambda one: one.score)
-    text = (
-        "score: geometric mean of the errors on the statics, 100 % for a case that is refused; worst: of "
-        "those answered; time: of a solve, geometric mean, on "
-        f"{document()['made_with']['machine'].get('processor', 'the machine that made the set')}"
-    )
-    fields = ("model", "score", "worst_error", "worst", "refused", "seconds")
-    caption = "Our models and other programs on the statics"
-    return Table.of(Standing, rows, caption, "standing", fields=fields, text=text)
+def suite(name: str | None = None) -> Suite:
+    """Return the cases of the reference set, or those of the suite of a name."""
+    return Suite(name)
 
 
 def _toml(case: Reference) -> str:

@@ -60,5 +60,14 @@ def table() -> dict[str, Any]:
     return found
 
 
+def written(found: dict[str, Any]) -> str:
+    """The table as JSON, a line for every answer."""
+    lines = (
+        f"{json.dumps(name)}: {{\n" + ",\n".join(f" {json.dumps(m)}: {json.dumps(a)}" for m, a in models.items())
+        for name, models in found.items()
+    )
+    return "{" + "},\n".join(lines) + "}}\n"
+
+
 if __name__ == "__main__":
-    FILE.write_text(json.dumps(table(), indent=1) + "\n", encoding="utf-8")
+    FILE.write_text(written(table()), encoding="utf-8")

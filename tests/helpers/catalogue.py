@@ -62,11 +62,11 @@ def table() -> dict[str, Any]:
 
 def written(found: dict[str, Any]) -> str:
     """The table as JSON, a line for every answer."""
-    lines = (
-        f"{json.dumps(name)}: {{\n" + ",\n".join(f" {json.dumps(m)}: {json.dumps(a)}" for m, a in models.items())
-        for name, models in found.items()
-    )
-    return "{" + "},\n".join(lines) + "}}\n"
+    scenes = []
+    for name, models in found.items():
+        lines = (f" {json.dumps(model)}: {json.dumps(one)}" for model, one in models.items())
+        scenes.append(f"{json.dumps(name)}: {{\n" + ",\n".join(lines) + "}")
+    return "{" + ",\n".join(scenes) + "}\n"
 
 
 if __name__ == "__main__":

@@ -1,7 +1,5 @@
 """Balanced truncation of a lattice for control: the bound foretold holds, slow inputs are exact."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Grids graded towards some edges only: lines, springs of either end, files, symmetry, what auto takes."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

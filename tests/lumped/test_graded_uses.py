@@ -1,7 +1,5 @@
 """What uses a lattice, on a graded grid of few masses: chains, files, frequencies, motion, fits."""
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
 

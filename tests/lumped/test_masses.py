@@ -1,7 +1,5 @@
 """How the sheet's mass is shared out: moments that are exact, and frequencies on many supports."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

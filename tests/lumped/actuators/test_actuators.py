@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 import lumped
 from lumped.actuators import Drive
 from lumped.actuators.chain import Chain
+from lumped.actuators.corners import SharedEnd
 from lumped.lattice import build
 from lumped.statics.solver import build_problem, solve_path
 from sheetbench import scenes
@@ -24,10 +25,19 @@ ROD = dict(edge="x1", segments=4, bending_stiffness=0.02, line_density=0.05, rad
 PLANES, BASES = ("normal", "inplane", "spatial"), ("free", "start", "middle", "end")
 
 
-def chain_of(*changes, lattice=LATTICE, sheet=SHEET, **common):
-    data = [ChainData(**{**ROD, **common, **change}) for change in (changes or ({},))]
-    masses = lattice.edge_columns(data[0].edge).ravel()
-    return Chain(data, tuple(map(str, range(len(data)))), sheet, lattice, masses, scale=1e3)
+ENDS = {base: (base,) for base in BASES} | {
+    "held at the start": ("free", (0,)),
+    "held at the end": ("free", (1,)),
+    "held and shared": ("free", (0,), {1: SharedEnd(own=True)}),
+    "shared": ("free", (), {0: SharedEnd(own=True), 1: SharedEnd(own=False)}),
+    "based and shared": ("middle", (), {0: SharedEnd(own=True), 1: SharedEnd(False, False, False, False)}),
+}
+
+
+def chain_of(*ends, base="free", **common):
+    data = ChainData(**{**ROD, **common, "base": base})
+    masses = LATTICE.edge_columns(data.edge).ravel()
+    return Chain([data], ("x1",), SHEET, LATTICE, masses, 1e3, *ends)
 
 
 def disturbed(chain, size=5e-3, seed=0):
@@ -35,10 +45,11 @@ def disturbed(chain, size=5e-3, seed=0):
 
 
 @pytest.mark.parametrize("segments", [3, 4])
-@pytest.mark.parametrize("base", BASES)
+@pytest.mark.parametrize("end", ENDS)
 @pytest.mark.parametrize("plane", PLANES)
-def test_chain_force_and_tangents_are_derivatives(plane, base, segments):
-    chain = chain_of(plane=plane, base=base, segments=segments, curvature=3.0, damping_time=0.1)
+def test_chain_force_and_tangents_are_derivatives(plane, end, segments):
+    base, *ends = ENDS[end]
+    chain = chain_of(*ends, plane=plane, base=base, segments=segments, curvature=3.0, damping_time=0.1)
     y, v, drive = disturbed(chain), disturbed(chain, seed=1), Drive(0.7)
     frames, length = chain.frames, chain.frames.length
 
@@ -72,25 +83,6 @@ def test_average_force_gives_back_the_joints_energy(plane):
     stored = chain.force(end, drive)[0] - chain.force(start, drive)[0]
     moved = np.sum((force * (end - start))[: chain.frames.coordinates])
     assert moved == pytest.approx(stored, rel=1e-11)
-
-
-def test_the_chain_has_the_mass_and_inertia_of_its_rods():
-    chain = chain_of(segments=5)
-    total = 0.05 * 0.3
-    rigid = np.zeros((chain.rows, 3))
-    rigid[: chain.frames.points, 2] = 1.0
-    assert np.sum(rigid * (chain.mass @ rigid)) == pytest.approx(total)
-    assert chain.weight(np.array([0.0, 0.0, -9.81])).sum(axis=0) == pytest.approx([0.0, 0.0, -9.81 * total])
-    x = chain.frames.rest
-    for axis, inertia in (
-        ([1.0, 0.0, 0.0], total * (0.3**2 / 12 + 2e-3**2 / 4)),  # across the rod
-        ([0.0, 1.0, 0.0], total * 2e-3**2 / 2),  # about its axis
-    ):
-        turned = np.zeros((chain.rows, 3))
-        middle = x[: chain.frames.points].mean(axis=0)
-        turned[: chain.frames.points] = np.cross(axis, x[: chain.frames.points] - middle)
-        turned[chain.frames.points : chain.frames.coordinates] = np.cross(axis, x[chain.frames.points :])
-        assert np.sum(turned * (chain.mass @ turned)) == pytest.approx(inertia)
 
 
 def elastica(load, count=200):

@@ -1,7 +1,5 @@
 """A chain on an edge whose end is a corner that another support holds: closed form, the shell, forces."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from cases import GRAVITY, RUBBER, SHEET, WEIGHT
@@ -9,10 +7,6 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
-from lumped.actuators import Drive
-from lumped.actuators.chain import Chain as Bound
-from lumped.actuators.frames import SharedEnd
-from lumped.lattice import build
 from sheetbench.scenes import Chain, Clamped, Curved, Gravity, Material, Scene, Sheet, Solution, Status
 
 OWN = 0.05 * 0.188 * 9.81  # N, of a chain
@@ -109,53 +103,3 @@ def test_the_clamp_carries_all_and_the_chain_passes_on_its_weight(name: str) -> 
         if edge == "y0" and name == "bent":
             size = np.abs(shell.actuators[edge][0, :3]).max()
             assert_allclose(wrenches[0, :3], shell.actuators[edge][0, :3], atol=0.07 * size)
-
-
-ENDS = {
-    "held at the start": ("free", (0,), {}),
-    "held at the end": ("free", (1,), {}),
-    "held and shared": ("free", (0,), {1: SharedEnd(own=True)}),
-    "shared": ("free", (), {0: SharedEnd(own=True), 1: SharedEnd(own=False)}),
-    "based and shared": ("middle", (), {0: SharedEnd(own=True), 1: SharedEnd(False, False, False, False)}),
-}
-
-
-@pytest.mark.parametrize("ends", ENDS)
-@pytest.mark.parametrize("plane", ["normal", "inplane", "spatial"])
-def test_force_and_tangent_are_derivatives(plane: str, ends: str) -> None:
-    base, held, shared = ENDS[ends]
-    data = chain(plane=plane, base=base, segments=4, curvature=3.0, edge="x1")
-    lattice = build(SHEET, (4, 7, 2), 0.003)
-    masses = lattice.edge_columns("x1").ravel()
-    bound = Bound([data], ("x1",), SHEET, lattice, masses, 1e3, held, shared)
-    noise = np.random.default_rng(0).standard_normal((bound.rows, 3))
-    y, drive = np.where(bound.free, 2e-3 * noise, 0.0), Drive(0.7)
-    first = bound.frames.coordinates
-
-    def lagrangian(z: np.ndarray) -> float:
-        stored, force = bound.force(z, drive)
-        return stored + float(np.sum(z[first:] * force[first:]))
-
-    gradient, tangent = bound.force(y, drive)[1], bound.tangent(y, drive)
-    flat, h = tangent.reshape(y.size, y.size), 1e-6
-    scale = 1e3 * bound.frames.length
-    by_energy, by_force = np.zeros(y.size), np.zeros((y.size, y.size))
-    for i in range(y.size):
-        step = np.zeros(y.size)
-        step[i] = h
-        up, down = y + step.reshape(y.shape), y - step.reshape(y.shape)
-        by_energy[i] = (lagrangian(up) - lagrangian(down)) / (2.0 * h)
-        by_force[i] = (bound.force(up, drive)[1] - bound.force(down, drive)[1]).ravel() / (2.0 * h)
-    assert_allclose(by_energy, gradient.ravel(), atol=1e-7 * scale)
-    assert_allclose(by_force, flat, atol=1e-6 * np.abs(flat).max())
-    rows, columns = (np.abs(tangent).max(axis=(1, 3)) > 0.0).nonzero()
-    assert bound.pairs[rows, columns].all()
-
-
-def test_the_motion_of_a_chain_beside_a_clamp_conserves_energy() -> None:
-    asked = scene((CLAMP,), chain(curvature=2.0), probes={"A": (0.188, 0.0)})
-    springs = lumped.calibrate(SHEET, RUBBER, grid=(5, 3), method="consistent")
-    run = lumped.simulate(asked, springs, 0.005, step=5e-5)
-    total = sum(run.energies[part] for part in ("kinetic", "elastic", "potential"))
-    assert run.energies["kinetic"].max() > 0.1 * run.energies["elastic"].max()
-    assert np.ptp(total) < 1e-3 * run.energies["kinetic"].max()

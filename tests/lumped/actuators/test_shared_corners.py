@@ -1,7 +1,5 @@
 """Two chains on neighbouring edges have their corner in common: point, director and moment."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -213,8 +211,11 @@ def test_a_chain_that_is_held_along_itself_twice_is_refused(name: str) -> None:
     assert 'base = "free"' in str(refused.value)
 
 
-def test_motion_conserves_energy() -> None:
-    asked = scene(WIDE, chain("y1", 2.0, 4), chain("x1", 2.0, 3), probes={"A": (0.2, 0.1)})
+@pytest.mark.parametrize(
+    "chains", [(chain("y1", 2.0, 4), chain("x1", 2.0, 3)), (chain("y0", 2.0, 8),)], ids=["shared", "clamped"]
+)
+def test_motion_conserves_energy(chains: tuple[Chain, ...]) -> None:
+    asked = scene(WIDE, *chains, probes={"A": (0.2, 0.1)})
     springs = lumped.calibrate(WIDE, RUBBER, grid=(5, 3), method="consistent")
     run = lumped.simulate(asked, springs, 0.005, step=5e-5)
     total = sum(run.energies[part] for part in ("kinetic", "elastic", "potential"))

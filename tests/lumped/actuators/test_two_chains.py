@@ -1,7 +1,5 @@
 """Two chains on one sheet: stiff joints meet, and the lattice agrees with the shell."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.sparse as sp

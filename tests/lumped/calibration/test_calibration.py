@@ -50,13 +50,6 @@ def small_assembly(calibration):
     return Assembly(SEED.sheet, calibration)
 
 
-@pytest.mark.parametrize("grid", [(5, 5, 2), (9, 9, 2), (33, 33, 2), (65, 65, 3)])
-def test_consistent_meets_every_modulus(grid):
-    calibration = lumped.calibrate(SEED.sheet, SEED.material, grid)
-    for row in calibration.moduli:
-        assert row["got"] == pytest.approx(row["asked"], rel=1e-10), row["name"]
-
-
 @pytest.mark.parametrize("method", ["consistent", "consistent-membrane"])
 def test_consistent_is_the_printed_closed_form(method):
     calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), method)
@@ -127,7 +120,7 @@ def test_homogenisation_agrees_with_imposed_strains(grid):
         assert imposed_energy(assembly, zero, zero, shear) == pytest.approx(0.5 * expected, rel=1e-4)
 
 
-@pytest.mark.parametrize("masses", [5, 9, 17, 33, 65])
+@pytest.mark.parametrize("masses", [5, 33])
 def test_least_squares_finds_the_closed_form_on_square_cells(masses):
     grid = (masses, masses)
     closed = lumped.calibrate(SEED.sheet, SEED.material, grid, "consistent-interior").springs.model_dump()
@@ -139,8 +132,8 @@ def test_least_squares_finds_the_closed_form_on_square_cells(masses):
 
 
 @pytest.mark.parametrize("method", ["consistent", "moduli"])
-@pytest.mark.parametrize("grid", [(9, 10), (9, 13), (9, 17), (9, 25), (25, 9)])
-def test_every_modulus_is_met_on_long_cells_too(method, grid):
+@pytest.mark.parametrize("grid", [(5, 5), (33, 33), (9, 13), (9, 25), (25, 9)])
+def test_every_modulus_is_met(method, grid):
     calibration = lumped.calibrate(SEED.sheet, SEED.material, grid, method)
     within = 1e-9 if method == "consistent" else 1e-5
     assert all(abs(row["miss"]) < within for row in calibration.moduli) and calibration.remarks == ()
@@ -158,6 +151,8 @@ def test_without_strain_springs_long_cells_cannot_be_met():
 
 
 def test_layers_too_many_for_the_grid_are_said():
+    fine = lumped.calibrate(SEED.sheet, SEED.material, (65, 65, 3))
+    assert all(abs(row["miss"]) < 1e-10 for row in fine.moduli)
     calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9, 3))
     assert any("is missed by" in note for note in calibration.remarks)
 

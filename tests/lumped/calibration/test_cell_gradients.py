@@ -1,7 +1,5 @@
 """Strains that vary across a cell: what they cost, and what coarse grids owe to it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from cases import relative

@@ -1,7 +1,5 @@
 """The calibration of links alone: what its table stands on, what it meets, how much nearer than `cauchy`."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """How a run in time is sampled: a hundred times a period unless asked, frames evenly over it."""
 
-from __future__ import annotations
-
 import pytest
 from dynamic_cases import scene, springs, system
 

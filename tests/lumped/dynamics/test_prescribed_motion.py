@@ -1,7 +1,5 @@
 """Edges that move as prescribed, and constraints, step by step: positions, velocities, work and impulses."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Paths that large load steps would leave: a column that is not quite straight, a fold jumped over."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rigid segments longer than the cells of the grid: what they keep back, as it is said before and after."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

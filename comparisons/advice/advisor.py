@@ -18,8 +18,10 @@ from typing import Unpack
 
 from comparisons.advice.answer import Advice, Tried
 from comparisons.advice.probing import Probing, Trial
+from comparisons.comparison import strain_law
 from comparisons.models.context import in_context
 from comparisons.models.keywords import SpringKeywords
+from comparisons.models.resolve import resolve
 from comparisons.models.scales import Scales, scales
 from comparisons.models.spec import Lattice, Spec
 from comparisons.report.work import Progress, silent
@@ -181,6 +183,7 @@ def _advice(
         message=message,
         grading=_grading(probing, chosen),
         calibration=_calibration(probing, chosen),
+        limit=_limit(probing, chosen),
         model=probing.model_error,
         warnings=tuple(load.warnings(probing.loads, probing.samples)),
     )
@@ -208,6 +211,14 @@ def _calibration(probing: Probing, chosen: Trial | None) -> str:
     taken = settings.items() >= {"calibration": probing.method, **probing.springs}.items()
     said = f"calibration {probing.method} {'taken' if taken else 'not taken'}"
     return f"{said}: {probing.because}" if probing.because else said
+
+
+def _limit(probing: Probing, chosen: Trial | None) -> str:
+    """From which stretch on the lattice chosen, or else the usual one, is no rubber, if this sheet is."""
+    lattice = chosen.candidate if chosen is not None else None
+    if not isinstance(lattice, Lattice):
+        lattice = probing.lattice(MASSES - 1).but(**probing.springs)
+    return strain_law.limit(resolve(probing.scene, lattice, "springs"), probing.judge.solution.stretch or 0.0)
 
 
 def _effects(

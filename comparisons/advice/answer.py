@@ -50,9 +50,9 @@ class Advice(Answer):
     model: what the judge leaves out on every mesh.
 
     choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading,
-    calibration: what was made of graded lattices and of other springs, where they were asked for. warnings:
-    of times that are doubtful, taken on a busy machine. called: how the scene was asked for, its name unless
-    given.
+    calibration: what was made of graded lattices and of other springs, where they were asked for. limit: from
+    which stretch on lattices are no rubber, where the sheet is stretched farther. warnings: of times that
+    are doubtful, taken on a busy machine. called: how the scene was asked for, its name unless given.
     """
 
     file_name = "advice"
@@ -71,6 +71,7 @@ class Advice(Answer):
     message: str = ""
     grading: str = ""
     calibration: str = ""
+    limit: str = ""
     model: ModelError | None = None
     warnings: tuple[str, ...] = ()
     called: str = ""
@@ -117,7 +118,7 @@ class Advice(Answer):
             "probing_seconds": self.probing_seconds,
             "tried": [one.as_dict() for one in self.tried],
             "message": self.message,
-            **{name: said for name in ("grading", "calibration") if (said := getattr(self, name))},
+            **{name: said for name in ("grading", "calibration", "limit") if (said := getattr(self, name))},
             "warnings": list(self.warnings),
             "command": self.command,
         }
@@ -147,7 +148,7 @@ class Advice(Answer):
             "a the shorter side",
             f"needs {', '.join(self.needs)}",
             *(f"leaves out {left}" for left in self.left_out),
-            *(choice for choice in (self.grading, self.calibration) if choice),
+            *(choice for choice in (self.grading, self.calibration, self.limit) if choice),
             *self.warnings,
             f"{self.reason} (probing took {few(self.probing_seconds)} s)",
             *([] if command is None else ["Solve it with:", command]),

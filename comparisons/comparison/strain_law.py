@@ -24,7 +24,8 @@ UNSAID = 1e-3  # without an error bar
 LEAST = 0.4  # of c − c_ref that is looked for
 MOST = 5000  # masses of a lattice that is pulled
 PULLS = (1e-5, 1e-2)  # P/E
-RUBBER, OFF = "neo-hookean", 0.02  # the law that soft sheets have at first, and what is off
+LOOKED_AT = 5e-3  # stretch up to which no lattice is OFF
+RUBBER, OFF = "neo-hookean", 0.02  # the law of soft sheets that name none, and what is off
 
 
 def of_lattice(lattice: Resolved[Lattice]) -> float:
@@ -56,16 +57,29 @@ def said(lattice: Resolved[Lattice], solutions: tuple[Solution, ...], bar: float
     nearest = min(off, key=lambda name: off[name])
     remedy = "" if nearest == law else f" Nearest to this lattice is --law {nearest}."
     by = 100.0 * off[law] * stretch
-    apart = abs(own - curving(RUBBER, material))
-    reach = ""
-    if apart > PULLS[1] and stretch > OFF / apart:
-        reach = (
-            f" Pulled one way this lattice is off by more than {100.0 * OFF:g} % of a rubber ({RUBBER}) "
-            f"from {few(100.0 * OFF / apart)} % stretch on; --calibration neo-hookean is not."
-        )
+    reach = f" {limit}" if (limit := _limit(lattice, own, stretch)) else ""
     its = nearest if off[nearest] <= PULLS[1] else "links linear in their elongation"
     return (
         f"At {few(100.0 * stretch)} % stretch the lattice's law of strain ({its}) "
         f"and the {reference.model}'s ({law}) differ by up to {few(by)} %: not an error of the grid."
         f"{remedy}{reach}"
+    )
+
+
+def limit(lattice: Resolved[Lattice], stretch: float) -> str:
+    """A sentence on the stretch from which on a lattice is no rubber, where a sheet is stretched farther."""
+    return _limit(lattice, of_lattice(lattice), stretch) if stretch > LOOKED_AT else ""
+
+
+def _limit(lattice: Resolved[Lattice], own: float, stretch: float) -> str:
+    material = lattice.scene.material
+    law = material.law or RUBBER
+    off = abs(own - curving(law, material))
+    if off <= PULLS[1] or stretch <= OFF / off:
+        return ""
+    springs = lattice.spec.calibration or "of its own springs"
+    remedy = "neo-hookean" if law == RUBBER else "hyperelastic"
+    return (
+        f"Pulled one way this lattice ({springs}) is off by more than {100.0 * OFF:g} % of a rubber ({law}) "
+        f"from {few(100.0 * OFF / off)} % stretch on; --calibration {remedy} is not."
     )

@@ -24,9 +24,11 @@ from comparisons.comparison.comparison import error
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.scales import scales
-from comparisons.models.spec import Spec, spec_of
+from comparisons.models.spec import Lattice, Spec, spec_of
+from fem_reference.pulled_strip import pulled
+from fem_reference.verification.strain_laws import stress
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, Gravity, Scene, Sheet, Solution
+from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Solution
 
 SECONDS = 1e-5  # an unknown and factorisation
 answer = once(solvers.solve)  # one for all tests: what is looked at is what the advisor makes of it
@@ -217,6 +219,22 @@ def test_the_printed_command_solves_the_choice(
 def _told(settings: Mapping[str, object]) -> dict[str, object]:
     """Settings that are not left open, as JSON has them."""
     return {name: json.loads(json.dumps(value)) for name, value in settings.items() if value is not None}
+
+
+@pytest.mark.parametrize(("law", "said"), [(None, "(consistent) is off by more than 2 % "), ("yeoh", "")])
+def test_what_is_stretched_hears_how_far_its_lattice_is_a_rubber(law: str | None, said: str) -> None:
+    """A strip 5 % longer; where the sentence says that 2 % are off, they are, to the next order of strain."""
+    constants = {"young": 1e6} if law is None else {"law": law, "c1": 1.7e5, "c2": -2e3, "c3": 60.0}
+    material = Material.model_validate({"poisson": 0.45, "density": 1e3, **constants})
+    strip = pulled((100.0, 0.0), Sheet(0.2, 0.1, 0.002), material)
+    limit = advise(strip, 0.05, calibration="auto" if law else None).limit
+    assert said in limit and bool(said) == bool(limit)
+    if limit:
+        stretch = float(limit.split(" from ")[1].split(" %")[0]) / 100.0
+        pull = stress("neo-hookean", "one way", stretch, material.replace(law="neo-hookean"))
+        there = pulled((pull * 1e6 * 0.002, 0.0), strip.sheet, material)
+        moved = answer(resolve(there, Lattice(9, "consistent")))
+        assert moved.displacement([[0.2, 0.1]])[0, 0] / (0.2 * stretch) == pytest.approx(0.98, abs=2e-3)
 
 
 def test_an_unstable_scene_gets_no_choice_but_the_reason() -> None:

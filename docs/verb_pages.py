@@ -5,15 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import typer
-
-from comparisons.cli.app import VERBS, app
+from comparisons.cli.app import VERBS, verb_group
 
 
 def write_verb_pages(folder: Path) -> None:
     """Write `index.md` and a page a verb into the folder."""
     folder.mkdir(exist_ok=True)
-    commands = typer.main.get_command(app).commands  # type: ignore[attr-defined]
+    commands = verb_group().commands
     lines = ["# Verbs", "", "Every verb of `sheetbench`; `sheetbench VERB --help` says the same.", ""]
     lines += ["| verb | |", "| --- | --- |"]
     lines += [f"| [{verb}]({verb}.md) | {_first_sentence(commands[verb].help)} |" for verb in VERBS]

@@ -14,7 +14,7 @@ import os
 import re
 import sys
 import traceback
-from collections.abc import Callable, MutableMapping
+from collections.abc import MutableMapping, Sequence
 from contextlib import suppress
 from functools import cache
 from importlib import import_module
@@ -61,21 +61,25 @@ SHOWN = 40  # characters of a name that is too long
 OUTPUT_FAULTS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 BOXES = 80  # columns; in narrower ones the boxes of a help page cut names off, and it is plain text
 
-app = typer.Typer(
-    help="How good is your spring lattice? Lumped-mass models of soft sheets beside finite elements.",
-    epilog="SCENE is a name that 'sheetbench scenes' lists, or a path to a TOML file.",
-    invoke_without_command=True,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
+
+@cache
+def verb_group(verbs: Sequence[str] = VERBS, boxes: bool = True) -> Any:
+    """Return the command with these verbs; boxes: whether its help pages are drawn with boxes."""
+    app = typer.Typer(
+        help="How good is your spring lattice? Lumped-mass models of soft sheets beside finite elements.",
+        epilog="SCENE is a name that 'sheetbench scenes' lists, or a path to a TOML file.",
+        invoke_without_command=True,
+        pretty_exceptions_enable=False,
+        rich_markup_mode="rich" if boxes else None,
+        context_settings={"help_option_names": ["-h", "--help"]},
+        callback=_help_where_nothing_is_asked,
+    )
+    for verb in verbs:
+        module = import_module(f"comparisons.cli.{verb}")
+        app.command(verb, context_settings=getattr(module, "CONTEXT", None))(as_verb(verb, module.command))
+    return get_command(app)
 
 
-for _verb in VERBS:
-    _module = import_module(f"comparisons.cli.{_verb}")
-    app.command(_verb, context_settings=getattr(_module, "CONTEXT", None))(as_verb(_verb, _module.command))
-
-
-@app.callback()
 def _help_where_nothing_is_asked(
     context: typer.Context,
     version: bool = typer.Option(False, "-V", "--version", help="Print the version and stop."),
@@ -92,13 +96,6 @@ def _help_where_nothing_is_asked(
         raise typer.Exit
     if context.invoked_subcommand is None:
         print(context.get_help(), end="")
-
-
-@cache
-def _group(boxes: bool) -> Callable[..., int | None]:
-    """All verbs with their options, whose reading from the signatures takes a tenth of a second."""
-    app.rich_markup_mode = "rich" if boxes else None
-    return get_command(app)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -120,11 +117,12 @@ def main(arguments: list[str] | None = None) -> None:
         raise SystemExit(BAD_INPUT)
     if of_process:  # which is kept beside the results
         sys.argv[1:] = arguments
-    verbs = _group(get_terminal_size().columns >= BOXES)
+    called = tuple(arguments[:1]) if arguments[:1] and arguments[0] in VERBS else VERBS  # one is read sooner
+    command = verb_group(called, boxes=get_terminal_size().columns >= BOXES)
     with interruption.heeded(), warned.in_a_line(), announced.in_a_line():
         try:
             try:
-                status = verbs(args=arguments, prog_name="sheetbench", standalone_mode=False)
+                status = command(args=arguments, prog_name="sheetbench", standalone_mode=False)
                 raise SystemExit(status or 0)
             finally:
                 if sys.stdout is not None:  # an error of writing appears here, and not as the process ends

@@ -9,11 +9,10 @@ from typing import get_args
 
 import pytest
 from click import Parameter
-from typer.main import get_command
 
 import fem_reference
 import lumped
-from comparisons.cli.app import app
+from comparisons.cli.app import verb_group
 from sheetbench import choices
 from sheetbench.choices import REFERENCES
 from studies.transfer.study import FITTED, METHODS
@@ -61,8 +60,8 @@ def test_the_published_study_keeps_its_methods_in_their_order() -> None:
     ],
 )
 def test_help_names_every_choice(verb: str, option: str, names: dict[str, object]) -> None:
-    (said,) = [p for p in get_command(app).commands[verb].params if p.name == option]  # type: ignore[attr-defined]
-    assert all(name in said.help for name in names)  # type: ignore[attr-defined]
+    (said,) = [p for p in verb_group().commands[verb].params if p.name == option]
+    assert all(name in said.help for name in names)
 
 
 def test_the_names_are_known_without_what_they_stand_for() -> None:
@@ -74,7 +73,7 @@ def test_the_names_are_known_without_what_they_stand_for() -> None:
 
 
 def test_a_switch_is_off_unless_given() -> None:
-    commands = get_command(app).commands.items()  # type: ignore[attr-defined]
+    commands = verb_group().commands.items()
     switches = {
         (verb, p.name): p.default for verb, command in commands for p in command.params if is_switch(p)
     }

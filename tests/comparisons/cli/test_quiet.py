@@ -7,11 +7,10 @@ from collections.abc import Callable
 
 import pytest
 from commands import one_line, run
-from typer.main import get_command
 
 from comparisons.cli import console
 from comparisons.cli import lines as cli_lines
-from comparisons.cli.app import VERBS, app
+from comparisons.cli.app import VERBS, verb_group
 from comparisons.cli.verb import as_verb
 from comparisons.report import work
 from comparisons.runs.campaign import Progress
@@ -28,7 +27,7 @@ def test_every_verb_can_be_quiet_and_without_pictures(
         raise BadInput("it is asked to be quiet")
 
     monkeypatch.setattr(console, "quietly", quietly)  # the verb itself does not begin
-    params = get_command(app).commands[verb].params  # type: ignore[attr-defined]
+    params = verb_group().commands[verb].params
     needed = []
     for one in params:
         if one.required:

@@ -12,13 +12,12 @@ from typing import Any
 
 import pytest
 import terminals
-import typer
 from commands import run
 from rich.console import Console
 from terminals import CONTROL, Terminal
 
 from comparisons.cli import characters, console
-from comparisons.cli.app import VERBS, app
+from comparisons.cli.app import VERBS, verb_group
 from comparisons.runs.campaign import Progress
 
 
@@ -37,7 +36,7 @@ def test_what_an_encoding_lacks_is_spelled(encoding: str, text: str, printed: st
     characters.adapt(stream)
     stream.write(text)
     stream.flush()
-    assert stream.buffer.getvalue().decode(encoding) == printed == characters.spelled(text, encoding)  # type: ignore[attr-defined]
+    assert stream.buffer.getvalue().decode(encoding) == printed == characters.spelled(text, encoding)
 
 
 @pytest.mark.parametrize("width", [50, 80, 160])
@@ -162,7 +161,7 @@ def test_a_help_page_cuts_nothing_off(
 
 @pytest.mark.parametrize("verb", VERBS)
 def test_a_help_page_keeps_its_brackets(verb: str) -> None:
-    command = typer.main.get_command(app).commands[verb]  # type: ignore[attr-defined]
+    command = verb_group().commands[verb]
     for text in (command.help, *(getattr(option, "help", None) for option in command.params)):
         assert not re.search(r"(?<!\\)\[[a-z/@#]", text or "", re.IGNORECASE)  # it would be rich's markup
 

@@ -2,11 +2,10 @@
 
 import re
 
-import typer
 from fake_solutions import solution
 
 import fem_reference
-from comparisons.cli.app import app
+from comparisons.cli.app import verb_group
 from fem_reference.shell import statics
 from fem_reference.shell.validity import STRETCHED
 from sheetbench import scenes
@@ -25,7 +24,7 @@ def test_the_message_is_fallback_snaps_and_notes_in_a_line():
 def test_advice_names_options_that_compare_has():
     known = {
         option
-        for command in typer.main.get_command(app).commands.values()
+        for command in verb_group().commands.values()
         if command.name == "compare"
         for parameter in command.params
         for option in parameter.opts

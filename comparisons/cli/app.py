@@ -24,7 +24,7 @@ from typing import Any
 import typer
 from typer.main import get_command
 
-from comparisons.cli import announced, characters, defaults, interruption, removed, warned
+from comparisons.cli import announced, characters, defaults, interruption, removed, startup, warned
 from comparisons.cli.verb import as_verb
 from comparisons.runs import interrupts
 
@@ -115,8 +115,9 @@ def main(arguments: list[str] | None = None) -> None:
     if refusal is not None:
         print(f"sheetbench: {refusal}", file=sys.stderr)
         raise SystemExit(BAD_INPUT)
-    if of_process:  # which is kept beside the results
-        sys.argv[1:] = arguments
+    if of_process:
+        sys.argv[1:] = arguments  # which are kept beside the results
+        startup.begin()
     called = tuple(arguments[:1]) if arguments[:1] and arguments[0] in VERBS else VERBS  # one is read sooner
     command = verb_group(called, boxes=get_terminal_size().columns >= BOXES)
     with interruption.heeded(), warned.in_a_line(), announced.in_a_line():

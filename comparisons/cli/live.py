@@ -6,25 +6,15 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Grading, Scene
+from comparisons.cli.lattice_options import LatticeOptions
+from comparisons.cli.options import Scene
 
 ELEMENTS = 8
 
 
 def command(
     scene: Scene,
-    lumped: Annotated[
-        int | None,
-        typer.Option(
-            "--lumped",
-            "--grid",
-            metavar="N",
-            help="Masses along the shorter side to start with; 9 unless given.",
-            show_default=False,
-        ),
-    ] = None,
-    grading: Grading = None,
-    calibration: Calibration = None,
+    lattice: LatticeOptions,
     elements: Annotated[
         int, typer.Option(metavar="N", help="Elements of the shell along the shorter side to start with.")
     ] = ELEMENTS,
@@ -35,6 +25,8 @@ def command(
 ) -> None:
     """Open a page where one drags E, ν, h, load and grid, and lattice and shell answer beside their error.
 
+    With --k it has a slider for k too.
+
     The page is served on localhost only, at a secret URL. Ctrl-C ends it.
     """
     from comparisons.cli.console import note
@@ -42,16 +34,13 @@ def command(
     from comparisons.live import redirection, server
     from comparisons.live.panel import Panel
     from comparisons.models.resolve import resolve
-    from comparisons.models.spec import Lattice
     from sheetbench.errors import BadInput
 
     if not 0 <= port <= 65535:
         raise BadInput(f"--port = {port}: from 0 to 65535")
     loaded = load_static(scene)
-    meant = resolve(loaded, Lattice(lumped, calibration, grading=grading)).spec
-    if not isinstance(meant.grading, float | None):
-        raise BadInput(f"grading = {meant.grading}: this page grades towards all edges; give a number")
-    panel = Panel(loaded, elements, grid=lumped, grading=meant.grading, calibration=meant.calibration)
+    meant = resolve(loaded, lattice.spec).spec
+    panel = Panel(loaded, elements, meant.but(grid=lattice.grid))
 
     with redirection.kept() as leads_to:
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from comparisons.cli import console, warned
+from comparisons.cli import console, startup, warned
 from sheetbench import clock
 
 if TYPE_CHECKING:
@@ -171,6 +171,7 @@ def opened(
     from sheetbench.answers.figure_style import parse_figure
     from sheetbench.errors import BadInput
 
+    startup.end()
     style = parse_figure(options.figure)
     if options.figure is not None and options.out is None:
         raise BadInput("--figure: needs --out, a folder to draw into")

@@ -19,6 +19,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements
 from comparisons.report.vtk import plan_mesh
+from sheetbench.answers.files import plain
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 
 SAME = 1e-6  # of the largest displacement: what two answers of one equilibrium may differ by
@@ -119,17 +120,14 @@ def compared(answered: Answered, sampled: Sampled) -> dict[str, Any]:
 
 
 def _document(kind: str, question: Question, scene: Scene, solution: Solution) -> dict[str, Any]:
-    probes = dict(zip(scene.probes, solution.displacement(scene.probe_points()).tolist(), strict=True))
+    known = plain(solution.document(scene))
+    kept = ("label", "status", "advice", "load_factor", "unknowns", "settings", "probes")
+    message = solution.message or ("" if solution.comparable else solution.status.advice)
+    found = {name: known[name] for name in kept}
     return {
         "kind": kind,
         "number": question.number,
-        "label": solution.label,
-        "status": str(solution.status),
-        "said": solution.message if solution.comparable else solution.message or solution.status.advice,
-        "advice": solution.status.advice,
-        "load_factor": solution.load_factor,
-        "unknowns": solution.unknowns,
+        "said": message,
         "seconds": solution.solve_seconds,
-        "settings": solution.settings,
-        "probes": {name: [u if np.isfinite(u) else None for u in at] for name, at in probes.items()},
+        **found,
     }

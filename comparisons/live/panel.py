@@ -13,6 +13,7 @@ from math import isfinite
 from typing import Any, NoReturn
 
 from comparisons.browser.sheets import free_side, outline
+from comparisons.models.grids import scene_grid
 from comparisons.models.spec import Lattice
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 from sheetbench.errors import BadInput
@@ -24,7 +25,7 @@ from sheetbench.scenes.parameters import parameter, put
 MASSES_CAP, ELEMENTS_CAP = 33, 16  # along the side of a square sheet, and as many in all on any other
 ELEMENTS = 8  # unless asked for: a shell of 8 × 8 elements answers in a tenth of a second
 OWN = "scene"  # the calibration's name where the scene brings its own [springs]
-SETTINGS = ("grid", "grading", "elements")  # sliders of the models, not of the scene
+SETTINGS = ("grid", "grading", "elements", "k")  # sliders of the models, not of the scene
 
 
 @dataclass(frozen=True)
@@ -50,14 +51,17 @@ class Question:
     values: dict[str, float]
     calibration: str
     copy: str = ""
+    layer_distance: float | None = None
 
     @property
     def lattice(self) -> Lattice:
-        """The lattice that is asked for."""
+        """The lattice of the question; k and layer distance are of the calibrations that take them."""
         if self.calibration == OWN:
             return Lattice()
-        grading = self.values["grading"]
-        return Lattice(int(self.values["grid"]), self.calibration, grading=grading or None)
+        takes, grading = CALIBRATIONS[self.calibration].takes, self.values["grading"] or None
+        k = self.values.get("k") if "k" in takes else None
+        distance = self.layer_distance if "layer_distance" in takes else None
+        return Lattice(int(self.values["grid"]), self.calibration, k, distance, grading)
 
     @property
     def elements(self) -> int:
@@ -68,12 +72,14 @@ class Question:
 class Panel:
     """The sliders of a scene."""
 
-    def __init__(self, scene: Scene, elements: int = ELEMENTS, **given: Any) -> None:
-        """given: grid, grading, calibration to start with. Raises BadInput for what is beyond the bounds."""
+    def __init__(self, scene: Scene, elements: int = ELEMENTS, lattice: Lattice | None = None) -> None:
+        """elements, lattice: to start with; k has a slider where the lattice has one. Raises BadInput for
+        what is beyond the bounds."""
         self.scene = scene
-        self.sliders = {s.name: s for s in (*_of_scene(scene), *_of_models(scene, elements, given))}
+        self._lattice = lattice or Lattice()
+        self.sliders = {s.name: s for s in (*_of_scene(scene), *_of_models(scene, elements, self._lattice))}
         self.calibrations = _calibrations(scene)
-        self.start = given.get("calibration") or next(iter(self.calibrations))
+        self.start = self._lattice.calibration or next(iter(self.calibrations))
         for slider in self.sliders.values():
             self._within(slider, slider.value)
         if self.start not in self.calibrations:
@@ -81,7 +87,7 @@ class Panel:
 
     def first(self) -> Question:
         """The question that the page starts with."""
-        return Question(0, {name: float(s.value) for name, s in self.sliders.items()}, self.start)
+        return self._question(0, {name: float(s.value) for name, s in self.sliders.items()}, self.start)
 
     def document(self) -> dict[str, Any]:
         """The panel as the page builds it."""
@@ -120,7 +126,10 @@ class Panel:
             _refuse(f"calibration: choose from {', '.join(self.calibrations)}")
         if found.get("copy", "") not in ("", "springs", "scene"):
             _refuse("copy: springs or scene")
-        return Question(number, read, found["calibration"], found.get("copy", ""))
+        return self._question(number, read, found["calibration"], found.get("copy", ""))
+
+    def _question(self, number: int, values: dict[str, float], calibration: str, copy: str = "") -> Question:
+        return Question(number, values, calibration, copy, self._lattice.layer_distance)
 
     def asked(self, question: Question) -> Scene:
         """The scene of a question. Raises SceneError where the values do not go together."""
@@ -171,11 +180,23 @@ def _of_scene(scene: Scene) -> Iterator[Slider]:
         yield Slider(bent.name, f"Curvature of edge {edge}", "1/m", 1.0, -most, most, bent.value)
 
 
-def _of_models(scene: Scene, elements: int, given: dict[str, Any]) -> Iterator[Slider]:
+def _of_models(scene: Scene, elements: int, lattice: Lattice) -> Iterator[Slider]:
     masses, fine = most(scene.sheet, MASSES_CAP - 1) + 1, most(scene.sheet, ELEMENTS_CAP)
-    grid, grading = given.get("grid") or min(MASSES, masses), given.get("grading") or 0.0
+    grid = min(MASSES, masses)
+    if lattice.grid is not None:
+        grid = min((counts := scene_grid(scene, lattice.grid))[:2])
+        if counts != scene_grid(scene, grid):
+            _refuse(
+                f"grid = {'x'.join(map(str, counts))}: cells are near-square on this page; give one number"
+            )
     yield Slider("grid", "Masses along the shorter side", "", 1.0, 3, masses, grid, whole=True)
-    yield Slider("grading", "Grading towards the edges", "", 1.0, 0.0, 1.0, grading)
+    if not isinstance(lattice.grading, float | int | None):
+        _refuse(f"grading = {lattice.grading}: this page grades towards all edges; give a number")
+    yield Slider("grading", "Grading towards the edges", "", 1.0, 0.0, 1.0, lattice.grading or 0.0)
+    if (k := lattice.k) is not None:
+        yield Slider(
+            "k", "Stiffness k of every spring (uniform)", "N/m", 1.0, k / 30, k * 30, k, logarithmic=True
+        )
     yield Slider("elements", "Shell elements along it", "", 1.0, 2, fine, min(elements, fine), whole=True)
 
 
@@ -187,13 +208,16 @@ def most(sheet: Sheet, cap: int) -> int:
 
 
 def _calibrations(scene: Scene) -> dict[str, dict[str, Any]]:
-    """Those that take no fit, the one to start with first, and whether their cells may differ."""
+    """Those that take no fit, the usual one first; whether they can be graded, and whether they take k."""
     closed = {name: method for name, method in CALIBRATIONS.items() if not method.fitted}
-    found = {name: {"said": m.summary, "graded": "grading" in m.takes} for name, m in closed.items()}
+    found = {
+        name: {"said": m.summary, "graded": "grading" in m.takes, "k": "k" in m.takes}
+        for name, m in closed.items()
+    }
     usual = {CALIBRATION: found.pop(CALIBRATION), **found}
     if scene.springs is None:
         return usual
-    return {OWN: {"said": "the scene's own [springs], on their grid", "graded": False}, **usual}
+    return {OWN: {"said": "the scene's own [springs], on their grid", "graded": False, "k": False}, **usual}
 
 
 def _gravity(scene: Scene, name: str, factor: float) -> Scene:

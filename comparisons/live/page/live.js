@@ -166,9 +166,10 @@
 
   // Sliders that the calibration has no use for.
   function settle() {
-    const { said, graded } = panel.calibrations[calibration.value];
+    const { said, graded, k } = panel.calibrations[calibration.value];
     at("method").textContent = `How k is found from E, ν and h: ${said}.`;
     sliders.get("grading").enable(graded);
+    sliders.get("k")?.enable(k);
     sliders.get("grid").enable(calibration.value !== "scene");
   }
 

@@ -30,6 +30,7 @@ from comparisons.live.newest import Newest
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import MESSAGE
 from comparisons.live.session import Session
+from comparisons.models.spec import Lattice
 from sheetbench.errors import BadInput
 
 SCENE = sb.load("curved-edge")
@@ -37,7 +38,7 @@ SCENE = sb.load("curved-edge")
 
 @pytest.fixture(scope="module")
 def panel():
-    return Panel(SCENE, 2, grid=3)
+    return Panel(SCENE, 2, Lattice(3))
 
 
 @pytest.fixture(scope="module")
@@ -102,6 +103,15 @@ def test_it_listens_on_the_loopback_alone(address):
         ).close()
         if socket.gethostbyname(socket.gethostname()).startswith("127."):
             raise OSError("this machine knows itself by the loopback only")
+
+
+def test_a_given_k_has_a_slider_and_goes_with_the_calibrations_that_take_it():
+    panel = Panel(SCENE, 2, Lattice(3, "uniform", k=550.0, layer_distance=0.002))
+    lattices = [panel.read(asked(panel, 1, name, k=600.0)).lattice for name in ("uniform", "consistent")]
+    assert [(one.k, one.layer_distance) for one in lattices] == [(600.0, 0.002), (None, 0.002)]
+    assert "k" not in Panel(SCENE, 2).sliders
+    with pytest.raises(BadInput, match="near-square"):
+        Panel(SCENE, 2, Lattice("3x9"))
 
 
 @pytest.mark.parametrize(

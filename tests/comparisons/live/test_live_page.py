@@ -10,6 +10,7 @@ from live_server import serving
 
 import sheetbench as sb
 from comparisons.live.panel import Panel
+from comparisons.models.spec import Lattice
 
 ANSWERED = "live.shown.shell !== undefined && live.shown.shell.number === live.asked()"
 PLACES = "Array.from(live.viewer.sheets.get('lattice').positions.array)"
@@ -27,7 +28,7 @@ def until(page: Any, expression: str) -> None:
 
 @pytest.fixture(scope="module")
 def address():
-    with serving(Panel(sb.load("two-edges-clamped"), 2, grid=3)) as found:
+    with serving(Panel(sb.load("two-edges-clamped"), 2, Lattice(3))) as found:
         yield found
 
 

@@ -28,10 +28,17 @@ def command(
     no_pictures: NoPictures = False,
 ) -> None:
     """Run a study of the models from a checkout of the repository; without NAME, list them."""
+    from comparisons.cli import console
+    from sheetbench.answers.table import Column, Table
+
     studies = _studies()
     if name in (None, *HELP):
         print(context.get_help())
-        print("\n".join(f"  {study}: {about}" for study, about in studies.items()) or _no_checkout())
+        if not studies:
+            console.note(_no_checkout())
+            return
+        columns = (Column("study"), Column("about", prose=True))
+        console.show(Table("Studies", columns, tuple(studies.items())))
         return
     from typer.main import get_command
 

@@ -58,10 +58,10 @@ class _Strip:
         """The width at which not even the name is broken."""
         return max(self.narrow, cell_len(self.name))
 
-    def head(self, width: int) -> str:
+    def head(self, width: int) -> list[str]:
         """The name, broken to a width, over the unit."""
         lines = wrap(self.name, width, break_long_words=False)
-        return "\n".join([*lines, self.unit] if self.unit else lines)
+        return [*lines, self.unit] if self.unit else lines
 
 
 def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal) -> list[Block]:
@@ -104,7 +104,7 @@ def _stacked(strips: list[_Strip], naming: int, width: int | None) -> list[list[
     """The columns in as few blocks as the width allows, the `naming` ones in front of each."""
     if _fits(strips, width):
         return [strips]
-    while naming > 1 and not _fits(strips[:naming], (width or 0) // 2):
+    while naming > 1 and not _fits(strips[:naming], 2 * (width or 0) // 3):
         naming -= 1
     keys, parts = strips[:naming], list[list[_Strip]]()
     for strip in strips[naming:]:
@@ -115,15 +115,32 @@ def _stacked(strips: list[_Strip], naming: int, width: int | None) -> list[list[
     return parts or [keys]
 
 
+def _heads(strips: list[_Strip], width: int | None) -> list[list[str]]:
+    """The headings in lines: what room there is goes to the tallest first."""
+    if width is None:
+        return [strip.head(strip.wide) for strip in strips]
+    widths = [strip.narrow for strip in strips]
+    spare, tall = width - sum(widths) - GAP * (len(strips) - 1), set(range(len(strips)))
+    while tall:
+        i = max(tall, key=lambda i: len(strips[i].head(widths[i])))
+        lower = len(strips[i].head(widths[i])) - 1
+        wider = (w for w in range(widths[i] + 1, strips[i].wide + 1) if len(strips[i].head(w)) <= lower)
+        needed = next(wider, UNBOUNDED) - widths[i]
+        if needed > spare:
+            tall.discard(i)
+        else:
+            widths[i], spare = widths[i] + needed, spare - needed
+    return [strip.head(w) for strip, w in zip(strips, widths, strict=True)]
+
+
 def _block(strips: list[_Strip], width: int | None, starts: list[bool]) -> Block:
     """starts: after which rows a group begins."""
     fits = _fits(strips, width)
     layout = Layout(box=BOX, show_edge=False, pad_edge=False, padding=(0, GAP - 1, 0, 0))
-    room = width is None or sum(strip.wide + GAP for strip in strips) - GAP <= width
-    for strip in strips:
+    for strip, head in zip(strips, _heads(strips, width), strict=True):
         whole = strip.column.numeric or (fits and not strip.column.prose)
         layout.add_column(
-            Text(strip.head(strip.wide if room else strip.narrow)), overflow="fold", no_wrap=whole,
+            Text("\n".join(head)), overflow="fold", no_wrap=whole,
             justify="right" if strip.column.numeric else "left",
         )  # fmt: skip
     for row, start in zip(zip(*(strip.cells for strip in strips), strict=True), starts, strict=True):

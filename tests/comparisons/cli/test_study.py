@@ -18,7 +18,7 @@ def test_studies_are_listed_and_each_has_a_help_page(capsys: pytest.CaptureFixtu
     assert run("study") == 0
     listed = capsys.readouterr().out
     for name in STUDIES:
-        assert f"  {name}: " in listed
+        assert f"\n{name} " in listed
         assert run("study", name, "--help") == 0
         assert f"sheetbench study {name}" in capsys.readouterr().out
 

@@ -57,6 +57,13 @@ def test_blocks_repeat_the_figures_that_tell_rows_apart() -> None:
     assert [row.split() for row in second.rows] == [["5", "1", "20"], ["5", "100", "40"]]
 
 
+def test_the_tallest_headings_are_widened_first_where_there_is_room() -> None:
+    names = ("a rather long heading", "short one")
+    table = Table("", tuple(Column(name, form="d") for name in names), ((1, 2),))
+    heights = [len(blocks(table, width)[0].head) for width in (20, 26, 32)]
+    assert heights == [2, 2, 1]  # where as narrow as its words it has four lines
+
+
 @given(
     st.lists(st.tuples(st.text(max_size=30), st.floats(), st.text(max_size=60)), max_size=4),
     st.integers(4, 100),

@@ -13,9 +13,10 @@ from warnings import catch_warnings, simplefilter
 
 import lumped
 from comparisons.models.grids import scene_grid
+from comparisons.models.method import RUBBER
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Column, Table
-from sheetbench.choices import ELEMENTS
+from sheetbench.choices import CALIBRATION, ELEMENTS
 from sheetbench.errors import Implausible
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
 from sheetbench.scenes.grid import near_square
@@ -94,7 +95,8 @@ def check(scene: AnyScene, called: str | None = None) -> Check:
 def _lattice(scene: Scene) -> str:
     nx, ny, layers = scene_grid(scene, None)
     x, y = (1e3 * length / (n - 1) for length, n in zip(scene.sheet.lengths, (nx, ny), strict=True))
-    springs = "the scene's own springs" if scene.springs is not None else "consistent springs"
+    usual = CALIBRATION if scene.material.law is None else RUBBER
+    springs = f"{usual} springs" if scene.springs is None else "the scene's own springs"
     return (
         f"{nx} × {ny} × {layers} masses in cells of {x:.3g} × {y:.3g} mm, {springs} (--lumped, --calibration)"
     )

@@ -1,13 +1,6 @@
-"""Arc-length continuation: the load–displacement path of a lattice through limit points.
+"""Arc-length continuation (`lumped.statics.arc`): a lattice's load–displacement path through limit points.
 
-With the load factor λ one more unknown, a step of prescribed arc length goes along the path's tangent,
-δu = Δλ K⁻¹ f, and is corrected at right angles to it (Riks 1979, Ramm 1981):
-
-    K(u, N*) δ = λ f − f_int + δλ f,      v·δ = 0,
-
-with the extrapolated tensions N* of `lumped.statics.equilibrium`. Arc length is measured in displacement
-alone, so a limit point in λ is nothing special. The inertia of the true tangent at every point says which
-parts of the path are stable.
+The inertia of the true tangent at every point says which parts of the path are stable.
 """
 
 from __future__ import annotations
@@ -20,15 +13,13 @@ import numpy as np
 from lumped.calibration import Calibration
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
-from lumped.statics.equilibrium import State, StepFailed, all_rounding, at_rest, follow
-from lumped.statics.limits import REFINE_BELOW
+from lumped.statics.arc import arc_step, per_load
+from lumped.statics.equilibrium import State, StepFailed, at_rest
 from lumped.statics.problem import Problem
 from lumped.statics.solver import Branch, build_problem, solve_path
-from sheetbench.numerics.reduced import Factor, SingularMatrixError
+from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.scenes import AnyScene, Iteration, Load, Status, require_static, scene_of
 
-CORRECTIONS = 10
-TOLERANCE = 1e-9  # residual relative to the forces
 STRAIGHT = 0.9  # cosine between a step and the path's tangent at its end, below which the step is too long
 BENT = 0.5  # share by which a step's load may miss its prediction
 SHORTEST = 2.0**-10  # of the longest arc
@@ -108,7 +99,7 @@ def trace(
     found = [(start.load_factor, probed(start), start.negative)]
     while len(found) < points:
         try:
-            state, predicted = _arc_step(problem, start, before, arc, load_limit)
+            state, predicted = arc_step(problem, start, before, arc, load_limit)
             if arc > SHORTEST * longest and _bends(problem, start, state, predicted, highest):
                 raise StepFailed("the path bends")
         except (StepFailed, SingularMatrixError) as failure:
@@ -134,66 +125,10 @@ def trace(
     )
 
 
-def _arc_step(
-    problem: Problem, start: State, before: np.ndarray | None, arc: float, load_limit: float
-) -> tuple[State, float]:
-    """The next equilibrium on the path and its predicted load. Raises StepFailed, SingularMatrixError."""
-    tangent = _per_load(problem, start, start.blocks)
-    forward = 1.0 if before is None or np.sum(tangent * before) > 0.0 else -1.0
-    change = forward * arc / float(np.abs(tangent).max())
-    if abs(start.load_factor + change) > load_limit:  # the end is near: go there by load
-        end = float(np.sign(change)) * load_limit
-        state, why = follow(problem, start, end)
-        if why or np.abs(state.u - start.u).max() > 3.0 * arc:
-            raise StepFailed(why or "the load step leaves the path")
-        return state, end
-    move = change * tangent
-    load_factor = start.load_factor + change
-    stresses = problem.assembly.extrapolated(start.u, move)
-    u = np.where(problem.constraints.fixed, problem.prescribed(load_factor), start.u + move)
-    for count in range(CORRECTIONS):
-        residual = problem.residual(u, load_factor)
-        problem.note(load_factor, residual.relative, float(np.abs(move).max()))
-        if not np.isfinite(residual.relative) or np.abs(u - start.u).max() > 3.0 * arc:
-            raise StepFailed("the corrections grow")
-        rounded = all_rounding(problem, u, residual, float(np.abs(move).max()))
-        close = rounded or residual.relative < REFINE_BELOW
-        blocks, factor = problem.linearise(u, load_factor, None if close else stresses)
-        if rounded or residual.relative < TOLERANCE:
-            state = State(u, load_factor, blocks, factor, problem.negative(factor))
-            return state, start.load_factor + change
-        free = problem.expand(factor.solve(residual.reduced))
-        loaded = problem.expand(factor.solve(problem.reduce(problem.growing(u))))
-        loaded = loaded + _prescribed_rate(problem, load_factor, factor, blocks)
-        correction = -float(np.sum(tangent * free)) / float(np.sum(tangent * loaded))
-        move = free + correction * loaded
-        stresses = problem.assembly.extrapolated(u, move)
-        u, load_factor = u + move, load_factor + correction
-        u = np.where(problem.constraints.fixed, problem.prescribed(load_factor), u)
-        if count == CORRECTIONS - 1:
-            break
-    raise StepFailed(f"no equilibrium in {CORRECTIONS} corrections")
-
-
 def _bends(problem: Problem, start: State, end: State, predicted: float, highest: float) -> bool:
     """Whether a step cuts a corner: it misses the load predicted, or the path's direction at its end."""
     miss = abs(end.load_factor - predicted)
     if miss > max(BENT * abs(predicted - start.load_factor), 0.05 * highest):
         return True
-    step, tangent = end.u - start.u, _per_load(problem, end, end.blocks)
+    step, tangent = end.u - start.u, per_load(problem, end, end.blocks)
     return bool(abs(np.sum(tangent * step)) < STRAIGHT * np.linalg.norm(tangent) * np.linalg.norm(step))
-
-
-def _per_load(problem: Problem, state: State, blocks: np.ndarray) -> np.ndarray:
-    """Displacement per unit of load factor at an equilibrium, (n, 3) [m]."""
-    loaded = problem.expand(state.factor.solve(problem.reduce(problem.growing(state.u))))
-    return loaded + _prescribed_rate(problem, state.load_factor, state.factor, blocks)
-
-
-def _prescribed_rate(problem: Problem, load_factor: float, factor: Factor, blocks: np.ndarray) -> np.ndarray:
-    """What the supports' own movement adds to the displacement per unit of load factor, (n, 3) [m]."""
-    h = 1e-6
-    rate = (problem.prescribed(load_factor + h) - problem.prescribed(load_factor - h)) / (2.0 * h)
-    if not rate.any():
-        return rate
-    return rate - problem.expand(factor.solve(problem.reduce(problem.system.apply(blocks, rate))))

@@ -18,6 +18,7 @@ from lumped.loads import Loads
 from lumped.springs.families import Links
 from lumped.statics import validity
 from lumped.statics.answer import Outcome, solution
+from lumped.statics.arc import limit_point
 from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import descend, disturbed
 from lumped.statics.equilibrium import (
@@ -213,6 +214,11 @@ def solve_path(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         if problem.fault is not None:
             status = problem.fault.status
         notes = [f"load factor {state.load_factor:.4g} of 1 reached: {why}"]
+        if problem.fault is None and (ends := limit_point(problem, state)) is not None:
+            notes.append(
+                f"a limit point between load factors {ends[0]:.5g} and {ends[1]:.5g}: from there on the load "
+                "falls as the sheet gives way"
+            )
         return Outcome(status, state, tuple(snaps), tuple(notes))
     return classify(scene, problem, state, snaps, notes)
 

@@ -26,6 +26,7 @@ LIGHTEST, HEAVIEST = 100.0, 20_000.0  # kg/m³: foam, gold
 LARGEST = 10.0  # m, of a side
 THICKEST = 0.25  # of the shorter side
 EARTH = (9.3, 10.3)  # m/s²; anything else is another planet or another unit
+RUBBER = 10.0  # stress over E of small strains: Treloar's rubber at seven times its length has 5
 LAYERS = 5.0  # times thicker or thinner than the sheet
 
 
@@ -96,14 +97,15 @@ def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> l
 def _strains(scene: Scene) -> list[str]:
     """A weight or loads that would tear the sheet."""
     warnings = []
-    sheet, young = scene.sheet, scene.material.young
-    if (weight := weight_strain(scene)) > WEIGHT_LIMIT:
+    sheet, young, law = scene.sheet, scene.material.young, scene.material.law
+    heaviest, strongest = (WEIGHT_LIMIT, STRETCH_LIMIT) if law is None else (RUBBER, RUBBER)
+    if (weight := weight_strain(scene)) > heaviest:
         warnings.append(
             f"the weight alone stretches the sheet: ρ g a/E = {_three_digits(weight)}, and above "
-            f"{WEIGHT_LIMIT:g} no linear model means anything"
+            f"{heaviest:g} {'no linear model means anything' if law is None else 'rubber tears'}"
         )
     pull = sum(_size(load, sheet) for load in scene.loads) / (young * sheet.thickness * min(sheet.lengths))
-    if pull > STRETCH_LIMIT:
+    if pull > strongest:
         warnings.append(
             f"the loads are {_three_digits(pull)} times E · thickness · shorter side and would tear the "
             "sheet; forces are in N, forces per length in N/m, pressures in Pa"

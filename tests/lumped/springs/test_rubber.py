@@ -1,5 +1,8 @@
 """Rubber lattices of every law against closed forms of homogeneous stretches."""
 
+import warnings
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -7,7 +10,9 @@ from scipy.optimize import brentq
 import lumped
 from lumped.assembly import Assembly
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Scene, Sheet, Status
+from sheetbench.scenes import Material, Scene, Sheet, Status, load
+
+EXAMPLES = Path(__file__).parents[3] / "examples" / "rubber"
 
 THICKNESS, SIDES = 2e-3, (0.2, 0.1)
 SHEET = Sheet(*SIDES, THICKNESS)
@@ -96,6 +101,29 @@ def test_every_modulus_is_met_at_small_strains(law):
     for options in ({}, {"grid": (4, 6, 3)}, {"grading": 0.5}):
         springs = lumped.calibrate(SHEET, rubber(law), **{"grid": (5, 4), **options}, method="hyperelastic")
         assert max(abs(row["miss"]) for row in springs.moduli) < 1e-11
+
+
+@pytest.mark.parametrize(
+    ("name", "law", "truth"),
+    [  # mm: solid of 12 elements; extrapolated from 6, 8 and 12 the square is at 25.629 and 25.199
+        ("inflated-square", {"law": "neo-hookean"}, 25.630),
+        ("inflated-square", {"law": "mooney-rivlin", "c1": 133779.26, "c2": 33444.816}, 25.199),
+        ("strip", {"law": "neo-hookean"}, 199.987),
+        ("strip", {"law": "mooney-rivlin", "c1": 668896.3, "c2": 167224.08}, 233.555),
+    ],
+)
+def test_seventeen_masses_are_the_solid_at_large_stretch(name, law, truth):
+    """A clamped square blown up to a quarter of its side; a clamped strip pulled to twice its length."""
+    with warnings.catch_warnings(action="error"):
+        scene = load(EXAMPLES / f"{name}.toml")
+    material = scene.material.model_dump(
+        include={"poisson", "density"} | ({"young"} if len(law) == 1 else set())
+    )
+    scene = scene.replace(material=Material(**material, **law))
+    solution = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, 17, "hyperelastic"))
+    assert solution.status is Status.CONVERGED
+    moved = np.abs(solution.displacement(scene.probe_points()[:1])).max()
+    assert 1e3 * moved == pytest.approx(truth, rel=1e-3)
 
 
 def test_beyond_gents_limit_the_energy_is_no_number():

@@ -1,11 +1,14 @@
 """Buckling, stable branches and paths through limit points."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import lumped
 from sheetbench import scenes
-from sheetbench.scenes import EdgeLoad, Held, Material, PointLoad, Scene, Sheet, Status
+from sheetbench.scenes import EdgeLoad, Held, Material, PointLoad, Pressure, Scene, Sheet, Status
 
 SIDE, THICKNESS, YOUNG, POISSON = 0.2, 0.001, 1e7, 0.3
 RIGIDITY = YOUNG * THICKNESS**3 / 12 / (1 - POISSON**2)
@@ -112,3 +115,16 @@ def test_factors_at_hand_polish():
     solution = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(3, 3)))
     assert solution.history[-1].residual < 1e-11 and solution.iterations == 5
     assert len(solution.history) == 6 and solution.status is Status.CONVERGED
+
+
+def test_a_rubber_balloon_stops_at_its_limit_point_and_says_so():
+    """Blown up neo-Hooke gives way from p = 1.2 E h/a on; the path by arc length passes the maximum that the
+    message brackets."""
+    scene = scenes.load(Path(__file__).parents[3] / "examples" / "rubber" / "inflated-square.toml")
+    scene = scene.replace(loads=(Pressure(value=30e3),))
+    calibration = lumped.calibrate(scene.sheet, scene.material, 13, "hyperelastic")
+    found = lumped.solve(scene, calibration)
+    low, high = map(float, re.search(r"between load factors ([\d.]+) and ([\d.]+)", found.message).groups())
+    assert found.status is Status.DIVERGED and high - low < 2e-3 * high
+    path = lumped.trace(scene, calibration, until=lambda _, at: at["centre"][2] > 0.075)
+    assert path.negative[-1] == 1 and low - 1e-3 < path.load_factors.max() < high

@@ -62,6 +62,8 @@ def test_what_is_plausible_is_not_remarked_on() -> None:
         warnings.simplefilter("error")
         for name in scenes.catalogue():
             assert slips(scenes.load(name)) == ()
+        for path in (Path(__file__).parents[3] / "examples" / "rubber").glob("*.toml"):  # to λ = 2
+            assert slips(scenes.load(path)) == ()
 
 
 def test_every_verb_says_it_once_on_standard_error(

@@ -55,7 +55,7 @@ def _headed(value: Any) -> Any:
 
 def _within_a_line(value: Any) -> Any:
     if isinstance(value, float) and abs(value) >= LARGE:
-        digits = Decimal(repr(value)).normalize().to_eng_string()
+        digits = Decimal(repr(float(value))).normalize().to_eng_string()
         return tomlkit.value(digits.lower().replace("+", ""))
     if not isinstance(value, dict):
         return value

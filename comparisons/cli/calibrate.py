@@ -27,8 +27,7 @@ from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
 def command(
     scene: Annotated[
-        str | None,
-        typer.Argument(metavar="[SCENE]", help="Take sheet and material from here.", show_default=False),
+        str | None, typer.Argument(metavar="[SCENE]", help="Take sheet and material from here.")
     ] = None,
     young: Young = None,
     poisson: Poisson = None,
@@ -43,7 +42,6 @@ def command(
             metavar="NAME",
             help="; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items())
             + f"; auto: by the SCENE, as with --grading auto. {CALIBRATION} unless given.",
-            show_default=False,
         ),
     ] = None,
     k: K = None,
@@ -59,37 +57,25 @@ def command(
             metavar="NAME",
             help="With --export, also a file for this simulator, of springs without cells (--method "
             "central): mujoco (MJCF), sofa (a scene). May be repeated.",
-            show_default=False,
         ),
     ] = None,
     loss_factor: Annotated[
         float | None,
         typer.Option(
-            metavar="ETA",
-            help="Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band.",
-            show_default=False,
+            metavar="ETA", help="Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band."
         ),
     ] = None,
     damping_ratio: Annotated[
-        float | None,
-        typer.Option(metavar="ZETA", help="The same by ζ, of critical damping.", show_default=False),
+        float | None, typer.Option(metavar="ZETA", help="The same by ζ, of critical damping.")
     ] = None,
     log_decrement: Annotated[
-        float | None,
-        typer.Option(
-            metavar="DELTA", help="The same by a decay: ln of a peak over the next.", show_default=False
-        ),
+        float | None, typer.Option(metavar="DELTA", help="The same by a decay: ln of a peak over the next.")
     ] = None,
-    quality: Annotated[
-        float | None, typer.Option(metavar="Q", help="The same by a resonance.", show_default=False)
-    ] = None,
+    quality: Annotated[float | None, typer.Option(metavar="Q", help="The same by a resonance.")] = None,
     at: Annotated[
         float | None,
         typer.Option(
-            metavar="HZ",
-            parser=quantity_in("Hz"),
-            help="One damper a spring, right at this frequency alone.",
-            show_default=False,
+            metavar="HZ", parser=quantity_in("Hz"), help="One damper a spring, right at this frequency alone."
         ),
     ] = None,
     band: Annotated[
@@ -97,7 +83,6 @@ def command(
         typer.Option(
             metavar="LOW HIGH",
             help="Two Maxwell branches a decade, which keep the loss factor from LOW to HIGH Hz.",
-            show_default=False,
         ),
     ] = None,
     prony: Annotated[
@@ -106,7 +91,6 @@ def command(
             metavar="FILE",
             help="Young's modulus and branches from a CSV of frequency \\[Hz], storage, loss (or tan_delta), "
             "or of time \\[s], modulus; moduli in Pa or as the header has it, storage \\[MPa].",
-            show_default=False,
         ),
     ] = None,
     large: Large = False,

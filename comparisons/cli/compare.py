@@ -37,19 +37,15 @@ def command(
         typer.Option(
             "--uncertainty/--no-uncertainty",
             help="Solve the reference on coarser meshes too, for its error bar; on for plate and shell.",
-            show_default=False,
         ),
     ] = None,
     branch: Annotated[
-        str,
-        typer.Option(metavar="NAME", help=f"{listed(BRANCHES)}: leave unstable equilibria or not."),
+        str, typer.Option(metavar="NAME", help=f"{listed(BRANCHES)}: leave unstable equilibria or not.")
     ] = "path",
     duration: Annotated[
         float | None,
         typer.Option(
-            metavar="S",
-            parser=quantity_in("s"),
-            help="Compare the sheet's motion over so long, from rest.",
+            metavar="S", parser=quantity_in("s"), help="Compare the sheet's motion over so long, from rest."
         ),
     ] = None,
     animate: Annotated[

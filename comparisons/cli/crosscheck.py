@@ -15,11 +15,7 @@ from sheetbench.choices import REFERENCES
 def command(
     scenes: Annotated[
         list[str],
-        typer.Argument(
-            metavar="SCENES",
-            help="Catalogue names or paths to TOML files; all: the catalogue.",
-            show_default=False,
-        ),
+        typer.Argument(metavar="SCENES", help="Catalogue names or paths to TOML files; all: the catalogue."),
     ],
     lattice: SpringOptions,
     grid: Annotated[
@@ -42,16 +38,11 @@ def command(
         typer.Option(
             metavar="NAMES",
             help="External codes, with commas, or FILE.py:OBJECT; all that are installed unless given.",
-            show_default=False,
         ),
     ] = None,
     meshes: Annotated[
         str | None,
-        typer.Option(
-            metavar="N,N,N",
-            help="Elements of external codes; each one's own unless given.",
-            show_default=False,
-        ),
+        typer.Option(metavar="N,N,N", help="Elements of external codes; each one's own unless given."),
     ] = None,
     large: Large = False,
     *,
@@ -74,10 +65,5 @@ def command(
     about = {"scenes": [scene.document() for scene in chosen]}
     with output.open(about=about) as out:
         with out.campaign(campaign) as run:
-            checked = crosscheck(
-                chosen,
-                **run,
-                models=models,
-                codes=codes,
-            )
+            checked = crosscheck(chosen, **run, models=models, codes=codes)
         out.show(checked)

@@ -19,7 +19,6 @@ def command(
             metavar="CELL",
             help="one-diagonal, alternate-diagonals, equilateral, unstructured: triangles with hinges; "
             "bricks: one through the thickness; or a TOML file with periods, nodes and elements.",
-            show_default=False,
         ),
     ],
     scene: Annotated[str, typer.Argument(metavar="[SCENE]", help="Whose sheet, and whose load.")] = (
@@ -31,7 +30,6 @@ def command(
             parser=quantity_in("m"),
             metavar="LENGTH",
             help="Between nodes, in m or as 5mm; an eighth of the shorter side unless given.",
-            show_default=False,
         ),
     ] = None,
     hinge: Annotated[
@@ -44,9 +42,7 @@ def command(
     ] = "length",
     coefficient: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="NAME=VALUE", help="Take this one, not the nearest. May be repeated.", show_default=False
-        ),
+        typer.Option(metavar="NAME=VALUE", help="Take this one, not the nearest. May be repeated."),
     ] = None,
     *,
     output: OutputOptions,

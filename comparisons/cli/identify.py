@@ -18,9 +18,7 @@ from sheetbench.errors import BadInput
 def command(
     scene: Annotated[
         str | None,
-        typer.Argument(
-            metavar="[SCENE]", help="Catalogue name or path; not needed for --tensile.", show_default=False
-        ),
+        typer.Argument(metavar="[SCENE]", help="Catalogue name or path; not needed for --tensile."),
     ] = None,
     *,
     lattice: LatticeOptions,
@@ -30,7 +28,6 @@ def command(
             metavar="FILE",
             help="CSV with the columns x,y,ux,uy,uz or x,y,uz (metres; with a column time \\[s], a motion), "
             "or x,y,z of the deformed surface; or a VTP or PLY point cloud of it.",
-            show_default=False,
         ),
     ] = None,
     tensile: Annotated[
@@ -39,7 +36,6 @@ def command(
             metavar="FILE",
             help="A tensile test instead: CSV with stretch (or strain) and engineering_stress, true_stress "
             "or force; pure-shear=FILE or equibiaxial=FILE of other tests. May be repeated.",
-            show_default=False,
         ),
     ] = None,
     up_to: Annotated[

@@ -25,7 +25,6 @@ def command(
             metavar="HOW",
             help="balanced:8, the modes' 8 most important states; balanced:0.01, as few as answer every "
             "input within that share of what it does at rest, at any frequency.",
-            show_default=False,
         ),
     ] = None,
     about: Annotated[
@@ -47,13 +46,7 @@ def command(
     loaded = scenes.load(scene)
     with output.open(scene=loaded) as out:
         try:
-            linearisation = linearise(
-                loaded,
-                lattice.spec,
-                modes=modes or None,
-                reduce=reduce,
-                about=about,
-            )
+            linearisation = linearise(loaded, lattice.spec, modes=modes or None, reduce=reduce, about=about)
         except NoEquilibrium as error:
             out.stop(f"no linear form about the equilibrium: {error}; --about flat has one")
         out.show(linearisation)

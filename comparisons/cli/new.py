@@ -41,7 +41,7 @@ def command(
         typer.Option(metavar="EDGES", help="x0, x1, y0, y1; several with commas. x0 unless given."),
     ] = None,
     overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace the file where there is one.", show_default=False)
+        bool, typer.Option("--overwrite", help="Replace the file where there is one.")
     ] = False,
 ) -> None:
     """Write a commented scene to start from: a sheet under its own weight, and what else there may be.

@@ -9,23 +9,15 @@ import typer
 from comparisons.cli.quantity import quantity_in
 from sheetbench.choices import CALIBRATION, CALIBRATIONS, STRAIN_LAW, STRAIN_LAWS, listed
 
-Scene = Annotated[
-    str, typer.Argument(metavar="SCENE", help="Catalogue name or path to a TOML file.", show_default=False)
-]
-Json = Annotated[
-    bool, typer.Option("--json", help="Print one JSON document instead of tables.", show_default=False)
-]
-Out = Annotated[
-    str | None,
-    typer.Option("--out", metavar="DIR", help="Write files into this folder.", show_default=False),
-]
+Scene = Annotated[str, typer.Argument(metavar="SCENE", help="Catalogue name or path to a TOML file.")]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON document instead of tables.")]
+Out = Annotated[str | None, typer.Option("--out", metavar="DIR", help="Write files into this folder.")]
 Export = Annotated[
     str | None,
     typer.Option(
         "--export",
         metavar="DIR",
         help="Write the lattice for another simulator: masses, springs, supports, loads, values to check by.",
-        show_default=False,
     ),
 ]
 Grid = Annotated[
@@ -36,7 +28,6 @@ Grid = Annotated[
         metavar="GRID",
         help="Masses of the lattice: 9, along the shorter side with near-square cells; 9x13, along x and y; "
         "9x13x3, with layers, else 2. 9 unless given.",
-        show_default=False,
     ),
 ]
 Grading = Annotated[
@@ -46,7 +37,6 @@ Grading = Annotated[
         metavar="G",
         help="How much finer the lattice is at its edges, 0 (cells of one size) to 1; 0.5:x0 or 0.5:x0,x1: "
         "at these edges alone; auto: as the scene's layers need. 0 unless given.",
-        show_default=False,
     ),
 ]
 Figure = Annotated[
@@ -56,45 +46,29 @@ Figure = Annotated[
         metavar="FORMAT",
         help="With --out: pictures for a paper, without a title, as pdf, svg or png, several with commas; "
         "pdf:single as wide as one column (89 mm), else as both (183 mm).",
-        show_default=False,
     ),
 ]
-NoPictures = Annotated[
-    bool,
-    typer.Option("--no-pictures", help="With --out: all files but the pictures.", show_default=False),
-]
+NoPictures = Annotated[bool, typer.Option("--no-pictures", help="With --out: all files but the pictures.")]
 NoPicturesAnyway = Annotated[  # of verbs that draw none, for scripts that give it to all
     bool, typer.Option("--no-pictures", hidden=True)
 ]
 Quiet = Annotated[
     bool,
     typer.Option(
-        "--quiet",
-        help="No progress and no notes on standard error; results, warnings and errors stay.",
-        show_default=False,
+        "--quiet", help="No progress and no notes on standard error; results, warnings and errors stay."
     ),
 ]
 Overwrite = Annotated[
     bool,
     typer.Option(
-        "--overwrite",
-        help="With --out: first remove what an earlier run left there; its manifest lists it.",
-        show_default=False,
+        "--overwrite", help="With --out: first remove what an earlier run left there; its manifest lists it."
     ),
 ]
 Scheduler = Annotated[
-    str | None,
-    typer.Option(
-        "--scheduler", metavar="ADDRESS", help="A dask scheduler, as tcp://host:8786.", show_default=False
-    ),
+    str | None, typer.Option("--scheduler", metavar="ADDRESS", help="A dask scheduler, as tcp://host:8786.")
 ]
 Wait = Annotated[
-    bool,
-    typer.Option(
-        "--wait",
-        help="With --scheduler: wait where there is no worker, instead of stopping.",
-        show_default=False,
-    ),
+    bool, typer.Option("--wait", help="With --scheduler: wait where there is no worker, instead of stopping.")
 ]
 
 
@@ -113,7 +87,6 @@ Large = Annotated[
         "--large",
         callback=_let_through,
         help="Go on where a model takes more memory than is free, instead of refusing it.",
-        show_default=False,
     ),
 ]
 Workers = Annotated[
@@ -122,9 +95,7 @@ Workers = Annotated[
         "--workers", min=1, metavar="N", help="Processes for what is not timed; one a core unless given."
     ),
 ]
-Retry = Annotated[
-    bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
-]
+Retry = Annotated[bool, typer.Option("--retry", help="Run again what failed in an earlier run.")]
 Calibration = Annotated[
     str | None,
     typer.Option(
@@ -166,7 +137,6 @@ Density = Annotated[
         metavar="KG/M3",
         parser=quantity_in("kg/m³"),
         help="Density: 1100 or 1.1g/cm3; 1000 kg/m³ unless given.",
-        show_default=False,
     ),
 ]
 Elements = Annotated[
@@ -184,7 +154,6 @@ Law = Annotated[
         metavar="NAME",
         help=f"Law of strain of a shell or solid: {listed(STRAIN_LAWS)}. The material's own unless given, "
         f"{STRAIN_LAW} where it has none.",
-        show_default=False,
     ),
 ]
 Symmetry = Annotated[
@@ -192,7 +161,6 @@ Symmetry = Annotated[
     typer.Option(
         "--symmetry",
         help="Solve a half or a quarter where scene and grid mirror themselves; solids are solved whole.",
-        show_default=False,
     ),
 ]
 Models = Annotated[
@@ -202,6 +170,5 @@ Models = Annotated[
         metavar="MODEL",
         help="A model more: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped, "
         "lumped-pair, plate, shell, solid; settings after it, as NAME:grid=9x5. May be repeated.",
-        show_default=False,
     ),
 ]

@@ -14,16 +14,9 @@ def command(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that verbs wrote to with --out.")],
     out: Annotated[
         Path | None,
-        typer.Option(
-            "--out",
-            metavar="FILE",
-            help="The page to write. DIR/report.html unless given.",
-            show_default=False,
-        ),
+        typer.Option("--out", metavar="FILE", help="The page to write. DIR/report.html unless given."),
     ] = None,
-    show: Annotated[
-        bool, typer.Option("--open", help="Open the page in the browser.", show_default=False)
-    ] = False,
+    show: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     json: Json = False,
 ) -> None:
     """Write one HTML file of the studies in a folder and those below it, to read in any browser.

@@ -15,10 +15,7 @@ def command(
     part: Annotated[
         list[str] | None,
         typer.Option(
-            "--part",
-            metavar="NAME",
-            help="Only tables or settling; may be repeated. Both unless given.",
-            show_default=False,
+            "--part", metavar="NAME", help="Only tables or settling; may be repeated. Both unless given."
         ),
     ] = None,
     elements: Elements = str(ELEMENTS),

@@ -12,17 +12,13 @@ from comparisons.cli.verb import PictureOptions
 
 def command(
     answers: Annotated[
-        Path,
-        typer.Argument(
-            metavar="ANSWERS", help="CSV: case,probe,ux,uy,uz[,seconds] in m.", show_default=False
-        ),
+        Path, typer.Argument(metavar="ANSWERS", help="CSV: case,probe,ux,uy,uz[,seconds] in m.")
     ],
     suite: Annotated[
         str, typer.Option("--suite", metavar="NAME", help="What it answers: statics, settling or modes.")
     ] = "statics",
     case: Annotated[
-        list[str] | None,
-        typer.Option("--case", metavar="NAME", help="Only this case; may be repeated.", show_default=False),
+        list[str] | None, typer.Option("--case", metavar="NAME", help="Only this case; may be repeated.")
     ] = None,
     *,
     output: PictureOptions,

@@ -22,7 +22,6 @@ def command(
             metavar="NAME",
             help="Only load, slenderness, young, grid, damping or time-step; may be repeated. All unless "
             "given.",
-            show_default=False,
         ),
     ] = None,
     reference: Annotated[

@@ -11,8 +11,7 @@ from comparisons.cli.verb import OutputOptions
 
 def command(
     suite: Annotated[
-        str | None,
-        typer.Option("--suite", metavar="NAME", help="Only statics, settling or modes.", show_default=False),
+        str | None, typer.Option("--suite", metavar="NAME", help="Only statics, settling or modes.")
     ] = None,
     *,
     output: OutputOptions,

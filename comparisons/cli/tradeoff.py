@@ -33,7 +33,6 @@ def command(
             metavar="GRIDS",
             help="Masses of lattices: along the shorter side with near-square cells, or NxM, NxMxL. "
             f"{GRIDS} unless given; with --duration one lattice, 9 unless given.",
-            show_default=False,
         ),
     ] = None,
     lumped_pair: Annotated[
@@ -43,7 +42,6 @@ def command(
             metavar="PAIRS",
             help="Pairs of grids, the coarser first, and one answer extrapolated from both, with its bar. "
             f"{PAIRS} unless grids or other springs are listed.",
-            show_default=False,
         ),
     ] = None,
     calibration: Annotated[
@@ -52,7 +50,6 @@ def command(
             metavar="NAMES",
             help=f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. {USUAL} unless "
             "given; with --duration one.",
-            show_default=False,
         ),
     ] = None,
     plate: Annotated[
@@ -73,7 +70,6 @@ def command(
             metavar="N",
             help="Elements of the reference shell along the shorter side, or 8x4 along x and y; twice the "
             "finest one's, 32 at least, unless given.",
-            show_default=False,
         ),
     ] = None,
     repeats: Annotated[

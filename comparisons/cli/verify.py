@@ -12,12 +12,7 @@ from comparisons.cli.verb import PictureOptions
 def command(
     case: Annotated[
         list[str] | None,
-        typer.Option(
-            "--case",
-            metavar="NAME",
-            help="Only this case; may be repeated. All unless given.",
-            show_default=False,
-        ),
+        typer.Option("--case", metavar="NAME", help="Only this case; may be repeated. All unless given."),
     ] = None,
     locking: Annotated[
         bool, typer.Option("--locking", help="Only the locking sweeps; with --out, their picture.")

@@ -18,14 +18,14 @@ def command(
         typer.Option(
             min=1,
             metavar="N",
-            help="Scenes drawn. Each takes half a minute of one processor, less than half without the solid.",
+            help="Scenes drawn. Each takes half a minute of one processor, less than half without the solid."
         ),
     ] = 40,
     seed: Annotated[int, typer.Option(min=0, metavar="N", help="Seed of the scenes.")] = 41,
     model: Annotated[
         list[str] | None,
         typer.Option(
-            "--model", metavar="NAME", help="Only plate, shell or solid; may be repeated.", show_default=False
+            "--model", metavar="NAME", help="Only plate, shell or solid; may be repeated."
         ),
     ] = None,
     *,

@@ -13,7 +13,7 @@ from studies.expected_errors.study import STORED, measure, scenes, table
 
 
 def command(
-    anew: Annotated[bool, typer.Option("--anew", help="Solve all scenes again.", show_default=False)] = False,
+    anew: Annotated[bool, typer.Option("--anew", help="Solve all scenes again.")] = False,
 ) -> None:
     """Solve what is not stored yet, and print the table of docs/theory.md."""
     warnings.simplefilter("ignore")

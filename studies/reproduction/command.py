@@ -21,8 +21,7 @@ def command(
         typer.Option(
             "--part",
             metavar="NAME",
-            help="Only errors, tables, settling or nearest; may be repeated. All unless given.",
-            show_default=False,
+            help="Only errors, tables, settling or nearest; may be repeated. All unless given."
         ),
     ] = None,
     elements: Elements = str(ELEMENTS),

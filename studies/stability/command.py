@@ -21,8 +21,7 @@ def command(
             "--study",
             metavar="NAME",
             help="Only this study, may be repeated: time-step, stiffness, slenderness, grid, load, damping, "
-            "mass or curved-edge. All unless given.",
-            show_default=False,
+            "mass or curved-edge. All unless given."
         ),
     ] = None,
     full: Annotated[bool, typer.Option("--full", help="Every cell: finer maps, grids to 257 × 257.")] = False,

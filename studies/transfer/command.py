@@ -16,7 +16,7 @@ def command(
     methods: Annotated[
         str | None,
         typer.Option(
-            metavar="NAMES", help="Calibrations, with commas; all unless given.", show_default=False
+            metavar="NAMES", help="Calibrations, with commas; all unless given."
         ),
     ] = None,
     grids: Annotated[
@@ -26,20 +26,19 @@ def command(
             "--grid",
             "--lumped",
             metavar="N,N,…",
-            help="Masses along the shorter side, 4 n + 1, coarsest first.",
+            help="Masses along the shorter side, 4 n + 1, coarsest first."
         ),
     ] = "9,17,33",
     grading: Grading = None,
     scenes: Annotated[
         str | None,
-        typer.Option(metavar="NAMES", help="Scenes of the study; all unless given.", show_default=False),
+        typer.Option(metavar="NAMES", help="Scenes of the study; all unless given."),
     ] = None,
     part: Annotated[
         list[str] | None,
         typer.Option(
             metavar="NAME",
-            help="static, limits, modal, aspect or left-out; may be repeated. All unless given.",
-            show_default=False,
+            help="static, limits, modal, aspect or left-out; may be repeated. All unless given."
         ),
     ] = None,
     elements: Annotated[

@@ -5,11 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated
 
-import typer
-
 from comparisons.cli.lattice_options import SpringOptions
-from comparisons.cli.options import Calibration, Large, Scene
-from comparisons.cli.quantity import quantity_in
+from comparisons.cli.options import Calibration, Large, Scene, option
 from comparisons.cli.verb import OutputOptions
 
 
@@ -17,14 +14,10 @@ def command(
     scene: Scene,
     lattice: SpringOptions,
     tolerance: Annotated[
-        float | None,
-        typer.Option(metavar="FRACTION", help="Error allowed; 0.01 unless a budget alone is given."),
+        float | None, option("Error allowed; 0.01 unless a budget alone is given.", "FRACTION")
     ] = None,
     budget: Annotated[
-        float | None,
-        typer.Option(
-            metavar="SECONDS", parser=quantity_in("s"), help="Time that a solve may take, without setting up."
-        ),
+        float | None, option("Time that a solve may take, without setting up.", "SECONDS", unit="s")
     ] = None,
     calibration: Calibration = None,
     large: Large = False,

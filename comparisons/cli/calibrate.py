@@ -19,8 +19,8 @@ from comparisons.cli.options import (
     Side,
     Thickness,
     Young,
+    option,
 )
-from comparisons.cli.quantity import quantity_in
 from comparisons.cli.verb import OutputOptions
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
@@ -38,59 +38,46 @@ def command(
     grading: Grading = None,
     method: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAME",
-            help="; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items())
+        option(
+            "; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items())
             + f"; auto: by the SCENE, as with --grading auto. {CALIBRATION} unless given.",
+            "NAME",
         ),
     ] = None,
     k: K = None,
     layer_distance: LayerDistance = None,
-    toml: Annotated[
-        bool, typer.Option("--toml", help="Print the \\[springs] table for a scene file.")
-    ] = False,
+    toml: Annotated[bool, option("Print the \\[springs] table for a scene file.", None, "--toml")] = False,
     export: Export = None,
     simulators: Annotated[
         list[str] | None,
-        typer.Option(
-            "--for",
-            metavar="NAME",
-            help="With --export, also a file for this simulator, of springs without cells (--method "
+        option(
+            "With --export, also a file for this simulator, of springs without cells (--method "
             "central): mujoco (MJCF), sofa (a scene). May be repeated.",
+            "NAME",
+            "--for",
         ),
     ] = None,
     loss_factor: Annotated[
-        float | None,
-        typer.Option(
-            metavar="ETA", help="Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band."
-        ),
+        float | None, option("Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band.", "ETA")
     ] = None,
-    damping_ratio: Annotated[
-        float | None, typer.Option(metavar="ZETA", help="The same by ζ, of critical damping.")
-    ] = None,
+    damping_ratio: Annotated[float | None, option("The same by ζ, of critical damping.", "ZETA")] = None,
     log_decrement: Annotated[
-        float | None, typer.Option(metavar="DELTA", help="The same by a decay: ln of a peak over the next.")
+        float | None, option("The same by a decay: ln of a peak over the next.", "DELTA")
     ] = None,
-    quality: Annotated[float | None, typer.Option(metavar="Q", help="The same by a resonance.")] = None,
+    quality: Annotated[float | None, option("The same by a resonance.", "Q")] = None,
     at: Annotated[
-        float | None,
-        typer.Option(
-            metavar="HZ", parser=quantity_in("Hz"), help="One damper a spring, right at this frequency alone."
-        ),
+        float | None, option("One damper a spring, right at this frequency alone.", "HZ", unit="Hz")
     ] = None,
     band: Annotated[
         tuple[float, float] | None,
-        typer.Option(
-            metavar="LOW HIGH",
-            help="Two Maxwell branches a decade, which keep the loss factor from LOW to HIGH Hz.",
-        ),
+        option("Two Maxwell branches a decade, which keep the loss factor from LOW to HIGH Hz.", "LOW HIGH"),
     ] = None,
     prony: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="Young's modulus and branches from a CSV of frequency \\[Hz], storage, loss (or tan_delta), "
+        option(
+            "Young's modulus and branches from a CSV of frequency \\[Hz], storage, loss (or tan_delta), "
             "or of time \\[s], modulus; moduli in Pa or as the header has it, storage \\[MPa].",
+            "FILE",
         ),
     ] = None,
     large: Large = False,

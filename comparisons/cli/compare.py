@@ -5,11 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated
 
-import typer
-
 from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Export, Large, Law, Models, Scene, Symmetry
-from comparisons.cli.quantity import quantity_in
+from comparisons.cli.options import Export, Large, Law, Models, Scene, Symmetry, option
 from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import BRANCHES, ELEMENTS, REFERENCE, REFERENCES, listed
 
@@ -19,14 +16,14 @@ FRAMES = 100  # of a motion
 def command(
     scene: Scene,
     lattice: LatticeOptions,
-    reference: Annotated[str, typer.Option(metavar="MODEL", help=f"{listed(REFERENCES)}.")] = REFERENCE,
+    reference: Annotated[str, option(f"{listed(REFERENCES)}.", "MODEL")] = REFERENCE,
     elements: Annotated[
         str | None,
-        typer.Option(
-            "--elements",
-            metavar="N",
-            help="The reference's elements along the shorter side, or 8x4 along x and y; "
+        option(
+            "The reference's elements along the shorter side, or 8x4 along x and y; "
             f"{ELEMENTS} unless given, 8 with --duration.",
+            "N",
+            "--elements",
         ),
     ] = None,
     law: Law = None,
@@ -34,23 +31,18 @@ def command(
     model: Models = None,
     uncertainty: Annotated[
         bool | None,
-        typer.Option(
+        option(
+            "Solve the reference on coarser meshes too, for its error bar; on for plate and shell.",
+            None,
             "--uncertainty/--no-uncertainty",
-            help="Solve the reference on coarser meshes too, for its error bar; on for plate and shell.",
         ),
     ] = None,
-    branch: Annotated[
-        str, typer.Option(metavar="NAME", help=f"{listed(BRANCHES)}: leave unstable equilibria or not.")
-    ] = "path",
+    branch: Annotated[str, option(f"{listed(BRANCHES)}: leave unstable equilibria or not.", "NAME")] = "path",
     duration: Annotated[
-        float | None,
-        typer.Option(
-            metavar="S", parser=quantity_in("s"), help="Compare the sheet's motion over so long, from rest."
-        ),
+        float | None, option("Compare the sheet's motion over so long, from rest.", "S", unit="s")
     ] = None,
     animate: Annotated[
-        bool,
-        typer.Option("--animate", help="With --duration and --out: draw both sheets moving, side by side."),
+        bool, option("With --duration and --out: draw both sheets moving, side by side.", None, "--animate")
     ] = False,
     export: Export = None,
     large: Large = False,

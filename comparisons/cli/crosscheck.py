@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.lattice_options import SpringOptions
-from comparisons.cli.options import Calibration, Large
+from comparisons.cli.options import Calibration, Large, option
 from comparisons.cli.verb import CampaignOptions, OutputOptions
 from sheetbench.choices import REFERENCES
 
@@ -19,30 +19,20 @@ def command(
     ],
     lattice: SpringOptions,
     grid: Annotated[
-        str,
-        typer.Option(
-            "--lumped",
-            "--grid",
-            metavar="N,N,N",
-            help="Masses of the lattice along the shorter side, rising.",
-        ),
+        str, option("Masses of the lattice along the shorter side, rising.", "N,N,N", "--lumped", "--grid")
     ] = "9,13,17",
     calibration: Calibration = None,
-    plate: Annotated[
-        str, typer.Option(metavar="N,N,N", help="Elements of the linear plate, rising.")
-    ] = "8,12,16",
-    shell: Annotated[str, typer.Option(metavar="N,N,N", help="Elements of the nonlinear shell.")] = "8,12,16",
-    solid: Annotated[str, typer.Option(metavar="N,N,N", help="Elements of the nonlinear solid.")] = "6,8,12",
+    plate: Annotated[str, option("Elements of the linear plate, rising.", "N,N,N")] = "8,12,16",
+    shell: Annotated[str, option("Elements of the nonlinear shell.", "N,N,N")] = "8,12,16",
+    solid: Annotated[str, option("Elements of the nonlinear solid.", "N,N,N")] = "6,8,12",
     judges: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAMES",
-            help="External codes, with commas, or FILE.py:OBJECT; all that are installed unless given.",
+        option(
+            "External codes, with commas, or FILE.py:OBJECT; all that are installed unless given.", "NAMES"
         ),
     ] = None,
     meshes: Annotated[
-        str | None,
-        typer.Option(metavar="N,N,N", help="Elements of external codes; each one's own unless given."),
+        str | None, option("Elements of external codes; each one's own unless given.", "N,N,N")
     ] = None,
     large: Large = False,
     *,

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.quantity import quantity_in
+from comparisons.cli.options import option
 from comparisons.cli.verb import OutputOptions
 
 SPACINGS = 8  # cells along the shorter side, unless a spacing is given
@@ -26,23 +26,20 @@ def command(
     ),
     spacing: Annotated[
         float | None,
-        typer.Option(
-            parser=quantity_in("m"),
-            metavar="LENGTH",
-            help="Between nodes, in m or as 5mm; an eighth of the shorter side unless given.",
+        option(
+            "Between nodes, in m or as 5mm; an eighth of the shorter side unless given.", "LENGTH", unit="m"
         ),
     ] = None,
     hinge: Annotated[
         str,
-        typer.Option(
-            metavar="WEIGHT",
-            help="Energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height, w = 3 length² "
+        option(
+            "Energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height, w = 3 length² "
             "over the area of both triangles.",
+            "WEIGHT",
         ),
     ] = "length",
     coefficient: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME=VALUE", help="Take this one, not the nearest. May be repeated."),
+        list[str] | None, option("Take this one, not the nearest. May be repeated.", "NAME=VALUE")
     ] = None,
     *,
     output: OutputOptions,

@@ -8,8 +8,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Elements, Large, Law
-from comparisons.cli.quantity import quantity_in
+from comparisons.cli.options import Elements, Large, Law, option
 from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import ELEMENTS
 from sheetbench.errors import BadInput
@@ -24,49 +23,43 @@ def command(
     lattice: LatticeOptions,
     measured: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="CSV with the columns x,y,ux,uy,uz or x,y,uz (metres; with a column time \\[s], a motion), "
+        option(
+            "CSV with the columns x,y,ux,uy,uz or x,y,uz (metres; with a column time \\[s], a motion), "
             "or x,y,z of the deformed surface; or a VTP or PLY point cloud of it.",
+            "FILE",
         ),
     ] = None,
     tensile: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="FILE",
-            help="A tensile test instead: CSV with stretch (or strain) and engineering_stress, true_stress "
+        option(
+            "A tensile test instead: CSV with stretch (or strain) and engineering_stress, true_stress "
             "or force; pure-shear=FILE or equibiaxial=FILE of other tests. May be repeated.",
+            "FILE",
         ),
     ] = None,
     up_to: Annotated[
-        float | None,
-        typer.Option(metavar="STRETCH", help="With --tensile: leave out what is stretched farther."),
+        float | None, option("With --tensile: leave out what is stretched farther.", "STRETCH")
     ] = None,
     area: Annotated[
         float | None,
-        typer.Option(
-            metavar="M2",
-            parser=quantity_in("m²"),
-            help="With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².",
-        ),
+        option("With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².", "M2", unit="m²"),
     ] = None,
     unknown: Annotated[
         str,
-        typer.Option(
-            metavar="NAMES",
-            help="young (or E), poisson (nu), density (rho), thickness (h), curvature_EDGE, tilt_EDGE (of a "
+        option(
+            "young (or E), poisson (nu), density (rho), thickness (h), curvature_EDGE, tilt_EDGE (of a "
             "clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch; several "
             "with commas.",
+            "NAMES",
         ),
     ] = "young",
-    model: Annotated[str, typer.Option(metavar="MODEL", help="lumped, shell or solid.")] = "lumped",
+    model: Annotated[str, option("lumped, shell or solid.", "MODEL")] = "lumped",
     elements: Elements = str(ELEMENTS),
     law: Law = None,
     offset: Annotated[
         float,
-        typer.Option(
-            metavar="M",
-            help="Where a point cloud was taken, along the surface's normal: half the thickness for its top.",
+        option(
+            "Where a point cloud was taken, along the surface's normal: half the thickness for its top.", "M"
         ),
     ] = 0.0,
     large: Large = False,

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Large, Scene
+from comparisons.cli.options import Large, Scene, option
 from comparisons.cli.verb import PictureOptions
 
 MODES = 20
@@ -16,19 +14,17 @@ MODES = 20
 def command(
     scene: Scene,
     lattice: LatticeOptions,
-    modes: Annotated[
-        int, typer.Option(min=0, metavar="N", help="Modes of the state space; 0 for all.")
-    ] = MODES,
+    modes: Annotated[int, option("Modes of the state space; 0 for all.", "N", min=0)] = MODES,
     reduce: Annotated[
         str | None,
-        typer.Option(
-            metavar="HOW",
-            help="balanced:8, the modes' 8 most important states; balanced:0.01, as few as answer every "
+        option(
+            "balanced:8, the modes' 8 most important states; balanced:0.01, as few as answer every "
             "input within that share of what it does at rest, at any frequency.",
+            "HOW",
         ),
     ] = None,
     about: Annotated[
-        str, typer.Option(metavar="WHAT", help="deformed: under the scene's loads; flat: without them.")
+        str, option("deformed: under the scene's loads; flat: without them.", "WHAT")
     ] = "deformed",
     large: Large = False,
     *,

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Scene
+from comparisons.cli.options import Scene, option
 
 ELEMENTS = 8
 
@@ -16,11 +14,11 @@ def command(
     scene: Scene,
     lattice: LatticeOptions,
     elements: Annotated[
-        int, typer.Option(metavar="N", help="Elements of the shell along the shorter side to start with.")
+        int, option("Elements of the shell along the shorter side to start with.", "N")
     ] = ELEMENTS,
-    port: Annotated[int, typer.Option(metavar="PORT", help="Port to listen on; 0: any that is free.")] = 0,
+    port: Annotated[int, option("Port to listen on; 0: any that is free.", "PORT")] = 0,
     browser: Annotated[
-        bool, typer.Option("--browser/--no-browser", help="Open the page, or only tell its address.")
+        bool, option("Open the page, or only tell its address.", None, "--browser/--no-browser")
     ] = True,
 ) -> None:
     """Open a page where one drags E, ν, h, load and grid, and lattice and shell answer beside their error.

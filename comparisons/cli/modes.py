@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Elements, Large, Scene
+from comparisons.cli.options import Elements, Large, Scene, option
 from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
 
@@ -15,27 +13,25 @@ from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
 def command(
     scene: Scene,
     lattice: LatticeOptions,
-    count: Annotated[int, typer.Option(metavar="N", help="How many modes, lowest first.")] = 10,
+    count: Annotated[int, option("How many modes, lowest first.", "N")] = 10,
     masses: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAME",
-            help=f"How the lattice shares out its mass: {listed(MASSES)}. higher-order unless given, or what "
+        option(
+            f"How the lattice shares out its mass: {listed(MASSES)}. higher-order unless given, or what "
             "fitted springs go with.",
+            "NAME",
         ),
     ] = None,
     reference: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="MODEL", help=f"{listed(REFERENCES)}; may be repeated. The {REFERENCE} unless given."
-        ),
+        option(f"{listed(REFERENCES)}; may be repeated. The {REFERENCE} unless given.", "MODEL"),
     ] = None,
     elements: Elements = str(ELEMENTS),
     about: Annotated[
         str,
-        typer.Option(
-            metavar="flat|deformed",
-            help="About the flat, stress-free sheet, or its equilibrium under its loads (lattice and shell).",
+        option(
+            "About the flat, stress-free sheet, or its equilibrium under its loads (lattice and shell).",
+            "flat|deformed",
         ),
     ] = "flat",
     large: Large = False,

@@ -10,7 +10,7 @@ from warnings import warn
 
 import typer
 
-from comparisons.cli.options import Density, Poisson, Side, Thickness, Young
+from comparisons.cli.options import Density, Poisson, Side, Thickness, Young, option
 
 if TYPE_CHECKING:
     from sheetbench.scenes import Material, Sheet
@@ -37,12 +37,9 @@ def command(
     poisson: Poisson = None,
     density: Density = None,
     clamped: Annotated[
-        str | None,
-        typer.Option(metavar="EDGES", help="x0, x1, y0, y1; several with commas. x0 unless given."),
+        str | None, option("x0, x1, y0, y1; several with commas. x0 unless given.", "EDGES")
     ] = None,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace the file where there is one.")
-    ] = False,
+    overwrite: Annotated[bool, option("Replace the file where there is one.", None, "--overwrite")] = False,
 ) -> None:
     """Write a commented scene to start from: a sheet under its own weight, and what else there may be.
 

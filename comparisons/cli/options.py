@@ -2,73 +2,95 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Callable
+from typing import Annotated, Any
 
 import typer
 
-from comparisons.cli.quantity import quantity_in
 from sheetbench.choices import CALIBRATION, CALIBRATIONS, STRAIN_LAW, STRAIN_LAWS, listed
 
+
+def option(
+    help: str, metavar: str | None = None, *names: str, unit: str | None = None, **settings: Any
+) -> Any:
+    """Return an option of typer's; names: where they do not follow from the parameter; unit: SI, of a number
+    that may have a unit of its own, as `--thickness "2 mm"`."""
+    if unit is not None:
+        settings["parser"] = quantity_in(unit)
+    return typer.Option(*names, help=help, metavar=metavar, **settings)
+
+
+def quantity_in(unit: str) -> Callable[[str], float]:
+    """Return a parser of an option's text, a number in an SI unit or a quantity with a unit of its own."""
+
+    def parse(text: str) -> float:
+        from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
+        from sheetbench.scenes.units import quantity
+
+        try:
+            return quantity(str(text), unit)
+        except BadInput as error:
+            raise typer.BadParameter(str(error)) from None
+
+    return parse
+
+
 Scene = Annotated[str, typer.Argument(metavar="SCENE", help="Catalogue name or path to a TOML file.")]
-Json = Annotated[bool, typer.Option("--json", help="Print one JSON document instead of tables.")]
-Out = Annotated[str | None, typer.Option("--out", metavar="DIR", help="Write files into this folder.")]
+Json = Annotated[bool, option("Print one JSON document instead of tables.", None, "--json")]
+Out = Annotated[str | None, option("Write files into this folder.", "DIR", "--out")]
 Export = Annotated[
     str | None,
-    typer.Option(
+    option(
+        "Write the lattice for another simulator: masses, springs, supports, loads, values to check by.",
+        "DIR",
         "--export",
-        metavar="DIR",
-        help="Write the lattice for another simulator: masses, springs, supports, loads, values to check by.",
     ),
 ]
 Grid = Annotated[
     str | None,
-    typer.Option(
+    option(
+        "Masses of the lattice: 9, along the shorter side with near-square cells; 9x13, along x and y; "
+        "9x13x3, with layers, else 2. 9 unless given.",
+        "GRID",
         "--lumped",
         "--grid",
-        metavar="GRID",
-        help="Masses of the lattice: 9, along the shorter side with near-square cells; 9x13, along x and y; "
-        "9x13x3, with layers, else 2. 9 unless given.",
     ),
 ]
 Grading = Annotated[
     str | None,
-    typer.Option(
-        "--grading",
-        metavar="G",
-        help="How much finer the lattice is at its edges, 0 (cells of one size) to 1; 0.5:x0 or 0.5:x0,x1: "
+    option(
+        "How much finer the lattice is at its edges, 0 (cells of one size) to 1; 0.5:x0 or 0.5:x0,x1: "
         "at these edges alone; auto: as the scene's layers need. 0 unless given.",
+        "G",
+        "--grading",
     ),
 ]
 Figure = Annotated[
     str | None,
-    typer.Option(
-        "--figure",
-        metavar="FORMAT",
-        help="With --out: pictures for a paper, without a title, as pdf, svg or png, several with commas; "
+    option(
+        "With --out: pictures for a paper, without a title, as pdf, svg or png, several with commas; "
         "pdf:single as wide as one column (89 mm), else as both (183 mm).",
+        "FORMAT",
+        "--figure",
     ),
 ]
-NoPictures = Annotated[bool, typer.Option("--no-pictures", help="With --out: all files but the pictures.")]
+NoPictures = Annotated[bool, option("With --out: all files but the pictures.", None, "--no-pictures")]
 NoPicturesAnyway = Annotated[  # of verbs that draw none, for scripts that give it to all
     bool, typer.Option("--no-pictures", hidden=True)
 ]
 Quiet = Annotated[
     bool,
-    typer.Option(
-        "--quiet", help="No progress and no notes on standard error; results, warnings and errors stay."
-    ),
+    option("No progress and no notes on standard error; results, warnings and errors stay.", None, "--quiet"),
 ]
 Overwrite = Annotated[
     bool,
-    typer.Option(
-        "--overwrite", help="With --out: first remove what an earlier run left there; its manifest lists it."
+    option(
+        "With --out: first remove what an earlier run left there; its manifest lists it.", None, "--overwrite"
     ),
 ]
-Scheduler = Annotated[
-    str | None, typer.Option("--scheduler", metavar="ADDRESS", help="A dask scheduler, as tcp://host:8786.")
-]
+Scheduler = Annotated[str | None, option("A dask scheduler, as tcp://host:8786.", "ADDRESS", "--scheduler")]
 Wait = Annotated[
-    bool, typer.Option("--wait", help="With --scheduler: wait where there is no worker, instead of stopping.")
+    bool, option("With --scheduler: wait where there is no worker, instead of stopping.", None, "--wait")
 ]
 
 
@@ -83,92 +105,63 @@ def _let_through(context: typer.Context, value: bool) -> bool:
 
 Large = Annotated[
     bool,
-    typer.Option(
+    option(
+        "Go on where a model takes more memory than is free, instead of refusing it.",
+        None,
         "--large",
         callback=_let_through,
-        help="Go on where a model takes more memory than is free, instead of refusing it.",
     ),
 ]
 Workers = Annotated[
-    int | None,
-    typer.Option(
-        "--workers", min=1, metavar="N", help="Processes for what is not timed; one a core unless given."
-    ),
+    int | None, option("Processes for what is not timed; one a core unless given.", "N", "--workers", min=1)
 ]
-Retry = Annotated[bool, typer.Option("--retry", help="Run again what failed in an earlier run.")]
+Retry = Annotated[bool, option("Run again what failed in an earlier run.", None, "--retry")]
 Calibration = Annotated[
     str | None,
-    typer.Option(
-        "--calibration",
-        metavar="NAME",
-        help=f"How k is found from E, ν and h: {listed(CALIBRATIONS)}; auto: consistent ones by the scene. "
+    option(
+        f"How k is found from E, ν and h: {listed(CALIBRATIONS)}; auto: consistent ones by the scene. "
         f"{CALIBRATION} unless given, with --grading auto as auto has it.",
+        "NAME",
+        "--calibration",
     ),
 ]
-K = Annotated[
-    float | None,
-    typer.Option(
-        "--k", metavar="N/M", parser=quantity_in("N/m"), help="Stiffness of every spring; means uniform."
-    ),
-]
+K = Annotated[float | None, option("Stiffness of every spring; means uniform.", "N/M", "--k", unit="N/m")]
 LayerDistance = Annotated[
-    float | None,
-    typer.Option(
-        "--layer-distance", metavar="M", parser=quantity_in("m"), help="Distance of the lattice's layers."
-    ),
+    float | None, option("Distance of the lattice's layers.", "M", "--layer-distance", unit="m")
 ]
-Side = Annotated[
-    str | None, typer.Option("--side", metavar="M", help="Sides: 0.188, 0.188x0.3 (x by y) or 12cmx4cm.")
-]
-Thickness = Annotated[
-    float | None,
-    typer.Option("--thickness", metavar="M", parser=quantity_in("m"), help="Thickness: 0.002 or 2mm."),
-]
-Young = Annotated[
-    float | None,
-    typer.Option("--young", metavar="PA", parser=quantity_in("Pa"), help="Young's modulus E: 6e5 or 0.6MPa."),
-]
-Poisson = Annotated[
-    float | None, typer.Option("--poisson", metavar="NU", parser=quantity_in(""), help="Poisson's ratio ν.")
-]
+Side = Annotated[str | None, option("Sides: 0.188, 0.188x0.3 (x by y) or 12cmx4cm.", "M", "--side")]
+Thickness = Annotated[float | None, option("Thickness: 0.002 or 2mm.", "M", "--thickness", unit="m")]
+Young = Annotated[float | None, option("Young's modulus E: 6e5 or 0.6MPa.", "PA", "--young", unit="Pa")]
+Poisson = Annotated[float | None, option("Poisson's ratio ν.", "NU", "--poisson", unit="")]
 Density = Annotated[
-    float | None,
-    typer.Option(
-        metavar="KG/M3",
-        parser=quantity_in("kg/m³"),
-        help="Density: 1100 or 1.1g/cm3; 1000 kg/m³ unless given.",
-    ),
+    float | None, option("Density: 1100 or 1.1g/cm3; 1000 kg/m³ unless given.", "KG/M3", unit="kg/m³")
 ]
 Elements = Annotated[
-    str,
-    typer.Option(
-        "--elements",
-        metavar="N",
-        help="The reference's elements along the shorter side, or 8x4 along x and y.",
-    ),
+    str, option("The reference's elements along the shorter side, or 8x4 along x and y.", "N", "--elements")
 ]
 Law = Annotated[
     str | None,
-    typer.Option(
-        "--law",
-        metavar="NAME",
-        help=f"Law of strain of a shell or solid: {listed(STRAIN_LAWS)}. The material's own unless given, "
+    option(
+        f"Law of strain of a shell or solid: {listed(STRAIN_LAWS)}. The material's own unless given, "
         f"{STRAIN_LAW} where it has none.",
+        "NAME",
+        "--law",
     ),
 ]
 Symmetry = Annotated[
     bool,
-    typer.Option(
+    option(
+        "Solve a half or a quarter where scene and grid mirror themselves; solids are solved whole.",
+        None,
         "--symmetry",
-        help="Solve a half or a quarter where scene and grid mirror themselves; solids are solved whole.",
     ),
 ]
 Models = Annotated[
     list[str] | None,
-    typer.Option(
-        "--model",
-        metavar="MODEL",
-        help="A model more: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped, "
+    option(
+        "A further model: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped, "
         "lumped-pair, plate, shell, solid; settings after it, as NAME:grid=9x5. May be repeated.",
+        "MODEL",
+        "--model",
     ),
 ]

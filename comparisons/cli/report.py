@@ -7,16 +7,15 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json
+from comparisons.cli.options import Json, option
 
 
 def command(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that verbs wrote to with --out.")],
     out: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="FILE", help="The page to write. DIR/report.html unless given."),
+        Path | None, option("The page to write. DIR/report.html unless given.", "FILE", "--out")
     ] = None,
-    show: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
+    show: Annotated[bool, option("Open the page in the browser.", None, "--open")] = False,
     json: Json = False,
 ) -> None:
     """Write one HTML file of the studies in a folder and those below it, to read in any browser.

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from comparisons.cli.options import Elements
+from comparisons.cli.options import Elements, option
 from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import ELEMENTS
 
@@ -14,9 +12,7 @@ from sheetbench.choices import ELEMENTS
 def command(
     part: Annotated[
         list[str] | None,
-        typer.Option(
-            "--part", metavar="NAME", help="Only tables or settling; may be repeated. Both unless given."
-        ),
+        option("Only tables or settling; may be repeated. Both unless given.", "NAME", "--part"),
     ] = None,
     elements: Elements = str(ELEMENTS),
     *,

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
+from comparisons.cli.options import option
 
 
 def command(
     markdown: Annotated[
-        bool, typer.Option("--markdown", help="Print the reference page of every key instead.")
+        bool, option("Print the reference page of every key instead.", None, "--markdown")
     ] = False,
 ) -> None:
     """Print the JSON Schema of a scene, for editors that complete and check TOML files.

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from comparisons.cli.options import option
 from comparisons.cli.verb import PictureOptions
 
 
@@ -15,11 +16,9 @@ def command(
         Path, typer.Argument(metavar="ANSWERS", help="CSV: case,probe,ux,uy,uz[,seconds] in m.")
     ],
     suite: Annotated[
-        str, typer.Option("--suite", metavar="NAME", help="What it answers: statics, settling or modes.")
+        str, option("What it answers: statics, settling or modes.", "NAME", "--suite")
     ] = "statics",
-    case: Annotated[
-        list[str] | None, typer.Option("--case", metavar="NAME", help="Only this case; may be repeated.")
-    ] = None,
+    case: Annotated[list[str] | None, option("Only this case; may be repeated.", "NAME", "--case")] = None,
     *,
     output: PictureOptions,
 ) -> None:

@@ -5,11 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Export, Large, Scene
-from comparisons.cli.quantity import quantity_in
+from comparisons.cli.options import Export, Large, Scene, option
 from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import INTEGRATOR, INTEGRATORS
 
@@ -19,38 +16,28 @@ FRAMES = 100
 def command(
     scene: Scene,
     lattice: LatticeOptions,
-    duration: Annotated[
-        float, typer.Option(metavar="S", parser=quantity_in("s"), help="How long to simulate.")
-    ] = 1.0,
+    duration: Annotated[float, option("How long to simulate.", "S", unit="s")] = 1.0,
     step: Annotated[
         float | None,
-        typer.Option(
-            metavar="S",
-            parser=quantity_in("s"),
-            help="Time step, never exceeded; from the stability limit or the error unless given.",
+        option(
+            "Time step, never exceeded; from the stability limit or the error unless given.", "S", unit="s"
         ),
     ] = None,
     integrator: Annotated[
         str,
-        typer.Option(
-            metavar="NAME",
-            help="; ".join(f"{name}: {summary}" for name, summary in INTEGRATORS.items())
+        option(
+            "; ".join(f"{name}: {summary}" for name, summary in INTEGRATORS.items())
             + "; auto: esdirk, or generalised-alpha where the sheet has chains.",
+            "NAME",
         ),
     ] = INTEGRATOR,
     every: Annotated[
-        float | None,
-        typer.Option(
-            metavar="S",
-            parser=quantity_in("s"),
-            help="Time between samples; 1/100 of the lowest period unless given.",
-        ),
+        float | None, option("Time between samples; 1/100 of the lowest period unless given.", "S", unit="s")
     ] = None,
     measured: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Measured histories, CSV: time,probe,ux,uy,uz in s and m."),
+        Path | None, option("Measured histories, CSV: time,probe,ux,uy,uz in s and m.", "FILE")
     ] = None,
-    animate: Annotated[bool, typer.Option("--animate", help="Also draw an animation (with --out).")] = False,
+    animate: Annotated[bool, option("Also draw an animation (with --out).", None, "--animate")] = False,
     export: Export = None,
     large: Large = False,
     *,

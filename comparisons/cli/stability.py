@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Large, Scene
+from comparisons.cli.options import Large, Scene, option
 from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.choices import REFERENCE, REFERENCES, listed
 
@@ -17,19 +15,14 @@ def command(
     lattice: LatticeOptions,
     vary: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "Only load, slenderness, young, grid, damping or time-step; may be repeated. All unless given.",
+            "NAME",
             "--vary",
-            metavar="NAME",
-            help="Only load, slenderness, young, grid, damping or time-step; may be repeated. All unless "
-            "given.",
         ),
     ] = None,
-    reference: Annotated[
-        str, typer.Option(metavar="MODEL", help=f"What errors are against: {listed(REFERENCES)}.")
-    ] = REFERENCE,
-    elements: Annotated[
-        int, typer.Option(min=1, metavar="N", help="Elements of the references along the shorter side.")
-    ] = 12,
+    reference: Annotated[str, option(f"What errors are against: {listed(REFERENCES)}.", "MODEL")] = REFERENCE,
+    elements: Annotated[int, option("Elements of the references along the shorter side.", "N", min=1)] = 12,
     large: Large = False,
     *,
     campaign: ClusterOptions,

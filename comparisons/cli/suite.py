@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
+from comparisons.cli.options import option
 from comparisons.cli.verb import OutputOptions
 
 
 def command(
-    suite: Annotated[
-        str | None, typer.Option("--suite", metavar="NAME", help="Only statics, settling or modes.")
-    ] = None,
+    suite: Annotated[str | None, option("Only statics, settling or modes.", "NAME", "--suite")] = None,
     *,
     output: OutputOptions,
 ) -> None:

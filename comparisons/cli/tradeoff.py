@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from comparisons.cli import options
 from comparisons.cli.lattice_options import SpringOptions
-from comparisons.cli.options import Large, Models, Symmetry
-from comparisons.cli.quantity import quantity_in
+from comparisons.cli.options import Large, Models, Symmetry, option
 from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
@@ -27,69 +24,57 @@ def command(
     lattice: SpringOptions,
     grid: Annotated[
         str | None,
-        typer.Option(
+        option(
+            "Masses of lattices: along the shorter side with near-square cells, or NxM, NxMxL. "
+            f"{GRIDS} unless given; with --duration one lattice, 9 unless given.",
+            "GRIDS",
             "--lumped",
             "--grid",
-            metavar="GRIDS",
-            help="Masses of lattices: along the shorter side with near-square cells, or NxM, NxMxL. "
-            f"{GRIDS} unless given; with --duration one lattice, 9 unless given.",
         ),
     ] = None,
     lumped_pair: Annotated[
         str | None,
-        typer.Option(
-            "--lumped-pair",
-            metavar="PAIRS",
-            help="Pairs of grids, the coarser first, and one answer extrapolated from both, with its bar. "
+        option(
+            "Pairs of grids, the coarser first, and one answer extrapolated from both, with its bar. "
             f"{PAIRS} unless grids or other springs are listed.",
+            "PAIRS",
+            "--lumped-pair",
         ),
     ] = None,
     calibration: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAMES",
-            help=f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. {USUAL} unless "
+        option(
+            f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. {USUAL} unless "
             "given; with --duration one.",
+            "NAMES",
         ),
     ] = None,
     plate: Annotated[
-        str,
-        typer.Option(metavar="ELEMENTS", help="Elements of the linear plate along the shorter side, or NxM."),
+        str, option("Elements of the linear plate along the shorter side, or NxM.", "ELEMENTS")
     ] = "8",
-    shell: Annotated[
-        str, typer.Option(metavar="ELEMENTS", help="Elements of the nonlinear shell, likewise.")
-    ] = ("2,4,8,12,16"),
-    solid: Annotated[
-        str, typer.Option(metavar="ELEMENTS", help="Elements of the nonlinear solid, likewise.")
-    ] = ("2,4,8"),
+    shell: Annotated[str, option("Elements of the nonlinear shell, likewise.", "ELEMENTS")] = ("2,4,8,12,16"),
+    solid: Annotated[str, option("Elements of the nonlinear solid, likewise.", "ELEMENTS")] = ("2,4,8"),
     model: Models = None,
     symmetry: Symmetry = False,
     elements: Annotated[
         str | None,
-        typer.Option(
-            metavar="N",
-            help="Elements of the reference shell along the shorter side, or 8x4 along x and y; twice the "
+        option(
+            "Elements of the reference shell along the shorter side, or 8x4 along x and y; twice the "
             "finest one's, 32 at least, unless given.",
+            "N",
         ),
     ] = None,
-    repeats: Annotated[
-        int, typer.Option(min=1, metavar="N", help="Timed solves of every row, at least.")
-    ] = 5,
+    repeats: Annotated[int, option("Timed solves of every row, at least.", "N", min=1)] = 5,
     duration: Annotated[
         float | None,
-        typer.Option(
-            metavar="S",
-            parser=quantity_in("s"),
-            help="Trade of the motion over so many seconds instead: integrators and steps, on one lattice.",
+        option(
+            "Trade of the motion over so many seconds instead: integrators and steps, on one lattice.",
+            "S",
+            unit="s",
         ),
     ] = None,
     integrator: Annotated[
-        str,
-        typer.Option(
-            metavar="NAMES",
-            help="With --duration: the integrators.",
-            show_default=", ".join(sorted(INTEGRATORS)),  # a line of help breaks at blanks alone
-        ),
+        str, option("With --duration: the integrators.", "NAMES", show_default=", ".join(sorted(INTEGRATORS)))
     ] = ",".join(sorted(INTEGRATORS)),
     large: Large = False,
     *,

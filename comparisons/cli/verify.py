@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
+from comparisons.cli.options import option
 from comparisons.cli.verb import PictureOptions
 
 
 def command(
     case: Annotated[
-        list[str] | None,
-        typer.Option("--case", metavar="NAME", help="Only this case; may be repeated. All unless given."),
+        list[str] | None, option("Only this case; may be repeated. All unless given.", "NAME", "--case")
     ] = None,
     locking: Annotated[
-        bool, typer.Option("--locking", help="Only the locking sweeps; with --out, their picture.")
+        bool, option("Only the locking sweeps; with --out, their picture.", None, "--locking")
     ] = False,
     laws: Annotated[
-        bool, typer.Option("--laws", help="Only the laws of strain, with a table of what they change.")
+        bool, option("Only the laws of strain, with a table of what they change.", None, "--laws")
     ] = False,
     *,
     output: PictureOptions,

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
+from comparisons.cli.options import option
 from comparisons.cli.verb import CampaignOptions, OutputOptions
 from studies.advisor.study import study
 
 
 def command(
-    scenes: Annotated[int, typer.Option(min=1, metavar="N", help="Scenes drawn.")] = 60,
+    scenes: Annotated[int, option("Scenes drawn.", "N", min=1)] = 60,
     compared: Annotated[
-        int, typer.Option(min=0, metavar="N", help="Scenes on which its time is compared with other models'.")
+        int, option("Scenes on which its time is compared with other models'.", "N", min=0)
     ] = 20,
     *,
     campaign: CampaignOptions,

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
+from comparisons.cli.options import option
 from comparisons.cli.verb import CampaignOptions, OutputOptions
 from sheetbench.choices import REFERENCES
 from sheetbench.errors import require_choice
@@ -15,18 +14,15 @@ from studies.coverage import study
 def command(
     scenes: Annotated[
         int,
-        typer.Option(
+        option(
+            "Scenes drawn. Each takes half a minute of one processor, less than half without the solid.",
+            "N",
             min=1,
-            metavar="N",
-            help="Scenes drawn. Each takes half a minute of one processor, less than half without the solid."
         ),
     ] = 40,
-    seed: Annotated[int, typer.Option(min=0, metavar="N", help="Seed of the scenes.")] = 41,
+    seed: Annotated[int, option("Seed of the scenes.", "N", min=0)] = 41,
     model: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--model", metavar="NAME", help="Only plate, shell or solid; may be repeated."
-        ),
+        list[str] | None, option("Only plate, shell or solid; may be repeated.", "NAME", "--model")
     ] = None,
     *,
     campaign: CampaignOptions,

@@ -6,15 +6,12 @@ import json
 import warnings
 from typing import Annotated
 
-import typer
-
 from comparisons.cli import console
+from comparisons.cli.options import option
 from studies.expected_errors.study import STORED, measure, scenes, table
 
 
-def command(
-    anew: Annotated[bool, typer.Option("--anew", help="Solve all scenes again.")] = False,
-) -> None:
+def command(anew: Annotated[bool, option("Solve all scenes again.", None, "--anew")] = False) -> None:
     """Solve what is not stored yet, and print the table of docs/theory.md."""
     warnings.simplefilter("ignore")
     rows = json.loads(STORED.read_text()) if STORED.exists() and not anew else {}

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
+from comparisons.cli.options import option
 from comparisons.cli.verb import OutputOptions
 from sheetbench.errors import require_choice
 from studies.peers.study import QUESTIONS, study
@@ -13,8 +12,7 @@ from studies.peers.study import QUESTIONS, study
 
 def command(
     question: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME", help="Only statics or settling; may be repeated. Both unless given."),
+        list[str] | None, option("Only statics or settling; may be repeated. Both unless given.", "NAME")
     ] = None,
     *,
     output: OutputOptions,

@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from comparisons.cli import console
+from comparisons.cli.options import option
 from comparisons.scoring.reference import FILE
 from sheetbench.answers.files import to_json, write_text
 from studies.reference_set.study import regenerate
@@ -15,8 +14,7 @@ from studies.reference_set.study import regenerate
 
 def command(
     to: Annotated[
-        Path | None,
-        typer.Option("--to", metavar="FILE", help="Write here; the package's own file unless given."),
+        Path | None, option("Write here; the package's own file unless given.", "FILE", "--to")
     ] = None,
 ) -> None:
     """Compute every value of the reference set with its bar, and write them.

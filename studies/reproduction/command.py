@@ -5,9 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated
 
-import typer
-
-from comparisons.cli.options import Elements
+from comparisons.cli.options import Elements, option
 from comparisons.cli.verb import PictureOptions
 from comparisons.models.grids import parse_elements
 from sheetbench.choices import ELEMENTS
@@ -18,10 +16,8 @@ from studies.reproduction.study import PARTS, study
 def command(
     part: Annotated[
         list[str] | None,
-        typer.Option(
-            "--part",
-            metavar="NAME",
-            help="Only errors, tables, settling or nearest; may be repeated. All unless given."
+        option(
+            "Only errors, tables, settling or nearest; may be repeated. All unless given.", "NAME", "--part"
         ),
     ] = None,
     elements: Elements = str(ELEMENTS),

@@ -5,20 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from comparisons.cli import console
+from comparisons.cli.options import option
 from studies.rubber.beam import beam
 from studies.rubber.study import blown, constants, curves, pulled_and_hung
 
 
 def command(
-    data: Annotated[
-        Path, typer.Option(metavar="DIR", help="Where silicone-tensile/ and treloar/ are.")
-    ] = Path("../shared/data"),
+    data: Annotated[Path, option("Where silicone-tensile/ and treloar/ are.", "DIR")] = Path(
+        "../shared/data"
+    ),
     picture: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Also the block of silicone-beam/ (C3D), with its picture."),
+        Path | None, option("Also the block of silicone-beam/ (C3D), with its picture.", "FILE")
     ] = None,
 ) -> None:
     """Fit laws of rubber to measured tensile tests; pull, hang and blow up linear lattices of them.

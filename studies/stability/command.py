@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from comparisons.cli.options import Grading, Large
+from comparisons.cli.options import Grading, Large, option
 from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.answers.figure_style import parse_figure
 from sheetbench.errors import BadInput, require_choice
@@ -17,14 +15,14 @@ from studies.stability.texts import StabilityMaps
 def command(
     study: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "Only this study, may be repeated: time-step, stiffness, slenderness, grid, load, damping, "
+            "mass or curved-edge. All unless given.",
+            "NAME",
             "--study",
-            metavar="NAME",
-            help="Only this study, may be repeated: time-step, stiffness, slenderness, grid, load, damping, "
-            "mass or curved-edge. All unless given."
         ),
     ] = None,
-    full: Annotated[bool, typer.Option("--full", help="Every cell: finer maps, grids to 257 × 257.")] = False,
+    full: Annotated[bool, option("Every cell: finer maps, grids to 257 × 257.", None, "--full")] = False,
     grading: Grading = None,
     large: Large = False,
     *,
@@ -44,11 +42,5 @@ def command(
     chosen = [STUDIES[name] for name in dict.fromkeys(names)]
     with output.open() as out:
         with out.campaign(campaign) as run:
-            rows = survey(
-                chosen,
-                **run,
-                full=full,
-                grading=grading,
-                large=large,
-            )
+            rows = survey(chosen, **run, full=full, grading=grading, large=large)
         out.show(StabilityMaps(chosen, rows))

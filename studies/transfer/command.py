@@ -4,46 +4,31 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from comparisons.cli.options import Grading, Large
+from comparisons.cli.options import Grading, Large, option
 from comparisons.cli.verb import CampaignOptions, OutputOptions
 from studies.transfer import parse
 from studies.transfer.study import transfer
 
 
 def command(
-    methods: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAMES", help="Calibrations, with commas; all unless given."
-        ),
-    ] = None,
+    methods: Annotated[str | None, option("Calibrations, with commas; all unless given.", "NAMES")] = None,
     grids: Annotated[
         str,
-        typer.Option(
+        option(
+            "Masses along the shorter side, 4 n + 1, coarsest first.",
+            "N,N,…",
             "--grids",
             "--grid",
             "--lumped",
-            metavar="N,N,…",
-            help="Masses along the shorter side, 4 n + 1, coarsest first."
         ),
     ] = "9,17,33",
     grading: Grading = None,
-    scenes: Annotated[
-        str | None,
-        typer.Option(metavar="NAMES", help="Scenes of the study; all unless given."),
-    ] = None,
+    scenes: Annotated[str | None, option("Scenes of the study; all unless given.", "NAMES")] = None,
     part: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="NAME",
-            help="static, limits, modal, aspect or left-out; may be repeated. All unless given."
-        ),
+        option("static, limits, modal, aspect or left-out; may be repeated. All unless given.", "NAME"),
     ] = None,
-    elements: Annotated[
-        int, typer.Option(min=1, metavar="N", help="Elements of the shell along a side.")
-    ] = 24,
+    elements: Annotated[int, option("Elements of the shell along a side.", "N", min=1)] = 24,
     large: Large = False,
     *,
     campaign: CampaignOptions,

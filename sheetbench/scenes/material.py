@@ -185,6 +185,12 @@ class Material(Frozen):
             raise ValueError(
                 f"{given}: pulled far enough this rubber would push; c1 must be 0 or more{above}"
             )
+        if energy.c01 < 0.0:
+            stretch = (-energy.c10 / energy.c01) ** 0.5
+            raise ValueError(
+                f"{given}: pulled both ways beyond a stretch of {stretch:.3g} this rubber would push; c2 must "
+                "be 0 or more: take law = 'yeoh' or 'gent' for what stiffens"
+            )
 
     @model_validator(mode="after")
     def _damped_in_one_way(self) -> Self:

@@ -6,7 +6,6 @@ function read_lattice(folder, steps)
   if nargin < 2, steps = 1; end
   lattice = load([folder '/lattice.mat']);
   if lattice.pressure ~= 0 || ~isempty(lattice.couple_moment), error('dead loads only'); end
-  if ~isempty(lattice.rubber_rest), error('knows no rubber; read_lattice.py does'); end
   along = differences(lattice);
   largest = 0;
   for state = 1:numel(lattice.state_energy)
@@ -25,14 +24,15 @@ function along = differences(lattice)
   of = speye(size(lattice.positions, 1));
   ends = double(lattice.link_masses) + 1;  % numbers count from 0 in the file
   along.link = of(ends(:, 2), :) - of(ends(:, 1), :);
-  for kind = {'area', 'strain'}
+  for kind = {'area', 'strain', 'rubber', 'face'}
     corners = double(lattice.([kind{1} '_corners'])) + 1;
-    [first, second, p] = deal(0, 0, size(corners, 3));
+    [first, second, warp, p] = deal(0, 0, 0, size(corners, 3));
     for mass = 1:p  % a corner is the mean of one mass or several
-      first = first + (of(corners(:, 3, mass), :) - of(corners(:, 1, mass), :)) / p;
-      second = second + (of(corners(:, 4, mass), :) - of(corners(:, 2, mass), :)) / p;
+      at = @(corner) of(corners(:, corner, mass), :) / p;
+      [first, second] = deal(first + at(3) - at(1), second + at(4) - at(2));
+      warp = warp + at(1) - at(2) + at(3) - at(4);
     end
-    along.(kind{1}) = {first, second, (first - second) / 2, (first + second) / 2};
+    along.(kind{1}) = {first, second, (first - second) / 2, (first + second) / 2, warp};
   end
 end
 
@@ -53,6 +53,42 @@ function g = gradient_of(lattice, along, u)
   t2 = k(:, 2) .* (sum(b .^ 2, 2) ./ bb - 1) / 2;
   t3 = k(:, 3) .* sum(a .* b, 2) ./ a0;
   g = g + over_a' * (t1 .* a0 ./ aa .* a + t3 .* b) + over_b' * (t2 .* a0 ./ bb .* b + t3 .* a);
+  if ~isempty(lattice.rubber_rest), g = g + of_rubber(lattice, along, rest, x); end
+end
+
+function g = of_rubber(lattice, along, rest, x)
+  % Gradient (n, 3) [N] of the energy of rubber membranes and upright faces at places x (n, 3) [m].
+  [over_a, over_b, warp, a0] = deal(along.rubber{3:5}, lattice.rubber_rest);
+  [a, b, aa, bb] = deal(over_a * x, over_b * x, sum((over_a * rest) .^ 2, 2), sum((over_b * rest) .^ 2, 2));
+  k = num2cell(lattice.rubber_stiffness, 1);
+  [c10, c01, c20, c30, v, limit, ka, kb] = deal(k{:});
+  limit(limit == 0) = Inf;
+  q = warp * x;
+  [c11, c22] = deal((sum(a .^ 2, 2) + sum(q .^ 2, 2) / 12) ./ aa, (sum(b .^ 2, 2) + sum(q .^ 2, 2) / 12) ./ bb);
+  [c12, trace_c] = deal(sum(a .* b, 2) ./ a0, c11 + c22);
+  area = c11 .* c22 - c12 .^ 2;
+  log_theta = -v ./ (v + 4 * (c10 + c01)) .* log(area);
+  for iteration = 1:50  % Newton's method for the thickness
+    [theta, i] = deal(exp(log_theta), trace_c + exp(log_theta) - 3);
+    f1 = c10 ./ (1 - i ./ limit) + 2 * c20 .* i + 3 * c30 .* i .^ 2;
+    f2 = c10 ./ limit ./ (1 - i ./ limit) .^ 2 + 2 * c20 + 6 * c30 .* i;
+    pulled = theta .* (f1 + c01 .* trace_c);
+    miss = pulled - c10 - 2 * c01 + v / 4 .* log(area .* theta);
+    log_theta = log_theta - miss ./ (pulled + theta .^ 2 .* f2 + v / 4);
+  end
+  pa = ka .* (1 - sqrt(aa ./ (sum(a .^ 2, 2) + sum(q .^ 2, 2) / 4)));
+  pb = kb .* (1 - sqrt(bb ./ (sum(b .^ 2, 2) + sum(q .^ 2, 2) / 4)));
+  [by_trace, by_area] = deal(f1 + c01 .* theta, c01 - pulled ./ area);
+  s = 2 * a0 .* (by_trace + by_area .* c22) ./ aa;
+  t = 2 * a0 .* (by_trace + by_area .* c11) ./ bb;
+  both = -2 * by_area .* c12;
+  g = over_a' * ((s - pa) .* a + both .* b) + over_b' * ((t - pb) .* b + both .* a);
+  g = g + warp' * (((s + t) / 12 - (pa + pb) / 4) .* q);
+
+  [over_a, over_b, k, a0] = deal(along.face{3:4}, lattice.face_stiffness, lattice.face_rest);
+  [a, b, aa] = deal(over_a * x, over_b * x, sum((over_a * x) .^ 2, 2));
+  sheared = k .* a0 .* sum(a .* b, 2) ./ (aa .* sum((over_b * rest) .^ 2, 2));
+  g = g + over_a' * (sheared .* (b - sum(a .* b, 2) ./ aa .* a)) + over_b' * (sheared .* a);
 end
 
 function u = equilibrium(lattice, along, steps)

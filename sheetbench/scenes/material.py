@@ -179,18 +179,7 @@ class Material(Frozen):
                 f"poisson = {self.poisson:g}: with law = '{self.law}' {given} it must "
                 f"be {ratio / (1.0 + 2.0 * ratio):.3g} or more"
             )
-        least = energy.c20**2 / (3.0 * energy.c10) if energy.c20 < 0.0 < energy.c10 else 0.0
-        if energy.c10 < 0.0 or energy.c30 < least or (least and energy.c30 == least):
-            above = f" and c3 above {least:g} Pa" if self.law == "yeoh" else ""
-            raise ValueError(
-                f"{given}: pulled far enough this rubber would push; c1 must be 0 or more{above}"
-            )
-        if energy.c01 < 0.0:
-            stretch = (-energy.c10 / energy.c01) ** 0.5
-            raise ValueError(
-                f"{given}: pulled both ways beyond a stretch of {stretch:.3g} this rubber would push; c2 must "
-                "be 0 or more: take law = 'yeoh' or 'gent' for what stiffens"
-            )
+        _require_pull(energy, given, self.law)
 
     @model_validator(mode="after")
     def _damped_in_one_way(self) -> Self:
@@ -258,6 +247,20 @@ class Material(Frozen):
             values = {**of_young, **values}
         kept = {name: getattr(self, name) for name in type(self).model_fields if name != "young"}
         return type(self)(**{**kept, **values})
+
+
+def _require_pull(energy: Energy, given: str, law: str | None) -> None:
+    """Raise ValueError for constants of which a sheet, pulled one way or both ways far enough, would push."""
+    least = energy.c20**2 / (3.0 * energy.c10) if energy.c20 < 0.0 < energy.c10 else 0.0
+    if energy.c10 < 0.0 or energy.c30 < least or (least and energy.c30 == least):
+        above = f" and c3 above {least:g} Pa" if law == "yeoh" else ""
+        raise ValueError(f"{given}: pulled far enough this rubber would push; c1 must be 0 or more{above}")
+    if energy.c01 < 0.0:
+        stretch = (-energy.c10 / energy.c01) ** 0.5
+        raise ValueError(
+            f"{given}: pulled both ways beyond a stretch of {stretch:.3g} this rubber would push; c2 must "
+            "be 0 or more: take law = 'yeoh' or 'gent' for what stiffens"
+        )
 
 
 def _choices(key: str) -> str:

@@ -49,13 +49,13 @@ def advise(
 ) -> Advice:
     """The cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget` [s].
 
-    With both, the cheapest that meets the tolerance; where that takes longer, the most accurate in time, and
-    `met` is false. lattice, or calibration, k, layer_distance: lattices with these springs may be chosen too,
-    "auto" as `comparisons.models.method` chooses; grading: lattices so graded too, a number or "auto"
-    (`comparisons.models.grading`), which brings the calibration "auto" along. Models that take more memory
-    than there is are left out unless `large`. progress: told of every solve. Raises SceneError for a scene
-    without a static answer, BadInput where not even the coarsest judges fit, for a grid, and where springs
-    and grading do not go together.
+    With both: the cheapest model that meets the tolerance; where it takes longer than the budget, the most
+    accurate one in time, and `succeeded` is false. lattice, calibration, k, layer_distance: springs of
+    lattices that may be chosen beside the usual ones, "auto" as in `comparisons.models.method`; grading: of
+    further lattices, a number or "auto" (`comparisons.models.grading`), which makes the calibration "auto"
+    too. Models that take more memory than there is are left out unless `large`. progress: called with every
+    solve. Raises SceneError for a scene without a static answer; BadInput where not even the coarsest reference fits into
+    memory, for a grid, and for springs and grading that do not go together.
     """
     scene = scene_of(scene)
     require_static(scene)

@@ -87,8 +87,8 @@ class Advice(Answer):
         return f"{said}; {self.message}" if self.message else said
 
     @property
-    def met(self) -> bool:
-        """Whether what was asked can be had: the tolerance, within the budget if there is one."""
+    def succeeded(self) -> bool:
+        """Whether a model meets the tolerance, within the budget if there is one."""
         if self.choice is None or self.error is None or self.seconds is None:
             return False
         model = self.model.value if self.model else 0.0
@@ -111,7 +111,7 @@ class Advice(Answer):
                 **(self.model.as_dict() if self.model else {"model": None}),
                 "solve_seconds": self.seconds,
             },
-            "met": self.met,
+            "met": self.succeeded,
             "needs": list(self.needs),
             "left_out": list(self.left_out),
             "scales": self.scales.as_dict(),
@@ -155,11 +155,7 @@ class Advice(Answer):
         ]
 
     def complaints(self) -> list[str]:
-        return [] if self.met else [self.reason]
-
-    @property
-    def succeeded(self) -> bool:
-        return self.met
+        return [] if self.succeeded else [self.reason]
 
     @property
     def command(self) -> str | None:

@@ -46,7 +46,7 @@ def field(name: str, label: str, values: np.ndarray, unit: str = "", scale: floa
     return {**shown, "values": packed(values)}
 
 
-def drawn(
+def viewer_sheet(
     name: str,
     mesh: FieldMesh,
     label: str = "",

@@ -11,7 +11,7 @@ from warnings import warn
 import lumped
 from comparisons.calibration.damping import UNDAMPED
 from comparisons.models.expected_error import MOST, ExpectedError, expected_error
-from comparisons.models.grading import told
+from comparisons.models.grading import choice_notes
 from comparisons.models.quantities import checked
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
@@ -35,7 +35,7 @@ def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "")
     what the values make implausible.
     """
     given = {key: value for key, value in values.items() if value is not None}
-    known: list[str] = []  # slips of the scene's own, which loading it has told
+    known: list[str] = []  # slips of the scene's own, which loading it has warned of
     parts: dict[type[Sheet] | type[Material], dict[str, Any]] = {Sheet: {}, Material: {"density": DENSITY}}
     loaded = None if scene is None else scene_of(scene)
     if loaded is not None:
@@ -70,7 +70,7 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
     found = resolve(scene, lattice, "springs", own=False)
     springs = found.calibrated([scene] if named else None)
     known = [said] if named and (said := lumped.polygons(scene, found.grid)) else []
-    return replace(springs, remarks=(*told(found.settings), *known, *springs.remarks))
+    return replace(springs, remarks=(*choice_notes(found.settings), *known, *springs.remarks))
 
 
 def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:

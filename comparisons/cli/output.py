@@ -125,7 +125,7 @@ class Output:
             self._print(report)
         for warning in [*missing, *report.complaints]:
             console.warn(warning)
-        if not report.met:
+        if not report.succeeded:
             raise typer.Exit(NOT_CONVERGED)
 
     def close(self) -> None:

@@ -1,1 +1,1 @@
-"""Lattice and reference side by side: how far apart, and which differences the error bar tells apart."""
+"""Lattice and reference side by side: differences, and which exceed the reference's error bar."""

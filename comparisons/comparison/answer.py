@@ -24,7 +24,7 @@ from comparisons.comparison.error_bar import ErrorBar
 from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.comparison.rows import CostRow, Difference, ProbeRow, ReactionRow
 from comparisons.models.expected_error import ExpectedError
-from comparisons.models.grading import told
+from comparisons.models.grading import choice_notes
 from comparisons.report.vtk import plan_mesh, write_mesh, write_solution
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
@@ -46,7 +46,7 @@ class Comparison(Answer):
 
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
     reference's mesh leaves uncertain, where that was asked for; laws: a sentence where lattice and reference
-    have laws of strain that differ by more. apart: a sentence where both are at rest and far apart.
+    have laws of strain that differ by more. disagreement: a sentence where both are at rest and far apart.
     expected: the error to expect of the chosen lattice's grid, where an estimate holds. several: whether more
     than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:
     sentences on times taken on a busy machine. law_chosen: the reference's law of strain, by the user.
@@ -57,7 +57,7 @@ class Comparison(Answer):
     solutions: tuple[Solution, ...]
     bar: ErrorBar | None = None
     laws: str = ""
-    apart: str = ""
+    disagreement: str = ""
     expected: ExpectedError | None = None
     several: bool = False
     other_branch: bool = False
@@ -156,7 +156,7 @@ class Comparison(Answer):
             "scene": self.scene.document(),
             "solutions": [self._solution_document(solution) for solution in self.solutions],
             "laws": self.laws,
-            "apart": self.apart,
+            "apart": self.disagreement,
             "differences": [asdict(difference) for difference in self.differences],
             "errors": [
                 {
@@ -281,7 +281,7 @@ class Comparison(Answer):
     def complaints(self) -> list[str]:
         """A sentence for every model that did not converge: what happened and what can be done; and why
         lattice and reference are far apart though both did."""
-        return [*([self.apart] if self.apart else [])] + [
+        return [*([self.disagreement] if self.disagreement else [])] + [
             ": ".join(part for part in (s.model, s.status_text, s.message, s.status.advice) if part)
             for s in self.solutions
             if s.status is not Status.CONVERGED
@@ -292,7 +292,7 @@ class Comparison(Answer):
         ref = f"u_{self.reference.model}"
         return [
             " · ".join(solution.label for solution in self.solutions),
-            *dict.fromkeys(note for s in self.solutions for note in told(s.settings)),
+            *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
             *([f"{self.solutions[0].model}: {self.expected}"] if self.expected else []),
             *self._bar_notes(),
             f"off by: |u − {ref}| / |{ref}| at the probe. "

@@ -6,10 +6,12 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any, Unpack
 
-from comparisons.comparison import branches, far_apart, strain_law
+from comparisons.comparison import branches
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.differences import error
 from comparisons.comparison.error_bar import CHEAP, error_bar
+from comparisons.comparison.far_apart import far_apart_note
+from comparisons.comparison.strain_law import strain_law_note
 from comparisons.external.plugins import shown_name
 from comparisons.models.context import context, in_context
 from comparisons.models.expected_error import expected_error
@@ -58,8 +60,8 @@ def compare(
     quarter where scene and grid mirror themselves; solids are solved whole. branch: "path", or "buckled",
     which leaves unstable equilibria along their buckling mode; of lattice and shell.
     others: models that stand in the table too, plug-ins or our own. A name that is taken is changed. large:
-    even where a model takes more memory than there is. progress: told what is being done, and of every
-    iteration (`comparisons.report.work`).
+    even where a model takes more memory than there is. progress: called with what is being done,
+    and with every iteration (`comparisons.report.work`).
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
@@ -69,9 +71,9 @@ def compare(
     require_static(scene)
     spec = Lattice.given(lattice, keywords)
     whole = {"elements": elements, "law": law, "branch": spec.branch, "symmetry": spec.symmetry}
-    judge = resolve(scene, Elements.given(reference, whole))
+    against = resolve(scene, Elements.given(reference, whole))
     first = resolve(scene, spec)
-    models: dict[str, Resolved[Any]] = {first.spec.model: first, judge.spec.model: judge}
+    models: dict[str, Resolved[Any]] = {first.spec.model: first, against.spec.model: against}
     left_open = spec.calibration is None and spec.k is None and first.spec.calibration is not None
     if companion and left_open:
         models[COMPANION] = resolve(scene, spec.but(calibration="uniform", grading=None))
@@ -82,33 +84,35 @@ def compare(
     for name, model in models.items():
         solutions.append(solve(model, name))
         context().solved(solutions[-1])
-    laws = apart = ""
+    laws = disagreement = ""
     several = begun = other_branch = False
-    one_branch = branches.joined(first, judge, *solutions[:2])
+    one_branch = branches.joined(first, against, *solutions[:2])
     if one_branch is not None:
         several, begun = True, one_branch[1] is not solutions[1]
-        solutions[0], solutions[1], apart = one_branch
+        solutions[0], solutions[1], disagreement = one_branch
 
-    def also(other: Lattice) -> Solution | None:
+    def on_other_grid(other: Lattice) -> Solution | None:
         return solve(resolve(scene, other), "lumped on a finer grid") if has_room(scene, other) else None
 
-    expected = expected_error(scene, first.spec, solutions[0], also)
+    expected = expected_error(scene, first.spec, solutions[0], on_other_grid)
     bar = None
     alone = begun or solutions[1].status is Status.UNSTABLE  # coarser meshes may be on another branch
-    asked = judge.spec.kind in CHEAP if uncertainty is None else uncertainty
-    if asked and solutions[1].comparable and not alone:
+    wanted = against.spec.kind in CHEAP if uncertainty is None else uncertainty
+    if wanted and solutions[1].comparable and not alone:
 
         def coarser(n: Count) -> Solution:
-            return solve(resolve(scene, judge.spec.but(count=n)))
+            return solve(resolve(scene, against.spec.but(count=n)))
 
-        bar = error_bar(scene, solutions[1], judge.spec.elements, coarser)
+        bar = error_bar(scene, solutions[1], against.spec.elements, coarser)
     answers, within = tuple(solutions), None if bar is None else bar.error
-    laws = strain_law.said(first, answers, within)
-    if not apart:
-        apart, other_branch = far_apart.said(first, answers, error, within, also)
+    laws = strain_law_note(first, answers, within)
+    if not disagreement:
+        disagreement, other_branch = far_apart_note(first, answers, error, within, on_other_grid)
     known, busy = several or other_branch, tuple(doubts([average()]))
-    law_chosen = judge.spec.law is not None
-    return Comparison(scene, answers, bar, laws, apart, expected, known, other_branch, busy, law_chosen)
+    law_chosen = against.spec.law is not None
+    return Comparison(
+        scene, answers, bar, laws, disagreement, expected, known, other_branch, busy, law_chosen
+    )
 
 
 def _unlike(name: str, taken: Collection[str]) -> str:

@@ -1,4 +1,4 @@
-"""Why lattice and reference, both at rest, are more than 20 % apart: too coarse a grid, or other branches.
+"""Why lattice and reference, both at rest, differ by more than 20 %: too coarse a grid, or other branches.
 
 A coarse grid's answer comes nearer to the reference's where its cells are halved; on another branch of
 equilibria it goes elsewhere: extrapolated to first order, the slowest that a lattice converges, it is as far
@@ -33,7 +33,7 @@ MISSED = 0.1  # share of a modulus from which on it is a reason
 UNKNOWN = 0.5  # bar of the reference that tells nothing any more
 
 
-def said(
+def far_apart_note(
     lattice: Resolved[Lattice],
     solutions: tuple[Solution, ...],
     error: Callable[[np.ndarray, np.ndarray], float | None],

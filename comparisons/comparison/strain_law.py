@@ -1,4 +1,4 @@
-"""How far the laws of strain alone take lattice and reference apart, told from the largest stretch found.
+"""The difference of lattice and reference that comes of their laws of strain, from the largest stretch.
 
 Pulled one way to a stretch ε a sheet carries P = E ε (1 + c ε + …) of force per unstrained section: c = 0 in
 Biot's law, 1.5 in St Venant–Kirchhoff's, below 0 in neo-Hooke's. A lattice's links are linear in their own
@@ -39,7 +39,7 @@ def of_lattice(lattice: Resolved[Lattice]) -> float:
     return (1.0 - softness[1] / softness[0]) / (softness[1] * PULLS[1])
 
 
-def said(lattice: Resolved[Lattice], solutions: tuple[Solution, ...], bar: float | None) -> str:
+def strain_law_note(lattice: Resolved[Lattice], solutions: tuple[Solution, ...], bar: float | None) -> str:
     """A sentence where the laws of lattice and reference, the first two of the solutions, differ by more than
     the reference's error bar, else nothing; bar: as a share, None where it is not known."""
     first, reference = solutions[:2]

@@ -15,12 +15,9 @@ UNLIMITED = 2**60  # bytes; limits beyond are none
 
 def available() -> int | None:
     """Bytes, None where the system does not tell."""
-    found = [
-        room
-        for told in (_of_machine(), _of_address_space(), *_of_groups())
-        if (room := told) is not None and room < UNLIMITED
-    ]
-    return max(0, min(found)) if found else None
+    rooms = (_of_machine(), _of_address_space(), *_of_groups())
+    known = [room for room in rooms if room is not None and room < UNLIMITED]
+    return max(0, min(known)) if known else None
 
 
 def _of_machine() -> int | None:

@@ -11,7 +11,7 @@ import numpy as np
 from comparisons.identification.measurements import Displacements, Measured
 from comparisons.identification.outliers import Outlier
 from comparisons.identification.residual_test import Runs
-from comparisons.models.grading import told
+from comparisons.models.grading import choice_notes
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture
 from sheetbench.answers.table import MILLIMETRES, NUMBER, SECONDS, Column, Table, Unit, unit
@@ -21,7 +21,7 @@ SHOWN = 20  # residuals on the terminal; all of them are in the files
 
 
 @dataclass(frozen=True)
-class Found:
+class Estimate:
     """An unknown's value, its 95 % interval, the value the search started from and the unit.
 
     refined: about where a lattice with cells half as large would put it, None where that is not known;
@@ -61,7 +61,7 @@ class ResidualRow:
 
 @dataclass(frozen=True, repr=False)
 class Identification(Answer):
-    """unknowns: name → Found; residuals [m], model − measured: (n, 3) of displacements, nan where nothing
+    """unknowns: name → Estimate; residuals [m], model − measured: (n, 3) of displacements, nan where nothing
     was measured, or (n,) along the normals at cloud points; noise: s [m]; relative: the largest residual over
     the largest measurement; converged: whether the search ended at a minimum; runs: whether neighbouring
     residuals have one sign; explained: whether what is left is small, or noise; starts: of the search; grids:
@@ -72,7 +72,7 @@ class Identification(Answer):
     measured: Measured
     model: str
     settings: dict[str, Any]
-    unknowns: dict[str, Found]
+    unknowns: dict[str, Estimate]
     residuals: np.ndarray
     noise: float
     relative: float
@@ -84,7 +84,7 @@ class Identification(Answer):
     starts: int
     grids: tuple[tuple[int, ...], ...]
     outliers: tuple[Outlier, ...]
-    without: dict[str, Found]
+    without: dict[str, Estimate]
 
     @property
     def contains(self) -> str:
@@ -156,7 +156,7 @@ class Identification(Answer):
         return (Picture("identification", compose, (self,), formats=RASTER),)
 
     def notes(self) -> tuple[str, ...]:
-        return *told(self.settings), self._explanation()
+        return *choice_notes(self.settings), self._explanation()
 
     def _explanation(self) -> str:
         """What was fitted with what, how well, and what the interval assumes."""

@@ -28,9 +28,9 @@ from typing import Unpack
 
 import numpy as np
 
-from comparisons.identification import law as strain_law
 from comparisons.identification import remarks
-from comparisons.identification.answer import Found, Identification
+from comparisons.identification.answer import Estimate, Identification
+from comparisons.identification.law import law_note
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
 from comparisons.identification.misfit import require_same_way
 from comparisons.identification.model import Model, lattice_model, reference_model
@@ -110,7 +110,7 @@ def identify(
     (`sheetbench.choices.STRAIN_LAWS`); offset [m]: where a cloud was taken along the surface's normal, 0 on
     the mid-surface. refine: whether to look at other cells or elements too (not for motions).
     large: even where a model takes more memory than there is.
-    progress: told of every evaluation, and of a reference's solves.
+    progress: called with every evaluation, and every solve of a reference.
 
     Raises BadInput for names, models and data that do not go together, and NotReached where the model has no
     stable answer with the scene's own values.
@@ -126,15 +126,15 @@ def identify(
         require_choice("model", reference.kind, MODELS)
     elif law is not None:
         raise BadInput(f"law = '{law}': of a shell or solid; the lattice's is that of its springs")
-    asked = _Question(scene, unknowns, Lattice.given(lattice, keywords), reference, offset, refine)
-    _check(measured, asked)
-    return _answer(asked, measured)
+    question = _Question(scene, unknowns, Lattice.given(lattice, keywords), reference, offset, refine)
+    _check(measured, question)
+    return _answer(question, measured)
 
 
-def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identification:
+def _answer(question: _Question, measured: Measured, look: bool = True) -> Identification:
     """The answer; look: whether for rows that do not fit."""
-    unknowns, model = asked.unknowns, asked.fitted()
-    fit = Fit(measured, unknowns, model.axes, model.predictor, asked.offset, context().progress)
+    unknowns, model = question.unknowns, question.fitted()
+    fit = Fit(measured, unknowns, model.axes, model.predictor, question.offset, context().progress)
     odd: tuple[Outlier, ...] = ()
 
     def require_sense(part: Measured, predicted: Prediction) -> None:
@@ -149,38 +149,38 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
     best, starts = nearest(fit, require_sense, enough)
     step = bound = np.full(len(unknowns), np.nan)
     grids = [model.settings.get("grid")]
-    if asked.refine and asked.model == "lumped" and not _moving(measured):
-        end = refined(asked.scene, asked.lattice, model, fit, best, asked.free_grid)
+    if question.refine and question.model == "lumped" and not _moving(measured):
+        end = refined(question.scene, question.lattice, model, fit, best, question.free_grid)
         model, fit, best, step, grids = end.model, end.fit, end.best, end.step, [*end.grids]
         bound = GRID_ERROR * np.abs(step)
-    elif asked.refine and asked.reference is not None and not _moving(measured):
-        bound = _of_mesh(asked, fit, best)
+    elif question.refine and question.reference is not None and not _moving(measured):
+        bound = _of_mesh(question, fit, best)
     known = identifiability([u.name for u in unknowns], best.slopes, best.residuals)
     found = {
-        u.name: _found(u, x, known.half_widths[u.name], *steps)
+        u.name: _estimate(u, x, known.half_widths[u.name], *steps)
         for u, x, *steps in zip(unknowns, best.x, bound.tolist(), step.tolist(), strict=True)
     }
     residuals = fit.misfit().per_point(best.residuals)
     left = runs(measured, residuals)
-    without: dict[str, Found] = {}
+    without: dict[str, Estimate] = {}
     if odd and isinstance(measured, Displacements):
         context().progress("without the rows that do not fit")
-        without = _answer(asked, measured.without([one.row for one in odd]), look=False).unknowns
+        without = _answer(question, measured.without([one.row for one in odd]), look=False).unknowns
     warnings = [
         *remarks.on_outliers(odd, without),
         *known.warnings,
         *([] if odd else remarks.on_residuals(fit, best, left, starts)),
         *remarks.on_bounds(fit, best),
-        *remarks.on_grid(found, asked.model, asked.refine and not _moving(measured)),
+        *remarks.on_grid(found, question.model, question.refine and not _moving(measured)),
     ]
-    if asked.reference is not None and not _moving(measured):
-        last = set_in(asked.scene, unknowns, best.x)
-        solved = solve(resolve(last, asked.reference))
-        warnings += strain_law.said(last, asked.reference.law, solved.stretch)
+    if question.reference is not None and not _moving(measured):
+        last = set_in(question.scene, unknowns, best.x)
+        solved = solve(resolve(last, question.reference))
+        warnings += law_note(last, question.reference.law, solved.stretch)
     return Identification(
-        scene=asked.scene,
+        scene=question.scene,
         measured=measured,
-        model=asked.model,
+        model=question.model,
         settings=model.settings,
         unknowns=found,
         residuals=residuals,
@@ -198,23 +198,23 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
     )
 
 
-def _of_mesh(asked: _Question, fit: Fit, best: Nearest) -> np.ndarray:
+def _of_mesh(question: _Question, fit: Fit, best: Nearest) -> np.ndarray:
     """What the mesh does to x at most, by a look at elements twice as large; nan where that is not known."""
-    assert asked.reference is not None
-    elements = along(asked.scene, asked.reference)[:2]
+    assert question.reference is not None
+    elements = along(question.scene, question.reference)[:2]
     coarse = (elements[0] + 1) // 2, (elements[1] + 1) // 2
     longer = (prod(elements) / prod(coarse)) ** 0.5
     if longer == 1.0:
         return np.full(len(best.x), np.nan)
     context().progress(f"looking at larger elements, {coarse[0]} × {coarse[1]}")
-    other = reference_model(resolve(asked.scene, asked.reference.but(count=coarse)))
+    other = reference_model(resolve(question.scene, question.reference.but(count=coarse)))
     return mesh_error(fit, best, other.predictor, longer)
 
 
-def _found(u: Unknown, x: float, noise: float, bound: float, step: float) -> Found:
+def _estimate(u: Unknown, x: float, noise: float, bound: float, step: float) -> Estimate:
     """An unknown's value at x; noise: half-width of its interval; bound: what the grid or mesh does to x at
     most, step: of x on cells half as large; nan where they are not known."""
-    return Found(
+    return Estimate(
         value=u.value(x),
         interval=u.interval(x, noise + float(np.nan_to_num(bound))),
         start=u.start,
@@ -229,14 +229,14 @@ def _moving(measured: Measured) -> bool:
     return isinstance(measured, Displacements) and measured.time is not None
 
 
-def _check(measured: Measured, asked: _Question) -> None:
-    names = [u.name for u in asked.unknowns]
+def _check(measured: Measured, question: _Question) -> None:
+    names = [u.name for u in question.unknowns]
     repeated = {name for name in names if names.count(name) > 1}
     if not names or repeated:
         raise BadInput(f"unknown = '{','.join(names)}': name each once, and at least one")
-    if asked.reference is None:
-        lattice = asked.lattice
-        if resolve(asked.scene, lattice, own=False).fitted:
+    if question.reference is None:
+        lattice = question.lattice
+        if resolve(question.scene, lattice, own=False).fitted:
             raise BadInput(
                 f"calibration = '{lattice.calibration}': its springs do not follow from what is sought"
             )
@@ -246,7 +246,7 @@ def _check(measured: Measured, asked: _Question) -> None:
                 "leave k out"
             )
     else:
-        resolve(asked.scene, asked.reference)
+        resolve(question.scene, question.reference)
     moving = _moving(measured)
     still = [name for name in names if name in DAMPING or name.startswith(VISCOUS)]
     if still and not moving:
@@ -254,10 +254,10 @@ def _check(measured: Measured, asked: _Question) -> None:
             f"unknown = '{still[0]}': an equilibrium does not depend on it; it takes a measured motion, "
             "a CSV with a column time [s]"
         )
-    if asked.offset and not isinstance(measured, Surface):
+    if question.offset and not isinstance(measured, Surface):
         raise BadInput(
-            f"offset = {asked.offset:g} m: of the points of a cloud from the mid-surface; displacements are "
-            "its own"
+            f"offset = {question.offset:g} m: of a cloud's points from the mid-surface; displacements are "
+            "the mid-surface's"
         )
     count = int(measured.measured.sum()) if isinstance(measured, Displacements) else len(measured.points)
     if count <= len(names):

@@ -11,18 +11,18 @@ from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import Scene
 from sheetbench.scenes.summary import few
 
-SAID = 0.01  # share of the force from which on it is said
+NOTED = 0.01  # share of the force from which on it is said
 RUBBERS = "neo-hookean"
 
 
-def said(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
+def law_note(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
     """A sentence where laws of strain differ at the largest stretch of the sheet with the values found."""
     material = scene.material
     own = law or material.law or STRAIN_LAW
-    apart = {name: abs(curving(own, material) - curving(name, material)) for name in laws_of(material)}
-    other = max(apart, key=lambda name: apart[name])
-    off = apart[other] * (stretch or 0.0)
-    if off <= SAID:
+    differences = {name: abs(curving(own, material) - curving(name, material)) for name in laws_of(material)}
+    other = max(differences, key=lambda name: differences[name])
+    off = differences[other] * (stretch or 0.0)
+    if off <= NOTED:
         return []
     remedy = (
         ""

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from comparisons.identification.answer import Found
+from comparisons.identification.answer import Estimate
 from comparisons.identification.outliers import Outlier
 from comparisons.identification.residual_test import POOR, Runs, explained
 from comparisons.identification.search import Nearest
@@ -15,7 +15,7 @@ from sheetbench.answers.table import quantity
 from sheetbench.scenes.summary import few
 
 
-def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Found]) -> list[str]:
+def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Estimate]) -> list[str]:
     """The rows that do not fit, and the values without them."""
     if not odd:
         return []
@@ -57,7 +57,7 @@ def on_bounds(fit: Fit, best: Nearest) -> list[str]:
     ]
 
 
-def on_grid(found: Mapping[str, Found], model: str, looked: bool) -> list[str]:
+def on_grid(found: Mapping[str, Estimate], model: str, looked: bool) -> list[str]:
     """What the lattice's cells, or the elements of another model, do to the values."""
     lattice = model == "lumped"
     other, error = ("cells half as large", "grid's") if lattice else ("elements twice as large", "mesh's")
@@ -72,14 +72,14 @@ def on_grid(found: Mapping[str, Found], model: str, looked: bool) -> list[str]:
     ]
 
 
-def _finer(found: Found) -> str:
+def _finer(found: Estimate) -> str:
     """Where finer cells would put a value, as far as that is known."""
     if found.refined is None:
         return ""
     return f" would be {quantity(found.refined, found.unit)} on cells half as large"
 
 
-def _wide(found: Found) -> bool:
+def _wide(found: Estimate) -> bool:
     """Whether the grid widens an interval to more than twice the noise's."""
     whole, noise = np.ptp(found.interval), np.ptp(found.noise_interval)
     return bool(whole > 2.0 * noise and whole > 1e-2 * abs(found.value))

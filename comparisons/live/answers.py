@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.browser.sheets import drawn, forces, packed
+from comparisons.browser.sheets import forces, packed, viewer_sheet
 from comparisons.comparison.comparison import error
 from comparisons.live.panel import Question
 from comparisons.models.resolve import resolve
@@ -66,7 +66,7 @@ class Answered:
         found["forces"] = forces(mesh.points, self.displacement, self.scene)
         if known is None or not np.array_equal(known, mesh.points):
             flat = {**DIFFERENCE, "kind": "difference", "values": packed(np.zeros(len(mesh.points)))}
-            found["sheet"] = drawn("lattice", mesh, "Lattice", [flat], self.scene)
+            found["sheet"] = viewer_sheet("lattice", mesh, "Lattice", [flat], self.scene)
         return found
 
 
@@ -100,7 +100,7 @@ def shell(scene: Scene, question: Question, masses: np.ndarray) -> Sampled:
     plan = plan_mesh(scene.sheet, SHELL_CELLS)
     u = solution.displacement(plan.points[:, :2])
     mesh = FieldMesh(plan.points, plan.cells, {"displacement": u})
-    found["sheet"] = drawn("shell", mesh, "Shell", scene=scene)
+    found["sheet"] = viewer_sheet("shell", mesh, "Shell", scene=scene)
     return Sampled(
         found, solution.comparable, solution.displacement(masses), solution.displacement(scene.probe_points())
     )

@@ -1,4 +1,4 @@
-"""What a caller wants of everything that runs inside a call: to be told, and large models let through.
+"""Settings of everything that runs inside a call: progress, and whether large models are let through.
 
 `with running(large=True, progress=print):` holds for all that is solved in the block, in this thread. Public
 functions take `large` and `progress` as keywords by `in_context`; nothing below them passes them on.
@@ -18,13 +18,13 @@ from comparisons.report.work import Progress, silent
 from sheetbench.scenes import Solution
 
 Parameters = ParamSpec("Parameters")
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
 class Context:
-    """large: solve even what takes more memory than there is; progress: told what is being done, and of every
-    iteration; solved: told every answer of a comparison as soon as it is there."""
+    """large: solve even what takes more memory than there is; progress: called with what is being done, and
+    with every iteration; solved: called with every answer of a comparison as soon as it is there."""
 
     large: bool = False
     progress: Progress = silent
@@ -49,17 +49,17 @@ def running(**wanted: Any) -> Iterator[None]:
         _CONTEXT.reset(before)
 
 
-def in_context(function: Callable[Parameters, Found]) -> Callable[Parameters, Found]:
+def in_context(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Return the function; its keywords `large` and `progress`, where given, hold for all that it does."""
     return _held(function, "large", "progress")
 
 
-def large_in_context(function: Callable[Parameters, Found]) -> Callable[Parameters, Found]:
+def large_in_context(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Likewise of `large` alone, where the progress is a campaign's."""
     return _held(function, "large")
 
 
-def _held(function: Callable[Parameters, Found], *names: str) -> Callable[Parameters, Found]:
+def _held(function: Callable[Parameters, Result], *names: str) -> Callable[Parameters, Result]:
     """The function as said; its flat keywords stand in its signature, one by one, for help() to show."""
     own = signature(function)
     *fixed, last = own.parameters.values()
@@ -76,7 +76,7 @@ def _held(function: Callable[Parameters, Found], *names: str) -> Callable[Parame
         )
 
     @wraps(function)
-    def run(*values: Parameters.args, **named: Parameters.kwargs) -> Found:
+    def run(*values: Parameters.args, **named: Parameters.kwargs) -> Result:
         with running(**{name: named[name] for name in names if name in named}):
             return function(*values, **named)
 

@@ -65,10 +65,10 @@ def grading_of(
     return (0.0, why_not) if (why_not := one_size(grid, lattice)) else _by_layers(scene, grid)
 
 
-def told(settings: Mapping[str, Any]) -> tuple[str, ...]:
-    """The sentences of the settings of an answer whose grading or calibration was chosen, none where both
-    were asked for. Settings are of any model: `grading` is a lattice's, with a reason, only where a reason
-    stands beside it; the solid's is a word, a plug-in's may be anything."""
+def choice_notes(settings: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return why a grading and a calibration were chosen, a sentence each, from the settings of an answer;
+    none where both were given. The solid's `grading` is a word, a plug-in's may be anything: only one with a
+    reason beside it is a lattice's."""
     found = []
     if why := settings.get("grading_reason"):
         found.append(f"grading {of_settings(settings):g}: {why}")

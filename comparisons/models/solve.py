@@ -30,7 +30,8 @@ Watch = Callable[[Iteration], None]  # called once an iteration
 def solve(model: Resolved[Any], name: str = "") -> Solution:
     """Return the static answer of a model, on warm code; name: what to call it instead of its own.
 
-    The context's progress is told what is being done, and of every iteration. A solve that fails is a status.
+    The context's progress is called with what is being done, and with every iteration. A solve that fails is
+    a status.
     """
     spec, scene = model.spec, model.scene
     doing = f"solving {name or plugins.shown_name(spec.model)}"

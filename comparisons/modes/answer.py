@@ -10,7 +10,7 @@ from typing import Annotated, Any, overload
 
 import numpy as np
 
-from comparisons.models.grading import told
+from comparisons.models.grading import choice_notes
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
 from comparisons.report.vtk import plan_mesh, write_mesh
@@ -194,7 +194,7 @@ class Spectra(Answer, Sequence[Spectrum]):
 
     def notes(self) -> list[str]:
         """What the table does not say: labels, rigid motions left out, actuators left out."""
-        notes = [" · ".join(spectrum.label for spectrum in self), *told(self[0].settings)]
+        notes = [" · ".join(spectrum.label for spectrum in self), *choice_notes(self[0].settings)]
         known = [100.0 * error for error in self[0].expected if error is not None]
         if known:
             of, low, high = self[0].model, number(min(known), "+.2g"), number(max(known), "+.2g")

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from comparisons.models.grading import told
+from comparisons.models.grading import choice_notes
 from comparisons.motion import frames
 from comparisons.motion.history import left_out
 from sheetbench.answers.answer import Answer
@@ -59,7 +59,7 @@ class Simulation(Answer):
 
     def notes(self) -> list[str]:
         """What was chosen, and what the history says."""
-        return [*told(self.history.settings), *self.history.notes()]
+        return [*choice_notes(self.history.settings), *self.history.notes()]
 
     def complaints(self) -> list[str]:
         """Why the run did not reach its end, and what was measured outside it."""

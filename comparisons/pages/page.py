@@ -17,11 +17,11 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from comparisons.browser import viewer
-from comparisons.pages.asked import asked, command
 from comparisons.pages.pictures import pictures
+from comparisons.pages.question import command, question
 from comparisons.pages.remarks import complaints, notes
 from comparisons.pages.stage import stage
-from comparisons.pages.studies import Found, Study
+from comparisons.pages.studies import FolderContents, Study
 from comparisons.pages.tables import tables
 from comparisons.report.amounts import memory
 from comparisons.runs.manifest import made_with
@@ -32,7 +32,7 @@ PACKAGE = "comparisons.pages"
 MANY, OTHERS = 4, 30  # studies from which on each is folded; other files that are named
 
 
-def page(found: Found, title: str) -> str:
+def page(found: FolderContents, title: str) -> str:
     """The HTML of a folder's studies."""
     shown = [_study(study, n) for n, study in enumerate(found.studies, start=1)]
     troubles = [*found.troubles, *(said for study in found.studies for said in study.troubles)]
@@ -98,7 +98,7 @@ def _study(study: Study, number: int) -> dict[str, Any]:
         "verb": study.verb,
         "place": study.place,
         "command": command(study),
-        "asked": asked(study),
+        "question": question(study),
         "date": study.date,
         "notes": notes(study),
         "complaints": complaints(study),

@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 import meshio
 import numpy as np
 
-from comparisons.browser.sheets import displaced, drawn, field, free_side, outline
+from comparisons.browser.sheets import displaced, field, free_side, outline, viewer_sheet
 from comparisons.pages.studies import Study
 from comparisons.report.vtk import PLAN_CELLS
 from sheetbench.errors import BadInput
@@ -72,7 +72,7 @@ def _parts(name: str, mesh: FieldMesh, study: Study) -> list[tuple[Options, Opti
 
 
 def _one(name: str, mesh: FieldMesh, label: str, scene: Scene | None) -> tuple[Options, Options]:
-    sheet = drawn(name, coarser(mesh), label, scene=scene)
+    sheet = viewer_sheet(name, coarser(mesh), label, scene=scene)
     return sheet, {"name": name, "label": label, "sheets": [name], "field": _coloured(mesh)}
 
 
@@ -95,7 +95,7 @@ def _difference(
         },
         {**field("offz", "Difference in uz", off[:, 2], "mm", 1e3), "kind": "signed"},
     ]
-    sheet = drawn(name, small, f"{of} − reference", fields, scene)
+    sheet = viewer_sheet(name, small, f"{of} − reference", fields, scene)
     sheet["fields"] = [*fields, displaced()]
     return sheet, {"name": name, "label": f"Difference: {of}", "sheets": [name], "field": "difference"}
 
@@ -124,7 +124,7 @@ def _moving(name: str, frames: list[tuple[float, FieldMesh]], scene: Scene | Non
     most = max(2, min(FRAMES, MOVED // size))
     kept = [frames[i] for i in np.unique(np.linspace(0, len(frames) - 1, most).astype(int))]
     moments = [(time, mesh.point_data["displacement"]) for time, mesh in kept]
-    return drawn(name, kept[-1][1], "motion", scene=scene, frames=moments)
+    return viewer_sheet(name, kept[-1][1], "motion", scene=scene, frames=moments)
 
 
 def _seen(scene: Scene | None, meshes: list[FieldMesh]) -> Options:

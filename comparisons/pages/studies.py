@@ -129,7 +129,7 @@ class Study:
 
 
 @dataclass(frozen=True)
-class Found:
+class FolderContents:
     """Studies in the order of a page, other files with their sizes [bytes], and sentences on damaged ones."""
 
     studies: list[Study]
@@ -137,7 +137,7 @@ class Found:
     troubles: list[str]
 
 
-def read(root: Path) -> Found:
+def read(root: Path) -> FolderContents:
     """Every study in a folder and those below it. Raises BadInput where there is no such folder."""
     if not root.is_dir():
         raise BadInput(f"'{root}': there is no such folder")
@@ -155,7 +155,7 @@ def read(root: Path) -> Found:
         if record:
             beside = [path for path in sorted(folder.iterdir()) if _counts(path) and path.name not in claimed]
             others += [(f"{place}/{path.name}".lstrip("/"), path.stat().st_size) for path in beside]
-    return Found(studies, others, troubles)
+    return FolderContents(studies, others, troubles)
 
 
 def _folders(root: Path, troubles: list[str]) -> Iterator[Path]:

@@ -38,7 +38,7 @@ class Head:
 
 
 @dataclass(frozen=True)
-class Sheet:
+class HtmlTable:
     """A table for a page. note: what is left out; aside: shown when asked for only."""
 
     caption: str
@@ -49,22 +49,22 @@ class Sheet:
     aside: bool = False
 
 
-def tables(study: Study) -> list[Sheet]:
+def tables(study: Study) -> list[HtmlTable]:
     """Every table of a study, those that its manifest tells of first."""
-    found, told = [], set()
+    found, described = [], set()
     for words in study.words.get("tables", ()):
         name = f"{words.get('name')}.csv"
-        told.add(name)
+        described.add(name)
         rows = words.get("rows")
         if rows is None:
             read = study.read(name, _rows) if name in study.files else None
             rows = read[1:] if read else None
-        made = study.attempt(name, partial(_told, words, rows)) if rows is not None else None
+        made = study.attempt(name, partial(_described, words, rows)) if rows is not None else None
         if made:
             found.append(made)
     for name in study.ending(".csv"):
-        if name not in told and (read := study.read(name, _rows)):
-            found.append(_loose(name, read, aside=bool(told)))
+        if name not in described and (read := study.read(name, _rows)):
+            found.append(_undescribed(name, read, aside=bool(described)))
     return found
 
 
@@ -85,7 +85,7 @@ def _value(text: Any) -> float | None:
         return None
 
 
-def _told(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> Sheet:
+def _described(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> HtmlTable:
     known = {one.name for one in fields(Column)}
     columns = [Column(**{k: v for k, v in column.items() if k in known}) for column in words["columns"]]
     units = [bool(column.get("units")) for column in words["columns"]]
@@ -103,7 +103,7 @@ def _told(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> Sheet:
     kinds = ["number" if c.numeric else "prose" if c.prose else "word" for c in columns]
     heads = [Head(c.header(shown=True), kind) for c, kind in zip(columns, kinds, strict=True)]
     caption, text = words.get("caption", ""), words.get("text", "")
-    return Sheet(caption, text, heads, cells, _left_out(rows), aside=len(rows) > LONG)
+    return HtmlTable(caption, text, heads, cells, _left_out(rows), aside=len(rows) > LONG)
 
 
 def _cell(column: Column, of_units: bool, value: Any) -> Any:
@@ -118,7 +118,7 @@ def _cell(column: Column, of_units: bool, value: Any) -> Any:
     return int(found) if found is not None and column.form.endswith("d") and found == found else found
 
 
-def _loose(name: str, rows: list[list[str]], aside: bool) -> Sheet:
+def _undescribed(name: str, rows: list[list[str]], aside: bool) -> HtmlTable:
     head, body = rows[0], rows[1 : MOST + 1]
     width = len(head)
     body = [(row + [""] * width)[:width] for row in body]
@@ -136,7 +136,7 @@ def _loose(name: str, rows: list[list[str]], aside: bool) -> Sheet:
     long = [max((len(row[i]) for row in body), default=0) > WORD for i in range(width)]
     kinds = ["number" if numeric[i] else "prose" if long[i] else "word" for i in range(width)]
     heads = [Head(text, kind) for (text, _), kind in zip(shown, kinds, strict=True)]
-    return Sheet(name, "", heads, cells, _left_out(rows[1:]), aside)
+    return HtmlTable(name, "", heads, cells, _left_out(rows[1:]), aside)
 
 
 def _scaled(head: str) -> tuple[str, Unit]:

@@ -85,7 +85,7 @@ class Answer(ABC):
             pictures=tuple(self.figures()),
             attachments=self.files(),
             settings=self.choices(),
-            met=self.succeeded,
+            succeeded=self.succeeded,
         )
 
     def to_pandas(self, table: str = "") -> pandas.DataFrame:

@@ -110,7 +110,7 @@ class Report:
     title, subtitle, lead: what it is about, and a line more. tables: in the files, each with a name in CSV
     too; printed: what a terminal shows instead of them. notes: remarks under the tables. complaints: what
     went wrong, a sentence each. document: the JSON document. attachments: further files by name, with what
-    writes them. settings: for the manifest. met: whether the question has its answer.
+    writes them. settings: for the manifest. succeeded: whether the question has its answer.
     """
 
     name: str
@@ -126,7 +126,7 @@ class Report:
     pictures: tuple[Picture, ...] = ()
     attachments: Mapping[str, Write] = field(default_factory=dict)
     settings: Mapping[str, Any] = field(default_factory=dict)
-    met: bool = True
+    succeeded: bool = True
 
     @property
     def shown(self) -> tuple[Table, ...]:
@@ -208,7 +208,7 @@ class Report:
             "notes": list(self.notes),
             "complaints": list(self.complaints),
             "pictures": [list(picture.names) for picture in self.pictures],
-            "met": self.met,
+            "met": self.succeeded,
         }
 
     def to_latex(self) -> str:

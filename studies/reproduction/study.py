@@ -112,7 +112,7 @@ def study(
     elements: Elements = ELEMENTS,
     progress: Callable[[str | Work], None] = silent,
 ) -> Forensics:
-    """These parts; elements: of the shell; progress: told what is being done."""
+    """These parts; elements: of the shell; progress: called with what is being done."""
     results: dict[str, Any] = {}
     if "errors" in parts:
         results |= {"checks": tuple(checks()), "cells": tuple(cells())}

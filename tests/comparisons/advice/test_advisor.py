@@ -109,7 +109,7 @@ def test_the_choice_meets_the_tolerance(name: str, tolerance: float) -> None:
     """The shell's own model error, 0.5 % on the curved edge by its law of strain, counts."""
     advice = advise(scenes.load(name), tolerance)
     assert advice.model is not None
-    assert advice.met == (advice.model.value < tolerance) == ("own model error" not in advice.reason)
+    assert advice.succeeded == (advice.model.value < tolerance) == ("own model error" not in advice.reason)
     assert actual_error(advice) <= tolerance
 
 
@@ -173,11 +173,11 @@ def test_what_the_scene_does_not_need_is_left_out() -> None:
 def test_within_a_budget_the_most_accurate_is_chosen() -> None:
     scene = scenes.load("two-edges-clamped")
     short, long = advise(scene, None, 0.02), advise(scene, None, 0.2)
-    assert short.met and long.met
+    assert short.succeeded and long.succeeded
     assert short.seconds is not None and short.seconds <= 0.02
     assert short.error is not None and long.error is not None and long.error <= short.error
     hopeless = advise(scene, 0.01, 1e-7)
-    assert not hopeless.met and hopeless.choice is None and "no model solves this" in hopeless.message
+    assert not hopeless.succeeded and hopeless.choice is None and "no model solves this" in hopeless.message
 
 
 def test_a_scene_with_actuators() -> None:
@@ -243,5 +243,5 @@ def test_an_unstable_scene_gets_no_choice_but_the_reason() -> None:
         update={"gravity": Gravity(acceleration=(-200.0, 0.0, 0.0)), "supports": (Clamped(edge="x0"),)}
     )
     advice = advise(upright, 0.01)  # a sheet that stands on its edge and is too heavy to
-    assert advice.choice is None and not advice.met
+    assert advice.choice is None and not advice.succeeded
     assert "unstable" in advice.message

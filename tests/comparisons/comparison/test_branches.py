@@ -25,7 +25,7 @@ def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch() -> N
     found = compare(BENT, grid=9, elements=8, uncertainty=False, companion=False)
     lattice, shell = found.solutions
     assert lattice.status is shell.status is Status.CONVERGED
-    assert found.several and "different branches of equilibria" in found.apart
+    assert found.several and "different branches of equilibria" in found.disagreement
     assert found.error(lattice) < 0.5
     document = found.document()["solutions"]
     assert {one["branch"] for one in document} == {"path", "of lumped"}
@@ -37,7 +37,7 @@ def test_models_that_stay_on_different_branches_get_no_error() -> None:
     found = compare(BENT, grid=9, elements=8, companion=False, symmetry=True)
     lattice, shell = found.solutions
     assert lattice.status is shell.status is Status.CONVERGED
-    assert "they lie on different branches of equilibria" in found.apart
+    assert "they lie on different branches of equilibria" in found.disagreement
     assert found.error(lattice) is None
     document = found.document()
     assert [one["branch"] for one in document["solutions"]] == ["own", "own"]

@@ -16,7 +16,7 @@ from comparisons.comparison.comparison import compare
 from comparisons.comparison.differences import relative
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.context import running
-from comparisons.models.grading import told
+from comparisons.models.grading import choice_notes
 from fem_reference.uncertainty import estimate
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
@@ -209,5 +209,5 @@ def test_a_comparison_prints_with_every_reference(
 
 
 def test_reasons_are_read_from_the_settings_of_any_model() -> None:
-    assert told({"elements": [2, 2], "grading": "edges"}) == ()
-    assert told({"grading": 0.3, "grading_reason": "why"}) == ("grading 0.3: why",)
+    assert choice_notes({"elements": [2, 2], "grading": "edges"}) == ()
+    assert choice_notes({"grading": 0.3, "grading_reason": "why"}) == ("grading 0.3: why",)

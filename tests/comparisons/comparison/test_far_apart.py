@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from fake_solutions import solution
 
-from comparisons.comparison import far_apart
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare, error
+from comparisons.comparison.far_apart import far_apart_note, reasons
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Solution, Status
@@ -27,11 +27,11 @@ LATTICE = Lattice((5, 3), "consistent")
 def test_pressure_on_a_few_masses_between_tilted_clamps() -> None:
     """5 × 3 masses are 261 % off the shell, 9 × 5 are 92 %."""
     found = compare(SCENE, grid=(5, 3), calibration="consistent", elements=(8, 3), uncertainty=False)
-    assert found.apart.startswith("lumped and shell both converged, 26")
-    assert "the grid is too coarse, on 9×5×2 masses it is 9" in found.apart
-    assert found.document()["apart"] == found.apart
+    assert found.disagreement.startswith("lumped and shell both converged, 26")
+    assert "the grid is too coarse, on 9×5×2 masses it is 9" in found.disagreement
+    assert found.document()["apart"] == found.disagreement
     report = found.report()
-    assert found.apart in report.complaints
+    assert found.disagreement in report.complaints
     assert "both converged" in report.to_markdown()
     assert found.converged
 
@@ -40,7 +40,7 @@ def said(first: float, finer: Solution | None, lattice: Lattice = LATTICE, **kno
     """Of a lattice whose corner moves by `first` [m], where the shell's moves by −10 mm."""
     grid = {"settings": {"grid": [5, 3, 2]}}
     both = (solution(SCENE, size=first, **grid), solution(SCENE, "shell", **known.pop("shell", {})))
-    return far_apart.said(resolve(SCENE, lattice), both, error, known.pop("bar", None), lambda other: finer)[
+    return far_apart_note(resolve(SCENE, lattice), both, error, known.pop("bar", None), lambda other: finer)[
         0
     ]
 
@@ -59,9 +59,9 @@ def test_answers_on_different_branches_have_no_error(known: bool) -> None:
     """Where only the grid is too coarse the error stands."""
     pair = (solution(SCENE, size=0.01), solution(SCENE, "shell"))
     finer = solution(SCENE, size=0.0101 if known else -0.007, settings={"grid": [9, 5, 2]})
-    apart, other_branch = far_apart.said(resolve(SCENE, LATTICE), pair, error, 0.01, lambda other: finer)
+    apart, other_branch = far_apart_note(resolve(SCENE, LATTICE), pair, error, 0.01, lambda other: finer)
     assert other_branch is known
-    found = Comparison(SCENE, pair, apart=apart, several=known, other_branch=other_branch)
+    found = Comparison(SCENE, pair, disagreement=apart, several=known, other_branch=other_branch)
     assert (found.error(pair[0]) is None) is known
     assert all((difference.relative is None) is known for difference in found.differences)
     assert found.converged and found.document()["apart"] in found.report().complaints
@@ -96,7 +96,7 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
         solution(SCENE, "shell", stretch=stretch),
     )
     lattice = LATTICE.but(calibration=calibration)
-    apart, other_branch = far_apart.said(
+    apart, other_branch = far_apart_note(
         resolve(SCENE, lattice), both, error, 0.01, lambda other: fine(finer)
     )
     assert "50 % apart" in apart
@@ -125,6 +125,6 @@ def test_reasons_stand_beside_it() -> None:
     scene = SCENE.replace(loads=(Pressure(value=60.0),))
     uniform = LATTICE.but(calibration="uniform")
     both = solution(scene, settings={"grid": [5, 3, 2]}), solution(scene, "shell")
-    layer, moduli = far_apart.reasons(resolve(scene, uniform), *both)
+    layer, moduli = reasons(resolve(scene, uniform), *both)
     assert "within 44.8 mm of the edge, 0.95 cells" in layer
     assert moduli.startswith("the springs miss ")

@@ -126,11 +126,11 @@ def test_the_advisor_counts_what_the_shell_leaves_out() -> None:
     """The thick sheet: within 1 % of a converged shell, which may itself be 2.7 % off a solid."""
     advice = advise(THICK, 0.01)
     assert advice.error is not None and advice.error + advice.bar <= 0.01
-    assert not advice.met and "model error" in advice.reason
+    assert not advice.succeeded and "model error" in advice.reason
     predicted: dict[str, Any] = advice.document()["predicted"]
     assert predicted["model"] == pytest.approx(1.2 * 0.15**2, rel=0.01)
     assert json.loads(json.dumps(predicted))["model_parts"]["thickness"] == pytest.approx(0.027)
-    assert advise(THICK, 0.05).met
+    assert advise(THICK, 0.05).succeeded
     assert np.isclose(advise(load("one-edge-clamped"), 0.01).document()["predicted"]["model"], 0.0, atol=1e-3)
 
 

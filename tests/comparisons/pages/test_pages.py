@@ -17,9 +17,9 @@ from commands import run
 from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
 from comparisons.pages import remarks
-from comparisons.pages.asked import asked
 from comparisons.pages.page import page
 from comparisons.pages.pictures import pictures
+from comparisons.pages.question import question
 from comparisons.pages.remarks import notes
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
@@ -160,7 +160,7 @@ def test_the_page_is_opened_where_that_is_asked(
 def test_several_grids_are_not_the_sides_of_one(tmp_path: Path) -> None:
     settings = {"grids": [5, 9], "grid": [5, 9]}
     study = Study(tmp_path, "", "crosscheck", (), {"settings": settings})
-    assert asked(study) == [("settings", "grids 5, 9, grid 5 × 9")]
+    assert question(study) == [("settings", "grids 5, 9, grid 5 × 9")]
 
 
 def _motion_tradeoff(folder: Path, drawn: bool = False) -> Path:

@@ -17,7 +17,7 @@ def command(study: Study) -> str:
     return shlex.join(map(str, words)) if isinstance(words, list) else ""
 
 
-def asked(study: Study) -> list[tuple[str, str]]:
+def question(study: Study) -> list[tuple[str, str]]:
     """Pairs of a part's name and what it says: of the scene, then of the settings."""
     scene = study.scene
     parts = study.attempt("scene", lambda: in_words(scene)) if scene is not None else []

@@ -1,11 +1,11 @@
 """The cheapest model that is good enough for a scene, or the most accurate one in a given time.
 
 Scales (`comparisons.models.scales`) decide what may be left out; a few quick solves
-(`comparisons.advice.probing`) decide the rest. A model is adequate if its distance from the judge, the
-judge's error bar and what the judge leaves out on every mesh (`comparisons.comparison.model_error`) are
-together within the tolerance; where the bar leaves that open the judge is refined. Where the last alone is
-above the tolerance, the choice meets it against a converged shell only, and the advice says so. Predicted
-error: the distance; predicted time: as measured here.
+(`comparisons.advice.probing`) decide the rest. A model is adequate if its distance from the reference, the
+reference's error bar and what the reference leaves out on every mesh (`comparisons.comparison.model_error`)
+are together within the tolerance; where the bar leaves that open the reference is refined. Where the last
+alone is above the tolerance, the choice meets it against a converged shell only, and the advice says so.
+Predicted error: the distance; predicted time: as measured here.
 
 What is left out is said, and what the scene needs: "bending" always; "transverse shear" and "membrane
 stiffening" where they hold a share of the energy; "large displacements" where the linear answer is off; and
@@ -54,8 +54,8 @@ def advise(
     lattices that may be chosen beside the usual ones, "auto" as in `comparisons.models.method`; grading: of
     further lattices, a number or "auto" (`comparisons.models.grading`), which makes the calibration "auto"
     too. Models that take more memory than there is are left out unless `large`. progress: called with every
-    solve. Raises SceneError for a scene without a static answer; BadInput where not even the coarsest reference fits into
-    memory, for a grid, and for springs and grading that do not go together.
+    solve. Raises SceneError for a scene without a static answer; BadInput where not even the coarsest
+    reference fits into memory, for a grid, and for springs and grading that do not go together.
     """
     scene = scene_of(scene)
     require_static(scene)
@@ -65,10 +65,10 @@ def advise(
     resolution = tolerance or 0.01
     for _ in range(3):
         probing.refine()
-    while not probing.judge.usable and probing.refine():
+    while not probing.reference.usable and probing.refine():
         pass
-    if not probing.judge.usable:
-        said = probing.judge.solution
+    if not probing.reference.usable:
+        said = probing.reference.solution
         reason = f"the shell finds no stable equilibrium: {said.status}: {said.message}"
         return _advice(probing, sizes, tolerance, budget, None, resolution, reason)
     linear = not scene.actuators and sizes.span_load_number <= LINEAR_LOAD_NUMBER
@@ -97,7 +97,7 @@ def advise(
                 f"{100 * tolerance:g} % takes longer than {budget:g} s; this is the most accurate in time"
             )
     elif chosen is None:
-        chosen = probing.judge
+        chosen = probing.reference
     return _advice(probing, sizes, tolerance, budget, chosen, resolution, message)
 
 
@@ -124,7 +124,7 @@ def _cheapest(probing: Probing, candidates: list[Spec], tolerance: float) -> Tri
 
 
 def _adequate(probing: Probing, trial: Trial, tolerance: float) -> bool:
-    """Whether a trial is within the tolerance; the judge is refined until that is certain."""
+    """Whether a trial is within the tolerance; the reference is refined until that is certain."""
     while True:
         error, bar = probing.error(trial), probing.uncertainty
         if error + bar <= tolerance:
@@ -218,7 +218,9 @@ def _limit(probing: Probing, chosen: Trial | None) -> str:
     lattice = chosen.candidate if chosen is not None else None
     if not isinstance(lattice, Lattice):
         lattice = probing.lattice(MASSES - 1).but(**probing.springs)
-    return strain_law.limit(resolve(probing.scene, lattice, "springs"), probing.judge.solution.stretch or 0.0)
+    return strain_law.limit(
+        resolve(probing.scene, lattice, "springs"), probing.reference.solution.stretch or 0.0
+    )
 
 
 def _effects(
@@ -227,7 +229,7 @@ def _effects(
     """What the scene needs of a model, and what is left out of the chosen one."""
     needs, left_out = ["bending"], ["dynamics: the question is static"]
     small = NEGLIGIBLE * tolerance
-    energies = probing.judge.solution.energies
+    energies = probing.reference.solution.energies
     total = sum(energies.values()) or 1.0
     for name, part in (("transverse shear", "shear"), ("membrane stiffening", "membrane")):
         share = energies.get(part, 0.0) / total

@@ -46,8 +46,8 @@ class Tried:
 
 @dataclass(frozen=True, repr=False)
 class Advice(Answer):
-    """What to solve, and why. error, seconds: predicted for the choice; bar: of the judge, by its mesh;
-    model: what the judge leaves out on every mesh.
+    """What to solve, and why. error, seconds: predicted for the choice; bar: of the reference, by its mesh;
+    model: what the reference leaves out on every mesh.
 
     choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading,
     calibration: what was made of graded lattices and of other springs, where they were asked for. limit: from
@@ -143,11 +143,11 @@ class Advice(Answer):
         scales, command = self.scales, self.command
         return [
             f"load number q L³/D = {number(scales.span_load_number, '.3g')}, "
-            f"L = {quantity(scales.span, 'm', '.4g')} from the edges that hold the sheet",
-            f"h/a = {number(scales.slenderness, '.3g')}, q a/(E h) = {number(scales.strain, '.2g')}, "
-            "a the shorter side",
-            f"needs {', '.join(self.needs)}",
-            *(f"leaves out {left}" for left in self.left_out),
+            f"L = {quantity(scales.span, 'm', '.4g')} from the held edges; "
+            f"slenderness h/a = {number(scales.slenderness, '.3g')}; "
+            f"membrane strain q a/(E h) = {number(scales.strain, '.2g')}; a: shorter side",
+            f"the scene needs {', '.join(self.needs)}",
+            *(f"left out: {left}" for left in self.left_out),
             *(choice for choice in (self.grading, self.calibration, self.limit) if choice),
             *self.warnings,
             f"{self.reason} (probing took {few(self.probing_seconds)} s)",

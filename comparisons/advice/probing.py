@@ -1,7 +1,7 @@
 """Quick solves of a scene that tell what each model would get wrong and cost here.
 
-The judge is the shell on three meshes of rising fineness with the grid convergence index as its error bar,
-made finer only as long as a decision hangs on it. Times are this machine's, on warm code; those of models
+The reference is the shell on three meshes of rising fineness, its error bar the grid convergence index, made
+finer only as long as a decision hangs on it. Times are this machine's, on warm code; those of models
 that were not solved follow t = c N^p through the two solved ones nearest in unknowns.
 """
 
@@ -32,7 +32,7 @@ from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import MASSES, near_square
 
-JUDGES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
+MESHES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
 FIRST = 3  # of them are always solved
 CELLS = {"lumped": (2, 4, 6, 8, 12, 16, 24, 32), "plate": (2, 4, 8), "shell": (2, 3, 4, 6, 8, 12, 16, 24)}
 UNKNOWNS = {"lumped": 6.0, "plate": 20.0, "shell": 20.0}  # a cell or element
@@ -60,7 +60,7 @@ class Probing:
     def __init__(self, scene: Scene, asked: Lattice = Lattice()) -> None:  # noqa: B008  # frozen
         """asked: the springs that lattices may have too, and by how much they may be graded too. Raises
         BadInput for a grid, where springs and grading are none or do not go together, and where the first
-        judges take too much memory; otherwise the larger models are left out."""
+        references take too much memory; otherwise the larger models are left out."""
         if asked.grid is not None:
             raise BadInput(f"grid = {counted(asked.grid)}: is chosen here; leave it out")
         self.scene = scene
@@ -72,11 +72,11 @@ class Probing:
         self.points = scene.probe_points()
         self.planes = planes(scene)
         self.trials: dict[Spec, Trial] = {}
-        self.judges: list[int] = []
+        self.meshes: list[int] = []
         self.seconds = 0.0
         self.loads: list[float | None] = []
         self.samples: list[list[float]] = []
-        require_room(scene, self._judge(JUDGES[FIRST - 1]), instead="advise has no coarser one")
+        require_room(scene, self._reference(MESHES[FIRST - 1]), instead="advise has no coarser one")
 
     def lattice(self, cells: int, linear: bool = False) -> Lattice:
         """A lattice of that many cells along the shorter side, cut where the scene is symmetric."""
@@ -97,22 +97,22 @@ class Probing:
         """What may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
         usual = [self.lattice(n) for n in CELLS["lumped"]]
         others = [one.but(**self.springs) for one in usual] if self.springs else []
-        found: list[Spec] = [*usual, *others, *self.graded(others or usual)]
-        found += [self.elements("shell", n) for n in CELLS["shell"]]
+        specs: list[Spec] = [*usual, *others, *self.graded(others or usual)]
+        specs += [self.elements("shell", n) for n in CELLS["shell"]]
         if linear:
-            found += [self.lattice(n, linear=True) for n in CELLS["lumped"]]
-            found += [self.elements("plate", n) for n in CELLS["plate"]]
-        return [one for one in found if has_room(self.scene, one)]
+            specs += [self.lattice(n, linear=True) for n in CELLS["lumped"]]
+            specs += [self.elements("plate", n) for n in CELLS["plate"]]
+        return [one for one in specs if has_room(self.scene, one)]
 
     def graded(self, lattices: list[Lattice]) -> list[Lattice]:
         """Those of these lattices that are to be graded too, as asked or by the scene's layers."""
-        found = [(one, self.grading_of(one)[0]) for one in lattices]
-        return [one.but(grading=value) for one, value in found if value]
+        gradings = [(one, self.grading_of(one)[0]) for one in lattices]
+        return [one.but(grading=value) for one, value in gradings if value]
 
     def grading_of(self, lattice: Lattice) -> tuple[Graded | None, str]:
         """The grading that a lattice may have, and why where that is chosen."""
-        found = resolve(self.scene, lattice.but(grading=self.grading), "springs")
-        return fixed(found.spec.grading), found.reasons.get("grading_reason", "")
+        resolved = resolve(self.scene, lattice.but(grading=self.grading), "springs")
+        return fixed(resolved.spec.grading), resolved.reasons.get("grading_reason", "")
 
     def trial(self, candidate: Spec, repeats: int = REPEATS) -> Trial:
         """The candidate's answer and time; solved once, whoever asks."""
@@ -131,28 +131,28 @@ class Probing:
         return self.trials[candidate]
 
     def refine(self) -> bool:
-        """Solve the judge on its next mesh. False where none is left or has room, or it does not converge."""
-        if len(self.judges) == len(JUDGES):
+        """Solve the reference on its next mesh; return whether there was one with room, and it converged."""
+        if len(self.meshes) == len(MESHES):
             return False
-        cells = JUDGES[len(self.judges)]
-        if not has_room(self.scene, self._judge(cells)):
+        cells = MESHES[len(self.meshes)]
+        if not has_room(self.scene, self._reference(cells)):
             return False
-        self.judges.append(cells)
-        return self.trial(self._judge(cells), repeats=1).usable
+        self.meshes.append(cells)
+        return self.trial(self._reference(cells), repeats=1).usable
 
     @property
-    def judge(self) -> Trial:
-        """The judge on its finest mesh so far."""
-        return self.trial(self._judge(self.judges[-1]))
+    def reference(self) -> Trial:
+        """The reference on its finest mesh so far."""
+        return self.trial(self._reference(self.meshes[-1]))
 
     @property
     def uncertainty(self) -> float:
-        """Error bar of the judge, in the design's measure of error."""
+        """Error bar of the reference, in the design's measure of error."""
         from fem_reference.edge_layer import missed_by
         from fem_reference.uncertainty import estimate
 
-        finest = self.judges[:-4:-1]
-        trials = [self.trial(self._judge(cells)) for cells in finest]
+        finest = self.meshes[:-4:-1]
+        trials = [self.trial(self._reference(cells)) for cells in finest]
         answers = [trial.solution.displacement(self.points) for trial in trials if trial.usable]
         if len(answers) < len(finest) or len(answers) < 2:
             return float("inf")
@@ -161,15 +161,17 @@ class Probing:
 
     @cached_property
     def model_error(self) -> ModelError | None:
-        """What the judge leaves out of the sheet on every mesh, by its answer when this is first asked."""
-        return model_error(self.scene, self.judge.solution)
+        """What the reference leaves out of the sheet on every mesh, by its present answer."""
+        return model_error(self.scene, self.reference.solution)
 
     def error(self, trial: Trial) -> float:
-        """Error of a trial against the judge; infinite for an answer that is none."""
+        """Error of a trial against the reference; infinite for an answer that is none."""
         if not trial.usable:
             return float("inf")
-        found = error(trial.solution.displacement(self.points), self.judge.solution.displacement(self.points))
-        return 0.0 if found is None else found
+        off = error(
+            trial.solution.displacement(self.points), self.reference.solution.displacement(self.points)
+        )
+        return 0.0 if off is None else off
 
     def predicted_seconds(self, candidate: Spec) -> float:
         """Time of a candidate: as measured, or by the rates of its family."""
@@ -188,7 +190,7 @@ class Probing:
             exponent = float(np.clip(np.log(near.seconds / others[0].seconds) / np.log(ratio), 0.3, 1.6))
         return near.seconds * float(size / unknowns(near.candidate)) ** exponent
 
-    def _judge(self, cells: int) -> Elements:
+    def _reference(self, cells: int) -> Elements:
         return self.elements("shell", cells)
 
 

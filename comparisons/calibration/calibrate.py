@@ -66,7 +66,9 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
     """
     for name, what in (("method", lattice.calibration), ("grading", lattice.grading)):
         if what == AUTO and not named:
-            raise BadInput(f"{name} = auto: goes by a SCENE's edges and load; name one, or choose yourself")
+            raise BadInput(
+                f"{name} = auto: goes by the edges and load of a SCENE; name one, or another {name}"
+            )
     found = resolve(scene, lattice, "springs", own=False)
     springs = found.calibrated([scene] if named else None)
     known = [said] if named and (said := lumped.polygons(scene, found.grid)) else []

@@ -149,16 +149,16 @@ def tables(material: Material, modes: tuple[ModeDamping, ...]) -> tuple[Table, .
 def _how(material: Material) -> str:
     if not material.branches.times:
         return (
-            f"One damper a spring, {1e3 * material.dashpot_time:.4g} ms · k, has η in proportion to the "
-            "frequency: right at one frequency only"
+            f"One damper per spring, {1e3 * material.dashpot_time:.4g} ms · k, gives η in proportion to the "
+            "frequency: it is right at one frequency only"
         )
     ends = material.band or tuple(
         1.0 / (2.0 * pi * t) for t in (material.branches.times[-1], material.branches.times[0])
     )
     storage, _ = material.branches.storage_and_loss(np.array(ends))
     return (
-        f"The branches stiffen what moves: times {storage[0]:.3g} at {ends[0]:.3g} Hz and {storage[1]:.3g} "
-        f"at {ends[1]:.3g} Hz of the long-time modulus, which statics take"
+        f"Motion stiffens these branches: the modulus is {storage[0]:.3g} times the long-time one, which "
+        f"statics take, at {ends[0]:.3g} Hz, and {storage[1]:.3g} times at {ends[1]:.3g} Hz"
     )
 
 

@@ -17,7 +17,7 @@ def command(
         float | None, option("Error allowed; 0.01 unless a budget alone is given.", "FRACTION")
     ] = None,
     budget: Annotated[
-        float | None, option("Time that a solve may take, without setting up.", "SECONDS", unit="s")
+        float | None, option("Time allowed for a solve, set-up not included.", "SECONDS", unit="s")
     ] = None,
     calibration: Calibration = None,
     large: Large = False,

@@ -60,13 +60,16 @@ def command(
     loss_factor: Annotated[
         float | None, option("Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band.", "ETA")
     ] = None,
-    damping_ratio: Annotated[float | None, option("The same by ζ, of critical damping.", "ZETA")] = None,
-    log_decrement: Annotated[
-        float | None, option("The same by a decay: ln of a peak over the next.", "DELTA")
+    damping_ratio: Annotated[
+        float | None, option("Damping as ζ, a fraction of critical damping.", "ZETA")
     ] = None,
-    quality: Annotated[float | None, option("The same by a resonance.", "Q")] = None,
+    log_decrement: Annotated[
+        float | None, option("Damping as the logarithmic decrement of a decay, ln(peak/next peak).", "DELTA")
+    ] = None,
+    quality: Annotated[float | None, option("Damping as the quality factor of a resonance.", "Q")] = None,
     at: Annotated[
-        float | None, option("One damper a spring, right at this frequency alone.", "HZ", unit="Hz")
+        float | None,
+        option("One damper per spring: the loss factor is right at this frequency only.", "HZ", unit="Hz"),
     ] = None,
     band: Annotated[
         tuple[float, float] | None,

@@ -37,7 +37,12 @@ def command(
             "--uncertainty/--no-uncertainty",
         ),
     ] = None,
-    branch: Annotated[str, option(f"{listed(BRANCHES)}: leave unstable equilibria or not.", "NAME")] = "path",
+    branch: Annotated[
+        str,
+        option(
+            f"{listed(BRANCHES)}: buckled leaves an unstable equilibrium along its buckling mode.", "NAME"
+        ),
+    ] = "path",
     duration: Annotated[
         float | None, option("Compare the sheet's motion over so long, from rest.", "S", unit="s")
     ] = None,

@@ -39,7 +39,8 @@ def command(
         ),
     ] = "length",
     coefficient: Annotated[
-        list[str] | None, option("Take this one, not the nearest. May be repeated.", "NAME=VALUE")
+        list[str] | None,
+        option("Use this coefficient in place of the nearest one. May be repeated.", "NAME=VALUE"),
     ] = None,
     *,
     output: OutputOptions,

@@ -38,7 +38,7 @@ def command(
         ),
     ] = None,
     up_to: Annotated[
-        float | None, option("With --tensile: leave out what is stretched farther.", "STRETCH")
+        float | None, option("With --tensile: ignore data beyond this stretch.", "STRETCH")
     ] = None,
     area: Annotated[
         float | None,
@@ -59,7 +59,7 @@ def command(
     offset: Annotated[
         float,
         option(
-            "Where a point cloud was taken, along the surface's normal: half the thickness for its top.", "M"
+            "Distance of a point cloud from the mid-surface: half the thickness for the sheet's top.", "M"
         ),
     ] = 0.0,
     large: Large = False,

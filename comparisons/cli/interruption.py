@@ -25,13 +25,13 @@ def promise(verb: str, out: object) -> None:
     """Note what an interrupt of this verb leaves behind, given its --out."""
     global _left_behind
     if verb == "live":
-        _left_behind = "the page is served no longer, and keeps the last answers"
+        _left_behind = "the server has stopped; an open page keeps its last answers"
     elif out is None:
         _left_behind = "nothing was kept"
     elif verb in RESUMED:
         _left_behind = "the same command goes on"
     else:
-        _left_behind = f"what was written by then is in {out}"
+        _left_behind = f"files written so far are in {out}"
 
 
 def say() -> None:

@@ -18,8 +18,8 @@ def command(
     reduce: Annotated[
         str | None,
         option(
-            "balanced:8, the modes' 8 most important states; balanced:0.01, as few as answer every "
-            "input within that share of what it does at rest, at any frequency.",
+            "balanced:8 keeps the 8 most important states; balanced:0.01 as few as keep the error of "
+            "every response below that share of its static value.",
             "HOW",
         ),
     ] = None,

@@ -18,7 +18,7 @@ def command(
     ] = ELEMENTS,
     port: Annotated[int, option("Port to listen on; 0: any that is free.", "PORT")] = 0,
     browser: Annotated[
-        bool, option("Open the page, or only tell its address.", None, "--browser/--no-browser")
+        bool, option("Open the page in a browser, or only print its address.", None, "--browser/--no-browser")
     ] = True,
 ) -> None:
     """Open a page where one drags E, ν, h, load and grid, and lattice and shell answer beside their error.

@@ -106,14 +106,15 @@ def _let_through(context: typer.Context, value: bool) -> bool:
 Large = Annotated[
     bool,
     option(
-        "Go on where a model takes more memory than is free, instead of refusing it.",
+        "Solve models that need more memory than is free, instead of refusing them.",
         None,
         "--large",
         callback=_let_through,
     ),
 ]
 Workers = Annotated[
-    int | None, option("Processes for what is not timed; one a core unless given.", "N", "--workers", min=1)
+    int | None,
+    option("Processes for runs that are not timed; one per core unless given.", "N", "--workers", min=1),
 ]
 Retry = Annotated[bool, option("Run again what failed in an earlier run.", None, "--retry")]
 Calibration = Annotated[

@@ -34,7 +34,7 @@ def command(
 
     contents = read(folder)
     if not contents.studies:
-        trouble = f"'{folder}': holds no study: no verb wrote here with --out."
+        trouble = f"'{folder}': no verb has written here with --out."
         raise BadInput(" ".join([trouble, *contents.troubles[:1]]))
     text = page(contents, folder.resolve().name)
     target = folder / "report.html" if out is None else out

@@ -9,7 +9,7 @@ from comparisons.cli.options import option
 
 def command(
     markdown: Annotated[
-        bool, option("Print the reference page of every key instead.", None, "--markdown")
+        bool, option("Print a page that explains every key instead.", None, "--markdown")
     ] = False,
 ) -> None:
     """Print the JSON Schema of a scene, for editors that complete and check TOML files.

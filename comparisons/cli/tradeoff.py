@@ -68,7 +68,7 @@ def command(
     duration: Annotated[
         float | None,
         option(
-            "Trade of the motion over so many seconds instead: integrators and steps, on one lattice.",
+            "Trade-off of integrators and steps instead: one lattice's motion over so many seconds.",
             "S",
             unit="s",
         ),

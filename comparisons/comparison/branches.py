@@ -26,7 +26,7 @@ STEP = 1e-3  # of the shorter side, over which the mid-surface's slope is taken
 
 
 def joined(
-    lattice: Resolved[Lattice], judge: Resolved[Elements], first: Solution, reference: Solution
+    lattice: Resolved[Lattice], against: Resolved[Elements], first: Solution, reference: Solution
 ) -> tuple[Solution, Solution, str] | None:
     """Both answers on one branch, and a sentence; None where they are near each other, where one is not a
     stable equilibrium, or where neither model has the other's."""
@@ -42,9 +42,9 @@ def joined(
     again = lumped.solve(scene, lattice.springs, near=shape(scene, reference, first.mesh.points))
     if _on_branch(again, points, right, own):
         return _begun(again, first, reference), reference, _said(first, reference, own, right)
-    if reference.model != "shell" or judge.spec.symmetry:
+    if reference.model != "shell" or against.spec.symmetry:
         return None
-    begun = {"elements": judge.spec.elements, **judge.spec.but(branch=None).options}
+    begun = {"elements": against.spec.elements, **against.spec.but(branch=None).options}
     again = fem_reference.solve(
         scene, model="shell", near=lambda places: shape(scene, first, places), **begun
     )

@@ -51,7 +51,7 @@ class ErrorBar:
         """The bar in words."""
         found, (*finer, coarsest) = self.uncertainty, [_size(n) for n in self.elements]
         if len(self.elements) == 2:
-            why = "order 2 assumed, factor 3: two meshes show none"
+            why = "order 2 assumed, safety factor 3: two meshes show no order"
         elif np.isfinite(found.overall_order) and found.trusted.all():
             why = f"observed order {found.overall_order:.1f}"
         elif found.trusted.all():

@@ -48,7 +48,7 @@ class ModelError:
         named = ", ".join(f"{name} {_percent(part)}" for name, part in parts.items() if part > 0.0)
         said = [f"model error ± {_percent(self.value)} ({named})"] if named else []
         if self.clamp > 0.0:
-            other = "a clamp that holds the sheet's thickness too would change it by up to"
+            other = "a clamp that also prevents the change of thickness would change it by up to"
             said.append(f"{other} {_percent(self.clamp)}")
         return "; ".join(said)
 

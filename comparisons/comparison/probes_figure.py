@@ -34,7 +34,7 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     """The figure: a place a probe, a marker a model, the band below the reference's bar. Raises NoPicture."""
     probes, reference = shown(comparison), comparison.reference
     if not probes:
-        raise NoPicture("no probe has a displacement to be off from")
+        raise NoPicture("no probe moves, so that there are no relative differences")
     figure = Figure(figsize=(style.width, HEIGHT), layout="constrained")
     axis = figure.add_subplot()
     found = {(d.probe, d.of): 100.0 * d.relative for d in comparison.differences if d.relative is not None}
@@ -46,9 +46,9 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
         axis.fill_between(
             [place - HALF, place + HALF], bottom, max(bar, bottom), color=GREY, alpha=0.3, lw=0, label=said
         )
-    judged = [s for s in comparison.solutions if s is not reference]
-    aside = np.linspace(-0.2, 0.2, len(judged)) if len(judged) > 1 else [0.0]
-    for solution, marker, colour, by in zip(judged, cycle(MARKERS), cycle(SERIES), aside, strict=False):
+    others = [s for s in comparison.solutions if s is not reference]
+    aside = np.linspace(-0.2, 0.2, len(others)) if len(others) > 1 else [0.0]
+    for solution, marker, colour, by in zip(others, cycle(MARKERS), cycle(SERIES), aside, strict=False):
         at = [place for place, probe in enumerate(probes) if (probe, solution.model) in found]
         off = [max(LEAST, found[probes[place], solution.model]) for place in at]
         axis.plot(np.add(at, by), off, marker, color=colour, ms=4.5, label=plain(solution.label, longest=40))

@@ -56,7 +56,11 @@ def refusal(scene: Scene, chains: str, moments: str, laws: Collection[str] = ())
     """
     law = scene.material.law
     if law is not None and law not in laws:
-        known = f"those given to it are {', '.join(laws)}" if laws else "it is given linear materials only"
+        known = (
+            f"the laws passed to it are {', '.join(laws)}"
+            if laws
+            else "only linear materials are passed to it"
+        )
         return f"it is not given the material's law '{law}': {known}"
     if any(isinstance(actuator, Chain) for actuator in scene.actuators):
         return chains

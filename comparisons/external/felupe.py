@@ -32,7 +32,7 @@ LAWS = ("neo-hookean", "mooney-rivlin", "yeoh", "gent")
 ONE = np.eye(3)
 EACH = 0.5 * (np.einsum("ik,jl->ijkl", ONE, ONE) + np.einsum("il,jk->ijkl", ONE, ONE))
 
-CHAINS = "FElupe is given no chains: its points do not turn, so that no joint could want an angle"
+CHAINS = "actuators are not supported: FElupe's nodes have no rotations"
 
 
 @dataclass(frozen=True)

@@ -185,7 +185,7 @@ def _refusal(scene: Scene) -> str:
     if any(not isinstance(s, Clamped | Hinged) for s in scene.supports) or scene.actuators:
         return "MuJoCo's sheet is held by clamped and hinged edges only"
     if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
-        return "MuJoCo's clamps stand upright, and its supports stay where they are"
+        return "clamps of MuJoCo's sheet cannot be tilted, nor its supports move"
     if any(not isinstance(load, PointLoad) for load in scene.loads):
         return "gravity and point loads only"
     return ""

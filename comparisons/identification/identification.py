@@ -238,7 +238,7 @@ def _check(measured: Measured, question: _Question) -> None:
         lattice = question.lattice
         if resolve(question.scene, lattice, own=False).fitted:
             raise BadInput(
-                f"calibration = '{lattice.calibration}': its springs do not follow from what is sought"
+                f"calibration = '{lattice.calibration}': its springs do not depend on the unknowns"
             )
         if lattice.k is not None and (fixed := [name for name in names if name in ("young", "poisson")]):
             raise BadInput(
@@ -251,7 +251,7 @@ def _check(measured: Measured, question: _Question) -> None:
     still = [name for name in names if name in DAMPING or name.startswith(VISCOUS)]
     if still and not moving:
         raise BadInput(
-            f"unknown = '{still[0]}': an equilibrium does not depend on it; it takes a measured motion, "
+            f"unknown = '{still[0]}': an equilibrium does not depend on it; measure a motion, "
             "a CSV with a column time [s]"
         )
     if question.offset and not isinstance(measured, Surface):

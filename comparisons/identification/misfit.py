@@ -80,7 +80,7 @@ def require_same_way(measured: Measured, predicted: Prediction, axes: tuple[np.n
     correlation = _correlation(model, deflection, measured.scale)
     if correlation < OPPOSITE:
         raise BadInput(
-            f"{measured.source}: the measured {name} point the other way than the model's (correlation "
+            f"{measured.source}: the measured {name} have the opposite sign of the model's (correlation "
             f"{number(correlation, '.2f')} at the scene's own values); z points up"
         )
 

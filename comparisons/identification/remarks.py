@@ -25,7 +25,7 @@ def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Estimate]) -> list
         for name, u in without.items()
     )
     rows = "this row" if len(odd) == 1 else "these rows"
-    return [f"{'; '.join(map(str, odd))}. Is it a slip? Without {rows}: {values}"]
+    return [f"{'; '.join(map(str, odd))}. Is it a mistake? Without {rows}: {values}"]
 
 
 def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
@@ -38,13 +38,13 @@ def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
         turned = " and ".join(fit.misfit().turned(best.residuals))
         return [
             f"a poor fit: {size}: no value of {names} explains these data; look at frame, supports and model"
-            + (f": the measured {turned} point the other way than the model's" if turned else "")
+            + (f": the measured {turned} have the opposite sign of the model's" if turned else "")
         ]
     if explained(best.noise, left):
         return []
     return [
-        f"not explained: {size}, and are not noise: {left}. The model lacks something (supports, loads, an "
-        " unknown, finer cells), and the interval, which assumes noise, is too narrow",
+        f"not explained: {size}, and are not noise: {left}. Something is missing in the model (supports, "
+        "loads, an unknown, finer cells), and the interval, which assumes noise, is too narrow",
     ]
 
 

@@ -42,8 +42,8 @@ class Runs:
     def __str__(self) -> str:
         where = "consecutive samples" if self.along == "time" else "neighbouring points"
         return (
-            f"{100 * self.equal / self.pairs:.0f} % of {self.pairs} pairs of {where} are off to the same "
-            "side, of noise half would be"
+            f"{100 * self.equal / self.pairs:.0f} % of {self.pairs} pairs of {where} have residuals of one "
+            "sign, of noise half would have"
         )
 
 

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 ROUNDING = 1e-6  # of what an input moves most
 EXPLANATION = (
-    "at rest: displacement of a probe per unit of an input, by the adjoint of K; factor: of a load or of "
-    "gravity as the scene has it",
+    "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
+    "load or gravity",
     "files: M, C, K, F, F_rate, G, H and ss_A to ss_D in linear.npz and linear.mat",
 )
 
@@ -164,7 +164,7 @@ class Linearisation(Answer):
         """The poles, and what every input moves the probes by at rest."""
         inputs = zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True)
         rows = (InputRow(n, unit_of(n), dict(zip(self.matrices.outputs, u, strict=True))) for n, u in inputs)
-        return self._poles(), Table.of(InputRow, rows, "Displacement at rest per unit of input", "jacobian")
+        return self._poles(), Table.of(InputRow, rows, "Static displacement per unit of input", "jacobian")
 
     def printed(self) -> tuple[Table, ...]:
         """The poles, and heights alone."""
@@ -189,7 +189,7 @@ class Linearisation(Answer):
             if unit != "N":
                 moved = zip(self.matrices.outputs, values, strict=True)
                 rows.append(HeightRow(name, shown, {at: u for at, u in moved if at.endswith(" uz")}))
-        return Table.of(HeightRow, rows, "Height at rest per unit of input")
+        return Table.of(HeightRow, rows, "Static height per unit of input")
 
     def figures(self) -> tuple[Picture, ...]:
         """Frequency responses."""
@@ -208,8 +208,8 @@ class Linearisation(Answer):
         if self.balanced is None:
             return EXPLANATION
         return (
-            f"balanced: {self.balanced.order} of {len(self.modal.a)} states; no input is answered wrong, "
-            f"at any frequency, by more than {self.balanced.bound:.2g} of what it does at rest; exactly "
-            "when slow",
+            f"balanced: {self.balanced.order} of {len(self.modal.a)} states; the error of every "
+            f"response is below {self.balanced.bound:.2g} of its static value at all frequencies, and 0 at "
+            "frequency 0",
             *EXPLANATION,
         )

@@ -83,7 +83,7 @@ def one_size(grid: Sequence[int], lattice: Lattice | LatticePair) -> str:
     if "grading" not in CALIBRATIONS[method].takes:
         return f"the calibration {method} is for cells of one size"
     if grid[2] != LAYERS or lattice.layer_distance is not None:
-        return f"springs cell by cell are for {LAYERS} layers at the distance that they ask for"
+        return f"graded grids have {LAYERS} layers at the calibration's own distance"
     return ""
 
 

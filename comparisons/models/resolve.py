@@ -165,7 +165,7 @@ def resolve_each(
         _check_lattice(one.lattice(one.grid) if isinstance(one, LatticePair) else cast(Lattice, one))
     takers = [one for one in asked if not one_size(scene_grid(scene, one.grid), one)]
     if fixed(grading) and not takers:
-        raise BadInput(f"grading = {grading}: none of these calibrations is for cells that differ")
+        raise BadInput(f"grading = {grading}: none of these calibrations takes cells of different sizes")
     found: list[Spec] = []
     methods, gradings = [], list[str]()
     for one in asked:

@@ -187,9 +187,9 @@ class Spectra(Answer, Sequence[Spectrum]):
         if self.about == "deformed" or self.sag is None or self.sag < FLAT * thickness:
             return []
         return [
-            "this scene's sheet is not flat under its loads: by its flat stiffness it would move "
-            f"{few(self.sag / thickness)} times its thickness, and these modes are the flat sheet's; "
-            "--about deformed gives them about its equilibrium"
+            "under its loads this sheet is not flat (a linear estimate moves it by "
+            f"{few(self.sag / thickness)} thicknesses), and these are the modes of the flat sheet; --about "
+            "deformed gives those about its equilibrium"
         ]
 
     def notes(self) -> list[str]:
@@ -205,9 +205,9 @@ class Spectra(Answer, Sequence[Spectrum]):
         for spectrum in self[1:]:
             notes += _pairing_notes(self.against(spectrum.model))
         if self[0].rigid:
-            notes.append(f"{self[0].rigid} rigid motions, free of any frequency, are left out")
+            notes.append(f"{self[0].rigid} rigid-body modes, of frequency 0, are left out")
         if self.scene.actuators:
-            notes.append("actuators have no part in these modes: they are those of the sheet alone")
+            notes.append("these modes are the sheet's alone, without its actuators")
         return notes
 
 

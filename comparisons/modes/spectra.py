@@ -62,7 +62,7 @@ def spectra(
     if count < 1:
         raise BadInput(f"--count = {count}: at least 1")
     own = resolve(scene, Lattice.given(lattice, keywords), "modes")
-    judges = [resolve(scene, Elements.given(one, {"elements": elements}), "modes") for one in references]
+    models = [resolve(scene, Elements.given(one, {"elements": elements}), "modes") for one in references]
 
     def starting(model: Resolved[Any]) -> None:
         context().progress(Work(f"modes of {model.spec.model}", model.size))
@@ -70,9 +70,9 @@ def spectra(
     starting(own)
     first = _lattice(own, count, around)
     found = [first if around == "flat" else _with_expected(own, first)]
-    for judge in judges:
-        starting(judge)
-        found.append(_reference(judge, count, around))
+    for model in models:
+        starting(model)
+        found.append(_reference(model, count, around))
     return Spectra(scene, tuple(found), around, _sag(scene, own.springs))
 
 

@@ -167,7 +167,7 @@ class Cluster:
         refusal = f"--scheduler = '{self.address}': no {missing} for {PATIENCE:g} s"
         if not self._patient:
             raise BadInput(
-                f"{refusal}; what was done is kept: the same command goes on, and with --wait waits for one"
+                f"{refusal}; finished runs are kept: the same command continues, with --wait it waits for one"
             )
         self._say(f"{refusal}; waiting")
         self._said = True

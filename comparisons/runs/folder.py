@@ -157,9 +157,7 @@ def _runs(path: Path, option: str) -> dict[str, Any]:
     except FileNotFoundError:
         return {}
     except (OSError, ValueError, AttributeError, TypeError, LookupError):
-        raise BadInput(
-            f"{option} = '{path}': {MANIFEST} there is none that sheetbench can read; choose another folder"
-        ) from None
+        raise BadInput(f"{option} = '{path}': its {MANIFEST} cannot be read; choose another folder") from None
 
 
 def _differing(there: Any, here: Any, at: str = "") -> list[str]:

@@ -27,13 +27,13 @@ def warnings(loads: Iterable[float | None], samples: Iterable[Sequence[float]] =
         times = "these times" if len(known) == 1 else f"{len(busy)} of {len(known)} times"
         sentences.append(
             f"{times} were taken under a load of up to {max(busy):.3g} on {cores} "
-            "processors: they are longer than on an idle machine; measure again there"
+            "processors and are longer than on an idle machine: measure again on one"
         )
     ratios = [max(times) / min(times) for times in samples if len(times) > 1 and min(times) > 0.0]
     wide = [ratio for ratio in ratios if ratio > SCATTER]
     if wide:
         sentences.append(
-            f"samples of {len(wide)} of {len(ratios)} times scatter by more than {SCATTER:g}, by up to "
-            f"{max(wide):.3g}: something else ran beside them"
+            f"{len(wide)} of {len(ratios)} timings vary by more than a factor of {SCATTER:g}, by up to "
+            f"{max(wide):.3g}: other programs ran at the same time"
         )
     return sentences

@@ -46,13 +46,13 @@ class Verification(Answer):
         return not self.failed
 
     def heading(self) -> tuple[str, str, str]:
-        return "verify", "the references against what is expected of them", ""
+        return "verify", "the references against published and exact values", ""
 
     def document(self) -> dict[str, Any]:
         return {"rows": [asdict(row) for row in self.rows]}
 
     def tables(self) -> list[Table]:
-        caption = "References against what is expected of them"
+        caption = "References against published and exact values"
         return [Table.of(Row, self.rows, caption, "verification", fields=FIELDS), *self._laws()]
 
     def printed(self) -> list[Table]:

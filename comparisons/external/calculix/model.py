@@ -29,7 +29,7 @@ from sheetbench.scenes import Scene, Solution, Status
 PROGRAM, JOB = "ccx", "sheet"
 SAYS_ITS_VERSION = 201  # its exit status after `ccx -v`
 
-CHAINS = "the deck has no chains: it could have rigid bodies, but no joint between them with an angle"
+CHAINS = "actuators are not supported: it has no joint with a rest angle between rigid bodies"
 
 
 @dataclass(frozen=True)

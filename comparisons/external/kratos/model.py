@@ -33,7 +33,7 @@ PACKAGES = (
     "KratosLinearSolversApplication",
 )
 
-CHAINS = "Kratos is given no chains: its shell has no joint between rigid edges with an angle at rest"
+CHAINS = "actuators are not supported: Kratos' shell has no joint with a rest angle between rigid edges"
 MOMENTS = "moments on Kratos' nodes do not follow the edge"
 
 

@@ -104,7 +104,7 @@ class TensileFit(Answer):
             at, (low, high) = self.open
             said.append(
                 f"Not measured: equibiaxial tension. At stretch {at:.3g}, as far as these data go in I₁, "
-                f"laws that fit about as well foretell {low / 1e6:.3g} to {high / 1e6:.3g} MPa."
+                f"laws that fit about as well predict {low / 1e6:.3g} to {high / 1e6:.3g} MPa."
             )
         if self.law is not None:
             material = self.material()

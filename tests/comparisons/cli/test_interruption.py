@@ -34,7 +34,7 @@ TRADEOFF = ["tradeoff", "two-edges-clamped", "--solid", "48", "--workers", "2", 
     [
         (COMMAND, SIMULATE, "simulated", "the same command goes on"),
         (COMMAND, TRADEOFF, "0/", "the same command goes on"),
-        (DEAF, COMPARE, "solving", "what was written by then is in kept"),
+        (DEAF, COMPARE, "solving", "files written so far are in kept"),
     ],
     ids=["simulate", "tradeoff", "compare"],
 )

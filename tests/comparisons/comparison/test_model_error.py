@@ -117,7 +117,7 @@ def test_a_law_of_strain_that_the_user_chose_is_no_error_of_the_model() -> None:
 def test_of_a_solid_whose_law_is_chosen_the_clamp_alone_is_said() -> None:
     answer = replace(fake_solutions.solution(THICK, "solid", -0.01), stretch=0.5)
     found = model_error(THICK, answer, law_chosen=True)
-    assert str(found).startswith("a clamp that holds")
+    assert str(found).startswith("a clamp that also prevents")
     free = THICK.replace(supports=(Hinged(edge="x0"),))
     assert str(model_error(free, answer, law_chosen=True)) == ""
 

@@ -181,12 +181,12 @@ def test_what_the_data_do_not_see_stays_where_the_scene_has_it():
 
 def test_deflections_positive_downwards_are_refused(truth):
     down = truth * [1.0, 1.0, -1.0]
-    with pytest.raises(ValueError, match=r"uz point the other way .* z points up"):
+    with pytest.raises(ValueError, match=r"uz have the opposite sign .* z points up"):
         identify(SCENE, Displacements(POINTS, down), ["young"])
-    with pytest.raises(ValueError, match="uz point the other way"):
+    with pytest.raises(ValueError, match="uz have the opposite sign"):
         identify(SCENE, Displacements(POINTS, down), ["young", "density"])
     deformed = np.column_stack([POINTS, np.zeros(len(POINTS))]) + down
-    with pytest.raises(ValueError, match=r"heights point the other way .* z points up"):
+    with pytest.raises(ValueError, match=r"heights have the opposite sign .* z points up"):
         identify(SCENE, Surface(deformed), ["young"])
 
 
@@ -204,7 +204,7 @@ def test_an_axis_turned_round_is_named_where_the_fit_is_poor():
     soft = with_material(CANTILEVER, young=5.45e6)
     values = lattice(soft).displacement(POINTS) * [-1.0, 1.0, 1.0]
     found = identify(soft, Displacements(POINTS, values), ["young"], refine=False)
-    assert found.warnings[-1].endswith("the measured ux point the other way than the model's")
+    assert found.warnings[-1].endswith("the measured ux have the opposite sign of the model's")
 
 
 def test_blank_components_are_left_out(truth):

@@ -258,7 +258,7 @@ def test_it_ends_by_ctrl_c():
         hear(page, lambda m: m["kind"] == "ready")
         terminal.press(b"\x03")
     assert terminal.end() == 130
-    assert "nothing was kept" not in terminal.shown and "served no longer" in terminal.shown
+    assert "nothing was kept" not in terminal.shown and "the server has stopped" in terminal.shown
     assert "Traceback" not in terminal.shown and "http://127.0.0.1:" in terminal.shown
 
 

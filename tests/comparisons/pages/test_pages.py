@@ -250,5 +250,5 @@ def test_a_folder_that_is_none_is_refused(tmp_path: Path, capsys: pytest.Capture
     assert "there is no such folder" in capsys.readouterr().err
     (tmp_path / "mine.csv").write_text("a,b\n")
     assert run("report", str(tmp_path)) == 2
-    assert "holds no study" in capsys.readouterr().err
+    assert "no verb has written here" in capsys.readouterr().err
     assert not (tmp_path / "report.html").exists()

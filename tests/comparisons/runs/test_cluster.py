@@ -46,7 +46,7 @@ def test_without_workers_a_campaign_stops_in_a_line_and_keeps_its_rows(
     with pool_of(lonely.scheduler_address) as pool:
         carry_out(runs[:2], store, pool=pool)
         lonely.scale(0)
-        with pytest.raises(BadInput, match=r"no worker for 0\.5 s; what was done is kept"):
+        with pytest.raises(BadInput, match=r"no worker for 0\.5 s; finished runs are kept"):
             carry_out(runs, store, pool=pool)
     assert len(rows_in(store.path)) == 2
 
@@ -92,7 +92,7 @@ def test_a_lost_scheduler_is_said_and_the_rows_are_kept(
         assert far.stdout is not None
         address = far.stdout.readline().strip()
         runs = [task("square", x=1.0), task("square", x=2.0, seconds=600.0)]
-        with pool_of(address) as pool, pytest.raises(BadInput, match=r"no scheduler for .* what was done"):
+        with pool_of(address) as pool, pytest.raises(BadInput, match=r"no scheduler for .* finished runs are kept"):
             carry_out(runs, store, pool=pool, progress=lambda progress: far.kill() if progress.done else None)
     assert len(rows_in(store.path)) == 1
 

@@ -299,4 +299,4 @@ def test_times_under_load_and_samples_that_scatter_are_told(monkeypatch: pytest.
     assert load.warnings([0.5, 2.0, None], [(1.0, 1.9), (1.0,)]) == []
     busy, wide = load.warnings([0.5, 20.0], [(1.0, 3.0), (1.0, 1.1)])
     assert busy.startswith("1 of 2 times were taken under a load of up to 20 on 2 processors")
-    assert wide.startswith("samples of 1 of 2 times scatter by more than 2, by up to 3")
+    assert wide.startswith("1 of 2 timings vary by more than a factor of 2, by up to 3")

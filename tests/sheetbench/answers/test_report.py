@@ -230,7 +230,7 @@ def test_a_manifest_cannot_lead_out_of_its_folder(tmp_path: Path) -> None:
 @pytest.mark.parametrize("text", ["", "[]", '{"a": 1}', '{"runs": 3}', "\x00"])
 def test_a_manifest_that_is_not_ours_is_refused(tmp_path: Path, text: str) -> None:
     (tmp_path / MANIFEST).write_text(text)
-    with pytest.raises(BadInput, match=r"manifest\.json there is none"):
+    with pytest.raises(BadInput, match=r"its manifest\.json cannot be read"):
         Folder(tmp_path, "modes", ["m"], about=about(), overwrite=True)
 
 

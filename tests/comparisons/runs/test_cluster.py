@@ -92,7 +92,7 @@ def test_a_lost_scheduler_is_said_and_the_rows_are_kept(
         assert far.stdout is not None
         address = far.stdout.readline().strip()
         runs = [task("square", x=1.0), task("square", x=2.0, seconds=600.0)]
-        with pool_of(address) as pool, pytest.raises(BadInput, match=r"no scheduler for .* finished runs are kept"):
+        with pool_of(address) as pool, pytest.raises(BadInput, match=r"no scheduler for .* are kept"):
             carry_out(runs, store, pool=pool, progress=lambda progress: far.kill() if progress.done else None)
     assert len(rows_in(store.path)) == 1
 

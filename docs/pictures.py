@@ -1,4 +1,4 @@
-"""Draw the still pictures of README, docs/catalogue.md and docs/motion.md, in docs/images: `make pictures`.
+"""Draw the still pictures of README and of pages in docs, in docs/images: `make pictures`.
 
 A PNG says in its description what its numbers are; tests/test_readme.py holds it against the text and a fresh
 solve.
@@ -19,6 +19,7 @@ from sheetbench.answers.report import Report
 
 IMAGES = Path(__file__).parent / "images"
 COMPARED = ("two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down", "actuated-edge")
+RUBBER = {"rubber-inflated-square": 12, "rubber-strip": 6}  # scenes of examples/rubber, elements of the solid
 DPI = 170  # 1224 pixels wide
 
 
@@ -28,6 +29,10 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         for name in COMPARED:
             keep(sb.compare(name).report(), "comparison.png", Path(folder), name)
+        for name, elements in RUBBER.items():
+            scene = IMAGES.parents[1] / "examples" / "rubber" / f"{name.removeprefix('rubber-')}.toml"
+            answer = sb.compare(scene, grid=17, reference="solid", elements=elements)
+            keep(answer.report(), "comparison.png", Path(folder), name)
         settling = sb.load("two-edges-settling")
         run = Simulation(sb.simulate(settling, 1.0), settling)
         keep(run.report(), "history.png", Path(folder), "settling")

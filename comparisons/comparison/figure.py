@@ -27,6 +27,9 @@ from sheetbench.scenes import Scene, Solution
 
 LINE = 105  # characters of a title in full size
 VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: what moves less than the first is drawn as the second
+FLAT = (
+    1e-3  # of the largest displacement: a sheet that moves less across its plane is shown by how it stretches
+)
 HEIGHTS, DIFFERENCES = "viridis", "magma_r"
 MODEL_NAMES = {
     "lumped": "Lumped lattice",
@@ -47,8 +50,10 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     plan = plan_mesh(scene.sheet).points[:, :2]
     truth = reference.displacement(plan)
     difference = 1e3 * np.linalg.norm(lattice.displacement(plan) - truth, axis=1)
-    masses = 1e3 * lattice.mesh.point_data["displacement"][:, 2]
-    heights = 1e3 * truth[:, 2]
+    largest = np.abs(truth).max(axis=0)
+    axis = 2 if largest[2] > FLAT * largest.max() else int(np.argmax(largest))
+    masses = 1e3 * lattice.mesh.point_data["displacement"][:, axis]
+    heights = 1e3 * truth[:, axis]
     height_limits = _limits(np.concatenate([heights, masses]))
     difference_limits = (0.0, float(difference.max()) or 1.0)
     scale = exaggeration(scene, [lattice, reference])
@@ -57,7 +62,7 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     if any(kind == "line" for kind, _ in lattice.mesh.cells):
         left.lattice(lattice.mesh, masses, height_limits, HEIGHTS)
     else:
-        shown_heights = 1e3 * lattice.displacement(plan)[:, 2]
+        shown_heights = 1e3 * lattice.displacement(plan)[:, axis]
         left.surface(lattice, shown_heights, height_limits, HEIGHTS, _elements(lattice))
     middle.surface(reference, heights, height_limits, HEIGHTS, _elements(reference))
     right.surface(reference, difference, difference_limits, DIFFERENCES, 0)
@@ -78,12 +83,12 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     ]
     error = comparison.error(lattice)
     said = "" if error is None else f"error at the probes {100 * error:.2f} %"
-    for axis, (image, pixels), title, subtitle in zip(
+    for panel, (image, pixels), title, subtitle in zip(
         axes, shots, titles, (lattice.label, reference.label, said), strict=True
     ):
-        _panel(axis, image, title, subtitle)
-        place_labels(axis, pixels, list(scene.probes))
-    colour_bar(figure, bars[0], HEIGHTS, height_limits, "$u_z$  [mm]")
+        _panel(panel, image, title, subtitle)
+        place_labels(panel, pixels, list(scene.probes))
+    colour_bar(figure, bars[0], HEIGHTS, height_limits, f"$u_{'xyz'[axis]}$  [mm]")
     colour_bar(figure, bars[1], DIFFERENCES, difference_limits, "|$u$ − $u_{ref}$|  [mm]")
     drawn = "drawn at true scale" if scale == 1.0 else f"displacements drawn {scale:g} times as large"
     if head:

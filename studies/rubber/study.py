@@ -15,6 +15,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
 import fem_reference
@@ -164,3 +165,22 @@ def blown(fit: Fit) -> Table:
         Column("error", "", "%", 100.0, "z.1f"),
     )
     return Table(f"Blown up, clamped square, {fit.law}", columns, tuple(rows), "blown")
+
+
+def figure(strips: Table, squares: Table) -> Figure:
+    """Error of a linear lattice against stretch: of strips pulled and hung, by material, and blown up."""
+    drawn = Figure(figsize=(7.2, 2.8), layout="constrained")
+    axes = drawn.subplots(1, 3, sharey=True)
+    for axis, way in zip(axes, ("pulled", "hung"), strict=False):
+        for name, *errors in (row[:1] + row[2:] for row in strips.rows if row[1] == way):
+            axis.plot(100.0 * np.array(STRETCHES), 100.0 * np.array(errors), ".-", ms=4, lw=1, label=name)
+    stretch, error = np.array([(row[1], row[-1]) for row in squares.rows]).T
+    axes[2].plot(100.0 * stretch, 100.0 * error, ".-", ms=4, lw=1)
+    for axis, title in zip(axes, ("pulled", "hung", "blown up (Ecoflex 00-30)"), strict=True):
+        axis.axhspan(-2.0, 2.0, color="0.9", zorder=0)
+        axis.set_title(title, fontsize=8)
+        axis.set_xlabel("largest stretch [%]", fontsize=8)
+        axis.tick_params(labelsize=7)
+    axes[0].set_ylabel("error of a linear lattice [%]", fontsize=8)
+    axes[0].legend(frameon=False, fontsize=6)
+    return drawn

@@ -54,7 +54,7 @@ if _TYPE_CHECKING:
         Symmetric,
         catalogue,
         load,
-    )
+    )  # fmt: skip
     from sheetbench.verbs import crosscheck, export, report, schema, score, stability
 
 _ELSEWHERE = {  # name: module and what it is called there; all else is of sheetbench.scenes
@@ -86,58 +86,13 @@ _ELSEWHERE = {  # name: module and what it is called there; all else is of sheet
 }
 
 __all__ = [
-    "BadInput",
-    "Cell",
-    "Chain",
-    "Clamped",
-    "Curved",
-    "Displacements",
-    "EdgeLoad",
-    "EdgeMotion",
-    "Elements",
-    "External",
-    "Gravity",
-    "Held",
-    "Hinged",
-    "History",
-    "Implausible",
-    "Lattice",
-    "LatticePair",
-    "Material",
-    "PointLoad",
-    "Pressure",
-    "Scene",
-    "SceneError",
-    "Sheet",
-    "Solution",
-    "Status",
-    "Symmetric",
-    "advise",
-    "calibrate",
-    "catalogue",
-    "cell",
-    "check",
-    "compare",
-    "crosscheck",
-    "error",
-    "export",
-    "homogenise",
-    "identify",
-    "linearise",
-    "load",
-    "modes",
-    "report",
-    "reproduce",
-    "scenes",
-    "schema",
-    "score",
-    "simulate",
-    "solve",
-    "stability",
-    "suite",
-    "tradeoff",
-    "verify",
-]
+    "BadInput", "Cell", "Chain", "Clamped", "Curved", "Displacements", "EdgeLoad", "EdgeMotion", "Elements",
+    "External", "Gravity", "Held", "Hinged", "History", "Implausible", "Lattice", "LatticePair", "Material",
+    "PointLoad", "Pressure", "Scene", "SceneError", "Sheet", "Solution", "Status", "Symmetric", "advise",
+    "calibrate", "catalogue", "cell", "check", "compare", "crosscheck", "error", "export", "homogenise",
+    "identify", "linearise", "load", "modes", "report", "reproduce", "scenes", "schema", "score",
+    "simulate", "solve", "stability", "suite", "tradeoff", "verify",
+]  # fmt: skip
 
 
 def __getattr__(name: str) -> object:

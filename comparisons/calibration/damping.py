@@ -14,13 +14,13 @@ from dataclasses import asdict, dataclass
 from itertools import pairwise
 from math import ceil, hypot, log10, pi, prod
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 import lumped
 from comparisons.measured.columns import Columns, read_columns
-from sheetbench.answers.table import Column, Table
+from sheetbench.answers.table import HERTZ, MILLISECONDS, NUMBER, PERCENT, Table
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Relaxation, Scene
 from sheetbench.scenes.relaxation import A_DECADE
@@ -35,10 +35,29 @@ RELATION = "loss factor η = 2ζ = tan δ = 1/Q; a decay's logarithmic decrement
 class ModeDamping:
     """A mode's frequency [Hz] as it swings, damping ratio asked for (None: nothing) and got."""
 
-    number: int
-    frequency_hz: float
-    asked: float | None
-    got: float
+    number: Annotated[int, NUMBER("d", "mode")]
+    frequency_hz: Annotated[float, HERTZ(".4g", "frequency")]
+    asked: Annotated[float | None, PERCENT(".2f", "ζ asked")]
+    got: Annotated[float, PERCENT(".2f", "ζ got")]
+
+    @property
+    def miss(self) -> Annotated[float | None, PERCENT("z.1f", "off by")]:
+        """Relative difference of what is got."""
+        return self.got / self.asked - 1.0 if self.asked else None
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A Maxwell branch of a material."""
+
+    share: Annotated[float, NUMBER(".5g")]
+    time: Annotated[float, MILLISECONDS(".5g")]
+
+
+def branches(material: Material) -> list[Branch]:
+    """Return the branches of a material, none of one without."""
+    own = material.branches
+    return [Branch(float(share), float(time)) for share, time in zip(own.shares, own.times, strict=True)]
 
 
 def keys(
@@ -127,22 +146,11 @@ def tables(material: Material, modes: tuple[ModeDamping, ...]) -> tuple[Table, .
     """What the modes get, and the branches."""
     if not modes:
         return ()
-    columns = (
-        Column("mode", form="d"),
-        Column("frequency", "Hz", "Hz", 1.0, ".4g"),
-        Column("ζ asked", "", "%", 100.0, ".2f"),
-        Column("ζ got", "", "%", 100.0, ".2f"),
-        Column("off by", "", "%", 100.0, "z.1f"),
-    )
-    rows = tuple(
-        (m.number, m.frequency_hz, m.asked, m.got, m.got / m.asked - 1.0 if m.asked else None) for m in modes
-    )
-    said = f"{RELATION}. {_how(material)}"
-    shown = [Table("Damping of the lowest modes", columns, rows, "damping", text=said)]
-    if material.branches.times:
-        branches = tuple(zip(material.branches.shares, material.branches.times, strict=True))
-        of = (Column("share", form=".5g"), Column("time", "s", "ms", 1e3, ".5g"))
-        shown.append(Table("Maxwell branches, as [[material.relaxation]]", of, branches, "branches"))
+    fields = ("number", "frequency_hz", "asked", "got", "miss")
+    text = f"{RELATION}. {_how(material)}"
+    shown = [Table.of(ModeDamping, modes, "Damping of the lowest modes", "damping", fields=fields, text=text)]
+    if known := branches(material):
+        shown.append(Table.of(Branch, known, "Maxwell branches, as [[material.relaxation]]", "branches"))
     return tuple(shown)
 
 
@@ -166,12 +174,11 @@ def document(material: Material, modes: tuple[ModeDamping, ...]) -> dict[str, An
     """The key `damping` of the JSON document, if the material damps."""
     if not modes:
         return {}
-    parts = zip(material.branches.shares.tolist(), material.branches.times, strict=True)
     return {
         "damping": {
             "loss_factor": material.loss_factor,
             "damping_time": material.dashpot_time,
-            "relaxation": [{"share": share, "time": time} for share, time in parts],
+            "relaxation": [asdict(branch) for branch in branches(material)],
             "modes": [asdict(mode) for mode in modes],
         }
     }
@@ -179,10 +186,9 @@ def document(material: Material, modes: tuple[ModeDamping, ...]) -> dict[str, An
 
 def to_toml(material: Material) -> str:
     """What to paste into a scene beside its [springs]: the branches, or a comment with the one damper."""
-    parts = zip(material.branches.shares, material.branches.times, strict=True)
     text = "".join(
-        f"\n[[material.relaxation]]\nshare = {s!r}\ntime = {t!r}\n"
-        for s, t in ((float(s), t) for s, t in parts)
+        f"\n[[material.relaxation]]\nshare = {one.share!r}\ntime = {one.time!r}\n"
+        for one in branches(material)
     )
     if text:
         return f"\n# in [material]: young = {material.young!r}{text}"

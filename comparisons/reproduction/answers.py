@@ -42,7 +42,7 @@ def matched_layer_distance() -> float:
 
 
 @dataclass(frozen=True)
-class Answer:
+class ReproducedTest:
     """The answers to a test; sense: 1 where the rod of test 2 lifts its ends, -1 where it lowers them."""
 
     test: int
@@ -61,12 +61,12 @@ class Answer:
         return f"Test {self.test}{rod}"
 
 
-def answers(elements: Elements, progress: Progress = silent) -> list[Answer]:
+def answers(elements: Elements, progress: Progress = silent) -> list[ReproducedTest]:
     """Every test by every model; elements: of the shell."""
     return [answer(test, sense, elements, progress) for test, sense in SETS]
 
 
-def answer(test: int, sense: int, elements: Elements, progress: Progress = silent) -> Answer:
+def answer(test: int, sense: int, elements: Elements, progress: Progress = silent) -> ReproducedTest:
     """A test by every model."""
     case = scene(test, sense or 1)
     comparison = compare(case, grid=masses(), calibration="consistent", elements=elements, progress=progress)
@@ -76,7 +76,7 @@ def answer(test: int, sense: int, elements: Elements, progress: Progress = silen
         progress(Work(f"solving {name}"))
         springs = seed_springs(distance)
         of_seed.append(replace(lumped.solve(case, springs, weights="full"), model=name))
-    return Answer(test, sense, replace(comparison, solutions=(*comparison.solutions, *of_seed)))
+    return ReproducedTest(test, sense, replace(comparison, solutions=(*comparison.solutions, *of_seed)))
 
 
 def seed_lattice(distance: float) -> str:
@@ -92,6 +92,6 @@ def seed_springs(distance: float) -> lumped.Calibration:
     )
 
 
-def of_model(answer: Answer, model: str) -> Solution:
+def of_model(answer: ReproducedTest, model: str) -> Solution:
     """The solution of a model by its name."""
     return next(one for one in answer.comparison.solutions if one.model == model)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.reproduction.answers import Answer
+from comparisons.reproduction.answers import ReproducedTest
 from comparisons.reproduction.published import COMPONENTS, SOURCES, published
 from comparisons.reproduction.settling import PROBE, Settling
 from sheetbench.answers.figure_style import FigureStyle
@@ -19,7 +19,7 @@ OURS = tuple(zip("oXvP", (SERIES[0], SERIES[5], SERIES[1], SERIES[2]), strict=Tr
 FARTHEST = 3.0  # times the largest published displacement: what moves more is not drawn
 
 
-def test(one: Answer, style: FigureStyle) -> Figure:
+def test(one: ReproducedTest, style: FigureStyle) -> Figure:
     """A panel a component: every source's displacement at every probe."""
     comparison = one.comparison
     moved = {f"published {source}": published(one.test, source) for source in SOURCES}

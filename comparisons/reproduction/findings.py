@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
-from comparisons.reproduction.answers import Answer, of_model
+from comparisons.reproduction.answers import ReproducedTest, of_model
 from comparisons.reproduction.published import published
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling
 from comparisons.reproduction.words import millimetres, percent
-from sheetbench.answers.table import number
+from sheetbench.answers.table import Column, number
 from sheetbench.scenes import Solution, Status
 from sheetbench.scenes.seed import PROBES, seed_inputs
 
@@ -21,10 +22,10 @@ class Finding:
     """What it is about, and the finding."""
 
     about: str
-    finding: str
+    finding: Annotated[str, Column(prose=True)]
 
 
-def all_of(answers: Sequence[Answer], settling: Settling | None) -> list[Finding]:
+def all_of(answers: Sequence[ReproducedTest], settling: Settling | None) -> list[Finding]:
     """Every finding of the parts there are."""
     return [Finding(*one) for one in (*_tables(answers), *(_settling(settling) if settling else ()))]
 
@@ -32,7 +33,7 @@ def all_of(answers: Sequence[Answer], settling: Settling | None) -> list[Finding
 Findings = Iterator[tuple[str, str]]
 
 
-def _tables(answers: Sequence[Answer]) -> Findings:
+def _tables(answers: Sequence[ReproducedTest]) -> Findings:
     for one in answers:
         comparison = one.comparison
         off = comparison.error(comparison.solutions[0])
@@ -68,7 +69,7 @@ def _layers(solution: Solution) -> str:
     return millimetres(solution.settings["layer_distance"], ".3g")
 
 
-def _moved(one: Answer, model: str) -> np.ndarray:
+def _moved(one: ReproducedTest, model: str) -> np.ndarray:
     return np.array(list(one.comparison.probes(of_model(one, model)).values()))
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -13,14 +13,14 @@ from comparisons.models.grids import Elements
 from comparisons.motion.frames import frames, write_series
 from comparisons.report.vtk import write_solution
 from comparisons.reproduction import findings
-from comparisons.reproduction.answers import Answer
+from comparisons.reproduction.answers import ReproducedTest
 from comparisons.reproduction.published import SOURCES, published, scene
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling
 from comparisons.reproduction.words import percent
-from sheetbench.answers.answer import Answer as ShownAnswer
+from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Picture, Write
-from sheetbench.answers.table import Column, Table
+from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Column, Table
 from sheetbench.scenes import Status
 from sheetbench.scenes.seed import KNOWN_FAULTS, PROBES, seed_inputs
 from sheetbench.scenes.words import sheet_in_words
@@ -30,7 +30,31 @@ SEED = (
     "continuum surfaces"
 )
 POINTS = "P1 is the centre, P2 and P3 the middles of two free sides, P4 the corner farthest from the support."
-PERCENT = ("", "%", 100.0)
+
+
+@dataclass(frozen=True)
+class DisplacementRow:
+    """Displacement at a probe by a source, our shell's bars, and the difference from the published model."""
+
+    probe: str
+    source: str
+    u: Mapping[Column, float | None]
+    bar: Mapping[Column, float | None]
+    off: Annotated[float | None, PERCENT(".0f")]
+
+
+@dataclass(frozen=True)
+class RunRow:
+    """A settling run: what it took, how far it swings, and when it is at rest."""
+
+    model: str
+    integrator: Annotated[str, Column("by")]
+    time: Annotated[float, SECONDS(".3g")]
+    faster: Annotated[float | None, NUMBER(".3g", "times faster")] = None
+    steps: Annotated[int | None, NUMBER("d")] = None
+    swing: Annotated[float | None, NUMBER(".2f")] = None
+    settled: Annotated[float | None, SECONDS(".3f")] = None
+    rest: Annotated[float | None, MILLIMETRES("z.2f")] = None
 
 
 def length(name: str, form: str = "z.2f", detail: bool = False) -> Column:
@@ -38,13 +62,13 @@ def length(name: str, form: str = "z.2f", detail: bool = False) -> Column:
 
 
 @dataclass(frozen=True, repr=False)
-class Reproduction(ShownAnswer):
+class Reproduction(Answer):
     """What each part found; empty, or None, where a part was not asked for."""
 
     file_name = "reproduction"
     parts: tuple[str, ...]
     elements: Elements
-    answers: tuple[Answer, ...] = ()
+    answers: tuple[ReproducedTest, ...] = ()
     settling: Settling | None = None
 
     @property
@@ -123,73 +147,55 @@ class Reproduction(ShownAnswer):
 
 def findings_table(every: Sequence[findings.Finding]) -> Table:
     """A row per finding."""
-    rows = tuple((one.about, one.finding) for one in every)
-    return Table("Findings", (Column("about"), Column("finding", prose=True)), rows, "findings", grouped=True)
+    return Table.of(findings.Finding, every, "Findings", "findings", grouped=True)
 
 
-def displacements(one: Answer) -> Table:
+def displacements(one: ReproducedTest) -> Table:
     """A row per probe and source: published, our lattices, our shell with its bar."""
     comparison = one.comparison
     tables = {f"published {source}": published(one.test, source) for source in SOURCES}
     ordered = sorted(comparison.solutions, key=lambda s: s is not comparison.reference)
     moved = {s.model: np.array(list(comparison.probes(s).values())) for s in ordered}
     bars = comparison.bar.uncertainty.bar if comparison.bar is not None else np.full((len(PROBES), 3), np.nan)
-    nothing = (None, None, None)
-    truth = tables["published model"]
+    truth, names = tables["published model"], ("ux", "uy", "uz")
+    moves = [length(name) for name in names]
+    spans = [length(f"± {name}", ".1g", detail=name != "uz") for name in names]
     rows = []
     for i, probe in enumerate(PROBES):
         for name, table in (tables | moved).items():
-            of_shell = name == comparison.reference.model
+            own = [float(b) if name == comparison.reference.model else None for b in bars[i]]
             size = float(np.linalg.norm(truth[i]))
             off = None if name in tables else float(np.linalg.norm(table[i] - truth[i])) / size
-            rows.append(
-                (probe, name, *map(float, table[i]), *(map(float, bars[i]) if of_shell else nothing), off)
-            )
-    columns = (
-        Column("probe"),
-        Column("source"),
-        *(length(name) for name in ("ux", "uy", "uz")),
-        *(length(f"± {name}", ".1g", detail=name != "uz") for name in ("ux", "uy", "uz")),
-        Column("off", *PERCENT, ".0f"),
-    )
+            u = dict(zip(moves, map(float, table[i]), strict=True))
+            rows.append(DisplacementRow(probe, name, u, dict(zip(spans, own, strict=True)), off))
     text = (
-        "In the axes of our scene: of test 1 the published y is turned round; a dash where the print cannot "
-        "be meant. lumped: consistent springs. k…-lz…: the published k for all springs, equal masses, layers "
-        "so many mm apart. ±: what the shell's mesh leaves open. "
+        "In the axes of our scene: of test 1 the published y is turned round; a dash where the printed value "
+        "must be a misprint. lumped: consistent springs. k…-lz…: the published k for all springs, equal "
+        "masses, layers so many mm apart. ±: mesh error of the shell. "
         "off: |u − u_model|/|u_model|, of the published model."
     )
-    return Table(one.title, columns, tuple(rows), one.name, grouped=True, text=text)
+    return Table.of(DisplacementRow, rows, one.title, one.name, grouped=True, text=text)
 
 
 def runs(reproduction: Reproduction) -> Table:
     """A row per run: what it took beside what is published, how far it swings and when it is at rest."""
     settling = reproduction.settling
     assert settling is not None
-    rows: list[tuple[Any, ...]] = [("published", "MATLAB R2016a", seed_inputs()["run_time"], *5 * (None,))]
+    rows = [RunRow("published", "MATLAB R2016a", seed_inputs()["run_time"])]
     for model, run in settling.runs.items():
         rows.append(
-            (
+            RunRow(
                 model, run.integrator, settling.seconds(model), settling.faster(model), run.steps,
                 settling.largest(model), settling.settled(model), float(settling.rest[model][2]),
             )
         )  # fmt: skip
-    columns = (
-        Column("model"),
-        Column("by"),
-        Column("time", "s", "s", 1.0, ".3g"),
-        Column("times faster", form=".3g"),
-        Column("steps", form="d"),
-        Column("swing", form=".2f"),
-        Column("settled", "s", "s", 1.0, ".3f"),
-        length("rest"),
-    )
     text = (
         f"Test 1 from rest, gravity on at t = 0, dampers of our scene {settling.scene.name} (none are "
         f"published); uz of {PROBE}. time: a run on warm code, set-up included. swing: its largest value "
         f"over its static one. settled: from when on it is within {percent(SETTLED)} of that. The published "
         "figure has no numbers to compare with."
     )
-    return Table("The settling run", columns, tuple(rows), "settling", text=text)
+    return Table.of(RunRow, rows, "The settling run", "settling", text=text)
 
 
 def _attachments(reproduction: Reproduction) -> dict[str, Write]:

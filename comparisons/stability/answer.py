@@ -2,18 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import groupby
-from typing import Any
+from typing import Annotated, Any
 
 from comparisons.stability.rows import LARGE, VARIED, Row, place, verdict, who
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
-from sheetbench.answers.table import Column, Table, number
+from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, SECONDS, Column, Table, Unit, number
 from sheetbench.scenes import Scene
 
-ERROR = Column("error", "", "%", 100.0, ".3g")
+MICROSECONDS = Unit("s", "µs", 1e6)
+
+
+@dataclass(frozen=True)
+class HoldsRow:
+    """Where a model holds, degrades, refuses and fails over what was varied, and its largest error there."""
+
+    varied: str
+    model: str
+    holds: Annotated[str, Column(prose=True)]
+    off: Annotated[str, Column(f"off by more than {100.0 * LARGE:g} %", prose=True)]
+    refuses: Annotated[str, Column(prose=True)]
+    fails: Annotated[str, Column(prose=True)]
+    error: Annotated[float | None, PERCENT(".2g", "largest error where it holds")]
+
+
+@dataclass(frozen=True)
+class StepRow:
+    """An explicit integrator's largest stable step under a damping, computed and measured."""
+
+    integrator: str
+    damping: str
+    computed: Annotated[float, MICROSECONDS(".4g", "largest step")]
+    measured: Annotated[float | None, MICROSECONDS(".4g")]
+    advised: Annotated[float, MICROSECONDS(".4g", "default step")]
+    status: Annotated[str, Column("a run with it")]
+
+
+@dataclass(frozen=True)
+class CellRow:
+    """A run: the value that was varied, the model or integrator, and how it ended."""
+
+    at: Mapping[Column, Any]
+    status: str
+    error: Annotated[float | None, PERCENT(".3g")]
+    iterations: Annotated[int | None, NUMBER("d")]
+    seconds: Annotated[float, SECONDS(".2f")]
+    message: Annotated[str, Column(prose=True, detail=True)]
 
 
 @dataclass(frozen=True, repr=False)
@@ -72,19 +109,10 @@ def summary(maps: Stability) -> Table:
         key=lambda r: (r["study"], who(r)),
     ):
         of = [row for row in some if place(row) is not None]
-        ended = {end: _ranges(of, end) for end in ("holds", "off", "refuses", "fails")}
+        holds, off, refuses, fails = (_ranges(of, end) for end in ("holds", "off", "refuses", "fails"))
         errors = [row["error"] for row in of if verdict(row) == "holds" and row["error"] is not None]
-        rows.append((VARIED[study], name, *ended.values(), max(errors, default=None)))
-    columns = (
-        Column("varied"),
-        Column("model"),
-        Column("holds", prose=True),
-        Column(f"off by more than {100.0 * LARGE:g} %", prose=True),
-        Column("refuses", prose=True),
-        Column("fails", prose=True),
-        Column("largest error where it holds", "", "%", 100.0, ".2g"),
-    )
-    return Table("Where each model holds", columns, tuple(rows), "holds", grouped=True)
+        rows.append(HoldsRow(VARIED[study], name, holds, off, refuses, fails, max(errors, default=None)))
+    return Table.of(HoldsRow, rows, "Where each model holds", "holds", grouped=True)
 
 
 def _order(maps: Stability, row: Row) -> int:
@@ -109,8 +137,8 @@ def _limits(maps: Stability) -> list[Row]:
 
 def limits(maps: Stability) -> Table:
     """A row per explicit integrator and damping: its largest stable step, computed and measured."""
-    rows = tuple(
-        (
+    rows = [
+        StepRow(
             who(row),
             "the scene's" if place(row) is None else f"{number(place(row), 'g')} of critical",
             row["computed"],
@@ -119,16 +147,8 @@ def limits(maps: Stability) -> Table:
             row["status"],
         )
         for row in sorted(_limits(maps), key=lambda row: _order(maps, row))
-    )
-    columns = (
-        Column("integrator"),
-        Column("damping"),
-        Column("largest step", "s", "µs", 1e6, ".4g"),
-        Column("measured", "s", "µs", 1e6, ".4g"),
-        Column("default step", "s", "µs", 1e6, ".4g"),
-        Column("a run with it"),
-    )
-    return Table("Largest stable steps", columns, rows, "steps", grouped=True)
+    ]
+    return Table.of(StepRow, rows, "Largest stable steps", "steps", grouped=True)
 
 
 def _studies(maps: Stability) -> list[tuple[str, list[Row]]]:
@@ -138,18 +158,19 @@ def _studies(maps: Stability) -> list[tuple[str, list[Row]]]:
 def cells(study: tuple[str, list[Row]]) -> Table:
     """A row per cell of what was varied."""
     name, of = study
-    rows = tuple(
-        (place(r), who(r), r["status"], r["error"], r["iterations"], r["seconds"], r["message"]) for r in of
+    caption = VARIED[name].partition(" [")[0]
+    unit = MILLISECONDS if name == "time-step" else NUMBER
+    varied = unit(".4g", caption.partition(",")[0])
+    what = Column("integrator" if "integrator" in of[0]["cell"] else "model")
+    rows = (
+        CellRow(
+            {varied: place(r), what: who(r)},
+            r["status"],
+            r["error"],
+            r["iterations"],
+            r["seconds"],
+            r["message"],
+        )
+        for r in of
     )
-    head = VARIED[name].partition(" [")[0].partition(",")[0]
-    unit = ("s", "ms", 1e3) if name == "time-step" else ("", "", 1.0)
-    columns = (
-        Column(head, *unit, ".4g"),
-        Column("integrator" if "integrator" in of[0]["cell"] else "model"),
-        Column("status"),
-        ERROR,
-        Column("iterations", form="d"),
-        Column("seconds", "s", "s", 1.0, ".2f"),
-        Column("message", prose=True, detail=True),
-    )
-    return Table(f"{VARIED[name].partition(' [')[0].capitalize()}: every run", columns, rows, name)
+    return Table.of(CellRow, rows, f"{caption.capitalize()}: every run", name)

@@ -43,7 +43,8 @@ class Unit(NamedTuple):
 NUMBER, PERCENT = Unit("", ""), Unit("", "%", 100.0)
 HERTZ, NEWTONS = Unit("Hz", "Hz"), Unit("N", "N")
 MILLIMETRES, MILLISECONDS, SECONDS = Unit("m", "mm", 1e3), Unit("s", "ms", 1e3), Unit("s", "s")
-_SHOWN = {unit.si: unit for unit in (Unit("Pa", "MPa", 1e-6), MILLIMETRES, MILLISECONDS)}
+MEGAPASCALS = Unit("Pa", "MPa", 1e-6)
+_SHOWN = {unit.si: unit for unit in (MEGAPASCALS, MILLIMETRES, MILLISECONDS)}
 
 
 def unit(si: str) -> Unit:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.reproduction.published import SOURCES
-from comparisons.reproduction.tables import PERCENT, length
+from comparisons.reproduction.tables import length
 from comparisons.reproduction.words import percent
 from sheetbench.answers.table import Column, Table, Unit, unit
 from studies.reproduction.nearest import NEAR
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from studies.reproduction.ratios import Ratio
     from studies.reproduction.study import Forensics
 
+PERCENT = ("", "%", 100.0)
 RODS = {0: "–", 1: "ends up", -1: "ends down"}
 TURNING = np.pi / 6.0  # rad: chords that ask for less, and for no stretch, are in the document alone
 

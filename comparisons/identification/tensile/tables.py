@@ -3,50 +3,62 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated
 
 from comparisons.identification.tensile.laws import Fit
-from sheetbench.answers.table import Column, Table, unit
+from sheetbench.answers.table import MEGAPASCALS, NUMBER, PERCENT, Column, Table, Unit, unit
+
+
+@dataclass(frozen=True)
+class ConstantRow:
+    """A constant of a law and its 95 % interval."""
+
+    law: str
+    constant: str
+    unit: Unit
+    value: Annotated[float, NUMBER(".4g")]
+    low: Annotated[float, NUMBER(".4g", "from")]
+    high: Annotated[float, NUMBER(".4g", "to")]
+
+
+@dataclass(frozen=True)
+class MisfitRow:
+    """How well a law fits, of the largest stress, and what speaks against it."""
+
+    law: str
+    young: Annotated[float, MEGAPASCALS(".4g", "E at small strain")]
+    rms: Annotated[float, PERCENT(".2f", "misfit")]
+    largest: Annotated[float, PERCENT(".2f")]
+    remark: Annotated[str, Column(prose=True)]
+
+
+def _named(fits: Sequence[Fit], free: Sequence[Fit]) -> list[tuple[str, Fit]]:
+    return [*((fit.law, fit) for fit in fits), *((f"{fit.law}, unbounded", fit) for fit in free)]
 
 
 def constants(fits: Sequence[Fit], free: Sequence[Fit]) -> Table:
     """A row per constant of every law."""
-
-    def of(fit: Fit, name: str) -> list[tuple[object, ...]]:
-        return [
-            (name, key, unit("" if key == "limit" else "Pa"), value, *fit.intervals[key])
-            for key, value in fit.constants.items()
-        ]
-
-    rows = [row for fit in fits for row in of(fit, fit.law)]
-    rows += [row for fit in free for row in of(fit, f"{fit.law}, unbounded")]
-    columns = (
-        Column("law"),
-        Column("constant"),
-        Column("unit"),
-        *(Column(name, form=".4g") for name in ("value", "from", "to")),
-    )
-    return Table("Constants and their 95 % intervals", columns, tuple(rows), "constants", grouped=True)
-
-
-def misfits(fits: Sequence[Fit], free: Sequence[Fit], law: Fit | None) -> Table:
-    """A row per law: E of small strains, the misfit, and what speaks against it."""
     rows = [
-        (f.law, f.young, f.rms, f.largest, "← the data ask for it" if f is law else _against(f)) for f in fits
+        ConstantRow(law, key, unit("" if key == "limit" else "Pa"), value, *fit.intervals[key])
+        for law, fit in _named(fits, free)
+        for key, value in fit.constants.items()
     ]
-    rows += [(f"{f.law}, unbounded", f.young, f.rms, f.largest, _against(f)) for f in free]
-    columns = (
-        Column("law"),
-        Column("E at small strain", "Pa", "MPa", 1e-6, ".4g"),
-        Column("misfit", "", "%", 100.0, ".2f"),
-        Column("largest", "", "%", 100.0, ".2f"),
-        Column("remark", prose=True),
-    )
-    return Table("Misfit, of the largest stress (root mean square)", columns, tuple(rows), "misfits")
+    return Table.of(ConstantRow, rows, "Constants and their 95 % intervals", "constants", grouped=True)
+
+
+def misfits(fits: Sequence[Fit], free: Sequence[Fit], chosen: Fit | None) -> Table:
+    """A row per law."""
+    rows = [
+        MisfitRow(law, f.young, f.rms, f.largest, "← the data ask for it" if f is chosen else _against(f))
+        for law, f in _named(fits, free)
+    ]
+    return Table.of(MisfitRow, rows, "Misfit, of the largest stress (root mean square)", "misfits")
 
 
 def _against(fit: Fit) -> str:
     if fit.unstable:
-        return "pushes when pulled far enough, or has no stiffness at rest: no scene takes it"
+        return "its stress falls below 0 at some stretch, or it has no stiffness at rest: scenes refuse it"
     if "limit" in fit.bound:
         return "these data see no limit"
     return f"{' and '.join(fit.bound)} at the bound 0" if fit.bound else ""

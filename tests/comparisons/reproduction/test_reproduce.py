@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from comparisons.reproduction.answers import Answer, answer
+from comparisons.reproduction.answers import ReproducedTest, answer
 from comparisons.reproduction.findings import all_of
 from comparisons.reproduction.published import published, scene
 from comparisons.reproduction.tables import Reproduction
@@ -17,7 +17,7 @@ from sheetbench.scenes.seed import seed_inputs
 
 
 @pytest.fixture(scope="module")
-def test_1() -> Answer:
+def test_1() -> ReproducedTest:
     return answer(1, 0, 2)
 
 
@@ -43,7 +43,7 @@ def test_a_misprint_is_left_out_and_the_axes_are_the_scenes() -> None:
     assert np.isfinite(model).all() and np.isfinite(published(2, "experiment")).all()
 
 
-def test_the_tables_hold_what_was_published_and_what_we_answer(test_1: Answer) -> None:
+def test_the_tables_hold_what_was_published_and_what_we_answer(test_1: ReproducedTest) -> None:
     assert [s.model for s in test_1.comparison.solutions] == ["lumped", "shell", "k550-lz3", "k550-lz17"]
     assert test_1.comparison.solutions[2].settings["weights"] == "full"
     found = Reproduction(("tables",), 2, answers=(test_1,))
@@ -63,7 +63,9 @@ def test_the_tables_hold_what_was_published_and_what_we_answer(test_1: Answer) -
     )
 
 
-def test_a_lattice_of_the_seed_without_an_answer_is_a_complaint_and_no_failure(test_1: Answer) -> None:
+def test_a_published_lattice_without_an_answer_is_a_complaint_and_no_failure(
+    test_1: ReproducedTest,
+) -> None:
     *others, last = test_1.comparison.solutions
     solutions = (*others, replace(last, status=Status.UNSTABLE))
     fallen = replace(test_1, comparison=replace(test_1.comparison, solutions=solutions))

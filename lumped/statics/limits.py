@@ -5,7 +5,7 @@ RESIDUAL_TOLERANCE = 1e-11  # residual, relative to the forces, that counts as e
 IDLE_CORRECTION = 1e-9  # of the sheet's longer side: what an idle correction may move
 REUSE_FACTORS_WITHIN = 1e-6  # of the sheet's longer side: how far from where they were made factors serve
 STALE_FACTORS_ABOVE = 0.1  # of a residual: factors whose correction leaves more are too old
-FIRST_REACH = 1.3  # farthest predicted displacement of a first step, in sides of the sheet
+FIRST_REACH = 0.4  # farthest predicted displacement of a first step, in sides of the sheet
 SHORTEST_STEP, SHORTEST_REACH = 2.0**-12, 5e-4  # a step that fails is the last below this share of the load,
 # and this predicted displacement in sides of the sheet: half of BRANCHING
 FACTORISATIONS = 2000  # of one path

@@ -1,1 +1,1 @@
-"""Which model is the cheapest that is good enough for a scene."""
+"""The cheapest model that is accurate enough for a scene."""

@@ -1,4 +1,4 @@
-"""The cheapest model that is good enough for a scene, or the most accurate one in a given time.
+"""The cheapest model that is accurate enough for a scene, or the most accurate one in a given time.
 
 Scales (`comparisons.models.scales`) decide what may be left out; a few quick solves
 (`comparisons.advice.probing`) decide the rest. A model is adequate if its distance from the reference, the
@@ -47,7 +47,8 @@ def advise(
     progress: Progress = silent,
     **keywords: Unpack[SpringKeywords],
 ) -> Advice:
-    """The cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget` [s].
+    """Return the cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget`
+    [s].
 
     With both: the cheapest model that meets the tolerance; where it takes longer than the budget, the most
     accurate one in time, and `succeeded` is false. lattice, calibration, k, layer_distance: springs of
@@ -102,14 +103,14 @@ def advise(
 
 
 def checked_tolerance(tolerance: float) -> float:
-    """The tolerance. Raises BadInput unless it is a fraction above 0 and below 1."""
+    """Return the tolerance. Raises BadInput unless it is a fraction above 0 and below 1."""
     if not 0.0 < tolerance < 1.0:
         raise BadInput(f"--tolerance = {tolerance:g}: a fraction between 0 and 1, as 0.01 for one percent")
     return tolerance
 
 
 def _cheapest(probing: Probing, candidates: list[Spec], tolerance: float) -> Trial | None:
-    """The quickest candidate that is certainly within the tolerance."""
+    """Return the quickest candidate that is certainly within the tolerance."""
     found: Trial | None = None
     left = list(candidates)
     while left:
@@ -124,7 +125,7 @@ def _cheapest(probing: Probing, candidates: list[Spec], tolerance: float) -> Tri
 
 
 def _adequate(probing: Probing, trial: Trial, tolerance: float) -> bool:
-    """Whether a trial is within the tolerance; the reference is refined until that is certain."""
+    """Return whether a trial is within the tolerance; the reference is refined until that is certain."""
     while True:
         error, bar = probing.error(trial), probing.uncertainty
         if error + bar <= tolerance:
@@ -136,7 +137,7 @@ def _adequate(probing: Probing, trial: Trial, tolerance: float) -> bool:
 
 
 def _most_accurate(probing: Probing, candidates: list[Spec], budget: float) -> Trial | None:
-    """The candidate of least error among those that take no longer than the budget [s]."""
+    """Return the candidate of least error among those that take no longer than the budget [s]."""
     found: Trial | None = None
     for candidate in candidates:
         if probing.predicted_seconds(candidate) > 1.5 * budget:
@@ -190,7 +191,8 @@ def _advice(
 
 
 def _grading(probing: Probing, chosen: Trial | None) -> str:
-    """What was made of graded lattices: of the choice, or of the usual grid where that is no lattice."""
+    """Return what was made of graded lattices: of the choice, or of the usual grid where that is no
+    lattice."""
     if probing.grading is None:
         return ""
     lattice = chosen.candidate if chosen is not None else None
@@ -204,7 +206,7 @@ def _grading(probing: Probing, chosen: Trial | None) -> str:
 
 
 def _calibration(probing: Probing, chosen: Trial | None) -> str:
-    """What was made of the springs that were asked for."""
+    """Return what was made of the springs that were asked for."""
     if not (probing.springs or probing.because):
         return ""
     settings = {} if chosen is None else chosen.candidate.settings
@@ -226,7 +228,7 @@ def _limit(probing: Probing, chosen: Trial | None) -> str:
 def _effects(
     probing: Probing, chosen: Trial | None, tolerance: float
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """What the scene needs of a model, and what is left out of the chosen one."""
+    """Return what the scene needs of a model, and what is left out of the chosen one."""
     needs, left_out = ["bending"], ["dynamics: the question is static"]
     small = NEGLIGIBLE * tolerance
     energies = probing.reference.solution.energies

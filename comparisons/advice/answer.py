@@ -96,7 +96,7 @@ class Advice(Answer):
         return accurate and (self.budget is None or self.seconds <= self.budget)
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench advise`."""
+        """Return the JSON document of `sheetbench advise`."""
         choice = None
         if self.choice is not None:
             choice = {"model": self.choice.model, "settings": self.choice.settings}
@@ -124,7 +124,7 @@ class Advice(Answer):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        """A row per probing solve, the quickest first; the choice is marked."""
+        """Return a row per probing solve, the quickest first; the choice is marked."""
         rows = [
             TrialRow(
                 one.spec.series,
@@ -139,7 +139,7 @@ class Advice(Answer):
         return (Table.of(TrialRow, rows, "Quick solves; errors are distances from the finest one", "tried"),)
 
     def notes(self) -> list[str]:
-        """The advice and its reasons, a sentence a line, and the command that solves the choice."""
+        """Return the advice and its reasons, a sentence a line, and the command that solves the choice."""
         scales, command = self.scales, self.command
         return [
             f"load number q L³/D = {number(scales.span_load_number, '.3g')}, "

@@ -1,4 +1,4 @@
-"""Quick solves of a scene that tell what each model would get wrong and cost here.
+"""Quick solves of a scene that predict the error and the time of every model on this machine.
 
 The reference is the shell on three meshes of rising fineness, its error bar the grid convergence index, made
 finer only as long as a decision hangs on it. Times are this machine's, on warm code; those of models
@@ -79,12 +79,12 @@ class Probing:
         require_room(scene, self._reference(MESHES[FIRST - 1]), instead="advise has no coarser one")
 
     def lattice(self, cells: int, linear: bool = False) -> Lattice:
-        """A lattice of that many cells along the shorter side, cut where the scene is symmetric."""
+        """Return a lattice of that many cells along the shorter side, cut where the scene is symmetric."""
         nx, ny = self._along(cells)
         return Lattice((nx + 1, ny + 1, 2), CALIBRATION, linear=linear, symmetry=bool(self.planes))
 
     def elements(self, kind: str, cells: int) -> Elements:
-        """A reference of that many elements along the shorter side, cut likewise."""
+        """Return a reference of that many elements along the shorter side, cut likewise."""
         return Elements(kind, self._along(cells), symmetry=bool(self.planes))
 
     def _along(self, cells: int) -> tuple[int, int]:
@@ -94,7 +94,7 @@ class Probing:
         return along[0], along[1]
 
     def candidates(self, linear: bool) -> list[Spec]:
-        """What may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
+        """Return what may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
         usual = [self.lattice(n) for n in CELLS["lumped"]]
         others = [one.but(**self.springs) for one in usual] if self.springs else []
         specs: list[Spec] = [*usual, *others, *self.graded(others or usual)]
@@ -110,12 +110,12 @@ class Probing:
         return [one.but(grading=value) for one, value in gradings if value]
 
     def grading_of(self, lattice: Lattice) -> tuple[Graded | None, str]:
-        """The grading that a lattice may have, and why where that is chosen."""
+        """Return the grading that a lattice may have, and why where that is chosen."""
         resolved = resolve(self.scene, lattice.but(grading=self.grading), "springs")
         return fixed(resolved.spec.grading), resolved.reasons.get("grading_reason", "")
 
     def trial(self, candidate: Spec, repeats: int = REPEATS) -> Trial:
-        """The candidate's answer and time; solved once, whoever asks."""
+        """Return the candidate's answer and time; solved once, whoever asks."""
         if candidate not in self.trials:
             began = perf_counter()
             with threadpool_limits(1):  # as campaigns measure
@@ -195,7 +195,8 @@ class Probing:
 
 
 def _rate(candidate: Spec) -> str:
-    """What stays the same in time as the grid is refined: graded cells take no longer than even ones."""
+    """Return what stays the same in time as the grid is refined: graded cells take no longer than even
+    ones."""
     return (candidate.but(grading=None) if isinstance(candidate, Lattice) else candidate).series
 
 

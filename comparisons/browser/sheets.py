@@ -32,7 +32,8 @@ def packed(values: Any) -> dict[str, str]:
 
 
 def displaced(component: str | None = None) -> dict[str, Any]:
-    """The field that the viewer makes of the displacement itself: its length, or a component x, y or z."""
+    """Return the field that the viewer makes of the displacement itself: its length, or a component x, y or
+    z."""
     if component is None:
         return {"name": "displacement", "label": "Displacement", "unit": "mm", "scale": 1e3}
     named = {"name": f"u{component}", "label": f"Displacement u{component}"}
@@ -40,7 +41,8 @@ def displaced(component: str | None = None) -> dict[str, Any]:
 
 
 def field(name: str, label: str, values: np.ndarray, unit: str = "", scale: float = 1.0) -> dict[str, Any]:
-    """A field of values (n,), shown times `scale` in `unit`; coloured about zero if some are below it."""
+    """Return a field of values (n,), shown times `scale` in `unit`; coloured about zero if some are below
+    it."""
     kind = "signed" if np.nanmin(values, initial=0.0) < 0.0 else "magnitude"
     shown = {"name": name, "label": label, "unit": unit, "scale": scale, "kind": kind}
     return {**shown, "values": packed(values)}
@@ -54,7 +56,7 @@ def viewer_sheet(
     scene: Scene | None = None,
     frames: Sequence[tuple[float, np.ndarray]] = (),
 ) -> dict[str, Any]:
-    """A sheet for the viewer: a lattice where the mesh has links, else a surface.
+    """Return a sheet for the viewer: a lattice where the mesh has links, else a surface.
 
     fields: beside the displacement and its components; scene: for its supports; frames: time [s] and
     displacement (n, 3) [m]. A mesh of bricks shows its outer faces.
@@ -108,13 +110,14 @@ def _normals(points: np.ndarray, displacement: np.ndarray, plan: np.ndarray) -> 
 
 
 def outline(sheet: Sheet) -> dict[str, str]:
-    """The corners of the undeformed sheet in turn."""
+    """Return the corners of the undeformed sheet in turn."""
     x, y = sheet.lengths
     return packed(np.array([[0, 0, 0], [x, 0, 0], [x, y, 0], [0, y, 0]], dtype=float))
 
 
 def free_side(scene: Scene) -> list[float]:
-    """The direction of an eye that looks at the sheet from where it is free, above and a little aside."""
+    """Return the direction of an eye that looks at the sheet from where it is free, above and a little
+    aside."""
     away = sum((-np.array(EDGES[s.edge].outward[:2]) for s in scene.supports), np.zeros(2))
     heading = np.arctan2(away[1], away[0]) - np.radians(24.0) if np.any(away) else np.radians(-64.0)
     return [float(np.cos(heading)), float(np.sin(heading)), 0.55]

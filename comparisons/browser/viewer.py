@@ -18,7 +18,7 @@ def script() -> str:
 
 @cache
 def style() -> str:
-    """The style sheet, light and dark."""
+    """Return the style sheet, light and dark."""
     return _read("viewer.css")
 
 

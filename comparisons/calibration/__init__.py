@@ -1,1 +1,1 @@
-"""Which k belongs to E: the springs of a calibration and the moduli that they meet."""
+"""Springs of a calibration from E, and the moduli that they meet."""

@@ -57,7 +57,7 @@ class SheetCalibration(Answer):
 
 
 def to_toml(springs: Calibration) -> str:
-    """The [springs] table for pasting into a scene, with the lattice that it is for; all digits."""
+    """Return the [springs] table for pasting into a scene, with the lattice that it is for; all digits."""
     found = springs.document()
     grading = as_settings(springs.grading) if springs.grading else {}
     keys = {"grid": found["grid"], "masses": found["masses"], **grading, **found["springs"]}

@@ -76,8 +76,8 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
 
 
 def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
-    """The grid error to expect of these springs in a scene, from two solves of it; None too where the scene
-    has no static answer or the lattice is too large to be solved for a remark."""
+    """Return the grid error to expect of these springs in a scene, from two solves of it; None too where the
+    scene has no static answer or the lattice is too large to be solved for a remark."""
     if prod(springs.grid[:2]) > MOST or springs.method not in EXTRAPOLATED:
         return None
     try:

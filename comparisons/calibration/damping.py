@@ -1,4 +1,4 @@
-"""How a material damps, from what is known of it: a loss factor, a decay, or measured moduli.
+"""Damping of a material from a loss factor, a decay, or measured moduli.
 
     η = 2ζ = tan δ = 1/Q,    ζ = δ/√(4π² + δ²)
 
@@ -143,7 +143,7 @@ UNDAMPED: dict[str, Any] = {
 
 
 def tables(material: Material, modes: tuple[ModeDamping, ...]) -> tuple[Table, ...]:
-    """What the modes get, and the branches."""
+    """Return what the modes get, and the branches."""
     if not modes:
         return ()
     fields = ("number", "frequency_hz", "asked", "got", "miss")
@@ -171,7 +171,7 @@ def _how(material: Material) -> str:
 
 
 def document(material: Material, modes: tuple[ModeDamping, ...]) -> dict[str, Any]:
-    """The key `damping` of the JSON document, if the material damps."""
+    """Return the key `damping` of the JSON document, if the material damps."""
     if not modes:
         return {}
     return {
@@ -185,7 +185,8 @@ def document(material: Material, modes: tuple[ModeDamping, ...]) -> dict[str, An
 
 
 def to_toml(material: Material) -> str:
-    """What to paste into a scene beside its [springs]: the branches, or a comment with the one damper."""
+    """Return what to paste into a scene beside its [springs]: the branches, or a comment with the one
+    damper."""
     text = "".join(
         f"\n[[material.relaxation]]\nshare = {one.share!r}\ntime = {one.time!r}\n"
         for one in branches(material)

@@ -49,7 +49,7 @@ class Check(Answer):
 
     @cached_property
     def warnings(self) -> list[str]:
-        """What is hardly meant."""
+        """Probable mistakes in the scene."""
         return [f"{self.called}: {slip}" for slip in slips(self.scene)]
 
     @cached_property
@@ -59,7 +59,7 @@ class Check(Answer):
 
     @cached_property
     def foretold(self) -> list[str]:
-        """What the lattice's answer will be off by, as far as it is known before solving."""
+        """Error of the lattice, as far as it is known before solving."""
         known = lumped.polygons(self.scene, scene_grid(self.scene)) if self.scene.actuators else ""
         return [known] if known else []
 

@@ -1,4 +1,4 @@
-"""What the packages log for people, as that something is compiled first: a line on standard error."""
+"""Log messages of the packages (that kernels are compiled first) as lines on standard error."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ class _Lines(logging.Handler):
     """Writes a record as a line."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Beside a spinner too."""
+        """Write the message, beside a spinner too."""
         from comparisons.cli import console  # with rich: help must not wait for it
 
         console.tell(record.getMessage())
@@ -19,7 +19,7 @@ class _Lines(logging.Handler):
 
 @contextmanager
 def in_a_line() -> Iterator[None]:
-    """Show what the packages log so."""
+    """Show log messages of the packages as lines."""
     logger, lines = logging.getLogger("sheetbench"), _Lines()
     level = logger.level
     logger.setLevel(logging.INFO)

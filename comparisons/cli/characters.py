@@ -56,19 +56,19 @@ def adapt(stream: TextIO) -> None:
 
 
 def takes_everything(encoding: str) -> bool:
-    """Whether an encoding has every character."""
+    """Return whether an encoding has every character."""
     return encoding.lower().startswith("utf")
 
 
 def spelled(text: str, encoding: str) -> str:
-    """The text in an encoding's characters, so that its width is known before it is laid out."""
+    """Return the text in an encoding's characters, so that its width is known before it is laid out."""
     if takes_everything(encoding):
         return text
     return text.encode(encoding, HANDLER).decode(encoding)
 
 
 def ascii_of(text: str) -> str:
-    """A text by the nearest ASCII."""
+    """Return a text by the nearest ASCII."""
     plain, raised = "", False
     for character in text:
         name = unicodedata.name(character, "")
@@ -95,7 +95,7 @@ def _nearest(character: str, name: str) -> str:
 
 
 def _instead(error: UnicodeError) -> tuple[str, int]:
-    """What the codecs machinery asks: a replacement, and where to go on."""
+    """Return what the codecs machinery asks: a replacement, and where to go on."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
     return ascii_of(error.object[error.start : error.end]), error.end

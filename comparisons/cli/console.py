@@ -1,4 +1,4 @@
-"""What people read: tables and notes on standard output, progress and warnings on standard error."""
+"""Tables and notes on standard output, progress and warnings on standard error."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _quiet = False
 
 @contextmanager
 def quietly() -> Iterator[None]:
-    """Without progress and notes on standard error meanwhile."""
+    """Hold back progress and notes on standard error within a block."""
     global _quiet
     _quiet = True
     try:
@@ -36,13 +36,14 @@ def quietly() -> Iterator[None]:
 
 
 def printable(text: str, keep: str = "") -> str:
-    """A text without control characters but those in `keep`, in characters that the output's encoding has."""
+    """Return a text without control characters but those in `keep`, in characters that the output's encoding
+    has."""
     return spelled(terminal(text, keep), out.encoding)
 
 
 @contextmanager
 def progress() -> Iterator[Callable[[Work | str], None]]:
-    """A function that says on standard error what is being done: a spinner on a terminal, else lines."""
+    """Yield a function that shows what is being done: a spinner on a terminal, else lines."""
     if _quiet:
         yield lambda what: None
         return
@@ -56,7 +57,7 @@ def progress() -> Iterator[Callable[[Work | str], None]]:
 
 @contextmanager
 def campaign_progress() -> Iterator[Callable[[Progress], None]]:
-    """A function that shows how far a campaign is: a bar with the time left on a terminal, else lines."""
+    """Yield a function that shows a campaign's progress: a bar on a terminal, else lines."""
     if _quiet:
         yield lambda progress: None
         return
@@ -81,7 +82,7 @@ def campaign_progress() -> Iterator[Callable[[Progress], None]]:
 
 
 def _reported(progress: Progress, lines: Lines) -> None:
-    """A line of every run that is done; of those that go on, when they have for a while."""
+    """Print a line of every run that is done, and of those that have gone on for a while."""
     so_far = f"{progress.done}/{progress.total}"
     from comparisons.runs.campaign import GOING
 
@@ -93,7 +94,7 @@ def _reported(progress: Progress, lines: Lines) -> None:
 
 
 def _going(progress: Progress) -> str:
-    """What goes on, else what is done."""
+    """Return what goes on, else what is done."""
     if not progress.going:
         return progress.label
     more = len(progress.going) - 1
@@ -101,20 +102,20 @@ def _going(progress: Progress) -> str:
 
 
 def tell(text: str) -> None:
-    """A line on standard error, unless quiet."""
+    """Print a line on standard error, unless quiet."""
     if not _quiet:
         err.print(Text(spelled(terminal(text), err.encoding)), soft_wrap=True)
 
 
 def document(content: Mapping[str, Any]) -> None:
-    """One JSON document, for programs; characters that the encoding lacks are escaped as JSON has it."""
+    """Print one JSON document; characters that the encoding lacks are escaped."""
     from sheetbench.answers.files import to_json
 
     print(to_json(content, escaped=not takes_everything(out.encoding)), end="")
 
 
 def heading(title: str, subtitle: str = "") -> None:
-    """What the output is about."""
+    """Print the title, bold, and the subtitle."""
     shown, bold = printable(title), len(printable(title))
     for i, line in enumerate(_fitted(f"{shown}  {printable(subtitle)}" if subtitle else shown)):
         text = Text(line)
@@ -140,21 +141,21 @@ def show(table: Table) -> None:
 
 
 def note(text: str) -> None:
-    """A remark under the tables; its lines are broken between words, but a command to copy is not."""
+    """Print a note under the tables, broken between words; a command to copy stays on one line."""
     for line in printable(text, keep="\n").split("\n"):
         for part in [line] if line.startswith("sheetbench ") else _fitted(line):
             out.print(Text(part, style="dim"), soft_wrap=True)
 
 
 def _fitted(line: str, console: Console = out) -> list[str]:
-    """The line broken between words; a long path stays whole."""
+    """Return the line broken between words; a long path stays whole."""
     import textwrap
 
     return textwrap.wrap(line, console.width, break_long_words=False, break_on_hyphens=False) or [""]
 
 
 def warn(text: str) -> None:
-    """A warning on standard error: one line, on a terminal broken between words."""
+    """Print a warning on standard error: one line, on a terminal broken between words."""
     shown = spelled(terminal(text), err.encoding)
     for line in _fitted(shown, err) if err.is_terminal else [shown]:
         err.print(Text(line, style="yellow"), soft_wrap=True)

@@ -19,7 +19,7 @@ FILE = "sheetbench-defaults.toml"
 
 
 class Refused(Exception):
-    """A file of defaults that cannot be meant, in a line."""
+    """Why a file of defaults is refused, in a line."""
 
 
 def with_defaults(arguments: Sequence[str], verbs: Collection[str]) -> list[str]:

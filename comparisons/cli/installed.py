@@ -1,4 +1,4 @@
-"""What is installed here, as `sheetbench --version --verbose` prints it for a report of a fault."""
+"""What is installed here, as `sheetbench --version --verbose` prints it for bug reports."""
 
 from __future__ import annotations
 

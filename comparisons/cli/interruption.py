@@ -35,13 +35,13 @@ def promise(verb: str, out: object) -> None:
 
 
 def say() -> None:
-    """The line, on standard error."""
+    """Print what an interrupt leaves behind, on standard error."""
     print(f"interrupted; {_left_behind}", file=sys.stderr, flush=True)
 
 
 @contextmanager
 def heeded() -> Iterator[None]:
-    """A block that Ctrl-C ends in time, whatever it does; only the main thread can arrange that."""
+    """Let Ctrl-C end a block in time, whatever it does; only the main thread can arrange that."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -63,7 +63,7 @@ def heeded() -> Iterator[None]:
 
 
 def _once(number: int, frame: object) -> None:
-    """Interrupt, and be deaf to more of it: they would interrupt what is cleared up, to the last."""
+    """Raise KeyboardInterrupt once, and ignore further signals, which would interrupt the clearing up."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     raise KeyboardInterrupt
 

@@ -27,13 +27,13 @@ class LatticeGroup(Group):
         return Lattice(**vars(self))
 
     def given(self) -> dict[str, Any]:
-        """The values by the options' names."""
+        """Return the values by the options' names."""
         return {"--lumped" if k == "grid" else f"--{k.replace('_', '-')}": v for k, v in vars(self).items()}
 
 
 @dataclass(frozen=True)
 class SpringOptions(LatticeGroup):
-    """What all lattices of a list have."""
+    """Settings that all lattices of a list have in common."""
 
     k: options.K = None
     layer_distance: options.LayerDistance = None

@@ -1,4 +1,4 @@
-"""Progress where standard error is no terminal: a line now and then, and none of what is soon over."""
+"""Progress where standard error is no terminal: a line now and then, none for short work."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ class Lines:
         self._looking.join()
 
     def say(self, what: Work | str) -> None:
-        """What is being done from now on."""
+        """Set what is being done from now on."""
         with self._lock:
             self._now = str(what)
             if not isinstance(what, str) and what.long and what.share is None:
                 self._print(self._now)
 
     def print(self, text: str) -> None:
-        """A line, at once."""
+        """Print a line at once."""
         with self._lock:
             self._print(text)
 

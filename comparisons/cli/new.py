@@ -91,7 +91,7 @@ def _at_a_terminal() -> bool:
 
 
 def _edges(text: str) -> list[str]:
-    """The edges named, with commas between them. Raises BadInput for what is none."""
+    """Return the edges named, with commas between them. Raises BadInput for what is none."""
     from sheetbench.errors import require_choice
     from sheetbench.scenes.sheet import EDGES
 
@@ -131,7 +131,7 @@ def _answers_from_terminal() -> tuple[dict[str, float], str, float]:
 
 
 def _quantity(key: str, usual: float) -> float:
-    """The answer to a question, in SI units."""
+    """Return the answer to a question, in SI units."""
     from comparisons.cli import console
     from sheetbench.errors import BadInput
     from sheetbench.scenes.units import quantity

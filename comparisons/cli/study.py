@@ -60,7 +60,7 @@ def command(
 
 
 def _studies() -> dict[str, str]:
-    """Every study with what it is about; none where these packages do not stand in a checkout."""
+    """Return every study with what it is about; none where these packages do not stand in a checkout."""
     if not (CHECKOUT / LABORATORY / "__init__.py").is_file():
         return {}
     studies: dict[str, str] = import_module(LABORATORY).STUDIES

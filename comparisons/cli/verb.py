@@ -62,7 +62,7 @@ class OutputOptions(Group):
 
 @dataclass(frozen=True)
 class PictureOptions(OutputOptions):
-    """The same of a verb that draws."""
+    """The output of a verb that draws pictures."""
 
     figure: Figure = None
     no_pictures: NoPictures = False
@@ -70,7 +70,7 @@ class PictureOptions(OutputOptions):
 
 @dataclass(frozen=True)
 class CampaignOptions(Group):
-    """How many runs are carried out."""
+    """How a campaign's runs are carried out."""
 
     workers: Workers = None
     scheduler: str | None = None
@@ -80,7 +80,7 @@ class CampaignOptions(Group):
 
 @dataclass(frozen=True)
 class ClusterOptions(CampaignOptions):
-    """The same of a verb whose runs may go to a cluster."""
+    """The options of a campaign whose runs may go to a cluster."""
 
     scheduler: Scheduler = None
     wait: Wait = False

@@ -12,7 +12,7 @@ shown: list[str] = []  # of the command that runs
 
 @contextmanager
 def in_a_line() -> Iterator[None]:
-    """Show the packages' own warnings in a line each; others as usual."""
+    """Show the packages' own warnings as a line each; others as Python does."""
     shown.clear()
     usual = warnings.showwarning
 

@@ -85,7 +85,8 @@ class Comparison(Answer):
         return ROUND_OFF * max(float(np.linalg.norm(u)) for u in self.probes(self.reference).values())
 
     def measurable(self, solution: Solution) -> bool:
-        """Whether a solution and the reference are both stable, and not known to be on different branches."""
+        """Return whether a solution and the reference are both stable, and not known to be on different
+        branches."""
         pair = (solution, self.reference)
         stable = all(one.comparable and one.status is not Status.UNSTABLE for one in pair)
         if not stable or not self.several or (solution in self.solutions[:2] and not self.other_branch):
@@ -93,7 +94,7 @@ class Comparison(Answer):
         return not branches.far(*(one.displacement(self.scene.probe_points()) for one in pair))
 
     def error(self, solution: Solution) -> float | None:
-        """The solution's error against the reference."""
+        """Return the solution's error against the reference."""
         if solution is self.reference or not self.measurable(solution):
             return None
         points = self.scene.probe_points()
@@ -136,13 +137,13 @@ class Comparison(Answer):
         return model_error(self.scene, self.reference, self.law_chosen)
 
     def distinguishable(self, solution: Solution) -> bool | None:
-        """Whether a solution's error is above the reference's own; None where either is not known."""
+        """Return whether a solution's error is above the reference's own; None where either is not known."""
         off = self.error(solution)
         return None if self.bar is None or off is None else off > self.bar.error
 
     def branch(self, solution: Solution) -> str:
-        """Which equilibrium, where several are known: "path", "buckled", "of" the model in whose shape it was
-        begun, or "own", where lattice and reference are on different branches."""
+        """Return which equilibrium, where several are known: "path", "buckled", "of" the model in whose shape
+        it was begun, or "own", where lattice and reference are on different branches."""
         if "begun" in solution.settings:
             return f"of {solution.settings['begun']}"
         if self.other_branch and solution in self.solutions[:2]:
@@ -151,7 +152,7 @@ class Comparison(Answer):
         return str(solution.settings.get("branch", "path" if several else ""))
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench compare`: metres, newtons, seconds."""
+        """Return the JSON document of `sheetbench compare`: metres, newtons, seconds."""
         return {
             "scene": self.scene.document(),
             "solutions": [self._solution_document(solution) for solution in self.solutions],
@@ -185,7 +186,7 @@ class Comparison(Answer):
         }
 
     def heading(self) -> tuple[str, str, str]:
-        """The scene, and its sheet."""
+        """Return the scene, and its sheet."""
         return self.scene.name, self.scene.title, sheet_in_words(self.scene.sheet, self.scene.material)
 
     def tables(self) -> tuple[Table, ...]:
@@ -193,7 +194,7 @@ class Comparison(Answer):
         return (*self.printed(), self._reactions())
 
     def printed(self) -> tuple[Table, ...]:
-        """All tables but the forces of the supports."""
+        """Return all tables but the forces of the supports."""
         return self._displacements(), self._costs()
 
     def _displacements(self) -> Table:
@@ -208,7 +209,7 @@ class Comparison(Answer):
         return Table.of(ProbeRow, rows, "Displacement of the mid-surface", "table", grouped=True)
 
     def _relative_bars(self, solution: Solution) -> dict[str, float]:
-        """The bar of a model that has one over its displacement, at the probes where it moves."""
+        """Return the bar of a model that has one over its displacement, at the probes where it moves."""
         lengths = self.own_bar(solution)
         if solution is self.reference and self.bar is not None:
             lengths = dict(zip(self.bar.names, self.bar.uncertainty.bar, strict=True))
@@ -235,7 +236,7 @@ class Comparison(Answer):
         return Table.of(ReactionRow, rows, "Force of each support on the sheet", "reactions")
 
     def figures(self) -> tuple[Picture, ...]:
-        """The deformed sheets, and what every model is off by at the probes."""
+        """Return the deformed sheets, and what every model is off by at the probes."""
         lattice, reference = self.solutions[:2]
         off = self.error(lattice)
         said = "" if off is None else f": error at the probes {100 * off:.2f} %"
@@ -246,7 +247,7 @@ class Comparison(Answer):
         )
 
     def files(self) -> dict[str, Write]:
-        """The solutions as VTU, each on its own mesh and all on one."""
+        """Return the solutions as VTU, each on its own mesh and all on one."""
         own: dict[str, Write] = {
             f"{s.model}.vtu": partial(write_solution, solution=s) for s in self.solutions
         }
@@ -270,7 +271,7 @@ class Comparison(Answer):
         write_mesh(path, plan)
 
     def choices(self) -> dict[str, Any]:
-        """The settings of every model."""
+        """Return the settings of every model."""
         return {solution.model: solution.settings for solution in self.solutions}
 
     @property
@@ -279,8 +280,8 @@ class Comparison(Answer):
         return self.converged
 
     def complaints(self) -> list[str]:
-        """A sentence for every model that did not converge: what happened and what can be done; and why
-        lattice and reference are far apart though both did."""
+        """Return a sentence for every model that did not converge: what happened and what can be done; and
+        why lattice and reference are far apart though both did."""
         return [*([self.disagreement] if self.disagreement else [])] + [
             ": ".join(part for part in (s.model, s.status_text, s.message, s.status.advice) if part)
             for s in self.solutions
@@ -288,7 +289,7 @@ class Comparison(Answer):
         ]
 
     def notes(self) -> list[str]:
-        """The models, what was chosen for them, error bars, and what the percentages mean."""
+        """Return the models, what was chosen for them, error bars, and what the percentages mean."""
         ref = f"u_{self.reference.model}"
         return [
             " · ".join(solution.label for solution in self.solutions),
@@ -301,8 +302,8 @@ class Comparison(Answer):
         ]
 
     def _bar_notes(self) -> list[str]:
-        """The reference's error bar in words, the models that differ from it by less, and what is due to laws
-        of strain."""
+        """Return the reference's error bar in words, the models that differ from it by less, and what is due
+        to laws of strain."""
         notes, model = [self.laws] if self.laws else [], self.reference.model
         for solution in self.solutions:
             if solution.bar is not None:
@@ -325,5 +326,5 @@ class Comparison(Answer):
 
 
 def _named(letter: str, vector: np.ndarray) -> dict[str, float]:
-    """The components of a vector (3,) by name."""
+    """Return the components of a vector (3,) by name."""
     return {f"{letter}{axis}": float(part) for axis, part in zip("xyz", vector, strict=True)}

@@ -54,19 +54,21 @@ def joined(
 
 
 def far(u: np.ndarray, other: np.ndarray) -> bool:
-    """Whether displacements at the probes (n, 3) [m] are so far from others that branches may differ."""
+    """Return whether displacements at the probes (n, 3) [m] are so far from others that branches may
+    differ."""
     return bool(np.abs(u - other).max() > FAR * np.abs(other).max())
 
 
 def _on_branch(again: Solution, points: np.ndarray, there: np.ndarray, here: np.ndarray) -> bool:
-    """Whether an answer is stable, and nearer to one set of displacements at the probes than to another."""
+    """Return whether an answer is stable, and nearer to one set of displacements at the probes than to
+    another."""
     u = again.displacement(points)
     gap = np.abs(there - here).max()
     return again.status is Status.CONVERGED and bool(np.abs(u - there).max() < SAME * gap)
 
 
 def _begun(again: Solution, before: Solution, other: Solution) -> Solution:
-    """A model's answer begun in another's shape, in the place of its own."""
+    """Return a model's answer begun in another's shape, in the place of its own."""
     settings = {**before.settings, "begun": other.model}
     return replace(again, model=before.model, settings=settings, setup_seconds=before.setup_seconds)
 

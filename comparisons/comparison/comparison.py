@@ -116,12 +116,13 @@ def compare(
 
 
 def _unlike(name: str, taken: Collection[str]) -> str:
-    """The name, or with the first number after it that makes it a new one."""
+    """Return the name, or with the first number after it that makes it a new one."""
     return next(n for n in (name, *(f"{name}-{i}" for i in range(2, len(taken) + 3))) if n not in taken)
 
 
 def load_static(scene: str | Path) -> Scene:
-    """The scene of a catalogue name or file, refused by that name if its supports leave it free to move."""
+    """Return the scene of a catalogue name or file, refused by that name if its supports leave it free to
+    move."""
     loaded = load(scene)
     try:
         require_static(loaded)

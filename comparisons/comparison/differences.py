@@ -6,12 +6,13 @@ import numpy as np
 
 
 def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:
-    """The error of displacements (n, 3) against a reference's (n, 3), as the module defines it."""
+    """Return the error of displacements (n, 3) against a reference's (n, 3), as the module defines it."""
     return _ratio(float(np.max(np.abs(displacement - reference))), float(np.max(np.abs(reference))))
 
 
 def relative(displacement: np.ndarray, reference: np.ndarray, least: float = 0.0) -> float | None:
-    """The relative difference of a displacement (3,) from the reference's (3,), if that exceeds `least`."""
+    """Return the relative difference of a displacement (3,) from the reference's (3,), if that exceeds
+    `least`."""
     size = float(np.linalg.norm(reference))
     return _ratio(float(np.linalg.norm(displacement - reference)), size) if size > least else None
 

@@ -1,4 +1,4 @@
-"""What the reference's own mesh leaves uncertain in a comparison: an error bar at every probe.
+"""The error bar that a reference's mesh leaves at every probe of a comparison.
 
 The reference is solved on coarser meshes too (`fem_reference.uncertainty`); a model that differs from it by
 less than its bar is not distinguishable from it. The time that takes is reported apart.
@@ -48,7 +48,7 @@ class ErrorBar:
         return float(np.linalg.norm(self.uncertainty.bar[self.names.index(probe)]))
 
     def note(self, model: str) -> str:
-        """The bar in words."""
+        """Return the bar in words."""
         found, (*finer, coarsest) = self.uncertainty, [_size(n) for n in self.elements]
         if len(self.elements) == 2:
             why = "order 2 assumed, safety factor 3: two meshes show no order"
@@ -86,7 +86,7 @@ def _size(elements: Elements) -> str:
 def error_bar(
     scene: Scene, finest: Solution, elements: Elements, solve: Callable[[Elements], Solution]
 ) -> ErrorBar | None:
-    """The bar of a reference's solution on `elements`; `solve` answers on other numbers of elements.
+    """Return the bar of a reference's solution on `elements`; `solve` answers on other numbers of elements.
 
     None where fewer than two meshes have an answer.
     """

@@ -40,8 +40,8 @@ def far_apart_note(
     bar: float | None,
     solve: Callable[[Lattice], Solution | None],
 ) -> tuple[str, bool]:
-    """A sentence where lattice and reference, the first two of the solutions, are FAR apart, else nothing;
-    and whether they are known to lie on different branches, so that an error would measure neither.
+    """Return a sentence where lattice and reference, the first two of the solutions, are FAR apart, else
+    nothing; and whether they are known to lie on different branches, so that an error would measure neither.
 
     error: of displacements against others; bar: of the reference, None where it is not known; solve: answers
     other grids, None where that takes too much memory.
@@ -92,7 +92,8 @@ def far_apart_note(
 
 
 def _tends(lattice: Resolved[Lattice], reference: Solution, off: float) -> bool:
-    """Whether on one branch the lattice's answer tends to the reference's, but for less than an error."""
+    """Return whether on one branch the lattice's answer tends to the reference's, but for less than an
+    error."""
     return (
         converges(lattice.spec, lattice.grid)
         and not lattice.scene.actuators
@@ -101,7 +102,7 @@ def _tends(lattice: Resolved[Lattice], reference: Solution, off: float) -> bool:
 
 
 def reasons(lattice: Resolved[Lattice], first: Solution, reference: Solution) -> list[str]:
-    """What is known that speaks for a coarse grid or for other branches, a clause each."""
+    """Return what is known that speaks for a coarse grid or for other branches, a clause each."""
     found = []
     scene, grid = lattice.scene, lattice.grid
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))

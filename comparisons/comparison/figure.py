@@ -40,7 +40,7 @@ MODEL_NAMES = {
 
 
 def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
-    """The figure with its three panels. Raises NoPicture."""
+    """Return the figure with its three panels. Raises NoPicture."""
     scene = comparison.scene
     lattice, reference = comparison.solutions[:2]
     if not all(np.all(np.isfinite(s.mesh.point_data["displacement"])) for s in (lattice, reference)):
@@ -134,7 +134,7 @@ def _in_a_row(width: float, aspect: float, head: float) -> tuple[Figure, list[Ax
 
 
 def _stacked(width: float, aspect: float, head: float) -> tuple[Figure, list[Axes], list[Axes]]:
-    """The first two panels above, the third below beside both colour bars."""
+    """Return the first two panels above, the third below beside both colour bars."""
     panel = 0.5 * width * aspect
     row = max(panel + 0.36, 1.1)
     figure = Figure(figsize=(width, 2 * row + head))

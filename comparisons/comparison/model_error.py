@@ -1,4 +1,4 @@
-"""What a reference leaves out of the sheet on every mesh: bounds for thickness, law of strain and clamps.
+"""The model error of a reference, on every mesh: bounds for thickness, law of strain and clamps.
 
 thickness   1.2 (h/a)², a the shorter side, 1.2 = 1/κ: shear-deformable plates and shells differ from the
             solid by terms of that order (Koiter, Proc. Kon. Ned. Ak. Wet. B73 (1970) 169–195); nothing for a
@@ -63,8 +63,9 @@ def _percent(share: float) -> str:
 
 
 def model_error(scene: Scene, answer: Solution, law_chosen: bool = False) -> ModelError | None:
-    """The bounds of a shell's or solid's answer; None where it is no stable equilibrium, and of the plate,
-    which leaves out large displacements altogether. law_chosen: whether its law of strain is the user's."""
+    """Return the bounds of a shell's or solid's answer; None where it is no stable equilibrium, and of the
+    plate, which leaves out large displacements altogether. law_chosen: whether its law of strain is the
+    user's."""
     if answer.status is not Status.CONVERGED or answer.stretch is None or answer.model not in MODELS:
         return None
     slenderness, poisson = scene.sheet.thickness / min(scene.sheet.lengths), scene.material.poisson

@@ -25,13 +25,14 @@ HALF = 0.42  # of a probe's place on the axis
 
 
 def shown(comparison: Comparison) -> list[str]:
-    """The probes with a place in the plot, in the scene's order: the first of those that move."""
+    """Return the probes with a place in the plot, in the scene's order: the first of those that move."""
     moving = {difference.probe for difference in comparison.differences if difference.relative is not None}
     return [probe for probe in comparison.scene.probes if probe in moving][:MOST]
 
 
 def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
-    """The figure: a place a probe, a marker a model, the band below the reference's bar. Raises NoPicture."""
+    """Return the figure: a place a probe, a marker a model, the band below the reference's bar. Raises
+    NoPicture."""
     probes, reference = shown(comparison), comparison.reference
     if not probes:
         raise NoPicture("no probe moves, so that there are no relative differences")
@@ -70,7 +71,7 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
 
 
 def relative_bars(comparison: Comparison, probes: Sequence[str]) -> list[float]:
-    """The reference's bar at each probe over its displacement there; none where it has no bar."""
+    """Return the reference's bar at each probe over its displacement there; none where it has no bar."""
     if comparison.bar is None:
         return []
     moved = comparison.probes(comparison.reference)

@@ -40,8 +40,8 @@ def of_lattice(lattice: Resolved[Lattice]) -> float:
 
 
 def strain_law_note(lattice: Resolved[Lattice], solutions: tuple[Solution, ...], bar: float | None) -> str:
-    """A sentence where the laws of lattice and reference, the first two of the solutions, differ by more than
-    the reference's error bar, else nothing; bar: as a share, None where it is not known."""
+    """Return a sentence where the laws of lattice and reference, the first two of the solutions, differ by
+    more than the reference's error bar, else nothing; bar: as a share, None where it is not known."""
     first, reference = solutions[:2]
     above = UNSAID if bar is None else max(bar, UNSAID)
     stretch = reference.stretch or 0.0
@@ -67,7 +67,8 @@ def strain_law_note(lattice: Resolved[Lattice], solutions: tuple[Solution, ...],
 
 
 def limit(lattice: Resolved[Lattice], stretch: float) -> str:
-    """A sentence on the stretch from which on a lattice is no rubber, where a sheet is stretched farther."""
+    """Return a sentence on the stretch from which on a lattice is no rubber, where a sheet is stretched
+    farther."""
     return _limit(lattice, of_lattice(lattice), stretch) if stretch > LOOKED_AT else ""
 
 

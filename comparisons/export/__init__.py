@@ -1,1 +1,1 @@
-"""Springs out: a lattice in files that another program can read, with values to check its own by."""
+"""A lattice in files for other programs, with values to check theirs by."""

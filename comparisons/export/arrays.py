@@ -56,7 +56,7 @@ NAMES = {  # and what they are
 
 
 def arrays(lattice: Description) -> dict[str, np.ndarray]:
-    """The arrays by the names of `NAMES`."""
+    """Return the arrays by the names of `NAMES`."""
     layers = 1 + int(lattice.index[:, 2].max())
     found: dict[str, np.ndarray] = {
         "positions": lattice.positions,

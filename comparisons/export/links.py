@@ -49,7 +49,7 @@ def held_means(lattice: Description) -> list[Mean]:
 
 
 def weight_and_rest(lattice: Description, scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """The acceleration of gravity (3,) [m/s²], and the dead forces that are not its own (n, 3) [N]."""
+    """Return the acceleration of gravity (3,) [m/s²], and the dead forces that are not its own (n, 3) [N]."""
     gravity = np.zeros(3) if scene.gravity is None else np.array(scene.gravity.last_acceleration)
     others = lattice.dead - lattice.mass[:, None] * gravity
     others[np.abs(others) < 1e-12 * np.abs(lattice.dead).max(initial=0.0)] = 0.0

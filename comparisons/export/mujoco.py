@@ -31,7 +31,7 @@ SMALL = 1e-9  # kg m²: what does not turn needs an inertia all the same
 
 
 def to_mjcf(lattice: Description, scene: Scene) -> str:
-    """The model's text. Raises BadInput for what MuJoCo's springs cannot say (`require_links`)."""
+    """Return the model's text. Raises BadInput for what MuJoCo's springs cannot say (`require_links`)."""
     require_links(lattice, "mujoco", means=True)
     gravity, forces = weight_and_rest(lattice, scene)
     step = _time_step(lattice)

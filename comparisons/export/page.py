@@ -82,7 +82,7 @@ Programs in NumPy, MATLAB and C++ that read this folder and solve it, of rubber 
 
 
 def page(lattice: Description, scene: Scene, calibration: Calibration, others: Iterable[str] = ()) -> str:
-    """The README, in Markdown; others: names of files of the same lattice for one simulator each."""
+    """Return the README, in Markdown; others: names of files of the same lattice for one simulator each."""
     nx, ny, layers = calibration.grid
     sheet, material = scene.sheet, scene.material
     about = (

@@ -34,7 +34,7 @@ PLUGINS = (
 
 
 def to_sofa(lattice: Description, scene: Scene) -> str:
-    """The scene's text. Raises BadInput for what SOFA's springs cannot say (`require_links`)."""
+    """Return the scene's text. Raises BadInput for what SOFA's springs cannot say (`require_links`)."""
     require_links(lattice, "sofa", means=False)
     held = held_masses(lattice)
     gravity, forces = weight_and_rest(lattice, scene)

@@ -20,7 +20,7 @@ AXES = "xyz"
 
 
 def tables(lattice: Description) -> dict[str, str]:
-    """The text of every file by its name."""
+    """Return the text of every file by its name."""
     x, y, z = (f"u{axis}" for axis in AXES)
     formulas = dict.fromkeys(f"{table.kind}: E = {table.energy}" for table in lattice.cells)
     width = max(3, *(table.stiffness.shape[1] for table in lattice.cells), 0)

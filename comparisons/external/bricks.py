@@ -1,4 +1,4 @@
-"""A sheet of 20-node bricks in raw numbers: what programs for solids are given, and what they answer on.
+"""A mesh of a sheet of 20-node bricks, with its supports and loads, for programs that solve solids.
 
 Nodes lie at corners and mid-edges of nx × ny × layers bricks, layers an even number, so that the mid-surface
 is a plane of eight-node faces. A column is the nodes over one plan point; its middle node is the mid-surface.
@@ -117,7 +117,7 @@ class Bricks:
         return np.flatnonzero(self.sites[:, edge.normal_axis] == (last if edge.far_end else 0))
 
     def columns(self, nodes: np.ndarray) -> list[np.ndarray]:
-        """The nodes by column, the middle one first."""
+        """Return the nodes by column, the middle one first."""
         by_place: dict[tuple[int, int], list[int]] = {}
         for node in sorted(nodes, key=lambda n: int(self.sites[n, 2] != self.middle)):
             by_place.setdefault((int(self.sites[node, 0]), int(self.sites[node, 1])), []).append(int(node))
@@ -181,7 +181,7 @@ class Held:
 
 
 def held(scene: Scene, bricks: Bricks, linear: bool = False) -> Held:
-    """What supports and motions hold; linear: to first order in the load."""
+    """Return what supports and motions hold; linear: to first order in the load."""
     n = len(bricks.positions)
     axes, fixed, value = np.tile(np.eye(3), (n, 1, 1)), np.zeros((n, 3), dtype=bool), np.zeros((n, 3))
     middle = bricks.sites[:, 2] == bricks.middle
@@ -238,14 +238,14 @@ def fractions(count: int, grading: str) -> np.ndarray:
 
 
 def _halved(planes: np.ndarray) -> np.ndarray:
-    """The planes and their middles, in turn."""
+    """Return the planes and their middles, in turn."""
     out = np.empty(2 * len(planes) - 1)
     out[::2], out[1::2] = planes, 0.5 * (planes[:-1] + planes[1:])
     return out
 
 
 def _place(planes: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The interval of positions (p,), and where in it, −1 to 1."""
+    """Return the interval of positions (p,), and where in it, −1 to 1."""
     i = np.clip(np.searchsorted(planes, at, side="right") - 1, 0, len(planes) - 2)
     return i, 2.0 * (at - planes[i]) / (planes[i + 1] - planes[i]) - 1.0
 

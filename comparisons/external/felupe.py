@@ -58,7 +58,7 @@ class FElupe:
             return None
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """The static answer. Raises BadInput without FElupe or for settings it cannot use."""
+        """Return the static answer. Raises BadInput without FElupe or for settings it cannot use."""
         require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
         if self.version() is None:
             raise BadInput(f"model = 'felupe': needs {self.needs}")
@@ -194,7 +194,7 @@ class _Path:
 
 
 def _traced(equilibrium: Equilibrium, supports: Held) -> _Path:
-    """The equilibrium under the whole load, or the last converged on the way."""
+    """Return the equilibrium under the whole load, or the last converged on the way."""
     free = _free(supports)
     fixed = np.einsum("nrc,nr->nc", supports.axes, np.where(supports.fixed, supports.value, 0.0))
     path, step = _Path(np.zeros_like(fixed), 0.0, 0), 1.0
@@ -229,7 +229,7 @@ def _free(supports: Held) -> csr_matrix:
 def _newton(
     equilibrium: Equilibrium, free: csr_matrix, start: _Path, fixed: np.ndarray, load_factor: float
 ) -> tuple[np.ndarray | None, int]:
-    """The displacement at a load factor, None where it did not converge; and iterations.
+    """Return the displacement at a load factor, None where it did not converge; and iterations.
 
     The first step goes along the tangent of the start, and takes the held components to where they belong.
     """

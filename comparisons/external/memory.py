@@ -21,7 +21,7 @@ def available() -> int | None:
 
 
 def _of_machine() -> int | None:
-    """What is free or can be freed."""
+    """Return what is free or can be freed."""
     if (free := _amount(_text("proc/meminfo"), r"MemAvailable:\s+(\d+) kB")) is not None:
         return 1024 * free
     try:  # macOS tells how much there is
@@ -31,7 +31,7 @@ def _of_machine() -> int | None:
 
 
 def _of_address_space() -> int | None:
-    """What `ulimit -v` leaves."""
+    """Return what `ulimit -v` leaves."""
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     if limit == resource.RLIM_INFINITY:
         return None
@@ -40,7 +40,7 @@ def _of_address_space() -> int | None:
 
 
 def _of_groups() -> Iterator[int | None]:
-    """What every control group that holds this process leaves, of version 2 and 1."""
+    """Return what every control group that holds this process leaves, of version 2 and 1."""
     for line in _text("proc/self/cgroup").splitlines():
         _, controllers, name = line.split(":", 2)
         inside = Path(name.lstrip("/"))
@@ -55,7 +55,7 @@ def _of_groups() -> Iterator[int | None]:
 
 
 def _left(folder: Path, limit: str, usage: str, cached: str) -> int | None:
-    """The limit less what is in use, but for pages of files, which are given back when needed."""
+    """Return the limit less what is in use, but for pages of files, which are given back when needed."""
     most, used = (_amount(_text(folder / name), r"(\d+)") for name in (limit, usage))
     if most is None or used is None:
         return None

@@ -41,7 +41,7 @@ class MuJoCo:
     settings: ClassVar[dict[str, Any]] = {"grid": 9, "elastic2d": "both", "time_step": 0.01}
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """The sheet at rest. Raises BadInput without MuJoCo or for settings it cannot use."""
+        """Return the sheet at rest. Raises BadInput without MuJoCo or for settings it cannot use."""
         try:
             import mujoco
         except ImportError:
@@ -95,7 +95,7 @@ class _Grid:
         return {edge: int(edge in clamped) for edge in EDGES}
 
     def xml(self, settings: Mapping[str, Any]) -> str:
-        """The model as MuJoCo reads it; vertices run with y fastest."""
+        """Return the model as MuJoCo reads it; vertices run with y fastest."""
         extra, (lx, ly) = self.beyond, self.spacing
         count = (self.nx + extra["x0"] + extra["x1"], self.ny + extra["y0"] + extra["y1"])
         first = np.array([-extra["x0"] * lx, -extra["y0"] * ly])
@@ -122,7 +122,7 @@ class _Grid:
           </flexcomp></worldbody></mujoco>"""
 
     def _row(self, edge: str, i: np.ndarray, j: np.ndarray) -> np.ndarray:
-        """How far vertices lie outside an edge, in rows: 0 on it."""
+        """Return how far vertices lie outside an edge, in rows: 0 on it."""
         along = (i, j)[EDGES[edge].normal_axis]
         last = (self.nx, self.ny)[EDGES[edge].normal_axis] - 1
         row: np.ndarray = along - last if EDGES[edge].far_end else -along
@@ -215,7 +215,7 @@ def _solution(
     steps: int,
     seconds: tuple[float, float],
 ) -> Solution:
-    """The answer of displacements (ny, nx, 3) [m] on the grid."""
+    """Return the answer of displacements (ny, nx, 3) [m] on the grid."""
     nx, ny = shape
     x, y = (np.linspace(0.0, side, n) for side, n in zip(scene.sheet.lengths, shape, strict=True))
     field = RegularGridInterpolator((y, x), displacement)

@@ -13,7 +13,8 @@ from pathlib import Path
 
 
 def of_file(file: Path) -> dict[str, Path]:
-    """A file and what it imports from its own folder, modules and packages, by their paths in there."""
+    """Return a file and what it imports from its own folder, modules and packages, by their paths in
+    there."""
     folder = file.resolve().parent
     found: dict[str, Path] = {}
     waiting = [file.resolve()]
@@ -33,7 +34,7 @@ def of_file(file: Path) -> dict[str, Path]:
 
 
 def of_module(name: str) -> dict[str, Path]:
-    """The package that an installed module is in, or the module where it is in none, as `of_file`."""
+    """Return the package that an installed module is in, or the module where it is in none, as `of_file`."""
     spec = find_spec(name.partition(".")[0])
     if spec is None or spec.origin is None:
         return {}
@@ -45,13 +46,13 @@ def of_module(name: str) -> dict[str, Path]:
 
 
 def digest(files: Mapping[str, Path], *more: str) -> str:
-    """What follows from the files' names and contents, and from more that is said."""
+    """Return what follows from the files' names and contents, and from more that is said."""
     lines = [f"{name} {sha256(path.read_bytes()).hexdigest()}" for name, path in sorted(files.items())]
     return sha256("\n".join([*more, *lines]).encode()).hexdigest()
 
 
 def _imported(path: Path) -> Iterator[str]:
-    """The first parts of the names that a file imports."""
+    """Return the first parts of the names that a file imports."""
     try:
         tree = ast.parse(path.read_bytes())
     except (SyntaxError, ValueError):  # said when it is loaded

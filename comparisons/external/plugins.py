@@ -56,7 +56,7 @@ class Model(Protocol):
     def settings(self) -> Mapping[str, Any]: ...
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """The static answer of a scene: displacement in metres at any plan point, and a status."""
+        """Return the static answer of a scene: displacement in metres at any plan point, and a status."""
         ...
 
 
@@ -66,7 +66,7 @@ def names() -> list[str]:
 
 
 def plugin(name: str) -> Model:
-    """The plug-in of a name, or of `FILE.py:OBJECT`.
+    """Return the plug-in of a name, or of `FILE.py:OBJECT`.
 
     Raises BadInput if it cannot be loaded, is not a `Model`, or has a name that no file can have.
     """
@@ -83,23 +83,25 @@ def plugin(name: str) -> Model:
 
 
 def from_file(name: str) -> Path | None:
-    """The file of a model `FILE.py:OBJECT`, None of any other name."""
+    """Return the file of a model `FILE.py:OBJECT`, None of any other name."""
     file, colon, _ = name.rpartition(":")
     return Path(file) if colon and file.endswith(".py") else None
 
 
 def is_program(name: str) -> bool:
-    """Whether a model is a program."""
+    """Return whether a model is a program."""
     return name.startswith(PREFIX)
 
 
 def is_outside(name: str) -> bool:
-    """Whether a model is asked for as a file or a program, and not by the name that it is installed under."""
+    """Return whether a model is asked for as a file or a program, and not by the name that it is installed
+    under."""
     return is_program(name) or from_file(name) is not None
 
 
 def shown_name(name: str) -> str:
-    """What tables call a model: its plug-in's own name where it was asked for as a file or a program."""
+    """Return what tables call a model: its plug-in's own name where it was asked for as a file or a
+    program."""
     return plugin(name).name if is_outside(name) else name
 
 
@@ -117,7 +119,7 @@ def digest(name: str) -> str | None:
 
 
 def answer(model: Model, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-    """The plug-in's answer. Raises BadInput where it does instead, or would end this process."""
+    """Return the plug-in's answer. Raises BadInput where it does instead, or would end this process."""
     try:
         return model.solve(scene, settings)
     except SystemExit as leaving:
@@ -125,7 +127,7 @@ def answer(model: Model, scene: Scene, settings: Mapping[str, Any]) -> Solution:
 
 
 def _loaded(name: str) -> Any:
-    """The object that a name or file stands for; a class is called."""
+    """Return the object that a name or file stands for; a class is called."""
     if is_program(name):
         return Program(name.removeprefix(PREFIX))
     if from_file(name) is not None:
@@ -136,14 +138,14 @@ def _loaded(name: str) -> Any:
 
 @cache
 def _of_file(name: str) -> Any:
-    """The object of `FILE.py:OBJECT`, the same throughout a process."""
+    """Return the object of `FILE.py:OBJECT`, the same throughout a process."""
     file, _, wanted = name.rpartition(":")
     found = getattr(_module(Path(file)), wanted)
     return found() if isinstance(found, type) else found
 
 
 def _module(file: Path) -> ModuleType:
-    """The file as a module, which may import what lies beside it."""
+    """Return the file as a module, which may import what lies beside it."""
     spec = spec_from_file_location(f"sheetbench_plugin_{file.stem}", file)
     if spec is None or spec.loader is None:
         raise BadInput(f"{file}: not a Python file")
@@ -156,7 +158,8 @@ def _module(file: Path) -> ModuleType:
 
 
 def settings_of(model: Model, asked: Mapping[str, Any]) -> dict[str, Any]:
-    """The model's defaults overridden by what is asked. Raises BadInput for a setting it does not have."""
+    """Return the model's defaults overridden by what is asked. Raises BadInput for a setting it does not
+    have."""
     unknown = [key for key in asked if key not in model.settings]
     if unknown and not getattr(model, "takes_any", False):
         known = ", ".join(model.settings) or "none"

@@ -60,7 +60,7 @@ class Program:
         return sha256(self.path.read_bytes()).hexdigest()
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """The program's answer. Raises BadInput where it refuses the scene, or a limit is not one."""
+        """Return the program's answer. Raises BadInput where it refuses the scene, or a limit is not one."""
         seconds, most = _limits(settings)
         own = {key: value for key, value in settings.items() if key not in SETTINGS}
         options = [
@@ -97,7 +97,7 @@ def _limits(settings: Mapping[str, Any]) -> tuple[float, int | None]:
 
 
 def _read(scene: Scene, answer: bytes) -> dict[str, Any]:
-    """The answer, its vectors as arrays. Raises BadInput that says what is wrong with it."""
+    """Return the answer, its vectors as arrays. Raises BadInput that says what is wrong with it."""
     try:
         document = json.loads(answer)
     except (ValueError, RecursionError):
@@ -142,7 +142,7 @@ def _solution(
     seconds: float,
     why: str,
 ) -> Solution:
-    """The answer at the probes, none elsewhere; `why` there is none at all."""
+    """Return the answer at the probes, none elsewhere; `why` there is none at all."""
     nowhere = np.full(3, np.nan)
     at = {scene.probes[probe]: u for probe, u in document.get("probes", {}).items()}
     solving = float(document.get("solve_seconds", seconds))

@@ -1,1 +1,1 @@
-"""Which parameters belong to measured displacements, and how sure that is."""
+"""Parameters of a scene from measured displacements, with intervals."""

@@ -1,4 +1,4 @@
-"""What an identification found: values with their intervals, what is left, and how the search ended."""
+"""The answer of `sheetbench identify`: values with intervals, residuals, and how the search ended."""
 
 from __future__ import annotations
 
@@ -88,13 +88,13 @@ class Identification(Answer):
 
     @property
     def contains(self) -> str:
-        """What the intervals know of: the measurements' noise, and the error of the grid or mesh."""
+        """What the intervals contain: the measurements' noise, and the error of the grid or mesh."""
         if all(u.interval == u.noise_interval for u in self.unknowns.values()):
             return "noise only"
         return "noise and grid" if self.model == "lumped" else "noise and mesh"
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
+        """Return the JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
         return {
             "scene": self.scene.name,
             "model": self.model,
@@ -116,13 +116,14 @@ class Identification(Answer):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        """The unknowns, and what does not fit, by point."""
+        """Return the unknowns, and what does not fit, by point."""
         return self._unknowns(), self._residuals(
             np.arange(len(self.residuals)), "Residuals: model − measurement"
         )
 
     def printed(self) -> tuple[Table, ...]:
-        """The unknowns, and the points that fit least, at most SHOWN of them, in the order of the file."""
+        """Return the unknowns, and the points that fit least, at most SHOWN of them, in the order of the
+        file."""
         if len(self.residuals) <= SHOWN:
             return self.tables()
         size = np.nan_to_num(np.abs(self.residuals)).reshape(len(self.residuals), -1).max(axis=1)
@@ -159,7 +160,7 @@ class Identification(Answer):
         return *choice_notes(self.settings), self._explanation()
 
     def _explanation(self) -> str:
-        """What was fitted with what, how well, and what the interval assumes."""
+        """Return what was fitted with what, how well, and what the interval assumes."""
         size = "×".join(map(str, self.settings.get("grid") or self.settings["elements"]))
         tried = " → ".join("×".join(map(str, grid)) for grid in self.grids)
         cells = f" (cells chosen by the fit: {tried})" if len(self.grids) > 1 else ""

@@ -60,7 +60,7 @@ MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose 
 
 @dataclass(frozen=True)
 class _Question:
-    """What is asked of measurements: the arguments of `identify`."""
+    """The arguments of `identify`."""
 
     scene: Scene
     unknowns: tuple[Unknown, ...]
@@ -80,7 +80,7 @@ class _Question:
         return self.lattice.grid is None and not own
 
     def fitted(self) -> Model:
-        """The model that is fitted first."""
+        """Return the model that is fitted first."""
         if self.reference is None:
             return lattice_model(self.scene, self.lattice)
         return reference_model(resolve(self.scene, self.reference))
@@ -102,7 +102,7 @@ def identify(
     progress: Progress = silent,
     **keywords: Unpack[LatticeKeywords],
 ) -> Identification:
-    """The unknowns of these names, from measurements or a file of them (`measurements.read`).
+    """Return the unknowns of these names, from measurements or a file of them (`measurements.read`).
 
     grid (as `comparisons.models.grids` reads it; unless given, cells become smaller until the grid moves the
     unknowns less than the noise does), calibration, grading (a number, or "auto" by the scene's own values,
@@ -132,7 +132,7 @@ def identify(
 
 
 def _answer(question: _Question, measured: Measured, look: bool = True) -> Identification:
-    """The answer; look: whether for rows that do not fit."""
+    """Return the answer; look: whether for rows that do not fit."""
     unknowns, model = question.unknowns, question.fitted()
     fit = Fit(measured, unknowns, model.axes, model.predictor, question.offset, context().progress)
     odd: tuple[Outlier, ...] = ()
@@ -199,7 +199,8 @@ def _answer(question: _Question, measured: Measured, look: bool = True) -> Ident
 
 
 def _of_mesh(question: _Question, fit: Fit, best: Nearest) -> np.ndarray:
-    """What the mesh does to x at most, by a look at elements twice as large; nan where that is not known."""
+    """Return what the mesh does to x at most, by a look at elements twice as large; nan where that is not
+    known."""
     assert question.reference is not None
     elements = along(question.scene, question.reference)[:2]
     coarse = (elements[0] + 1) // 2, (elements[1] + 1) // 2
@@ -212,8 +213,8 @@ def _of_mesh(question: _Question, fit: Fit, best: Nearest) -> np.ndarray:
 
 
 def _estimate(u: Unknown, x: float, noise: float, bound: float, step: float) -> Estimate:
-    """An unknown's value at x; noise: half-width of its interval; bound: what the grid or mesh does to x at
-    most, step: of x on cells half as large; nan where they are not known."""
+    """Return an unknown's value at x; noise: half-width of its interval; bound: what the grid or mesh does to
+    x at most, step: of x on cells half as large; nan where they are not known."""
     return Estimate(
         value=u.value(x),
         interval=u.interval(x, noise + float(np.nan_to_num(bound))),

@@ -1,4 +1,4 @@
-"""What the law of strain has to do with values that were found with a shell or solid.
+"""The effect of the law of strain on values that were found with a shell or solid.
 
 Beyond a percent of stretch laws of strain carry different forces at the same E (docs/strain-laws.md): the E
 that explains a measurement is that of the law.
@@ -16,7 +16,8 @@ RUBBERS = "neo-hookean"
 
 
 def law_note(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
-    """A sentence where laws of strain differ at the largest stretch of the sheet with the values found."""
+    """Return a sentence where laws of strain differ at the largest stretch of the sheet with the values
+    found."""
     material = scene.material
     own = law or material.law or STRAIN_LAW
     differences = {name: abs(curving(own, material) - curving(name, material)) for name in laws_of(material)}

@@ -1,4 +1,4 @@
-"""What was measured of a deformed sheet: displacements of marked points, or the shape of its surface.
+"""Measurements of a deformed sheet: displacements of marked points, or the shape of its surface.
 
 CSV (`comparisons.measured.columns`), in metres and in the scene's axes, with the columns
 
@@ -60,20 +60,20 @@ class Displacements:
         return float(np.nanmax(np.abs(self.displacement)))
 
     def without(self, rows: Sequence[int]) -> Displacements:
-        """The measurements with nothing measured in some rows."""
+        """Return the measurements with nothing measured in some rows."""
         displacement = self.displacement.copy()
         displacement[list(rows)] = np.nan
         return replace(self, displacement=displacement)
 
     def until(self, end: float) -> Displacements:
-        """The rows of a motion up to a time [s]."""
+        """Return the rows of a motion up to a time [s]."""
         assert self.time is not None
         rows = np.flatnonzero(self.time <= end)
         lines = tuple(self.lines[i] for i in rows) if self.lines else ()
         return Displacements(self.points[rows], self.displacement[rows], self.time[rows], self.source, lines)
 
     def name_of(self, row: int) -> str:
-        """A row's name in a sentence: its line in the file, else its number."""
+        """Return a row's name in a sentence: its line in the file, else its number."""
         return self.lines[row] if self.lines else f"row {row}, counted from 0,"
 
 
@@ -94,7 +94,7 @@ Measured = Displacements | Surface
 
 
 def read(path: Path, scene: Scene) -> Measured:
-    """The measurements of a file. Raises BadInput naming the file and what is wrong in it."""
+    """Return the measurements of a file. Raises BadInput naming the file and what is wrong in it."""
     kind = path.suffix.lower()
     if kind == ".c3d":
         measured: Measured = _markers(path, scene)

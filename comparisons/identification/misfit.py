@@ -59,7 +59,7 @@ class Misfit:
         return out
 
     def turned(self, residuals: np.ndarray) -> list[str]:
-        """The measured components that point the other way than the model's."""
+        """Return the measured components that point the other way than the model's."""
         if isinstance(self.measured, Surface):
             return []
         predicted = self.measured.displacement + self.per_point(residuals)

@@ -39,7 +39,7 @@ class Model:
 
 
 def lattice_model(scene: Scene, asked: Lattice) -> Model:
-    """The lattice asked for, what it leaves open chosen by the scene's own values."""
+    """Return the lattice asked for, what it leaves open chosen by the scene's own values."""
     chosen = resolve(scene, asked, own=False)
     settings = {**chosen.settings, **as_settings(fixed(chosen.spec.grading) or 0.0)}
 
@@ -60,7 +60,7 @@ def lattice_model(scene: Scene, asked: Lattice) -> Model:
 
 
 def reference_model(model: Resolved[Elements]) -> Model:
-    """A finite-element reference."""
+    """Return a finite-element reference."""
     import fem_reference
 
     along_x, along_y = along(model.scene, model.spec)[:2]

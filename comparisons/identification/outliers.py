@@ -40,7 +40,7 @@ class Outlier:
 
 
 def outliers(fit: Fit, best: Nearest) -> tuple[Outlier, ...]:
-    """The rows that do not fit, beside the best search of all rows; none of a surface."""
+    """Return the rows that do not fit, beside the best search of all rows; none of a surface."""
     measured = fit.measured
     if not isinstance(measured, Displacements):
         return ()

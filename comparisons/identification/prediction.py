@@ -1,4 +1,4 @@
-"""What a model says of the measured points, and how that changes with the unknowns.
+"""Predictions of a model at the measured points, and their slopes by the unknowns.
 
 statics through the lattice     exact derivatives (`lumped.sensitivity`)
 statics through a reference     central differences of whole solutions
@@ -47,7 +47,7 @@ Predictor = Callable[[Sequence[Unknown], np.ndarray, np.ndarray], Prediction]
 
 
 def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
-    """The scene with every unknown at its x."""
+    """Return the scene with every unknown at its x."""
     for one, at in zip(unknowns, x, strict=True):
         scene = put(scene, one.name, one.value(at))
     return scene

@@ -47,7 +47,8 @@ class Refined:
 
 
 def refined(scene: Scene, lattice: Lattice, model: Model, fit: Fit, best: Nearest, free: bool) -> Refined:
-    """The fit on cells that are small enough where the grid is free, else on those given, with its step.
+    """Return the fit on cells that are small enough where the grid is free, else on those given, with its
+    step.
 
     lattice: as it was asked for; model, fit, best: on the first grid.
     """
@@ -85,14 +86,14 @@ def refined(scene: Scene, lattice: Lattice, model: Model, fit: Fit, best: Neares
 def mesh_error(
     fit: Fit, best: Nearest, predictor: Callable[[Measured], Predictor], longer: float
 ) -> np.ndarray:
-    """What a reference's elements do to x at most, by a step on elements `longer` times as long: the error is
-    taken to fall in first order, the least that it does; nan where these have no answer."""
+    """Return what a reference's elements do to x at most, by a step on elements `longer` times as long: the
+    error is taken to fall in first order, the least that it does; nan where these have no answer."""
     step: np.ndarray = _step(replace(fit, predictor=predictor), best.x)
     return np.abs(step) / (longer - 1.0)
 
 
 def _step(fit: Fit, x: np.ndarray) -> np.ndarray:
-    """The Gauss–Newton step of x, of what the data see; nan where the model has no answer."""
+    """Return the Gauss–Newton step of x, of what the data see; nan where the model has no answer."""
     misfit = fit.misfit()
     try:
         residuals, slopes = misfit.of(fit.predictor(fit.measured)(fit.unknowns, x, misfit.asked))

@@ -1,4 +1,4 @@
-"""What is said of a fit that is not what it should be, a sentence each."""
+"""Warnings about a fit: outliers, poor fits, bounds, and the error of the grid."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from sheetbench.scenes.summary import few
 
 
 def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Estimate]) -> list[str]:
-    """The rows that do not fit, and the values without them."""
+    """Return the rows that do not fit, and the values without them."""
     if not odd:
         return []
     values = "; ".join(
@@ -29,7 +29,7 @@ def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Estimate]) -> list
 
 
 def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
-    """Why residuals are more than noise, and what may be done."""
+    """Return why residuals are more than noise, and what may be done."""
     names = ", ".join(u.name for u in fit.unknowns)
     tried = f"the best of {starts} starts" if starts > 1 else "the search"
     deviation = quantity(fit.measured.scale * best.noise, "m", ".3g")
@@ -49,7 +49,7 @@ def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
 
 
 def on_bounds(fit: Fit, best: Nearest) -> list[str]:
-    """The unknowns that ended at a bound of the search."""
+    """Return the unknowns that ended at a bound of the search."""
     return [
         f"{u.name} hit its search bound {quantity(u.value(x), u.unit)}: the data do not constrain it"
         for u, x, active in zip(fit.unknowns, best.x, best.against_bounds, strict=True)
@@ -58,7 +58,7 @@ def on_bounds(fit: Fit, best: Nearest) -> list[str]:
 
 
 def on_grid(found: Mapping[str, Estimate], model: str, looked: bool) -> list[str]:
-    """What the lattice's cells, or the elements of another model, do to the values."""
+    """Return what the lattice's cells, or the elements of another model, do to the values."""
     lattice = model == "lumped"
     other, error = ("cells half as large", "grid's") if lattice else ("elements twice as large", "mesh's")
     seen = [u for u in found.values() if u.determined]
@@ -80,6 +80,6 @@ def _finer(found: Estimate) -> str:
 
 
 def _wide(found: Estimate) -> bool:
-    """Whether the grid widens an interval to more than twice the noise's."""
+    """Return whether the grid widens an interval to more than twice the noise's."""
     whole, noise = np.ptp(found.interval), np.ptp(found.noise_interval)
     return bool(whole > 2.0 * noise and whole > 1e-2 * abs(found.value))

@@ -1,4 +1,4 @@
-"""Whether what a fit leaves is noise: the runs test, along time or between neighbouring points.
+"""The runs test of residuals for noise, along time or between neighbouring points.
 
 Independent noise gives two neighbouring residuals the same sign as often as not. Neighbours are consecutive
 samples of a motion at one point, and points joined by the minimal spanning tree of the plan at rest. A tree
@@ -48,7 +48,7 @@ class Runs:
 
 
 def runs(measured: Measured, residuals: np.ndarray) -> Runs:
-    """The runs test of residuals in the shape of the measurements, nan where nothing was measured."""
+    """Return the runs test of residuals in the shape of the measurements, nan where nothing was measured."""
     pairs, along = _pairs(measured)
     signs = np.nan_to_num(np.sign(residuals)).reshape(len(residuals), -1)
     products = signs[pairs[:, 0]] * signs[pairs[:, 1]]
@@ -56,7 +56,7 @@ def runs(measured: Measured, residuals: np.ndarray) -> Runs:
 
 
 def explained(noise: float, found: Runs) -> bool:
-    """Whether residuals of this standard deviation, in units of the largest measurement, are small or
+    """Return whether residuals of this standard deviation, in units of the largest measurement, are small or
     noise."""
     return noise < SMALL or (noise < POOR and found.probability > UNLIKELY)
 

@@ -53,7 +53,7 @@ def search(
     pull: float = PULL,
     progress: Callable[[str], None] = lambda what: None,
 ) -> Nearest:
-    """The unknowns' x with which a predictor comes nearest to the measurements of the misfit.
+    """Return the unknowns' x with which a predictor comes nearest to the measurements of the misfit.
 
     smallest: change of x, or of the sum of squares, that ends the search, as do so many evaluations; first:
     called with what is predicted at the start, to refuse it; start: x to begin at, the scene's own values

@@ -76,7 +76,8 @@ class Fit:
 def nearest(
     fit: Fit, first: Callable[[Measured, Prediction], None], enough: Callable[[Nearest], bool]
 ) -> tuple[Nearest, int]:
-    """The best of the searches, and from how many starts it was made; enough: whether one needs no other.
+    """Return the best of the searches, and from how many starts it was made; enough: whether one needs no
+    other.
 
     first: called with what was measured, or the first part of it, and what is predicted there of the scene's
     own values, to refuse it. Raises NotReached where the model has no answer with them, of a motion with no
@@ -116,7 +117,7 @@ def _from(
     reached: list[np.ndarray],
     first: Callable[[Measured, Prediction], None] = lambda measured, predicted: None,
 ) -> Nearest | None:
-    """The search from a start, over growing parts of a motion; None where it joins one that was made.
+    """Return the search from a start, over growing parts of a motion; None where it joins one that was made.
     reached: x after the first part of the searches so far, to which this one's is added."""
     parts = _parts(fit)
     for number, part in enumerate(parts):
@@ -137,7 +138,7 @@ def _anything(predicted: Prediction) -> None:
 
 
 def _parts(fit: Fit) -> list[Displacements]:
-    """The parts of a motion that are fitted before the whole."""
+    """Return the parts of a motion that are fitted before the whole."""
     measured = fit.measured
     if not isinstance(measured, Displacements) or measured.time is None:
         return []

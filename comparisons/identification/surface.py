@@ -24,7 +24,7 @@ def plan_grid(lengths: tuple[float, float], counts: tuple[int, int]) -> tuple[np
 
 
 def plan_points(axes: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-    """All points of a plan grid (nx · ny, 2) [m], y running fastest."""
+    """Return all points of a plan grid (nx · ny, 2) [m], y running fastest."""
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
 
 
@@ -54,7 +54,7 @@ class Feet:
 
 
 def feet(axes: tuple[np.ndarray, np.ndarray], displacement: Field, cloud: np.ndarray) -> Feet:
-    """The feet of a cloud (n, 3) [m] on the deformed surface."""
+    """Return the feet of a cloud (n, 3) [m] on the deformed surface."""
     lengths = np.array([axes[0][-1], axes[1][-1]])
     starts = plan_points(plan_grid((lengths[0], lengths[1]), (65, 65)))
     _, nearest = KDTree(_place(starts, displacement)).query(cloud)

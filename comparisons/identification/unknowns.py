@@ -1,4 +1,4 @@
-"""What can be sought in a scene: its parameters (`sheetbench.scenes.parameters`), and how they are varied.
+"""Unknowns of an identification: parameters of a scene (`sheetbench.scenes.parameters`), and their scaling.
 
 Each is varied through a dimensionless x, 0 at the scene's own value: parameters above zero by their
 logarithm, value = start·eˣ; Poisson's ratio and a clamp's tilt by x = value − start; a curvature by
@@ -36,7 +36,7 @@ class Unknown:
     step: float | None = None
 
     def value(self, x: float) -> float:
-        """The parameter at x."""
+        """Return the parameter at x."""
         return self.start * exp(float(x)) if self.step is None else self.start + self.step * float(x)
 
     def slope(self, x: float) -> float:
@@ -64,8 +64,8 @@ class Unknown:
 
 
 def unknown(scene: Scene, name: str) -> Unknown:
-    """A parameter of this scene, by its name or its SYMBOLS. A damping that the scene has at 0 is sought from
-    FIRST_RATIO on. Raises BadInput where there is none of that name, or another is 0."""
+    """Return a parameter of this scene, by its name or its SYMBOLS. A damping that the scene has at 0 is
+    sought from FIRST_RATIO on. Raises BadInput where there is none of that name, or another is 0."""
     name = SYMBOLS.get(name, name)
     try:
         found = parameter(scene, name)

@@ -50,7 +50,7 @@ class InputRow:
 
 @dataclass(frozen=True)
 class HeightRow(InputRow):
-    """The same along z alone."""
+    """Static motion of the probes along z per unit of an input."""
 
     moved: Annotated[Mapping[str, float], MILLIMETRES("z.3g")]
 
@@ -87,7 +87,7 @@ class Linearisation(Answer):
         return found
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench linearise`: SI units."""
+        """Return the JSON document of `sheetbench linearise`: SI units."""
         poles, matrices = self.space.poles, self.matrices
         return {
             "scene": self.scene.document(),
@@ -104,13 +104,13 @@ class Linearisation(Answer):
 
     @property
     def _reduction(self) -> dict[str, Any]:
-        """Of the balanced truncation, where there is one."""
+        """Describe the balanced truncation, where there is one."""
         if self.balanced is None:
             return {}
         return {"hankel": self.balanced.hankel, "bound": self.balanced.bound, "scale": self.balanced.scale}
 
     def arrays(self) -> dict[str, Any]:
-        """What `linear.mat` and `linear.npz` hold; matrices of all unknowns are sparse."""
+        """Return what `linear.mat` and `linear.npz` hold; matrices of all unknowns are sparse."""
         matrices, space = self.matrices, self.space
         return {
             "M": matrices.mass,
@@ -151,7 +151,7 @@ class Linearisation(Answer):
             savemat(partial, {**self.arrays(), **texts}, oned_as="column")
 
     def heading(self) -> tuple[str, str, str]:
-        """The scene, and how large the system is."""
+        """Return the scene, and how large the system is."""
         about = "flat sheet" if self.about == "flat" else "equilibrium"
         inputs, outputs = len(self.matrices.inputs), len(self.matrices.outputs)
         lead = (
@@ -161,17 +161,17 @@ class Linearisation(Answer):
         return self.scene.name, self.scene.title, lead
 
     def tables(self) -> tuple[Table, ...]:
-        """The poles, and what every input moves the probes by at rest."""
+        """Return the poles, and what every input moves the probes by at rest."""
         inputs = zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True)
         rows = (InputRow(n, unit_of(n), dict(zip(self.matrices.outputs, u, strict=True))) for n, u in inputs)
         return self._poles(), Table.of(InputRow, rows, "Static displacement per unit of input", "jacobian")
 
     def printed(self) -> tuple[Table, ...]:
-        """The poles, and heights alone."""
+        """Return the poles, and heights alone."""
         return self._poles(), self._heights()
 
     def _poles(self) -> Table:
-        """A row per pair of poles: the slowest first."""
+        """Return a row per pair of poles: the slowest first."""
         pairs = zip(self.upper, self.damping_ratios, strict=True)
         rows = [PoleRow(abs(p) / (2.0 * np.pi), ratio, p.real, p.imag) for p, ratio in pairs]
         undamped = not any(self.damping_ratios)
@@ -196,15 +196,15 @@ class Linearisation(Answer):
         return (Picture("responses", "comparisons.linearisation.figure:compose", (self,)),)
 
     def files(self) -> dict[str, Write]:
-        """The matrices."""
+        """Return the matrices."""
         return {"linear.npz": self.write_npz, "linear.mat": self.write_mat}
 
     def choices(self) -> dict[str, Any]:
-        """The lattice, and how many states."""
+        """Return the lattice, and how many states."""
         return {"label": self.label, "about": self.about, "states": len(self.space.a)}
 
     def notes(self) -> tuple[str, ...]:
-        """What a balanced truncation promises, and what the numbers mean."""
+        """Return what a balanced truncation promises, and what the numbers mean."""
         if self.balanced is None:
             return EXPLANATION
         return (

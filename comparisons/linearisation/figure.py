@@ -53,8 +53,8 @@ def _worth(name: str, probe: str) -> bool:
 
 
 def moved_most(found: Linearisation) -> str:
-    """The probe that a load or command at rest moves most along z, else a force at the probe itself; of those
-    that are alike to three digits the last."""
+    """Return the probe that a load or command at rest moves most along z, else a force at the probe itself;
+    of those that are alike to three digits the last."""
     matrices, probes = found.matrices, list(found.scene.probes)
     acting = re.compile("load|gravity|.*curvature$")
     common = [i for i, name in enumerate(matrices.inputs) if acting.match(name)]

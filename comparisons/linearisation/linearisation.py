@@ -32,7 +32,7 @@ def linearise(
     progress: Progress = silent,
     **keywords: Unpack[LatticeKeywords],
 ) -> Linearisation:
-    """The lattice of a scene about its equilibrium under its loads, or about the flat sheet.
+    """Return the lattice of a scene about its equilibrium under its loads, or about the flat sheet.
 
     modes: of the state space, all for None; those that there are where they are fewer. reduce: them further,
     "balanced:8" to that many states, "balanced:0.01" to as few as keep the bound on the error within that
@@ -57,7 +57,7 @@ def linearise(
 
 
 def _balance(reduce: str | None) -> tuple[int | None, float | None]:
-    """The order or the tolerance that "balanced:8" or "balanced:0.01" asks for."""
+    """Return the order or the tolerance that "balanced:8" or "balanced:0.01" asks for."""
     if reduce is None:
         return None, None
     name, _, number = reduce.partition(":")

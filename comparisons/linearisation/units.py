@@ -7,5 +7,5 @@ UNITS = {"fx": "N", "fy": "N", "fz": "N", "curvature": "1/m", "x": "m", "y": "m"
 
 
 def unit_of(name: str) -> str:
-    """The unit of an input, FACTOR for a load and gravity."""
+    """Return the unit of an input, FACTOR for a load and gravity."""
     return UNITS.get(name.split()[-1], FACTOR)

@@ -43,12 +43,12 @@ class Answered:
         return moved
 
     def starts(self, question: Question) -> bool:
-        """Whether another question's equilibrium can be sought from this one's."""
+        """Return whether another question's equilibrium can be sought from this one's."""
         same = self.question.lattice == question.lattice
         return same and self.solution.status is Status.CONVERGED and not self.scene.actuators
 
     def agrees(self, other: Answered) -> bool:
-        """Whether two answers to a question are one equilibrium."""
+        """Return whether two answers to a question are one equilibrium."""
         apart = np.abs(self.displacement - other.displacement).max(initial=0.0)
         return bool(apart <= SAME * np.abs(other.displacement).max(initial=0.0))
 
@@ -58,7 +58,7 @@ class Answered:
         return self.solution.mesh.points[:, :2]
 
     def document(self, known: np.ndarray | None) -> dict[str, Any]:
-        """The message to the page; known: rest places of the masses that it has, of which only the
+        """Return the message to the page; known: rest places of the masses that it has, of which only the
         displacement is told."""
         found = _document("lattice", self.question, self.scene, self.solution)
         mesh = self.solution.mesh
@@ -71,8 +71,8 @@ class Answered:
 
 
 def lattice(scene: Scene, question: Question, last: Answered | None = None) -> Answered:
-    """The lattice's answer, sought from the last one's equilibrium where that is of the same grid: in a third
-    of the time. Raises BadInput for what does not go together."""
+    """Return the lattice's answer, sought from the last one's equilibrium where that is of the same grid: in
+    a third of the time. Raises BadInput for what does not go together."""
     import lumped
 
     springs = resolve(scene, question.lattice).springs
@@ -94,7 +94,8 @@ class Sampled:
 
 
 def shell(scene: Scene, question: Question, masses: np.ndarray) -> Sampled:
-    """The shell's answer, sampled at plan points of masses (n, 2) [m]. Raises BadInput as the lattice's."""
+    """Return the shell's answer, sampled at plan points of masses (n, 2) [m]. Raises BadInput as the
+    lattice's."""
     solution = solve(resolve(scene, Elements("shell", question.elements)))
     found = _document("shell", question, scene, solution)
     plan = plan_mesh(scene.sheet, SHELL_CELLS)
@@ -107,7 +108,7 @@ def shell(scene: Scene, question: Question, masses: np.ndarray) -> Sampled:
 
 
 def compared(answered: Answered, sampled: Sampled) -> dict[str, Any]:
-    """The shell's message, with what the lattice differs by: `error` (a fraction, null where it has no
+    """Return the shell's message, with what the lattice differs by: `error` (a fraction, null where it has no
     meaning), and `difference` [m] at the masses."""
     both = sampled.comparable and answered.solution.comparable
     ours = answered.solution.displacement(answered.scene.probe_points())

@@ -26,7 +26,8 @@ class Guard:
         self.address = f"http://{LOOPBACK}:{port}/{self.token}/"
 
     def refusal(self, path: str, headers: Headers, socket: bool) -> HTTPStatus | None:
-        """Why a request is not answered, None where it is; socket: whether it is to open the web socket."""
+        """Return why a request is not answered, None where it is; socket: whether it is to open the web
+        socket."""
         hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
         if len(hosts) != 1 or hosts[0].lower() not in self._hosts:
             return HTTPStatus.MISDIRECTED_REQUEST
@@ -39,7 +40,7 @@ class Guard:
         return None
 
     def name(self, path: str) -> str:
-        """What a path that was let in asks for, below the token."""
+        """Return what a path that was let in asks for, below the token."""
         return _plain(path).removeprefix(f"/{self.token}").removeprefix("/")
 
     @property
@@ -61,5 +62,5 @@ class Guard:
 
 
 def _plain(path: str) -> str:
-    """A request's path without its query."""
+    """Return a request's path without its query."""
     return path.partition("?")[0]

@@ -40,12 +40,12 @@ class Models:
         return await self._on_thread(partial(answers.lattice, scene, question, last))
 
     async def shell(self, answered: Answered) -> dict[str, Any]:
-        """The shell's message for the question that the lattice has answered."""
+        """Return the shell's message for the question that the lattice has answered."""
         sampled = await self._shell(answered.scene, answered.question, answered.masses)
         return answers.compared(answered, sampled)
 
     async def text(self, scene: Scene, question: Question) -> str:
-        """What is to be copied, as TOML: the lattice's [springs], or the scene."""
+        """Return what is to be copied, as TOML: the lattice's [springs], or the scene."""
         if question.copy == "scene":
             return to_toml(scene)
         springs = await self._on_thread(lambda: resolve(scene, question.lattice, "springs").springs)

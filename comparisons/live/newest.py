@@ -21,7 +21,7 @@ class Newest(Generic[T]):
         self._there.set()
 
     async def comes_within(self, seconds: float) -> bool:
-        """Whether there is a value to be got by then."""
+        """Return whether there is a value to be got by then."""
         try:
             await asyncio.wait_for(self._there.wait(), seconds)
         except TimeoutError:
@@ -29,7 +29,7 @@ class Newest(Generic[T]):
         return True
 
     async def get(self) -> T:
-        """The newest value, as soon as there is one; it is gone then."""
+        """Return the newest value, as soon as there is one; it is gone then."""
         await self._there.wait()
         self._there.clear()
         found, self._waiting = self._waiting, None

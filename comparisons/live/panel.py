@@ -86,11 +86,11 @@ class Panel:
             _refuse(f"calibration = '{self.start}': choose from {', '.join(self.calibrations)}")
 
     def first(self) -> Question:
-        """The question that the page starts with."""
+        """Return the question that the page starts with."""
         return self._question(0, {name: float(s.value) for name, s in self.sliders.items()}, self.start)
 
     def document(self) -> dict[str, Any]:
-        """The panel as the page builds it."""
+        """Return the panel as the page builds it."""
         scene = self.scene
         return {
             "name": scene.name,
@@ -104,7 +104,7 @@ class Panel:
         }
 
     def read(self, text: str | bytes) -> Question:
-        """The question of a message. Raises BadInput, in a line."""
+        """Return the question of a message. Raises BadInput, in a line."""
         try:
             found = json.loads(text, parse_constant=lambda name: _refuse(f"{name}: not a finite number"))
         except (ValueError, RecursionError) as error:
@@ -132,7 +132,7 @@ class Panel:
         return Question(number, values, calibration, copy, self._lattice.layer_distance)
 
     def asked(self, question: Question) -> Scene:
-        """The scene of a question. Raises SceneError where the values do not go together."""
+        """Return the scene of a question. Raises SceneError where the values do not go together."""
         scene = self.scene
         for name, value in question.values.items():
             if name not in SETTINGS and value != self.sliders[name].value:
@@ -235,7 +235,7 @@ def _loads(scene: Scene, name: str, factor: float) -> Scene:
 
 
 def _times(load: Any, factor: float) -> Any:
-    """A load with all its forces, moments or pressures times a factor."""
+    """Return a load with all its forces, moments or pressures times a factor."""
     given = {name: getattr(load, name) for name in ("force", "force_per_length") if hasattr(load, name)}
     vectors = {name: tuple(factor * f for f in force) for name, force in given.items()}
     numbers = ("moment_per_length", "value")

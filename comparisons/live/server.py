@@ -83,7 +83,7 @@ def _listening(port: int) -> socket.socket:
 
 
 class _Desk:
-    """What the server answers with."""
+    """Requests and web sockets of the page, answered."""
 
     def __init__(self, panel: Panel, models: Models, guard: Guard, warm: asyncio.Future[None]) -> None:
         self._panel, self._models, self._guard, self._warm = panel, models, guard, warm
@@ -91,7 +91,7 @@ class _Desk:
         self._pages = 0
 
     def answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """The answer to a request; None lets it open the web socket."""
+        """Return the answer to a request; None lets it open the web socket."""
         socket_asked = self._guard.name(request.path) == SOCKET
         refused = self._guard.refusal(request.path, request.headers, socket_asked)
         if refused is not None:
@@ -127,7 +127,7 @@ class _Desk:
 
 
 def _silent() -> logging.Logger:
-    """A logger for requests that are turned away: they are nobody's fault here."""
+    """Return a logger for requests that are turned away: they are nobody's fault here."""
     logger = logging.getLogger(__name__)
     logger.propagate = False
     if not logger.handlers:

@@ -1,4 +1,4 @@
-"""One page that is open: it asks as fast as one drags, and is answered as fast as the models are.
+"""The conversation with one open page: questions while sliders move, answers as fast as models solve.
 
 A question that waits is dropped for a newer one, for the lattice and for the shell apart; whatever arrives is
 in the order of its questions, and says by its number which one it answers. The shell is asked what the
@@ -106,7 +106,8 @@ class Session:
         return await self._models.text(self._panel.asked(question), question)
 
     async def _of(self, question: Question, work: Awaitable[T]) -> T | None:
-        """What the work comes to; None where it is refused or fails, which the page is told in a line."""
+        """Return what the work comes to; None where it is refused or fails, which the page is told in a
+        line."""
         try:
             return await work
         except BadInput as error:

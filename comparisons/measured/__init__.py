@@ -1,1 +1,1 @@
-"""What was measured, as people's files have it."""
+"""Readers of measurements: CSV, point clouds, motion capture."""

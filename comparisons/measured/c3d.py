@@ -20,7 +20,7 @@ class Markers(NamedTuple):
 
 
 def read_markers(path: Path) -> Markers:
-    """The markers of a file, in its own axes. Raises BadInput where it cannot be read, or ezc3d is not
+    """Return the markers of a file, in its own axes. Raises BadInput where it cannot be read, or ezc3d is not
     installed."""
     try:
         import ezc3d

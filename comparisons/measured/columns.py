@@ -39,14 +39,15 @@ class Row:
     decimal_comma: bool = False
 
     def number(self, name: str) -> float:
-        """The finite number in a column. Raises BadInput where there is none."""
+        """Return the finite number in a column. Raises BadInput where there is none."""
         value = self.measured(name)
         if value != value:
             raise self.refused(name, "a number is needed")
         return value
 
     def measured(self, name: str) -> float:
-        """The number in a column, nan where it was not measured. Raises BadInput for what is no number."""
+        """Return the number in a column, nan where it was not measured. Raises BadInput for what is no
+        number."""
         text = self.cells[name]
         if text.lower() in ("", "nan"):
             return nan
@@ -62,7 +63,7 @@ class Row:
         return value
 
     def refused(self, name: str, why: str) -> BadInput:
-        """The refusal of a cell."""
+        """Return the refusal of a cell."""
         text = self.cells[name]
         shown = text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"
         return BadInput(f"{self.where}: {name} = '{shown}': {why}")
@@ -77,9 +78,9 @@ class Columns:
 
 
 def read_columns(path: Path, units: Mapping[str, str] | None = None) -> Columns:
-    """The columns of a file; units: the names of those that are looked for, and their SI units, if they are
-    not metres and seconds. Then what stands above the header is passed over, as testing machines write it,
-    units may stand in round brackets and names in several words.
+    """Return the columns of a file; units: the names of those that are looked for, and their SI units, if
+    they are not metres and seconds. Then what stands above the header is passed over, as testing machines
+    write it, units may stand in round brackets and names in several words.
 
     Raises BadInput naming the file, the line and what is wrong there.
     """
@@ -113,7 +114,7 @@ def read_columns(path: Path, units: Mapping[str, str] | None = None) -> Columns:
 
 
 def _parsed(path: Path, kept: list[tuple[int, str]], separator: str) -> Iterator[tuple[int, list[str]]]:
-    """The cells of every line, with the line's number in the file."""
+    """Return the cells of every line, with the line's number in the file."""
     reader = csv.reader((line for _, line in kept), delimiter=separator, skipinitialspace=True)
     while True:
         try:
@@ -126,7 +127,7 @@ def _parsed(path: Path, kept: list[tuple[int, str]], separator: str) -> Iterator
 
 
 def _name(path: Path, cell: str) -> tuple[str, float]:
-    """A column's name without its unit, and the SI units per unit of its numbers."""
+    """Return a column's name without its unit, and the SI units per unit of its numbers."""
     name, bracket, rest = cell.strip().lower().partition("[")
     unit = rest.removesuffix("]").strip().replace("μ", "µ")  # the Greek letter for the micro sign
     if bracket and unit not in UNITS:
@@ -138,7 +139,7 @@ _HEADED = re.compile(r"(.*?)\s*(?:[\[(]([^\])]*)[\])])?")
 
 
 def _header(lines: list[tuple[int, list[str]]], units: Mapping[str, str]) -> int:
-    """The number of the first line with two of the columns, 0 where there is none."""
+    """Return the number of the first line with two of the columns, 0 where there is none."""
     for at, (_, cells) in enumerate(lines):
         if len({name for name, _ in map(_headed, cells)} & units.keys()) > 1:
             return at
@@ -152,7 +153,7 @@ def _headed(cell: str) -> tuple[str, str]:
 
 
 def _quantity(path: Path, cell: str, units: Mapping[str, str]) -> tuple[str, float]:
-    """A column's name, and the SI units per unit of its numbers."""
+    """Return a column's name, and the SI units per unit of its numbers."""
     name, unit = _headed(cell)
     if not unit or name not in units:
         return name, 1.0
@@ -163,7 +164,7 @@ def _quantity(path: Path, cell: str, units: Mapping[str, str]) -> tuple[str, flo
 
 
 def _decimal_comma(path: Path, parsed: list[tuple[int, list[str]]]) -> bool:
-    """Whether numbers have commas. Raises BadInput where some have commas and others points."""
+    """Return whether numbers have commas. Raises BadInput where some have commas and others points."""
     commas = points = None
     for i, cells in parsed:
         for cell in map(str.strip, cells):

@@ -31,7 +31,7 @@ class Element:
     properties: list[tuple[str, str]]
 
     def row(self, order: str) -> np.dtype:
-        """A row's type. Raises TypeError where there is a list in it."""
+        """Return a row's type. Raises TypeError where there is a list in it."""
         return np.dtype([(name, order + kind) for name, kind in self.properties])
 
 

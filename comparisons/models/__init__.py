@@ -1,1 +1,1 @@
-"""Who answers: models by name, candidates (a model with its settings), plug-ins, symmetry, grids."""
+"""Models: their specifications, grids, springs and sizes on a scene, symmetry, and their solve."""

@@ -35,7 +35,7 @@ _CONTEXT = ContextVar("context", default=Context())  # noqa: B039  # frozen
 
 
 def context() -> Context:
-    """Return what holds here."""
+    """Return the settings that hold here."""
     return _CONTEXT.get()
 
 
@@ -55,12 +55,13 @@ def in_context(function: Callable[Parameters, Result]) -> Callable[Parameters, R
 
 
 def large_in_context(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
-    """Likewise of `large` alone, where the progress is a campaign's."""
+    """Like `in_context`, for `large` alone, where the progress is a campaign's."""
     return _held(function, "large")
 
 
 def _held(function: Callable[Parameters, Result], *names: str) -> Callable[Parameters, Result]:
-    """The function as said; its flat keywords stand in its signature, one by one, for help() to show."""
+    """Return the function as said; its flat keywords stand in its signature, one by one, for help() to
+    show."""
     own = signature(function)
     *fixed, last = own.parameters.values()
     flat = function.__globals__.get(str(last.annotation).removeprefix("Unpack[").removesuffix("]"))

@@ -71,7 +71,8 @@ class ExpectedError:
 
 
 def finer_grid(grid: Grid) -> Grid:
-    """The grid whose answer the estimate compares with: 1.5 times as many cells, at least FINEST_COARSE."""
+    """Return the grid whose answer the estimate compares with: 1.5 times as many cells, at least
+    FINEST_COARSE."""
     cells = [n - 1 for n in grid[:2]]
     factor = max(FINER, FINEST_COARSE / min(cells))
     nx, ny = (int(np.ceil(factor * n - 1e-9)) + 1 for n in cells)
@@ -79,14 +80,15 @@ def finer_grid(grid: Grid) -> Grid:
 
 
 def converges(lattice: Lattice, finer: Grid) -> bool:
-    """Whether answers of a resolved lattice tend to the sheet's, and the finer grid is not too large."""
+    """Return whether answers of a resolved lattice tend to the sheet's, and the finer grid is not too
+    large."""
     own = lattice.k or lattice.layer_distance or lattice.linear
     known = lattice.calibration in EXTRAPOLATED and finer[2] == LAYERS
     return known and not own and prod(finer[:2]) <= MOST
 
 
 def resolves(scene: Scene, grid: Grid) -> bool:
-    """Whether the layer in which the scene's load bends the sheet has FOLD cells of a grid or more."""
+    """Return whether the layer in which the scene's load bends the sheet has FOLD cells of a grid or more."""
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
     return all(layer.bent_edge or layer.width >= FOLD * cell for layer in layers(scene))
 
@@ -94,7 +96,8 @@ def resolves(scene: Scene, grid: Grid) -> bool:
 def expected_error(
     scene: Scene, lattice: Lattice, solution: Solution, solve: Callable[[Lattice], Solution | None]
 ) -> ExpectedError | None:
-    """The grid error to expect of a lattice's solution of a scene, None where nothing is said (see above).
+    """Return the grid error to expect of a lattice's solution of a scene, None where nothing is said (see
+    above).
 
     lattice: what was solved, resolved; solve: answers the finer lattice, None where that takes too much
     memory.
@@ -127,8 +130,8 @@ def estimate(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float)
 
 
 def largest_stretch(scene: Scene, solution: Solution, grid: Grid) -> float:
-    """The largest elongation of the mid-surface between neighbours on a lattice's grid, along its lines and
-    diagonals."""
+    """Return the largest elongation of the mid-surface between neighbours on a lattice's grid, along its
+    lines and diagonals."""
     lines = [np.linspace(0.0, a, n) for a, n in zip(scene.sheet.lengths, grid[:2], strict=True)]
     flat = np.stack([*np.meshgrid(*lines, indexing="ij"), np.zeros([len(line) for line in lines])], axis=-1)
     moved = flat + solution.displacement(flat[..., :2].reshape(-1, 2)).reshape(flat.shape)

@@ -1,4 +1,4 @@
-"""How much finer a lattice's cells are at the edges: as asked, or as the scene's layers have it.
+"""Grading of a lattice, finer cells at the edges: as given, or by the scene's boundary layers.
 
 `auto` looks at the widths of the layers that form at the edges (`comparisons.models.layers`), before anything
 is solved, and grades the grid where the narrowest is less than NARROW of the shorter side and less than
@@ -31,8 +31,8 @@ RESOLVED = 24.0
 
 
 def read(asked: Grading) -> Graded | str | None:
-    """A number or a grading towards some edges, or "auto", from what is asked, text too (0.5, 0.5:x0,y0);
-    None where nothing is. Raises BadInput."""
+    """Return a number or a grading towards some edges, or "auto", from what is asked, text too (0.5,
+    0.5:x0,y0); None where nothing is. Raises BadInput."""
     if asked is None or asked == AUTO or isinstance(asked, EdgeGrading):
         return asked
     by, _, edges = str(asked).partition(":")
@@ -49,7 +49,7 @@ def read(asked: Grading) -> Graded | str | None:
 
 
 def fixed(asked: Grading) -> Graded | None:
-    """The grading that is asked for; None for "auto" too. Raises BadInput."""
+    """Return the grading that is asked for; None for "auto" too. Raises BadInput."""
     chosen = read(asked)
     return None if isinstance(chosen, str) else chosen
 
@@ -57,8 +57,8 @@ def fixed(asked: Grading) -> Graded | None:
 def grading_of(
     scene: Scene, grid: Sequence[int], lattice: Lattice | LatticePair
 ) -> tuple[Graded | None, str]:
-    """The grading, None where nothing is asked, and for "auto" the reason in a sentence. Raises BadInput for
-    what is neither."""
+    """Return the grading, None where nothing is asked, and for "auto" the reason in a sentence. Raises
+    BadInput for what is neither."""
     chosen = read(lattice.grading)
     if not isinstance(chosen, str):
         return chosen, ""
@@ -78,7 +78,7 @@ def choice_notes(settings: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def one_size(grid: Sequence[int], lattice: Lattice | LatticePair) -> str:
-    """Why these springs cannot be had cell by cell, "" where they can."""
+    """Return why these springs cannot be had cell by cell, "" where they can."""
     method = method_of(lattice.calibration, getattr(lattice, "k", None))
     if "grading" not in CALIBRATIONS[method].takes:
         return f"the calibration {method} is for cells of one size"

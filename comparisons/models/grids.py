@@ -16,7 +16,7 @@ Elements = int | tuple[int, int]
 
 
 def parse_elements(text: str, option: str = "--elements") -> Elements:
-    """The elements of `N`, along the shorter side and near-square, or `NxM` along x and y.
+    """Return the elements of `N`, along the shorter side and near-square, or `NxM` along x and y.
 
     Raises BadInput naming the option.
     """
@@ -32,7 +32,7 @@ def parse_elements(text: str, option: str = "--elements") -> Elements:
 
 
 def parse_grid(sheet: Sheet, text: str) -> Grid:
-    """The grid of `N`, `NxM` or `NxMxL`. Raises BadInput naming the option, under both its names."""
+    """Return the grid of `N`, `NxM` or `NxMxL`. Raises BadInput naming the option, under both its names."""
     parts = text.lower().replace("×", "x").split("x")
     try:
         numbers = [int(part) for part in parts]
@@ -47,8 +47,8 @@ def parse_grid(sheet: Sheet, text: str) -> Grid:
 
 
 def scene_grid(scene: Scene, asked: GridLike = None) -> Grid:
-    """The grid asked for, as text or as numbers; else that of the scene's own [springs], if they name one, or
-    nine masses along the shorter side."""
+    """Return the grid asked for, as text or as numbers; else that of the scene's own [springs], if they name
+    one, or nine masses along the shorter side."""
     if isinstance(asked, str):
         return parse_grid(scene.sheet, asked)
     own = scene.springs.grid if isinstance(scene.springs, SpringTable) else None

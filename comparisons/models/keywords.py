@@ -17,20 +17,20 @@ class SpringKeywords(TypedDict, total=False):
 
 
 class LatticeKeywords(SpringKeywords, total=False):
-    """Those of every function that takes a `Lattice`."""
+    """The flat keywords of every function that takes a `Lattice`."""
 
     grid: GridLike
     calibration: str | None
 
 
 class ModesKeywords(LatticeKeywords, total=False):
-    """Those of natural frequencies."""
+    """The flat keywords of natural frequencies."""
 
     masses: str | None
 
 
 class StaticKeywords(LatticeKeywords, total=False):
-    """Those of functions that solve statics; references follow them."""
+    """The flat keywords of functions that solve statics; references follow them."""
 
     linear: bool
     symmetry: bool

@@ -30,7 +30,7 @@ class Layer:
 
 
 def layers(scene: Scene) -> list[Layer]:
-    """The layers of a scene: one for every edge that is bent, one for its load."""
+    """Return the layers of a scene: one for every edge that is bent, one for its load."""
     sheet, material, numbers = scene.sheet, scene.material, scales(scene)
     found = []
     bends = [(s.edge, s.curvature) for s in scene.supports if isinstance(s, Curved)]
@@ -48,7 +48,7 @@ def layers(scene: Scene) -> list[Layer]:
 
 
 def _curvature(chain: Chain) -> float:
-    """The curvature [1/m] of largest size that a chain is commanded to in the end."""
+    """Return the curvature [1/m] of largest size that a chain is commanded to in the end."""
     command = chain.curvature
     values = np.atleast_1d(command if isinstance(command, float | tuple) else command.value[-1])
     return float(values[np.argmax(np.abs(values))])

@@ -1,4 +1,4 @@
-"""Which springs a scene gets where the choice is left to it: `consistent`, `consistent-membrane` or rubber.
+"""The calibration "auto": `consistent`, `consistent-membrane` or rubber, by the scene.
 
 Of a material with a law of rubber they are of that law, `hyperelastic`. Of the others, a load that would
 stretch a strip that it hangs from by more than STRETCHED has them `neo-hookean`: links that are linear in
@@ -48,7 +48,7 @@ def resolve_calibration(scene: Scene, grid: Sequence[int], lattice: Lattice) -> 
 
 
 def method_for(scene: Scene) -> tuple[str, str]:
-    """The name of a calibration, and why in a sentence."""
+    """Return the name of a calibration, and why in a sentence."""
     if (strain := scales(scene).strain) > STRETCHED:
         return "neo-hookean", f"q a/(E h) = {strain:.2g} is above {STRETCHED:g}: it stretches as rubber may"
     held = {support.edge for support in scene.supports}

@@ -68,7 +68,7 @@ def extrapolated(coarse: Solution, fine: Solution) -> Solution:
 
 
 def _moved(mesh: FieldMesh, change: Field, bar: Field) -> FieldMesh:
-    """The finer lattice's mesh where the extrapolated answer has it, and the bar at its masses [m]."""
+    """Return the finer lattice's mesh where the extrapolated answer has it, and the bar at its masses [m]."""
     at = mesh.points[:, :2]
     displacement = mesh.point_data["displacement"] + change(at)
     fields = {**mesh.point_data, "displacement": displacement, "bar": bar(at)}
@@ -76,7 +76,7 @@ def _moved(mesh: FieldMesh, change: Field, bar: Field) -> FieldMesh:
 
 
 def _balance(coarse: Balance | None, fine: Balance | None, weight: float) -> Balance | None:
-    """What the extrapolated forces leave over: as they are a sum of both lattices', so is this."""
+    """Return what the extrapolated forces leave over: as they are a sum of both lattices', so is this."""
     if coarse is None or fine is None:
         return None
     return replace(

@@ -27,8 +27,8 @@ def sides(text: str | None) -> dict[str, float]:
 
 
 def checked(kind: type[Quantities], data: dict[str, Any], option: str = "--") -> Quantities:
-    """The validated object, or BadInput naming the first option that is out of bounds; option: what stands
-    before its name."""
+    """Return the validated object, or BadInput naming the first option that is out of bounds; option: what
+    stands before its name."""
     try:
         return kind.model_validate(data)
     except ValidationError as error:

@@ -84,7 +84,7 @@ class Resolved(Generic[S]):
         return self.calibrated()
 
     def on(self, scene: Scene) -> Resolved[S]:
-        """The same choices for another scene of the same sides."""
+        """Return the same choices for another scene of the same sides."""
         return replace(self, scene=scene)
 
     def calibrated(self, training: Sequence[Scene] | None = None) -> Calibration:
@@ -179,7 +179,7 @@ def resolve_each(
 
 
 def _fitted(spec: Spec) -> bool:
-    """Whether the springs are fitted to targets."""
+    """Return whether the springs are fitted to targets."""
     named = isinstance(spec, Lattice) and spec.k is None and spec.calibration
     return isinstance(named, str) and named in CALIBRATIONS and CALIBRATIONS[named].fitted
 
@@ -234,7 +234,7 @@ def _pair(scene: Scene, spec: LatticePair) -> Resolved[LatticePair]:
 
 
 def _grids(scene: Scene, grid: GridLike, coarser: GridLike) -> tuple[Grid, Grid]:
-    """The finer and the coarser grid. Raises BadInput where the second is not the coarser."""
+    """Return the finer and the coarser grid. Raises BadInput where the second is not the coarser."""
     fine = scene_grid(scene, grid)
     halved = tuple(max(2, (n - 1) // 2 + 1) for n in fine[:2])
     coarse = scene_grid(scene, (*halved, fine[2]) if coarser is None else coarser)

@@ -1,4 +1,4 @@
-"""What a scene's numbers say before anything is solved.
+"""Dimensionless numbers of a scene: slenderness, load and strain.
 
     slenderness   h/a, a the shorter side
     load number   q a³/D, q the load per area (weight; point and edge loads spread over the sheet) and
@@ -45,7 +45,7 @@ class Scales:
 
 
 def scales(scene: Scene) -> Scales:
-    """The scales of a scene."""
+    """Return the scales of a scene."""
     sheet, material = scene.sheet, scene.material
     reach = span(scene)
     side, area = min(sheet.lengths), float(np.prod(sheet.lengths))
@@ -78,7 +78,7 @@ def scales(scene: Scene) -> Scales:
 
 
 def span(scene: Scene) -> float:
-    """How far the sheet reaches from the edges that hold it across its plane [m]."""
+    """Return how far the sheet reaches from the edges that hold it across its plane [m]."""
     sheet, across = scene.sheet, 2
     held = [support.edge for support in scene.supports if across in held_axes(support)]
     held += [actuator.edge for actuator in scene.actuators]

@@ -1,7 +1,7 @@
-"""What a model takes on a scene, before it is built, and a refusal where that is more than there is.
+"""Unknowns and memory of a model on a scene before it is built, and a refusal of what does not fit.
 
-Where memory ends in the middle of a solve the process is gone without a word; so the size is looked at first,
-by every verb, for all that it is about to solve.
+A process that runs out of memory in the middle of a solve ends without a message; so every verb checks the
+size of all that it is about to solve.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ def size(scene: Scene, spec: Spec) -> Size | None:
 
 
 def has_room(scene: Scene, spec: Spec) -> bool:
-    """Whether there is as much memory as a model takes, as far as either is known, or none is asked for."""
+    """Return whether there is as much memory as a model takes, as far as either is known, or none is asked
+    for."""
     room, asked = memory.available(), size(scene, spec)
     return context().large or room is None or asked is None or asked.memory <= room
 
@@ -65,7 +66,7 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") 
 
 
 def mesh(scene: Scene, spec: Spec) -> str:
-    """The masses or elements of a model in words, of the whole sheet; "" of a plug-in."""
+    """Return the masses or elements of a model in words, of the whole sheet; "" of a plug-in."""
     if isinstance(spec, External):
         return ""
     counts = " × ".join(str(n) for n in along(scene, spec))
@@ -84,7 +85,7 @@ def along(scene: Scene, spec: Spec) -> list[int]:
 
 
 def _sized(sheet: Sheet, spec: Spec, number: int) -> list[int]:
-    """The same for so many along the shorter side, as they are asked for by one number."""
+    """Return the same for so many along the shorter side, as they are asked for by one number."""
     if _is_lattice(spec):
         return list(grid_of(sheet, number))
     return [*near_square(sheet, number), *_layers(spec)]
@@ -109,7 +110,7 @@ def _estimate(spec: Spec, counts: list[int]) -> Size:
 
 
 def _largest(least: int, fits: Callable[[int], bool]) -> int:
-    """The largest number that fits, 0 if none does."""
+    """Return the largest number that fits, 0 if none does."""
     if not fits(least):
         return 0
     above = 2 * least

@@ -56,11 +56,11 @@ class Spec(ABC):
         }
 
     def but(self, **settings: Any) -> Self:
-        """The same model with other values of some settings."""
+        """Return the same model with other values of some settings."""
         return replace(self, **settings)
 
     def __str__(self) -> str:
-        """The text that `parse` reads as this spec."""
+        """Return the text that `parse` reads as this spec."""
         said = ",".join(f"{key}={_written(value)}" for key, value in self.settings.items())
         return f"{self.model}:{said}" if said else self.model
 
@@ -114,7 +114,7 @@ class Lattice(Spec):
 
     @classmethod
     def given(cls, lattice: Lattice | None, keywords: Mapping[str, Any]) -> Lattice:
-        """The lattice that a function is called with, changed by its flat keywords."""
+        """Return the lattice that a function is called with, changed by its flat keywords."""
         return replace(lattice or cls(), **keywords)
 
 
@@ -137,7 +137,7 @@ class LatticePair(Spec):
         return self.NAME
 
     def lattice(self, grid: GridLike) -> Lattice:
-        """One of the two."""
+        """Return one of the two lattices."""
         own = (self.layer_distance, self.grading, self.linear, self.symmetry)
         return Lattice(grid, self.calibration, None, *own)
 
@@ -165,8 +165,8 @@ class Elements(Spec):
 
     @classmethod
     def given(cls, reference: Elements | str, keywords: Mapping[str, Any]) -> Elements:
-        """The reference that a function is called with, changed by what flat keywords say; solids, which are
-        solved whole, are not cut, and "path" is the usual branch."""
+        """Return the reference that a function is called with, changed by what flat keywords say; solids,
+        which are solved whole, are not cut, and "path" is the usual branch."""
         spec = reference if isinstance(reference, Elements) else cls(reference)
         said = {
             name: value
@@ -209,13 +209,13 @@ class External(Spec):
         return dict(self.own)
 
     def but(self, **settings: Any) -> External:
-        """The same model with other values of some settings."""
+        """Return the same model with other values of some settings."""
         return External(self.name, {**self.own, **settings})
 
 
 def spec_of(model: str, settings: Mapping[str, Any]) -> Spec:
-    """The spec of a name and settings as JSON has them. Raises BadInput for a setting that a lattice or a
-    reference does not have."""
+    """Return the spec of a name and settings as JSON has them. Raises BadInput for a setting that a lattice
+    or a reference does not have."""
     kind = next((one for one in (Lattice, LatticePair) if model == one.NAME), None)
     if kind is None and model not in REFERENCES:
         return External(model, settings)
@@ -235,8 +235,8 @@ def spec_of(model: str, settings: Mapping[str, Any]) -> Spec:
 def lattices(
     scene: Scene, grids: Iterable[GridLike], calibrations: Iterable[str], usual: Lattice | None = None
 ) -> list[Lattice]:
-    """Every calibration on every grid, in their order; usual: what else they have. Raises BadInput for what
-    is not a grid."""
+    """Return every calibration on every grid, in their order; usual: what else they have. Raises BadInput for
+    what is not a grid."""
     shapes = [scene_grid(scene, grid) for grid in grids]
     return [(usual or Lattice()).but(grid=n, calibration=name) for name in calibrations for n in shapes]
 
@@ -244,8 +244,8 @@ def lattices(
 def pairs(
     scene: Scene, grids: Iterable[str], calibrations: Iterable[str], usual: Lattice | None = None
 ) -> list[LatticePair]:
-    """Every calibration that is extrapolated on every pair of grids, 5:9; usual: what else they have. Raises
-    BadInput for other text."""
+    """Return every calibration that is extrapolated on every pair of grids, 5:9; usual: what else they have.
+    Raises BadInput for other text."""
     shapes = []
     for text in grids:
         coarser, colon, finer = text.partition(":")
@@ -260,12 +260,13 @@ def pairs(
 
 
 def references(kind: str, elements: Iterable[str]) -> list[Elements]:
-    """A finite-element model on several meshes. Raises BadInput for what is not a number of elements."""
+    """Return a finite-element model on several meshes. Raises BadInput for what is not a number of
+    elements."""
     return [Elements(kind, parse_elements(text, f"--{kind}")) for text in elements]
 
 
 def parse(text: str) -> Spec:
-    """The spec of `NAME`, `FILE.py`, `FILE.py:OBJECT` or `exec:PROGRAM`, and `:key=value,key=value`.
+    """Return the spec of `NAME`, `FILE.py`, `FILE.py:OBJECT` or `exec:PROGRAM`, and `:key=value,key=value`.
 
     Values are as in JSON, `8x4` is a list of numbers, anything else plain text. Raises BadInput.
     """
@@ -288,12 +289,12 @@ def parse(text: str) -> Spec:
 
 
 def items(text: str | None) -> list[str]:
-    """The parts of a list as people write it: 5,9,17."""
+    """Return the parts of a list as people write it: 5,9,17."""
     return [part.strip() for part in (text or "").split(",") if part.strip()]
 
 
 def counted(value: Any) -> str:
-    """A setting as people write it, a size 9×13."""
+    """Return a setting as people write it, a size 9×13."""
     if isinstance(value, float):
         return f"{value:g}"
     return "×".join(map(str, value)) if isinstance(value, list | tuple) else str(value)
@@ -318,7 +319,7 @@ def _written(value: Any) -> str:
 
 
 def _data(value: Any) -> Any:
-    """A field's value as JSON has it."""
+    """Return a field's value as JSON has it."""
     if isinstance(value, EdgeGrading):
         return str(value)
     if isinstance(value, np.ndarray | np.generic):

@@ -56,7 +56,7 @@ def cut_axes(scene: Scene, counts: Sequence[int], masses: bool) -> list[int]:
 
 
 def half(scene: Scene, axis: int) -> Scene:
-    """The lower half of a scene across an axis, its cut edge on the plane of symmetry."""
+    """Return the lower half of a scene across an axis, its cut edge on the plane of symmetry."""
     cut = CUT[axis]
     lengths = {f"length_{'xy'[axis]}": scene.sheet.lengths[axis] / 2.0}
     loads = [part for load in scene.loads if (part := _half_load(load, scene, axis)) is not None]
@@ -75,7 +75,7 @@ def half(scene: Scene, axis: int) -> Scene:
 
 
 def whole(part: Solution, scene: Scene, axis: int) -> Solution:
-    """The answer to a scene from that to its lower half across an axis."""
+    """Return the answer to a scene from that to its lower half across an axis."""
     middle = scene.sheet.lengths[axis] / 2.0
     flip = np.ones(3)
     flip[axis] = -1.0
@@ -106,7 +106,7 @@ def whole(part: Solution, scene: Scene, axis: int) -> Solution:
 
 
 def by_parts(scene: Scene, axes: Sequence[int], answer: Callable[[Scene], Solution]) -> Solution:
-    """The answer for the whole scene from that for the part left after halving across `axes`."""
+    """Return the answer for the whole scene from that for the part left after halving across `axes`."""
     if not axes:
         return answer(scene)
     scenes = [scene]
@@ -141,7 +141,7 @@ def _image(edge: str, axis: int) -> str:
 
 
 def _loads_mirror(scene: Scene, axis: int) -> bool:
-    """Whether every load has its mirror image among the loads, itself perhaps."""
+    """Return whether every load has its mirror image among the loads, itself perhaps."""
     left = list(scene.loads)
     for load in scene.loads:
         crossing = isinstance(load, EdgeLoad) and EDGES[load.edge].normal_axis != axis
@@ -168,7 +168,7 @@ def _image_of(load: Load, scene: Scene, axis: int) -> Load:
 
 
 def _half_load(load: Load, scene: Scene, axis: int) -> Load | None:
-    """What of a load acts on the lower half: half of a point load on the plane, nothing beyond it."""
+    """Return what of a load acts on the lower half: half of a point load on the plane, nothing beyond it."""
     if isinstance(load, Pressure):
         return load
     if isinstance(load, EdgeLoad):
@@ -198,7 +198,7 @@ def _times(vector: tuple[float, float, float], factors: list[float]) -> tuple[fl
 
 
 def _mirrored(mesh: FieldMesh, axis: int, middle: float) -> FieldMesh:
-    """The mesh and its mirror image beside it."""
+    """Return the mesh and its mirror image beside it."""
     image = mesh.points.copy()
     image[:, axis] = 2.0 * middle - image[:, axis]
     flip = np.ones(3)

@@ -1,4 +1,4 @@
-"""What the fitted calibrations are fitted to: the shell's displacements and frequencies on training scenes.
+"""Targets of fitted calibrations: the shell's displacements and frequencies on training scenes.
 
 Unless scenes are given, the sheet trains under its own weight with one edge and with two adjacent edges
 clamped: what a user can also measure. fit-static sees the displacement at 8 × 8 plan points off the edges x0
@@ -31,7 +31,7 @@ WEIGHT = Gravity(acceleration=(0.0, 0.0, -9.81))
 
 
 def training_scenes(sheet: Sheet, material: Material) -> tuple[Scene, ...]:
-    """The sheet under its own weight with one edge, and with two adjacent edges clamped."""
+    """Return the sheet under its own weight with one edge, and with two adjacent edges clamped."""
     supports = {
         "one-edge-clamped": (Clamped(edge="x0"),),
         "two-edges-clamped": (Clamped(edge="x0"), Clamped(edge="y0")),

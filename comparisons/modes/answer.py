@@ -126,11 +126,11 @@ class Spectra(Answer, Sequence[Spectrum]):
         return tuple(found)
 
     def against(self, model: str) -> tuple[Pair, ...]:
-        """The pairs with one reference, in the order of the lattice's modes."""
+        """Return the pairs with one reference, in the order of the lattice's modes."""
         return tuple(pair for pair in self.pairs if pair.against == model)
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench modes`."""
+        """Return the JSON document of `sheetbench modes`."""
         return {
             "scene": self.scene.document(),
             "about": self.about,
@@ -140,7 +140,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        """A row per mode of the lattice."""
+        """Return a row per mode of the lattice."""
         references, rows = [(spectrum, self.against(spectrum.model)) for spectrum in self[1:]], []
         for i, kind in enumerate(self.kinds):
             hertz: dict[Column, float | None] = {HERTZ(".4g", self[0].model): self.frequencies[i]}
@@ -162,7 +162,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         return (Picture("modes", "comparisons.modes.figure:compose", (self,), formats=RASTER),)
 
     def files(self) -> dict[str, Write]:
-        """The shapes as VTU."""
+        """Return the shapes as VTU."""
         return {"modes.vtu": self.write_shapes}
 
     def write_shapes(self, path: Path) -> None:
@@ -178,7 +178,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         write_mesh(path, plan)
 
     def choices(self) -> dict[str, Any]:
-        """The settings of every model."""
+        """Return the settings of every model."""
         return {spectrum.model: spectrum.settings for spectrum in self}
 
     def complaints(self) -> list[str]:
@@ -193,7 +193,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         ]
 
     def notes(self) -> list[str]:
-        """What the table does not say: labels, rigid motions left out, actuators left out."""
+        """Return what the table does not say: labels, rigid motions left out, actuators left out."""
         notes = [" · ".join(spectrum.label for spectrum in self), *choice_notes(self[0].settings)]
         known = [100.0 * error for error in self[0].expected if error is not None]
         if known:

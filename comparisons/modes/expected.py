@@ -15,7 +15,8 @@ Modes = tuple[np.ndarray, np.ndarray]  # frequencies (count,) and shapes (count,
 
 
 def expected_errors(coarse: Modes, fine: Modes, ratio: float) -> list[float | None]:
-    """The relative error to expect of every frequency of the coarser lattice, None without a counterpart."""
+    """Return the relative error to expect of every frequency of the coarser lattice, None without a
+    counterpart."""
     of, shapes = coarse
     against, others = fine
     pairs = matched(assurance(shapes, others, against))

@@ -18,8 +18,8 @@ STILL = 0.02  # of the largest displacement: where less moves, as along a clamp,
 
 
 def compose(found: Spectra, style: FigureStyle = PLAIN) -> Figure:
-    """The figure. Heights of every shape are in units of its largest displacement; where a mode moves in the
-    plane, the length of its displacement stands for them."""
+    """Return the figure. Heights of every shape are in units of its largest displacement; where a mode moves
+    in the plane, the length of its displacement stands for them."""
     scene = found.scene
     plan = plan_mesh(scene.sheet, CELLS).points[:, :2]
     x, y = (np.unique(1e3 * values) for values in plan.T)

@@ -1,4 +1,4 @@
-"""What kind of mode a shape of a flat sheet is: bending, twist, bending across, in plane.
+"""The kind of a mode of a flat sheet: bending, twist, bending across, in plane.
 
 In plane: most of the mass-weighted square of the displacement is along the sheet. Of the others the
 deflection w(x, y) is split by its singular values, w ≈ σ f(along) g(across); g without a change of sign is
@@ -21,8 +21,8 @@ STILL = 0.05  # of the largest |g|: a change of sign below it is the discretisat
 
 
 def kinds(scene: Scene, shapes: np.ndarray, cells: int) -> list[str]:
-    """The kind of every shape (m, n, 3), sampled at `pairing.cell_centres` of `cells`: bending numbered from
-    1, the others from their second on."""
+    """Return the kind of every shape (m, n, 3), sampled at `pairing.cell_centres` of `cells`: bending
+    numbered from 1, the others from their second on."""
     axis, named = _axis(scene), list[str]()
     counted = Counter[str]()
     for shape in shapes:
@@ -33,7 +33,7 @@ def kinds(scene: Scene, shapes: np.ndarray, cells: int) -> list[str]:
 
 
 def _kind(shape: np.ndarray, axis: int | None) -> str:
-    """The kind of a shape (nx, ny, 3); axis: 0 for x, 1 for y, None."""
+    """Return the kind of a shape (nx, ny, 3); axis: 0 for x, 1 for y, None."""
     along, deflection = np.sum(shape[..., :2] ** 2), shape[..., 2]
     if along > np.sum(deflection**2):
         return IN_PLANE

@@ -73,7 +73,7 @@ def assurance(shapes: np.ndarray, others: np.ndarray, frequencies: np.ndarray) -
 
 
 def matched(mac: np.ndarray) -> list[int | None]:
-    """The column of every row, None where its MAC is below `LEAST`."""
+    """Return the column of every row, None where its MAC is below `LEAST`."""
     rows, columns = linear_sum_assignment(mac, maximize=True)
     found: list[int | None] = [None] * len(mac)
     for row, column in zip(rows, columns, strict=True):

@@ -49,7 +49,7 @@ def spectra(
     progress: Progress = silent,
     **keywords: Unpack[ModesKeywords],
 ) -> Spectra:
-    """The spectra of the lattice and of each reference; masses: how the lattice shares out its mass
+    """Return the spectra of the lattice and of each reference; masses: how the lattice shares out its mass
     (`lumped.masses`), as `lumped.modes` has it unless given; about: "flat", or "deformed" under the scene's
     loads; large: even where one takes more memory than there is; progress: called with what is being done.
 
@@ -114,7 +114,8 @@ def _lattice(model: Resolved[Lattice], count: int, about: About) -> Spectrum:
 
 
 def _with_expected(model: Resolved[Lattice], first: Spectrum) -> Spectrum:
-    """The lattice's spectrum about its equilibrium, with the errors to expect of it where they are known."""
+    """Return the lattice's spectrum about its equilibrium, with the errors to expect of it where they are
+    known."""
     finer = finer_grid(model.grid)
     if not converges(model.spec, finer):
         return first

@@ -1,1 +1,1 @@
-"""A page of what a folder holds: one HTML file with its sheets, tables, plots and words, for any browser."""
+"""One HTML page of the studies in a folder: sheets to turn, tables, figures and notes."""

@@ -66,7 +66,8 @@ SHAPE = TypeAdapter(Record)
 
 
 def manifest(folder: Path) -> dict[str, Any]:
-    """The folder's manifest, empty where there is none. Raises BadInput for one that cannot be read."""
+    """Return the folder's manifest, empty where there is none. Raises BadInput for one that cannot be
+    read."""
     path = folder / MANIFEST
     if not path.exists():
         return {}

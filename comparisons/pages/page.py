@@ -33,7 +33,7 @@ MANY, OTHERS = 4, 30  # studies from which on each is folded; other files that a
 
 
 def page(found: FolderContents, title: str) -> str:
-    """The HTML of a folder's studies."""
+    """Return the HTML of a folder's studies."""
     shown = [_study(study, n) for n, study in enumerate(found.studies, start=1)]
     troubles = [*found.troubles, *(said for study in found.studies for said in study.troubles)]
     style, script = viewer.style() + _own("page.css"), viewer.script() + _own("page.js")
@@ -57,7 +57,7 @@ def page(found: FolderContents, title: str) -> str:
 
 
 def policy(script: str, style: str) -> str:
-    """The content security policy of a page with this script and style and no other."""
+    """Return the content security policy of a page with this script and style and no other."""
     return (
         f"default-src 'none'; script-src '{_digest(script)}'; style-src '{_digest(style)}'; img-src data:; "
         "base-uri 'none'; form-action 'none'"
@@ -65,7 +65,7 @@ def policy(script: str, style: str) -> str:
 
 
 def memory_of(size: int) -> str:
-    """A file's size."""
+    """Return a file's size."""
     return memory(size) if size >= 1e6 else f"{max(size / 1e3, 0.1):.3g} kB"
 
 
@@ -83,7 +83,7 @@ def _visible(value: Any) -> Any:
 
 
 def _study(study: Study, number: int) -> dict[str, Any]:
-    """What the template shows of a study."""
+    """Return what the template shows of a study."""
     sheets = stage(study)
     words = study.words
     record = study.record
@@ -114,7 +114,7 @@ def _study(study: Study, number: int) -> dict[str, Any]:
 
 
 def _made(record: Mapping[str, Any], run: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """What a study was made with."""
+    """Return what a study was made with."""
     machine = record.get("machine") or {}
     versions = record.get("versions") or {}
     parts = {

@@ -1,4 +1,4 @@
-"""What a study was asked, in words: its command, its scene and its settings."""
+"""Command, scene and settings of a study, in words."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sheetbench.scenes.words import in_words
 
 
 def command(study: Study) -> str:
-    """The command as it was typed."""
+    """Return the command as it was typed."""
     words = study.run.get("command") or ()
     return shlex.join(map(str, words)) if isinstance(words, list) else ""
 
@@ -27,7 +27,7 @@ def question(study: Study) -> list[tuple[str, str]]:
 
 
 def _settings(settings: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """A line a model, and one for what belongs to none."""
+    """Return a line a model, and one for what belongs to none."""
     nested = {k: v for k, v in settings.items() if isinstance(v, dict)}
     flat = {k: v for k, v in settings.items() if k not in nested}
     lines = [(name, _line(values)) for name, values in nested.items() if values]
@@ -46,7 +46,7 @@ def _several(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def short(value: Any) -> str:
-    """A setting in a few characters; nothing of one that is long, which the document has."""
+    """Return a setting in a few characters; nothing of one that is long, which the document has."""
     if isinstance(value, bool) or value is None:
         return "" if value is None else "on" if value else "off"
     if isinstance(value, float):

@@ -1,4 +1,4 @@
-"""What a run says of its answer beside tables and figures: notes, and what went wrong."""
+"""Notes and warnings of a run, beside its tables and figures."""
 
 from __future__ import annotations
 

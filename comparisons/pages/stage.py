@@ -27,7 +27,7 @@ Options = dict[str, Any]
 
 
 def stage(study: Study) -> Options | None:
-    """The viewer's options, or None where there are no sheets to show."""
+    """Return the viewer's options, or None where there are no sheets to show."""
     meshes = {name: mesh for name in study.ending(".vtu") if (mesh := study.read(name, _mesh))}
     moving = {name: found for name in study.ending(".pvd") if (found := study.read(name, _series))}
     sheets: list[Options] = []
@@ -77,7 +77,7 @@ def _one(name: str, mesh: FieldMesh, label: str, scene: Scene | None) -> tuple[O
 
 
 def _coloured(mesh: FieldMesh) -> str:
-    """The field to begin with: uz, as in the pictures, but for a sheet that moves in its plane."""
+    """Return the field to begin with: uz, as in the pictures, but for a sheet that moves in its plane."""
     across, up = np.split(np.abs(np.nan_to_num(mesh.point_data["displacement"])), [2], axis=1)
     return "uz" if up.max(initial=0.0) > 0.01 * across.max(initial=0.0) else "displacement"
 
@@ -85,7 +85,7 @@ def _coloured(mesh: FieldMesh) -> str:
 def _difference(
     name: str, mesh: FieldMesh, vector: np.ndarray, of: str, scene: Scene | None
 ) -> tuple[Options, Options]:
-    """The reference's sheet, coloured by how far a model is from it."""
+    """Return the reference's sheet, coloured by how far a model is from it."""
     small = coarser(FieldMesh(mesh.points, mesh.cells, {**mesh.point_data, "off": vector}))
     off = small.point_data["off"]
     fields = [
@@ -164,7 +164,8 @@ def _with(mesh: FieldMesh, displacement: np.ndarray) -> FieldMesh:
 
 
 def coarser(mesh: FieldMesh) -> FieldMesh:
-    """A plan grid with every other line left out until it has at most CELLS cells a side; others whole."""
+    """Return a plan grid with every other line left out until it has at most CELLS cells a side; others
+    whole."""
     kinds = [kind for kind, _ in mesh.cells]
     lines = [np.unique(np.round(mesh.points[:, axis], 9)) for axis in (0, 1)]
     nx, ny = (len(line) - 1 for line in lines)

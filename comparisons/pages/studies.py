@@ -1,4 +1,4 @@
-"""The studies that a folder holds: what every run was asked, what it said, and which files are its own.
+"""The studies in a folder: command, answer and files of every run.
 
 A manifest tells of its folder's runs; other files beside them are named. A file that cannot be read costs a
 sentence and nothing else.
@@ -79,7 +79,8 @@ class Study:
         return str(self.run.get("date") or "")[:16].replace("T", " ")
 
     def path(self, name: str) -> Path | None:
-        """A file of the study; None, with a sentence said, where it is missing, outside or too large."""
+        """Return a file of the study; None, with a sentence said, where it is missing, outside or too
+        large."""
         found = self.folder / name
         if not found.resolve().is_relative_to(self.folder.resolve()):
             self.troubles.append(f"{name}: lies outside {self.folder.name}, left alone")
@@ -92,7 +93,7 @@ class Study:
         return None
 
     def read(self, name: str, reader: Callable[[Path], Any]) -> Any:
-        """What a reader makes of a file; None, with a sentence said, where it makes nothing of it."""
+        """Return what a reader makes of a file; None, with a sentence said, where it makes nothing of it."""
         path = self.path(name)
         if path is None:
             return None
@@ -106,7 +107,8 @@ class Study:
         return None
 
     def attempt(self, what: str, made: Callable[[], Any]) -> Any:
-        """What is made of words that may be damaged; None, with a sentence said, where nothing can be."""
+        """Return what is made of words that may be damaged; None, with a sentence said, where nothing can
+        be."""
         try:
             return made()
         except Exception as error:  # the document may hold anything
@@ -116,11 +118,11 @@ class Study:
         return None
 
     def json(self, name: str) -> Any:
-        """A JSON document."""
+        """Return a JSON document."""
         return self.read(name, lambda path: json.loads(path.read_text(encoding="utf-8")))
 
     def named(self, name: str) -> str:
-        """A file as the reader finds it."""
+        """Return a file as the reader finds it."""
         return f"{self.place}/{name}" if self.place else name
 
     def ending(self, *suffixes: str) -> list[str]:
@@ -138,7 +140,7 @@ class FolderContents:
 
 
 def read(root: Path) -> FolderContents:
-    """Every study in a folder and those below it. Raises BadInput where there is no such folder."""
+    """Return every study in a folder and those below it. Raises BadInput where there is no such folder."""
     if not root.is_dir():
         raise BadInput(f"'{root}': there is no such folder")
     studies: list[Study] = []
@@ -159,7 +161,7 @@ def read(root: Path) -> FolderContents:
 
 
 def _folders(root: Path, troubles: list[str]) -> Iterator[Path]:
-    """The folder and all below it but those that a run keeps for itself, hidden ones and links."""
+    """Return the folder and all below it but those that a run keeps for itself, hidden ones and links."""
     try:
         inside = sorted(root.iterdir())
     except OSError as error:

@@ -50,7 +50,7 @@ class HtmlTable:
 
 
 def tables(study: Study) -> list[HtmlTable]:
-    """Every table of a study, those that its manifest tells of first."""
+    """Return every table of a study, those that its manifest tells of first."""
     found, described = [], set()
     for words in study.words.get("tables", ()):
         name = f"{words.get('name')}.csv"
@@ -74,7 +74,7 @@ def _rows(path: Path) -> list[list[str]]:
 
 
 def _plain(cell: str) -> str:
-    """The cell without the apostrophe that keeps a spreadsheet from taking it for a formula."""
+    """Return the cell without the apostrophe that keeps a spreadsheet from taking it for a formula."""
     return cell[1:] if cell[:1] == "'" and cell[1:2] in ("=", "+", "-", "@", "\t", "\r") else cell
 
 
@@ -107,7 +107,7 @@ def _described(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> HtmlT
 
 
 def _cell(column: Column, of_units: bool, value: Any) -> Any:
-    """A value as the table had it: a number, a row's unit, text, or nothing."""
+    """Return a value as the table had it: a number, a row's unit, text, or nothing."""
     if value in ("", None):
         return None
     if of_units:
@@ -140,7 +140,7 @@ def _undescribed(name: str, rows: list[list[str]], aside: bool) -> HtmlTable:
 
 
 def _scaled(head: str) -> tuple[str, Unit]:
-    """A heading "name [m]" with the unit as people read it, and that unit."""
+    """Return a heading "name [m]" with the unit as people read it, and that unit."""
     found = re.fullmatch(r"(.*) \[(.+)\]", head)
     if not found:
         return head, Unit("", "")

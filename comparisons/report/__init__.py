@@ -1,1 +1,1 @@
-"""How it is shown: tables, files, VTK, the dress of plots and the off-screen stage."""
+"""Pictures of sheets, VTK files, progress, and amounts in words."""

@@ -61,7 +61,7 @@ def _width(axis: Axes) -> float:
 
 
 def _box(x: float, y: float, place: Place, letters: int, size: float) -> Box:
-    """What a name covers."""
+    """Return what a name covers."""
     (right, up), side = place
     width = 0.62 * size * letters
     left = x + right - {"left": 0.0, "right": width, "center": 0.5 * width}[side]
@@ -69,7 +69,7 @@ def _box(x: float, y: float, place: Place, letters: int, size: float) -> Box:
 
 
 def _cost(box: Box, others: list[Box], frame: Box) -> float:
-    """The area that a name would share with others or have outside the frame."""
+    """Return the area that a name would share with others or have outside the frame."""
     inside = _common(box, frame)
     return (box[2] - box[0]) * (box[3] - box[1]) - inside + sum(_common(box, other) for other in others)
 

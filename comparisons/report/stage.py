@@ -82,7 +82,8 @@ class Stage:
         return flat + self.scale * solution.displacement(plan)
 
     def take(self, seen: np.ndarray, marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The image, (height, width, 3), and where the points `marked` (n, 3) are in it, (n, 2) pixels.
+        """Return the image, (height, width, 3), and where the points `marked` (n, 3) are in it, (n, 2)
+        pixels.
 
         The camera shows the points `seen` (m, 3) and no more; it is the same for every stage of the scene.
         """

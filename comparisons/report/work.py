@@ -1,4 +1,4 @@
-"""What is being worked at, for those who wait: in words, how large it is, how far it has come."""
+"""Progress of work: what is being done, its size, the share that is done."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Work:
         return self.size is not None and self.size.seconds >= LONG
 
     def at(self, share: float) -> Work:
-        """The same, so far on."""
+        """Return the same, so far on."""
         return replace(self, share=share)
 
     def __str__(self) -> str:
@@ -58,7 +58,7 @@ class Pace:
 
 
 class _Silent:
-    """The progress of those who do not wait for it; a class for help() to show its name, not an address."""
+    """A progress function that does nothing; a class, for help() to show its name, not an address."""
 
     def __call__(self, what: object) -> None:
         pass

@@ -1,4 +1,4 @@
-"""What our models say of the seed's tests with the published inputs.
+"""Answers of our models to Habibi et al.'s tests, with the published inputs.
 
 Beside the lattice of `consistent` springs and the shell with its error bar stand lattices as the seed has
 them: k as published for all springs, equal masses, full springs along edges. Their layer distance is not
@@ -24,7 +24,7 @@ SETS = ((1, 0), (2, 1), (2, -1))  # tests, and the sense of the rod
 
 
 def masses() -> tuple[int, int, int]:
-    """The seed's grid."""
+    """Return the seed's grid."""
     given = seed_inputs()
     side = int(given["masses_per_side"])
     return side, side, int(given["layers"])
@@ -62,12 +62,12 @@ class ReproducedTest:
 
 
 def answers(elements: Elements, progress: Progress = silent) -> list[ReproducedTest]:
-    """Every test by every model; elements: of the shell."""
+    """Return every test by every model; elements: of the shell."""
     return [answer(test, sense, elements, progress) for test, sense in SETS]
 
 
 def answer(test: int, sense: int, elements: Elements, progress: Progress = silent) -> ReproducedTest:
-    """A test by every model."""
+    """Return a test by every model."""
     case = scene(test, sense or 1)
     comparison = compare(case, grid=masses(), calibration="consistent", elements=elements, progress=progress)
     of_seed = []
@@ -80,12 +80,12 @@ def answer(test: int, sense: int, elements: Elements, progress: Progress = silen
 
 
 def seed_lattice(distance: float) -> str:
-    """What a lattice of the published k with a layer distance [m] is called."""
+    """Return what a lattice of the published k with a layer distance [m] is called."""
     return f"k{seed_inputs()['k']:g}-lz{1e3 * distance:.3g}"
 
 
 def seed_springs(distance: float) -> lumped.Calibration:
-    """The published k for every spring, with a layer distance [m]."""
+    """Return the published k for every spring, with a layer distance [m]."""
     first, k = scene(1), seed_inputs()["k"]
     return lumped.calibrate(
         first.sheet, first.material, grid=masses(), method="uniform", k=k, layer_distance=distance
@@ -93,5 +93,5 @@ def seed_springs(distance: float) -> lumped.Calibration:
 
 
 def of_model(answer: ReproducedTest, model: str) -> Solution:
-    """The solution of a model by its name."""
+    """Return the solution of a model by its name."""
     return next(one for one in answer.comparison.solutions if one.model == model)

@@ -20,7 +20,7 @@ FARTHEST = 3.0  # times the largest published displacement: what moves more is n
 
 
 def test(one: ReproducedTest, style: FigureStyle) -> Figure:
-    """A panel a component: every source's displacement at every probe."""
+    """Return a panel a component: every source's displacement at every probe."""
     comparison = one.comparison
     moved = {f"published {source}": published(one.test, source) for source in SOURCES}
     marks: dict[str, tuple[str, str]] = dict(PUBLISHED)

@@ -1,4 +1,4 @@
-"""What the numbers say, a sentence or two each, with the numbers they rest on."""
+"""Findings of the reproduction, a sentence or two each, with their numbers."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Finding:
 
 
 def all_of(answers: Sequence[ReproducedTest], settling: Settling | None) -> list[Finding]:
-    """Every finding of the parts there are."""
+    """Return every finding of the parts there are."""
     return [Finding(*one) for one in (*_tables(answers), *(_settling(settling) if settling else ()))]
 
 

@@ -1,4 +1,4 @@
-"""The seed's displacement tables in the axes of our scenes, with what cannot be meant left out.
+"""Habibi et al.'s displacement tables in the axes of our scenes, without obvious misprints.
 
 The frame of the published test 1 has y pointing the other way, so there −uy is taken. That test is its own
 mirror image about the diagonal of the sheet, which exchanges x and y, P2 and P3: a uy whose sign is not that
@@ -23,8 +23,8 @@ _MIRRORED = [0, 2, 1, 3]  # the probes of test 1 beyond its diagonal
 
 
 def scene(test: int, sense: int = 1) -> Scene:
-    """The scene of a test with the published inputs; sense: 1 where the rod of test 2 lifts its ends, or -1:
-    only the size of its curvature is published."""
+    """Return the scene of a test with the published inputs; sense: 1 where the rod of test 2 lifts its ends,
+    or -1: only the size of its curvature is published."""
     loaded = load(SCENES[test])
     return put(loaded, "curvature_x0", sense * seed_inputs()["curvature"]) if test == 2 else loaded
 

@@ -1,4 +1,4 @@
-"""The seed's study again, part by part.
+"""The study of Habibi et al. again, part by part.
 
 tables    tests 1 and 2: published model and experiment, our lattices, our shell with its error bar
 settling  the run from rest, and what it takes

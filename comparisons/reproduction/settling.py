@@ -1,4 +1,4 @@
-"""The seed's dynamics again: gravity on at t = 0, test 1 oscillates and settles.
+"""Habibi et al.'s dynamics again: gravity on at t = 0, test 1 oscillates and settles.
 
 Published are the inputs of test 1, a plot of ux, uy and uz of P4 over time without numbers, and the time that
 a simulation took. The dampers are not published: those of our scene `two-edges-settling` are taken. Two
@@ -44,16 +44,16 @@ class Settling:
         return float(run.time[last]) if last + 1 < len(run.time) else None
 
     def largest(self, model: str) -> float:
-        """How far uz of P4 swings, of its static value."""
+        """Return how far uz of P4 swings, of its static value."""
         return float(np.abs(self.runs[model].probes[PROBE][:, 2]).max() / abs(self.rest[model][2]))
 
     def seconds(self, model: str) -> float:
-        """What the run took on warm code, set-up and all."""
+        """Return what the run took on warm code, set-up and all."""
         run = self.runs[model]
         return run.setup_seconds + run.solve_seconds
 
     def faster(self, model: str) -> float:
-        """How many times longer the published simulation took."""
+        """Return how many times longer the published simulation took."""
         return seed_inputs()["run_time"] / self.seconds(model)
 
     def as_dict(self) -> dict[str, Any]:

@@ -85,7 +85,7 @@ class Reproduction(Answer):
         return [f"settling-{model}/" for model in (self.settling.runs if self.settling is not None else ())]
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench reproduce`: SI units, errors as fractions."""
+        """Return the JSON document of `sheetbench reproduce`: SI units, errors as fractions."""
         document: dict[str, Any] = {
             "parts": list(self.parts),
             "inputs": seed_inputs(),
@@ -102,7 +102,7 @@ class Reproduction(Answer):
         return document
 
     def heading(self) -> tuple[str, str, str]:
-        """What was published, its tests and its sheet."""
+        """Return what was published, its tests and its sheet."""
         first, second = scene(1), scene(2)
         sheet = sheet_in_words(first.sheet, first.material)
         lead = f"{SEED}. {first.title}. {second.title}. {sheet}. {POINTS}"
@@ -113,7 +113,7 @@ class Reproduction(Answer):
         )
 
     def _drawn(self) -> list[tuple[Table, str, Any]]:
-        """Every table with the figure beside it, and what that is of."""
+        """Return every table with the figure beside it, and what that is of."""
         tests: list[tuple[Table, str, Any]] = [(displacements(one), "test", one) for one in self.answers]
         return tests if self.settling is None else [*tests, (runs(self), "motion", self.settling)]
 
@@ -126,7 +126,7 @@ class Reproduction(Answer):
         return [Picture(table.name, f"{module}:{kind}", (of,)) for table, kind, of in self._drawn()]
 
     def complaints(self) -> list[str]:
-        """A sentence for every model of ours without an answer."""
+        """Return a sentence for every model of ours without an answer."""
         return [
             f"{one.title}, {s.model}: {s.status}: {s.status.advice}"
             for one in self.answers
@@ -146,12 +146,12 @@ class Reproduction(Answer):
 
 
 def findings_table(every: Sequence[findings.Finding]) -> Table:
-    """A row per finding."""
+    """Return a row per finding."""
     return Table.of(findings.Finding, every, "Findings", "findings", grouped=True)
 
 
 def displacements(one: ReproducedTest) -> Table:
-    """A row per probe and source: published, our lattices, our shell with its bar."""
+    """Return a row per probe and source: published, our lattices, our shell with its bar."""
     comparison = one.comparison
     tables = {f"published {source}": published(one.test, source) for source in SOURCES}
     ordered = sorted(comparison.solutions, key=lambda s: s is not comparison.reference)
@@ -178,7 +178,8 @@ def displacements(one: ReproducedTest) -> Table:
 
 
 def runs(reproduction: Reproduction) -> Table:
-    """A row per run: what it took beside what is published, how far it swings and when it is at rest."""
+    """Return a row per run: what it took beside what is published, how far it swings and when it is at
+    rest."""
     settling = reproduction.settling
     assert settling is not None
     rows = [RunRow("published", "MATLAB R2016a", seed_inputs()["run_time"])]
@@ -199,7 +200,7 @@ def runs(reproduction: Reproduction) -> Table:
 
 
 def _attachments(reproduction: Reproduction) -> dict[str, Write]:
-    """The sheets of every test as VTU, and the histories."""
+    """Return the sheets of every test as VTU, and the histories."""
     files: dict[str, Write] = {}
     for one in reproduction.answers:
         files[f"{one.name}.vtu"] = one.comparison.write_plan

@@ -6,10 +6,10 @@ from sheetbench.answers.table import number, quantity
 
 
 def percent(fraction: float, form: str = ".2g") -> str:
-    """A fraction in per cent."""
+    """Return a fraction in per cent."""
     return f"{number(100.0 * fraction, form)} %"
 
 
 def millimetres(length: float, form: str = ".2f") -> str:
-    """A length [m]."""
+    """Return a length [m]."""
     return quantity(length, "m", form)

@@ -1,1 +1,1 @@
-"""How it is kept: campaigns of runs, their store, what carries them out, the manifest."""
+"""Campaigns of runs, their store and workers, and the manifest of a folder."""

@@ -97,7 +97,7 @@ def carry_out(
     retry: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> list[Finished]:
-    """Every run's outcome, in the order of `runs`; those that the store has are not run again.
+    """Return every run's outcome, in the order of `runs`; those that the store has are not run again.
 
     retry: but those that failed or were lost are. progress: called as every run begins and ends.
     """

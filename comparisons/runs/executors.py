@@ -1,4 +1,4 @@
-"""Where runs are carried out: processes of this machine, or a dask cluster. Both are standard Executors.
+"""Executors of runs: processes of this machine, or a dask cluster.
 
 A worker process starts fresh (spawn), keeps to one thread (BLAS, OpenMP, numba and rslab alike), so that as
 many workers as cores do not fight for them, and ends when the process that started it does, killed or not.
@@ -66,7 +66,7 @@ class Processes(ProcessPoolExecutor):
 
 
 def processes(workers: int) -> Executor:
-    """A pool of that many single-threaded processes."""
+    """Return a pool of that many single-threaded processes."""
     return Processes(workers)
 
 
@@ -144,7 +144,7 @@ class Cluster:
         self._said = False
 
     def workers(self, count: int) -> Executor:
-        """The cluster's workers, however many they are, once it can be reached."""
+        """Return the cluster's workers, however many they are, once it can be reached."""
         while self._client.status != "running":
             self.watch()
             if self._client.status == "closed":

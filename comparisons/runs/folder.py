@@ -147,7 +147,8 @@ class Folder:
 
 
 def _runs(path: Path, option: str) -> dict[str, Any]:
-    """What the manifest of a folder lists, by verb. Raises BadInput for a file that is none of ours."""
+    """Return what the manifest of a folder lists, by verb. Raises BadInput for a file that is none of
+    ours."""
     try:
         manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
         runs = manifest.get("runs") or {

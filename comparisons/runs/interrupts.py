@@ -9,7 +9,7 @@ from __future__ import annotations
 
 
 def is_behind(error: BaseException | None) -> bool:
-    """Whether an error was an interrupt, or came of one."""
+    """Return whether an error was an interrupt, or came of one."""
     while error is not None and not isinstance(error, KeyboardInterrupt):
         error = error.__cause__ or error.__context__
     return error is not None

@@ -1,4 +1,4 @@
-"""Whether times were taken on a busy machine: its load, and how far samples of one time scatter."""
+"""Signs of a busy machine while times were taken: its load, and the scatter of samples."""
 
 from __future__ import annotations
 

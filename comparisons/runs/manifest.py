@@ -1,4 +1,4 @@
-"""What a result was made with: versions, machine, date and command."""
+"""The record of a result: versions, machine, date and command."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons", "studies")  
 
 
 def record(command: list[str]) -> dict[str, Any]:
-    """The record to keep beside a result, ready for JSON: command, date, versions, machine."""
+    """Return the record to keep beside a result, ready for JSON: command, date, versions, machine."""
     return {
         "command": command,
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -38,13 +38,13 @@ def made_with() -> str:
 
 
 def version() -> str:
-    """The installed version of sheetbench."""
+    """Return the installed version of sheetbench."""
     return metadata.version("sheetbench")
 
 
 @cache
 def source() -> str:
-    """A digest of every Python file of the packages: a result is of this code and no other."""
+    """Return a digest of every Python file of the packages: a result is of this code and no other."""
     root = Path(__file__).parents[2]
     paths = [path for package in PACKAGES for path in (root / package).rglob("*.py")]
     files = {path.relative_to(root).as_posix(): path for path in paths}
@@ -86,7 +86,7 @@ def machine() -> dict[str, Any]:
 
 
 def processor() -> str:
-    """The processor's model, as far as the system tells."""
+    """Return the processor's model, as far as the system tells."""
     try:
         text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
     except OSError:

@@ -103,7 +103,8 @@ class Store:
             self._database.execute(f"insert into runs values ({places})", (*values, _digest(values)))
 
     def get(self, key: str) -> Finished | None:
-        """The finished run of a key, if there is one. Raises BadInput for a row that was changed since."""
+        """Return the finished run of a key, if there is one. Raises BadInput for a row that was changed
+        since."""
         with self._said():
             record = self._database.execute("select * from runs where key = ?", (key,)).fetchone()
         if record is None:

@@ -19,7 +19,8 @@ TASKS = {
 
 
 def function(task: str) -> Callable[..., dict[str, Any]]:
-    """What a task is carried out by: of a name in `TASKS`, or of "module:function" for one of your own."""
+    """Return what a task is carried out by: of a name in `TASKS`, or of "module:function" for one of your
+    own."""
     module, _, name = TASKS.get(task, task).partition(":")
     carried_out: Callable[..., dict[str, Any]] = getattr(import_module(module), name)
     return carried_out

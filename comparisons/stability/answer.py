@@ -64,7 +64,7 @@ class Stability(Answer):
     rows: tuple[Row, ...]
 
     def document(self) -> dict[str, Any]:
-        """The JSON document: SI units, errors as fractions."""
+        """Return the JSON document: SI units, errors as fractions."""
         return {
             "scene": self.scene.document(),
             "reference": self.reference,
@@ -102,7 +102,8 @@ class Stability(Answer):
 
 
 def summary(maps: Stability) -> Table:
-    """A row per study and model: over what it holds, degrades, refuses and fails, the worst error held."""
+    """Return a row per study and model: over what it holds, degrades, refuses and fails, the worst error
+    held."""
     rows = []
     for (study, name), some in groupby(
         sorted(maps.rows, key=lambda r: (list(VARIED).index(r["study"]), _order(maps, r))),
@@ -120,7 +121,7 @@ def _order(maps: Stability, row: Row) -> int:
 
 
 def _ranges(rows: Iterable[Row], end: str) -> str:
-    """The places of the cells that ended so, neighbours as a range."""
+    """Return the places of the cells that ended so, neighbours as a range."""
     ordered = sorted(rows, key=place)
     sentences = []
     for here, some in groupby(ordered, key=lambda row: verdict(row) == end):
@@ -136,7 +137,7 @@ def _limits(maps: Stability) -> list[Row]:
 
 
 def limits(maps: Stability) -> Table:
-    """A row per explicit integrator and damping: its largest stable step, computed and measured."""
+    """Return a row per explicit integrator and damping: its largest stable step, computed and measured."""
     rows = [
         StepRow(
             who(row),
@@ -156,7 +157,7 @@ def _studies(maps: Stability) -> list[tuple[str, list[Row]]]:
 
 
 def cells(study: tuple[str, list[Row]]) -> Table:
-    """A row per cell of what was varied."""
+    """Return a row per cell of what was varied."""
     name, of = study
     caption = VARIED[name].partition(" [")[0]
     unit = MILLISECONDS if name == "time-step" else NUMBER

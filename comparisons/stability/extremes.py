@@ -118,7 +118,7 @@ class _Maker:
             yield from (self._damped if name == "damping" else self._stepped)(self.period)
 
     def _models(self) -> dict[str, dict[str, Any]]:
-        """The settings of every model."""
+        """Return the settings of every model."""
         references = dict.fromkeys(("plate", "shell", self.reference))
         return {"lumped": self.lattice.settings, **{name: {"elements": self.elements} for name in references}}
 
@@ -207,13 +207,13 @@ def scaled(scene: Scene, name: str, factor: float) -> Scene:
 
 
 def _times(acting: Loading, factor: float) -> Any:
-    """A load or gravity, times a factor."""
+    """Return a load or gravity, times a factor."""
     table = acting.history or FactorTable(time=(0.0,), factor=(1.0,))
     return acting.replace(history=table.replace(factor=tuple(factor * sample for sample in table.factor)))
 
 
 def _row(cell: _Cell, outcomes: Mapping[str, Finished]) -> Row:
-    """A cell's row: how it ended, and its error where its reference has an answer too."""
+    """Return a cell's row: how it ended, and its error where its reference has an answer too."""
     row: Row = {"study": cell.study, "cell": cell.cell, "error": None, "iterations": None, "seconds": None}
     if cell.run is None:
         return {**row, "status": str(Status.REFUSED), "message": cell.refusal}
@@ -232,7 +232,8 @@ def _row(cell: _Cell, outcomes: Mapping[str, Finished]) -> Row:
 
 
 def _motion_error(row: Mapping[str, Any], truth: Mapping[str, Any]) -> float | None:
-    """The largest difference of the probes' displacements over the largest displacement, None at rest."""
+    """Return the largest difference of the probes' displacements over the largest displacement, None at
+    rest."""
     largest = off = 0.0
     for name, known in truth["probes"].items():
         for axis, values in enumerate(np.array(known).T):

@@ -12,7 +12,7 @@ from sheetbench.answers.figure_style import FigureStyle
 
 
 def compose(stability: Stability, style: FigureStyle) -> Figure:
-    """The figure."""
+    """Return the figure."""
     by_study = {
         name: [r for r in stability.rows if r["study"] == name] for name in VARIED if name != "damping"
     }

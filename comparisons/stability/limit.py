@@ -25,7 +25,7 @@ def system(
     precision: Any = "double",
     mass: Callable[[np.ndarray], np.ndarray] | None = None,
 ) -> System:
-    """The equations of motion. mass: changes the lumped masses (n,) [kg]."""
+    """Return the equations of motion. mass: changes the lumped masses (n,) [kg]."""
     problem = lumped.build_problem(scene, springs, precision=precision)
     equations = System(scene, problem)
     return equations if mass is None else System(scene, problem, mass(equations.lattice_mass))
@@ -38,13 +38,13 @@ def start(equations: System, u: np.ndarray) -> State:
 
 
 def noise(equations: System) -> np.ndarray:
-    """A random admissible displacement (n, 3) of 1e-6 of the layer distance."""
+    """Return a random admissible displacement (n, 3) of 1e-6 of the layer distance."""
     free = np.random.default_rng(0).standard_normal(equations.moving_part.shape[1])
     return SMALL * equations.assembly.lattice.spacing[2] * equations.expand(free)
 
 
 def holds(equations: System, step: float, integrator: str = "verlet") -> bool:
-    """Whether the energy stays bounded at this step of an explicit integrator [s]."""
+    """Return whether the energy stays bounded at this step of an explicit integrator [s]."""
     method = lumped.INTEGRATORS[integrator](equations, step)
     state = start(equations, noise(equations))
     first = energy(equations, state)
@@ -60,8 +60,8 @@ def holds(equations: System, step: float, integrator: str = "verlet") -> bool:
 
 
 def measured_limit(equations: System, guess: float, integrator: str = "verlet") -> float:
-    """The largest step at which an integrator holds [s], by bisection between half and twice the guess.
-    Raises ArithmeticError where it is not between them."""
+    """Return the largest step at which an integrator holds [s], by bisection between half and twice the
+    guess. Raises ArithmeticError where it is not between them."""
     low, high = 0.5 * guess, 2.0 * guess
     if not holds(equations, low, integrator) or holds(equations, high, integrator):
         raise ArithmeticError(f"no limit of stability between {low:.3g} s and {high:.3g} s")

@@ -19,7 +19,7 @@ KEYS = {"grid": "cells", "damping": "damping_ratio", "time-step": "step"}  # els
 
 
 def verdict(row: Row) -> str:
-    """How a cell ended: holds, off by more than `LARGE`, refuses, or fails."""
+    """Return how a cell ended: holds, off by more than `LARGE`, refuses, or fails."""
     if row["status"] == "converged":
         return "off" if (row["error"] or 0.0) > LARGE else "holds"
     return "refuses" if row["status"] in ("refused", "strain-outside-model") else "fails"
@@ -31,17 +31,17 @@ def place(row: Row) -> Any:
 
 
 def who(row: Row) -> str:
-    """The model or integrator of a cell."""
+    """Return the model or integrator of a cell."""
     return str(row["cell"].get("model") or row["cell"]["integrator"])
 
 
 def doubtful(row: Row) -> bool:
-    """Whether a row is converged and still off by more than LARGE."""
+    """Return whether a row is converged and still off by more than LARGE."""
     return row["status"] == "converged" and row.get("error") is not None and row["error"] > LARGE
 
 
 def percent(error: float | None) -> str:
-    """An error as it stands in a map or a text, in percent and without the sign."""
+    """Return an error as it stands in a map or a text, in percent and without the sign."""
     if error is None:
         return ""
     if error < 5e-5:

@@ -46,7 +46,7 @@ def run(scene: dict[str, Any], lattice: dict[str, Any], integrator: str, period:
 
 
 def rests_flat(scene: Scene) -> bool:
-    """Whether the flat sheet is an equilibrium of the scene without its loads."""
+    """Return whether the flat sheet is an equilibrium of the scene without its loads."""
     return not scene.actuators and all(
         isinstance(support, Clamped | Hinged | Held)
         and support.motion is None

@@ -35,7 +35,7 @@ THEORY: Any = {"color": "#b2182b", "lw": 1.3, "zorder": 5}
 
 
 def outcome(row: Row) -> str:
-    """The colour key of a row."""
+    """Return the colour key of a row."""
     error = row.get("error")
     if row["status"] != "converged" or error is None:
         return str(row["status"])  # "converged" where there is no reference to be off from

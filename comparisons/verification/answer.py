@@ -59,7 +59,7 @@ class Verification(Answer):
         return [*self.by_case(), *self._laws()]
 
     def by_case(self) -> Iterator[Table]:
-        """A table for every case and mesh, with what it is."""
+        """Return a table for every case and mesh, with what it is."""
         for (case, mesh), rows in groupby(self.rows, key=lambda row: (row.case, row.mesh)):
             title = f"{case}: {CASES[case].title}; {mesh}"
             yield Table.of(Row, rows, title, "verification", fields=FIELDS, details=("case", "mesh"))

@@ -45,5 +45,5 @@ def compose(rows: Sequence[Row], style: FigureStyle = PLAIN) -> Figure:
 
 
 def _series(row: Row) -> tuple[str, float]:
-    """The model and Poisson's ratio of a row."""
+    """Return the model and Poisson's ratio of a row."""
     return MODELS[row.case], row.at["ν"]

@@ -16,7 +16,7 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def terminal(text: str, keep: str = "") -> str:
-    """The text with its control characters spelled out, as `\\x1b`, but for those in `keep`."""
+    """Return the text with its control characters spelled out, as `\\x1b`, but for those in `keep`."""
     return "".join(_spelled(c) if c not in keep and _acts(c) else c for c in text)
 
 
@@ -29,22 +29,23 @@ def _spelled(character: str) -> str:
 
 
 def html(text: str) -> str:
-    """The text without tags, for Markdown that is ours; lines stay lines."""
+    """Return the text without tags, for Markdown that is ours; lines stay lines."""
     plain = terminal(text, keep="\n")
     return plain.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
 def markdown(text: str) -> str:
-    """The text on one line, without markup and links."""
+    """Return the text on one line, without markup and links."""
     line = html(" ".join(text.split()))
     return re.sub(r"([\\`*]|\](?=[(\[:])|(?<!\w)_|_(?!\w)|^[#>+-](?=\s))", r"\\\1", line)
 
 
 def cell(text: str) -> str:
-    """The text in a cell of a Markdown table."""
+    """Return the text in a cell of a Markdown table."""
     return markdown(text).replace("|", "\\|")
 
 
 def csv_cell(value: Any) -> Any:
-    """The value of a CSV cell: text that a spreadsheet would take for a formula starts with an apostrophe."""
+    """Return the value of a CSV cell: text that a spreadsheet would take for a formula starts with an
+    apostrophe."""
     return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value

@@ -39,7 +39,7 @@ PLAIN = FigureStyle()
 
 
 def parse_figure(text: str | None) -> FigureStyle:
-    """The style that `--figure` asks for: formats with commas between them, a width after a colon, as
+    """Return the style that `--figure` asks for: formats with commas between them, a width after a colon, as
     `pdf`, `pdf,png` or `svg:single`. Raises BadInput, naming the option."""
     if text is None:
         return PLAIN

@@ -22,7 +22,7 @@ def write_text(path: Path, text: str) -> None:
 
 
 def folder(path: Path | str, option: str = "--out") -> Path:
-    """The folder, made if need be. Raises BadInput where it cannot be, or not be written to."""
+    """Return the folder, made if need be. Raises BadInput where it cannot be, or not be written to."""
     if path == "":
         raise BadInput(f"{option} = '': name a folder; '.' is the current one")
     made = Path(path)
@@ -44,7 +44,7 @@ def digest(text: str) -> str:
 
 
 def plain(value: Any) -> Any:
-    """The same data as JSON knows it: arrays as lists, numbers that are not finite as null."""
+    """Return the same data as JSON knows it: arrays as lists, numbers that are not finite as null."""
     if isinstance(value, dict):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, np.ndarray):

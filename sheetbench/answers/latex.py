@@ -35,7 +35,7 @@ _ACCENTS = "\u0300\u0301\u0302\u0303\u0304\u0306\u0307\u0308\u030a\u030b\u030c\u
 
 
 def latex(text: str) -> str:
-    """The text with what LaTeX reads as its own made plain, on one line."""
+    """Return the text with what LaTeX reads as its own made plain, on one line."""
     parts = terminal(" ".join(text.split())).split("--")  # which would become a dash
     return "-{}-".join("".join(map(_shown, part)) for part in parts).replace("$$", "${}$")
 
@@ -49,6 +49,6 @@ def _shown(character: str) -> str:
 
 
 def _accented(character: str) -> bool:
-    """Whether it is a letter with one accent that every encoding of LaTeX can put together."""
+    """Return whether it is a letter with one accent that every encoding of LaTeX can put together."""
     parts = unicodedata.normalize("NFD", character)
     return len(parts) == 2 and parts[0].isascii() and parts[0].isalpha() and parts[1] in _ACCENTS

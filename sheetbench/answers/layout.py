@@ -59,13 +59,14 @@ class _Strip:
         return max(self.narrow, cell_len(self.name))
 
     def head(self, width: int) -> list[str]:
-        """The name, broken to a width, over the unit."""
+        """Return the name, broken to a width, over the unit."""
         lines = wrap(self.name, width, break_long_words=False)
         return [*lines, self.unit] if self.unit else lines
 
 
 def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal) -> list[Block]:
-    """The table without its details, in blocks of at most `width` columns of text; without one, in one.
+    """Return the table without its details, in blocks of at most `width` columns of text; without one, in
+    one.
 
     say: what makes a text fit to be shown, before it is laid out.
     """
@@ -87,7 +88,7 @@ def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal
 
 
 def text(table: Table, most: int | None = None) -> str:
-    """The table as text, its caption above it, as wide as the terminal; most: rows."""
+    """Return the table as text, its caption above it, as wide as the terminal; most: rows."""
     width = get_terminal_size((100, 24)).columns
     left_out = len(table.rows[most:]) if most else 0
     table = replace(table, rows=table.rows[:most])
@@ -101,7 +102,7 @@ def _fits(strips: list[_Strip], width: int | None) -> bool:
 
 
 def _stacked(strips: list[_Strip], naming: int, width: int | None) -> list[list[_Strip]]:
-    """The columns in as few blocks as the width allows, the `naming` ones in front of each."""
+    """Return the columns in as few blocks as the width allows, the `naming` ones in front of each."""
     if _fits(strips, width):
         return [strips]
     while naming > 1 and not _fits(strips[:naming], 2 * (width or 0) // 3):
@@ -116,7 +117,7 @@ def _stacked(strips: list[_Strip], naming: int, width: int | None) -> list[list[
 
 
 def _heads(strips: list[_Strip], width: int | None) -> list[list[str]]:
-    """The headings in lines: what room there is goes to the tallest first."""
+    """Return the headings in lines: what room there is goes to the tallest first."""
     if width is None:
         return [strip.head(strip.wide) for strip in strips]
     widths = [strip.narrow for strip in strips]

@@ -73,7 +73,7 @@ class Picture:
         return None
 
     def with_style(self, style: FigureStyle) -> Picture:
-        """The picture in another style, and in its formats where it names some."""
+        """Return the picture in another style, and in its formats where it names some."""
         return replace(self, style=style, formats=style.formats or self.formats)
 
 
@@ -92,7 +92,7 @@ class Film(Picture):
         return None
 
     def with_style(self, style: FigureStyle) -> Picture:
-        """The same film."""
+        """Return the same film."""
         return self
 
 
@@ -145,7 +145,7 @@ class Report:
         return tuple(why for why in missing if why)
 
     def with_style(self, style: FigureStyle) -> Report:
-        """The report with its pictures in another style."""
+        """Return the report with its pictures in another style."""
         return replace(self, pictures=tuple(picture.with_style(style) for picture in self.pictures))
 
     def __repr__(self) -> str:
@@ -166,7 +166,8 @@ class Report:
         return f"<h3>{html(heading)}</h3>{''.join(table._repr_html_() for table in self.shown)}{notes}"
 
     def files(self, made_with: str = "") -> dict[str, Write]:
-        """Every file but the pictures, by name, with what writes it. made_with: a line under the page."""
+        """Return every file but the pictures, by name, with what writes it. made_with: a line under the
+        page."""
         page = self.page or self.name
         texts = {
             f"{self.name}.json": to_json(self.document),
@@ -177,7 +178,8 @@ class Report:
         return {**self.attachments, **{name: partial(write_text, text=text) for name, text in texts.items()}}
 
     def to_markdown(self, made_with: str = "") -> str:
-        """A page with all tables, notes and complaints; a table's text comes with the picture of its name."""
+        """Return a page with all tables, notes and complaints; a table's text comes with the picture of its
+        name."""
         drawn = {picture.name: picture.names[0] for picture in self.pictures}
         parts = [f"# {markdown(self.title)}\n"]
         parts += [f"{markdown(said)}\n" for said in (self.subtitle, self.lead) if said]
@@ -195,7 +197,8 @@ class Report:
         return "\n".join([*parts, f"{made_with}\n"] if made_with else parts)
 
     def words(self) -> dict[str, Any]:
-        """What the files do not say by themselves, ready for JSON: words, headings of tables, pictures.
+        """Return what the files do not say by themselves, ready for JSON: words, headings of tables,
+        pictures.
 
         Tables without a file of their own come with their rows.
         """
@@ -212,6 +215,6 @@ class Report:
         }
 
     def to_latex(self) -> str:
-        """All tables without their details."""
+        """Return all tables without their details."""
         tables = "\n".join(table.to_latex() for table in self.tables)
         return f"% needs \\usepackage{{booktabs}} in the preamble\n\n{tables}"

@@ -36,7 +36,7 @@ class Unit(NamedTuple):
     scale: float = 1.0
 
     def __call__(self, form: str, name: str = "", *, detail: bool = False) -> Column:
-        """A column of numbers in this unit; without a name it has that of its field."""
+        """Return a column of numbers in this unit; without a name it has that of its field."""
         return Column(name, self.si, self.shown, self.scale, form, detail=detail)
 
 
@@ -48,7 +48,7 @@ _SHOWN = {unit.si: unit for unit in (MEGAPASCALS, MILLIMETRES, MILLISECONDS)}
 
 
 def unit(si: str) -> Unit:
-    """A unit as a cell, shown as everywhere else: pressures in MPa, lengths in mm, times in ms."""
+    """Return a unit as a cell, shown as everywhere else: pressures in MPa, lengths in mm, times in ms."""
     return _SHOWN.get(si, Unit(si, si))
 
 
@@ -71,7 +71,8 @@ class Column:
     none: str = ""
 
     def of(self, value: Any) -> Any:
-        """A value of a row as a cell: true and false in words, a grid as 9×9×2, texts with commas between."""
+        """Return a value of a row as a cell: true and false in words, a grid as 9×9×2, texts with commas
+        between."""
         if isinstance(value, bool | np.bool_):
             return self.words[not value]
         if isinstance(value, list | tuple) and not isinstance(value, Unit):
@@ -85,7 +86,7 @@ class Column:
         return bool(self.form)
 
     def header(self, shown: bool) -> str:
-        """The name with its unit in brackets."""
+        """Return the name with its unit in brackets."""
         unit = self.bracketed_unit if shown else f"[{self.unit}]" * bool(self.unit)
         return f"{self.name} {unit}".rstrip()
 
@@ -95,7 +96,7 @@ class Column:
         return f"[{self.shown_unit}]" * bool(self.shown_unit)
 
     def show(self, value: Any, scale: float = 1.0) -> str:
-        """A value as people read it; a dash where there is none.
+        """Return a value as people read it; a dash where there is none.
 
         scale: that of the row's own unit, for columns that have none themselves.
         """
@@ -112,7 +113,7 @@ class Column:
 
 @cache
 def _declared(kind: type) -> dict[str, Column]:
-    """The columns of a row's class by field and property."""
+    """Return the columns of a row's class by field and property."""
     hints = get_type_hints(kind, include_extras=True)
     found = {field.name: hints[field.name] for field in dataclass_fields(kind)}
     for name, value in vars(kind).items():
@@ -128,12 +129,12 @@ def _column(name: str, hint: Any) -> Column:
 
 
 def number(value: float, form: str = "g") -> str:
-    """A number as people read it: with a minus sign, not a hyphen."""
+    """Return a number as people read it: with a minus sign, not a hyphen."""
     return format(value, form).replace("-", "−")
 
 
 def quantity(value: float, si: str, form: str = ".4g") -> str:
-    """A value in an SI unit as people read it, in the unit of `unit`."""
+    """Return a value in an SI unit as people read it, in the unit of `unit`."""
     shown = unit(si)
     return f"{number(value * shown.scale, form)} {shown.shown}".rstrip()
 
@@ -158,7 +159,8 @@ class Table:
         cls, kind: type, rows: Iterable[Any], caption: str, name: str = "", *, fields: Sequence[str] = (),
         without: Sequence[str] = (), details: Sequence[str] = (), grouped: bool = False, text: str = "",
     ) -> Table:  # fmt: skip
-        """The table of rows, dataclasses of one kind: a column a field, or those in `fields`, properties too.
+        """Return the table of rows, dataclasses of one kind: a column a field, or those in `fields`,
+        properties too.
 
         A field's column is in its annotation; without one it holds words under the field's name. A field that
         holds a mapping is a column a key: a name, or a Column itself. without: fields that are left out;
@@ -181,7 +183,7 @@ class Table:
         return cls(caption, tuple(columns), tuple(map(tuple, cells)), name, grouped, text)
 
     def to_csv(self) -> str:
-        """All digits in SI units; an empty cell where there is no value."""
+        """Return all digits in SI units; an empty cell where there is no value."""
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(csv_cell(column.header(shown=False)) for column in self.columns)
@@ -190,8 +192,8 @@ class Table:
         return text.getvalue()
 
     def to_pandas(self) -> pandas.DataFrame:
-        """All values in SI units as a data frame, with the unit in a column's name. Raises BadInput where
-        pandas is not installed."""
+        """Return all values in SI units as a data frame, with the unit in a column's name. Raises BadInput
+        where pandas is not installed."""
         try:
             import pandas
         except ModuleNotFoundError:
@@ -215,21 +217,22 @@ class Table:
         return f"<table><caption>{html(self.caption)}</caption><tr>{heads}</tr>{body}</table>"
 
     def to_markdown(self) -> str:
-        """A pipe table with shown units, its caption above it."""
+        """Return a pipe table with shown units, its caption above it."""
         headers = [cell(column.header(shown=True)) for column in self.columns]
         rules = ["---:" if column.numeric else "---" for column in self.columns]
         lines = [headers, rules, *([cell(shown) for shown in row] for row in self.shown_rows())]
         return f"{markdown(self.caption)}\n\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
     def words(self) -> dict[str, Any]:
-        """What the CSV file does not say, ready for JSON; where there is none, the rows too."""
+        """Return what the CSV file does not say, ready for JSON; where there is none, the rows too."""
         said = {"name": self.name, "caption": self.caption, "text": self.text, "grouped": self.grouped}
         units = [any(isinstance(row[i], Unit) for row in self.rows) for i in range(len(self.columns))]
         said |= {"columns": [{**asdict(c), "units": u} for c, u in zip(self.columns, units, strict=True)]}
         return said if self.name else {**said, "rows": [list(row) for row in self.rows]}
 
     def to_latex(self) -> str:
-        """A booktabs tabular with shown units and without details, its caption as a comment above it."""
+        """Return a booktabs tabular with shown units and without details, its caption as a comment above
+        it."""
         brief = self.brief()
         headers = [latex(column.header(shown=True)) for column in brief.columns]
         kinds = "".join("r" if column.numeric else "l" for column in brief.columns)
@@ -249,14 +252,14 @@ class Table:
         )
 
     def brief(self) -> Table:
-        """The table without its details."""
+        """Return the table without its details."""
         kept = [i for i, column in enumerate(self.columns) if not column.detail]
         rows = tuple(tuple(row[i] for i in kept) for row in self.rows)
         columns = tuple(self.columns[i] for i in kept)
         return Table(self.caption, columns, rows, self.name, self.grouped, self.text)
 
     def shown_rows(self) -> list[list[str]]:
-        """The rows as people read them."""
+        """Return the rows as people read them."""
         shown = []
         for row in self.rows:
             scale = next((value.scale for value in row if isinstance(value, Unit)), 1.0)

@@ -1,1 +1,1 @@
-"""CalculiX, run as the program `ccx`: the deck it is given, the results it leaves, the model of both."""
+"""CalculiX, run as the program `ccx`: its input deck, its results, and the model made of both."""

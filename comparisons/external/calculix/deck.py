@@ -34,7 +34,7 @@ BELOW, ABOVE = "P1", "P2"  # faces of a brick
 
 
 def deck(scene: Scene, bricks: Bricks, linear: bool) -> str:
-    """The text of the deck; linear: without NLGEOM."""
+    """Return the text of the deck; linear: without NLGEOM."""
     material, supports = scene.material, held(scene, bricks, linear)
     pull = np.einsum("nrc,nc->nr", supports.axes, forces(scene, bricks))
     lines = ["*NODE, NSET=NALL", *_rows(bricks.positions, 1)]

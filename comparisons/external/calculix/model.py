@@ -54,11 +54,11 @@ class CalculiX:
     }
 
     def version(self) -> str | None:
-        """The program's, None where it is not there."""
+        """Return the program's, None where it is not there."""
         return _version(shutil.which(PROGRAM))
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """The static answer. Raises BadInput without the program or for settings it cannot use."""
+        """Return the static answer. Raises BadInput without the program or for settings it cannot use."""
         require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
         program = shutil.which(PROGRAM)
         if program is None:
@@ -90,7 +90,7 @@ class CalculiX:
 
 
 def _of_volume(scene: Scene, linear: bool) -> str:
-    """Why a rubber is none of CalculiX', "" if it is."""
+    """Return why a rubber is none of CalculiX', "" if it is."""
     material = scene.material
     if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):
         return ""

@@ -1,4 +1,4 @@
-"""What `ccx` leaves: displacements in the .dat file, the course of the step in the .sta file."""
+"""Results of `ccx`: displacements in the .dat file, load factors in the .sta file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _HEADING = re.compile(r"^ *displacements .* and time +(\S+) *$", re.MULTILINE)
 
 
 def displacements(dat: str, nodes: int) -> tuple[float, np.ndarray]:
-    """The load factor of the last increment that was kept, and its displacement (nodes, 3) [m].
+    """Return the load factor of the last increment that was kept, and its displacement (nodes, 3) [m].
 
     Raises Failed for a file that does not have it.
     """

@@ -1,1 +1,1 @@
-"""Kratos, run in a process of its own: the problem it is given, the process, and the model made of both."""
+"""Kratos, run in a process of its own: the problem as arrays, the process, and the model made of both."""

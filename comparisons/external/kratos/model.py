@@ -60,7 +60,7 @@ class Kratos:
             return None
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """The static answer. Raises BadInput without Kratos or for settings it cannot use."""
+        """Return the static answer. Raises BadInput without Kratos or for settings it cannot use."""
         elements = settings["elements"]
         if type(elements) is not int or elements < 1:
             raise BadInput(f"elements = {elements!r}: a whole number along the shorter side, at least 1")
@@ -105,7 +105,7 @@ class Kratos:
 
 
 def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:
-    """What the process answers. Raises Failed where it does not."""
+    """Return what the process answers. Raises Failed where it does not."""
     with TemporaryDirectory(prefix="sheetbench-kratos-") as kept:
         question, answer = Path(kept) / "problem.npz", Path(kept) / "answer.npz"
         np.savez(question, **given)

@@ -1,4 +1,4 @@
-"""What Kratos is given: triangles of a flat sheet, what is held and what pulls, as arrays.
+"""The problem that Kratos solves, as arrays: triangles of a flat sheet, supports and forces.
 
 Cells of a grid in halves, diagonals by turns, so that the mesh mirrors itself where the number of cells is
 even. A node has the unknowns of displacement and rotation vector. A clamp holds all six, a hinge the
@@ -89,7 +89,7 @@ class Triangles:
 
 
 def problem(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> dict[str, np.ndarray]:
-    """The arrays that `comparisons.external.kratos.process` reads."""
+    """Return the arrays that `comparisons.external.kratos.process` reads."""
     held, value = _held(scene, mesh, load_factors)
     material, none = scene.material, np.zeros(3)
     return {
@@ -106,7 +106,7 @@ def problem(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> dict[str
 
 
 def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Which unknowns are held (n, 6), and at what at every load factor (steps, n, 6) [m, rad]."""
+    """Return which unknowns are held (n, 6), and at what at every load factor (steps, n, 6) [m, rad]."""
     held = np.zeros((len(mesh.positions), 6), dtype=bool)
     value = np.zeros((len(load_factors), *held.shape))
     for support in scene.supports:

@@ -21,7 +21,7 @@ COMPONENTS = "XYZ"
 
 
 def solve(problem: Any) -> dict[str, Any]:
-    """The answer to the problem's arrays."""
+    """Return the answer to the problem's arrays."""
     import KratosMultiphysics as kratos
     import KratosMultiphysics.StructuralMechanicsApplication as mechanics
 

@@ -44,8 +44,8 @@ class Curve:
 
 
 def read(text: str, area: float | None = None, up_to: float | None = None) -> Curve:
-    """The curve of `FILE`, uniaxial, or `TEST=FILE`; area [m²]: undeformed cross-section, where forces were
-    measured; up_to: the largest stretch to take. Raises BadInput naming file, line and remedy."""
+    """Return the curve of `FILE`, uniaxial, or `TEST=FILE`; area [m²]: undeformed cross-section, where forces
+    were measured; up_to: the largest stretch to take. Raises BadInput naming file, line and remedy."""
     test, _, name = text.rpartition("=") if text.partition("=")[0] in TESTS else ("uniaxial", "", text)
     path = Path(name)
     columns = read_columns(path, UNITS)

@@ -36,7 +36,7 @@ KEYS = {"neo-hookean": ("young",), **{law: words.keys for law, words in WORDS.it
 
 
 def energy(law: str, constants: Sequence[float]) -> Energy:
-    """The energy of a law's constants; neo-Hooke's is Young's modulus of an incompressible sheet."""
+    """Return the energy of a law's constants; neo-Hooke's is Young's modulus of an incompressible sheet."""
     return Energy(constants[0] / 6.0) if law == "neo-hookean" else WORDS[law].energy(*constants)
 
 
@@ -52,7 +52,7 @@ def stress(of: Energy, test: str, stretch: np.ndarray) -> np.ndarray:
 
 
 def largest_x(curve: Curve) -> float:
-    """The largest I₁ − 3 of a curve: half the stress of f′ = 1 is λ − w, and x its own integral."""
+    """Return the largest I₁ − 3 of a curve: half the stress of f′ = 1 is λ − w, and x its own integral."""
     s = curve.stretch
     x = {"uniaxial": s**2 + 2.0 / s, "pure-shear": s**2 + s**-2.0 + 1.0, "equibiaxial": 2.0 * s**2 + s**-4.0}
     return float(x[curve.test].max() - 3.0)
@@ -81,7 +81,8 @@ class Fit:
 
 
 def fit(law: str, curves: Sequence[Curve], free: bool = False) -> Fit | None:
-    """The law's constants nearest to the curves, `free` of bounds; None where there are too few rows."""
+    """Return the law's constants nearest to the curves, `free` of bounds; None where there are too few
+    rows."""
     scale = [float(np.abs(curve.stress).max()) for curve in curves]
     rows, keys = sum(len(curve.stretch) for curve in curves), KEYS[law]
     if rows < len(keys) + 3:
@@ -132,8 +133,8 @@ def fit(law: str, curves: Sequence[Curve], free: bool = False) -> Fit | None:
 
 
 def chosen(fits: Sequence[Fit], curves: Sequence[Curve]) -> Fit | None:
-    """The law that the curves ask for: of few constants among those that fit well. One kind of test does not
-    tell c1 from c2 of mooney-rivlin, which is then left out; so is a limit that is not seen."""
+    """Return the law that the curves ask for: of few constants among those that fit well. One kind of test
+    does not tell c1 from c2 of mooney-rivlin, which is then left out; so is a limit that is not seen."""
     several = len({curve.test for curve in curves}) > 1
     able = [f for f in fits if not f.unstable and "limit" not in f.bound]
     able = [f for f in able if several or f.law != "mooney-rivlin"]

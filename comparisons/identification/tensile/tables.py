@@ -38,7 +38,7 @@ def _named(fits: Sequence[Fit], free: Sequence[Fit]) -> list[tuple[str, Fit]]:
 
 
 def constants(fits: Sequence[Fit], free: Sequence[Fit]) -> Table:
-    """A row per constant of every law."""
+    """Return a row per constant of every law."""
     rows = [
         ConstantRow(law, key, unit("" if key == "limit" else "Pa"), value, *fit.intervals[key])
         for law, fit in _named(fits, free)
@@ -48,7 +48,7 @@ def constants(fits: Sequence[Fit], free: Sequence[Fit]) -> Table:
 
 
 def misfits(fits: Sequence[Fit], free: Sequence[Fit], chosen: Fit | None) -> Table:
-    """A row per law."""
+    """Return a row per law."""
     rows = [
         MisfitRow(law, f.young, f.rms, f.largest, "← the data ask for it" if f is chosen else _against(f))
         for law, f in _named(fits, free)

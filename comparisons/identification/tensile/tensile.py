@@ -56,7 +56,7 @@ class TensileFit(Answer):
         return at, (min(foretold), max(foretold))
 
     def material(self, density: float = 1000.0, poisson: float = POISSON) -> Material:
-        """The law as a scene's material. Raises BadInput where there is none."""
+        """Return the law as a scene's material. Raises BadInput where there is none."""
         if self.law is None:
             raise BadInput("tensile: no law fits these curves stably")
         values: dict[str, Any] = {"law": self.law.law, "poisson": poisson, "density": density}
@@ -66,7 +66,7 @@ class TensileFit(Answer):
         return Material.model_validate(values | constants)
 
     def document(self) -> dict[str, Any]:
-        """The JSON document: SI units."""
+        """Return the JSON document: SI units."""
         return {
             "law": self.law.law if self.law else None,
             "covered": {kind: list(ends) for kind, ends in self.covered.items()},
@@ -91,7 +91,7 @@ class TensileFit(Answer):
         return (Picture("tensile", "comparisons.identification.tensile.figure:compose", (self,)),)
 
     def notes(self) -> list[str]:
-        """What to put into a scene, and what the curves leave open."""
+        """Return what to put into a scene, and what the curves leave open."""
         said = []
         mooney = next((f for f in self.fits if f.law == "mooney-rivlin"), None)
         if mooney is not None and len(self.covered) == 1:

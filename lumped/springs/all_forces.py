@@ -24,7 +24,7 @@ from lumped.springs.link_tiles import pull_ends, resist_links, stretch_direction
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, ROWS
 
-DIRECTIONAL, CELLS = np.uint64(kinds.DIRECTIONAL), np.uint64(kinds.CELLS)
+DIRECTIONAL, CELLS, FACES = np.uint64(kinds.DIRECTIONAL), np.uint64(kinds.CELLS), np.uint64(kinds.FACES)
 UINT_ONE = np.uint64(1)
 R6, R11 = ROWS[6], ROWS[11]
 
@@ -127,6 +127,8 @@ def _pass(
                 energy += stretch_cells(
                     AreaAndStrains(rest), u, (a, b, c, d), size, share, t, blocks, tile, at
                 )
+            elif kind == FACES:
+                energy += stretch_cells(packing.face, u, (a, b, c, d), size, share, t, blocks, tile, at)
             else:
                 energy += stretch_cells(packing.law, u, (a, b, c, d), size, share, t, blocks, tile, at)
                 push_warp(packing.law, (a, b, c, d), size, blocks, tile, force)

@@ -15,6 +15,7 @@ import numpy as np
 from numba import njit
 from numba.extending import overload
 
+from lumped.springs.faces import face, mean_face, stiffness_of_face
 from lumped.springs.laws import (
     Constants,
     Four,
@@ -33,12 +34,18 @@ class AreaAndStrains(NamedTuple):
 
 
 class Rubber(NamedTuple):
-    """constants: (c, 14) of every cell's `rubber`."""
+    """constants: (c, 13) of every cell's `rubber`."""
 
     constants: np.ndarray
 
 
-Tag = AreaAndStrains | Rubber
+class Face(NamedTuple):
+    """constants: (c, 5) of every upright face's `face`."""
+
+    constants: np.ndarray
+
+
+Tag = AreaAndStrains | Rubber | Face
 
 
 @njit(cache=True, error_model="numpy")
@@ -47,10 +54,15 @@ def _four(k: np.ndarray, c: int) -> Constants:
 
 
 @njit(cache=True, error_model="numpy")
-def _fourteen(k: np.ndarray, c: int) -> Constants:
+def _five(k: np.ndarray, c: int) -> Constants:
+    return k[c, 0], k[c, 1], k[c, 2], k[c, 3], k[c, 4]
+
+
+@njit(cache=True, error_model="numpy")
+def _thirteen(k: np.ndarray, c: int) -> Constants:
     return (
         k[c, 0], k[c, 1], k[c, 2], k[c, 3], k[c, 4], k[c, 5], k[c, 6], k[c, 7], k[c, 8], k[c, 9], k[c, 10],
-        k[c, 11], k[c, 12], k[c, 13],
+        k[c, 11], k[c, 12],
     )  # fmt: skip
 
 
@@ -88,7 +100,6 @@ def _parts_of_rubber(_stiffness: np.ndarray, others: np.ndarray, area: np.ndarra
     return {
         "rubber": np.column_stack([others[:, :5] / area[:, None], others[:, 5:8]]),
         "strain": np.column_stack([none, none, others[:, 8] * area]),
-        "face": others[:, 9:] * area[:, None],
     }
 
 
@@ -108,18 +119,29 @@ RUBBER = Law(
     rubber,
     stiffness_of_rubber,
     mean_rubber,
-    _fourteen,
+    _thirteen,
     4,
     True,
     _parts_of_rubber,
     (  # neo-hookean, mooney-rivlin, yeoh, gent
-        (164.0, 132.0, 140.0, 87.0, 50.0, 0.0, 0.0, 0.0, 900.0, 0.0, 68.0, 60.0, -13.0, 25.0),
-        (141.0, 152.0, 160.0, 107.0, 40.0, 20.0, 0.0, 0.0, 500.0, 0.0, 68.0, 60.0, -13.0, 25.0),
-        (153.0, 132.0, 140.0, 87.0, 50.0, 0.0, -3.0, 5.0, 700.0, 0.0, 68.0, 60.0, -13.0, 25.0),
-        (158.0, 132.0, 140.0, 87.0, 50.0, 0.0, 0.0, 0.0, 700.0, 3.0, 68.0, 60.0, -13.0, 25.0),
+        (164.0, 132.0, 140.0, 87.0, 50.0, 0.0, 0.0, 0.0, 900.0, 0.0, 68.0, 60.0, -13.0),
+        (141.0, 152.0, 160.0, 107.0, 40.0, 20.0, 0.0, 0.0, 500.0, 0.0, 68.0, 60.0, -13.0),
+        (153.0, 132.0, 140.0, 87.0, 50.0, 0.0, -3.0, 5.0, 700.0, 0.0, 68.0, 60.0, -13.0),
+        (158.0, 132.0, 140.0, 87.0, 50.0, 0.0, 0.0, 0.0, 700.0, 3.0, 68.0, 60.0, -13.0),
     ),
 )
-LAWS = (AREA_AND_STRAINS, RUBBER)
+FACE = Law(
+    Face,
+    face,
+    stiffness_of_face,
+    mean_face,
+    _five,
+    3,
+    True,
+    lambda _stiffness, others, area: {"face": others * area[:, None]},
+    ((0.0, 0.0, 0.0, 25.0, 25.0),),
+)
+LAWS = (AREA_AND_STRAINS, RUBBER, FACE)
 _OF = {law.tag: law for law in LAWS}
 
 

@@ -3,8 +3,9 @@
 Rows of a tile: changes of the mean sides a and b, or their velocities (0 to 5), and the forces on a and b (6
 to 11), of a law of s those on q (15 to 17). Rows of rest data: a, b (0 to 5), a·a, b·b, a·b (6 to 8), the
 area (9), and four constants of the springs' law (10 to 13) and of the dampers' (14 to 17); of rubber
-(`lumped.springs.rubber`) those are k₄ to k₇, and k₈ to k₁₃ are in more rows (18 to 23). Kept of every cell: a
-and b, and n/A of its area (`lumped.springs.laws`). A place without a cell is a unit square without stiffness.
+(`lumped.springs.rubber`) those are k₄ to k₇, and k₈ to k₁₂ are in more rows (18 to 22); of faces the first is
+k₄. Kept of every cell: a and b, and n/A of its area (`lumped.springs.laws`). A place without a cell is a unit
+square without stiffness.
 """
 
 from __future__ import annotations
@@ -16,13 +17,13 @@ import numpy as np
 from numba import njit
 from numba.extending import overload
 
-from lumped.springs.cell_laws import AreaAndStrains, Rubber, Tag, measures, respond
+from lumped.springs.cell_laws import AreaAndStrains, Face, Rubber, Tag, measures, respond
 from lumped.springs.laws import Constants
 from lumped.springs.tiles import FORCE_X, FORCE_Y, FORCE_Z, GIVEN, KEPT, LANES, OPTIONS, ROW, ROWS
 from sheetbench.numerics.memory import load, store
 
 (R0, R1, R2, R3, R4, R5, R6, R7, R8, R9, R10, R11, R12, R13, R14, R15, R16, R17) = ROWS[:18]
-DATA = {AreaAndStrains: 18, Rubber: 24}  # rows of rest data
+DATA = {AreaAndStrains: 18, Rubber: 23, Face: 18}  # rows of rest data
 USED, SHAPE = 18, 9  # rows of a tile, of what is kept
 HALF = 0.5
 Places = tuple[int, int, int, int]
@@ -149,6 +150,7 @@ def tile_constants(law: Tag, rest: np.ndarray, t: int, i: int) -> Any:
 @overload(tile_constants, strict=False)
 def _tile_constants(law: Any, rest: Any, t: Any, i: Any) -> Any:
     return {AreaAndStrains: lambda law, rest, t, i: _four(rest, t, i),
+            Face: lambda law, rest, t, i: _face(rest, t, i),
             Rubber: lambda law, rest, t, i: _rubber(rest, t, i)}[law.instance_class]  # fmt: skip
 
 
@@ -168,8 +170,13 @@ def _rubber(rest: np.ndarray, t: int, i: int) -> Constants:
         load(GIVEN, rest, t + R10 + i), load(GIVEN, rest, t + R11 + i), load(GIVEN, rest, t + R12 + i),
         load(GIVEN, rest, t + R13 + i), load(GIVEN, rest, t + r[18] + i), load(GIVEN, rest, t + r[19] + i),
         load(GIVEN, rest, t + r[20] + i), load(GIVEN, rest, t + r[21] + i), load(GIVEN, rest, t + r[22] + i),
-        load(GIVEN, rest, t + r[23] + i),
     )  # fmt: skip
+
+
+@njit(**OPTIONS)
+def _face(rest: np.ndarray, t: int, i: int) -> Constants:
+    none = rest.dtype.type(0.0)
+    return none, none, none, none, load(GIVEN, rest, t + R10 + i)
 
 
 @njit(**OPTIONS)

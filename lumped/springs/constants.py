@@ -85,7 +85,7 @@ def of_rubber(
     springs: SpringSet, sides: np.ndarray, area: np.ndarray, twist: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (c, 4) [N/m] of the small strains of a layer's plan cells that are rubber membranes, less
-    that of their axial links, and what else `lumped.springs.rubber` takes of them (c, 10). sides (c, 2, 3)
+    that of their axial links, and what else `lumped.springs.rubber` takes of them (c, 9). sides (c, 2, 3)
     [m], area (c,) [m²]; twist: (c,) [N/m] that edges add to the shear."""
     count = len(area)
     shear, volume, c01, c20, c30, limit = (
@@ -99,7 +99,7 @@ def of_rubber(
     ratio = lame / modulus
     stiffness = np.column_stack([2.0 * modulus * ratio / (2.0 + ratio), *stretch, modulus + twist])
     energy = np.column_stack([c10, c01, c20, c30, volume]) * area[:, None]
-    return stiffness, np.column_stack([energy, limit, *axial, twist / area, np.zeros(count)])
+    return stiffness, np.column_stack([energy, limit, *axial, twist / area])
 
 
 def of_edge_cells(springs: SpringSet, grid: tuple[int, int, int], twisting: frozenset[str]) -> np.ndarray:

@@ -16,7 +16,7 @@ import numpy as np
 from lumped.lattice import Lattice
 from lumped.pattern import Pattern
 from lumped.springs import by_cell, cells, constants, directional, laws, links
-from lumped.springs.cell_laws import AREA_AND_STRAINS, RUBBER, Law
+from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, Law
 from lumped.springs.cells import CellArrays
 from lumped.springs.family import Dampers, Family
 from lumped.springs.links import LinkArrays
@@ -253,10 +253,10 @@ def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
         per_area = np.vstack([constants.along_each(springs.face_shear, count), diagonal])
         per_area = per_area[faces.axis[:, None], faces.cells]
         stored = per_area * lattice.cell_areas.ravel()[faces.cells]
-        stiffness, others = np.zeros((len(nodes), 4)), np.zeros((len(nodes), 10))
+        stiffness = np.zeros((len(nodes), 4))
         stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
-        others[:, 9] = stiffness[:, 3] / area
-        yield Cells(nodes, stiffness, slots, sides, area, ("face_shear", ""), True, RUBBER, others)
+        others = stiffness[:, 3:] / area[:, None]
+        yield Cells(nodes, stiffness, slots, sides, area, ("face_shear", ""), True, FACE, others)
 
 
 FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (

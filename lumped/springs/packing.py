@@ -17,24 +17,23 @@ import numpy as np
 from lumped.lattice import Lattice
 from lumped.pattern import ASKED, SHARED_UP_TO
 from lumped.springs import cell_tiles, link_tiles
-from lumped.springs.cell_laws import AREA_AND_STRAINS, RUBBER, AreaAndStrains, Tag
+from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
 from lumped.springs.families import Cells, DirectionalLinks, Links
 from lumped.springs.family import Dampers, Family
 from lumped.springs.tiles import LANES, STRIDE, WIDTH
 from sheetbench.scenes.grid import Grid
 
-LINKS, DIRECTIONAL, CELLS, RUBBER_CELLS = range(4)
+LINKS, DIRECTIONAL, CELLS, RUBBER_CELLS, FACES = range(5)
 BLOCK = int(LANES)
 CACHE_LIMIT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than anew
 BRIDGED = 4  # places at most from one spring of a run to the next
 ROWS = {LINKS: link_tiles.DATA, DIRECTIONAL: link_tiles.DATA}
-OF_LAWS = {CELLS: AREA_AND_STRAINS, RUBBER_CELLS: RUBBER}
+OF_LAWS = {CELLS: AREA_AND_STRAINS, RUBBER_CELLS: RUBBER, FACES: FACE}
 ROWS |= {kind: cell_tiles.DATA[law.tag] for kind, law in OF_LAWS.items()}
 ABSENT_SPRING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
     LINKS: (1.0, 0.0, 0.0, 1.0),
     DIRECTIONAL: (1.0, 0.0, 0.0, 1.0),
-    CELLS: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0),
-    RUBBER_CELLS: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0),
+    **dict.fromkeys(OF_LAWS, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0)),
 }
 ODD = 2 * np.random.default_rng(0).integers(2**63, size=STRIDE, dtype=np.uint64) + np.uint64(1)  # of a hash
 
@@ -45,8 +44,8 @@ class Packing(NamedTuple):
     there are cells on the mid-surface; damped: whether there are dampers; runs: (r, 8), of each what it is,
     its blocks of springs, where its rest data begin, its first four (or two) masses, and where in a tile its
     shapes are kept; rest: rest data, flat; keeping: whether shapes are kept for dampers, those of each run in
-    a place of its own; length: of a tile with what is kept; law: of the cells that
-    have another than area and strains, with the rest data, else that."""
+    a place of its own; length: of a tile with what is kept; law, face: of rubber's
+    cells and upright faces, with the rest data, or area and strains where there are none."""
 
     order: np.ndarray
     layers: np.uint64
@@ -59,6 +58,7 @@ class Packing(NamedTuple):
     keeping: bool
     length: int
     law: Tag
+    face: Tag
 
 
 class Scratch(NamedTuple):
@@ -129,7 +129,10 @@ def pack(
         data,
         keeping,
         length,
-        (RUBBER.tag if RUBBER_CELLS in table[:, 0] else AreaAndStrains)(data),
+        *(
+            (OF_LAWS[kind].tag if kind in table[:, 0] else AreaAndStrains)(data)
+            for kind in (RUBBER_CELLS, FACES)
+        ),
     )
 
 
@@ -172,7 +175,7 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
         rest = (*a.T, *b.T, *((x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))), family.area)
         constants = family.constants.T
         first = 14 if damped else 10
-        if family.law is RUBBER:
+        if family.law is not AREA_AND_STRAINS:
             constants, data[18:, at] = constants[4:8], constants[8:]
     data[: len(rest), at] = rest
     data[first : first + len(constants), at] += constants

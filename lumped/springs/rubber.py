@@ -1,4 +1,4 @@
-"""The law of rubber membranes, upright faces too: energy, stress and stiffness of a cell at any strain.
+"""The law of rubber membranes: energy, stress and stiffness of a cell at any strain.
 
 Per volume and with C the cell's deformation tensor in its plane, T = tr C, A = det C and θ = t² of the
 thickness stretch t at which nothing pulls there (`sheetbench.scenes.material` has f, c₀₁ and Λ),
@@ -13,10 +13,9 @@ N = B + θ² f″, θ eliminated from the second ones too,
 
 Cells are of right angles. C is that of the mean ḡ of g in a bilinear cell, δg + s/12 (1, 1, 0), s = q·q of
 what its corners have beside mean sides. Less ½ k₁₀ (√ĝ₁₁ − L₁)² + ½ k₁₁ (√ĝ₂₂ − L₂)², ĝ = g + s/4 the mean of
-its sides', which links along them store unless opposite ones differ; with ½ k₁₂ δg₁₂², and of an upright face
-½ k₁₃ δg₁₂²/(1 + δg₁₁/g₁₁), the shear of its director b against the direction of its chord a, whatever that is
-stretched. Constants: k₀ to k₃, the springs of its small strains, whose M it has (`lumped.springs.laws`); k₄
-to k₉: c₁₀, c₀₁, c₂₀, c₃₀, Λ, each times its volume [J], and Gent's limit; k₁₀ to k₁₃ [N/m], [N/m³].
+its sides', which links along them store unless opposite ones differ; with ½ k₁₂ δg₁₂². Constants: k₀ to k₃,
+the springs of its small strains, whose M it has (`lumped.springs.laws`); k₄ to k₉: c₁₀, c₀₁, c₂₀, c₃₀, Λ, all
+times its volume [J], and Gent's limit; k₁₀, k₁₁ [N/m]; k₁₂ [N/m³].
 """
 
 from __future__ import annotations
@@ -31,15 +30,15 @@ Memory = tuple[float, float]
 
 
 @njit(cache=True, error_model="numpy")
-def less_logarithm(x: float) -> float:
-    """x − ln(1 + x), no digits lost where x is small."""
+def less_logarithm(x: float, logarithm: float) -> float:
+    """x − ln(1 + x), no digits lost where x is small; logarithm: ln(1 + x)."""
     if abs(x) < 3e-3:
         return (
             x
             * x
             * (1.0 / 2.0 - x * (1.0 / 3.0 - x * (1.0 / 4.0 - x * (1.0 / 5.0 - x * (1.0 / 6.0 - x / 7.0)))))
         )
-    return x - math.log1p(x)
+    return x - logarithm
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
@@ -55,7 +54,7 @@ def of_trace(x: float, c10: float, c20: float, c30: float, limit: float) -> Four
     left = 1.0 - x / limit if x < limit else math.nan
     second = c10 / (limit * left * left)
     return (
-        c10 * limit * less_logarithm(-x / limit),
+        c10 * limit * less_logarithm(-x / limit, math.log1p(-x / limit)),
         c10 * (x / limit) / left,
         second,
         2.0 * second / (limit * left),
@@ -65,12 +64,12 @@ def of_trace(x: float, c10: float, c20: float, c30: float, limit: float) -> Four
 @njit(cache=True, error_model="numpy")
 def logarithm_of_thickness(
     growth: float, excess: float, c10: float, c01: float, c20: float, c30: float, volume: float, limit: float
-) -> float:
-    """ln θ, from growth, ln A, and excess, T − 2: Halley's method, of third order, from what small strains
-    have; with a limit from no further than half of what it leaves. volume: Λ."""
+) -> tuple[float, float]:
+    """ln θ and θ − 1, from growth, ln A, and excess, T − 2: Halley's method, of third order, from what small
+    strains have; with a limit from no further than half of what it leaves. volume: Λ."""
     volume, trace = 0.25 * volume, 2.0 + excess
     lame = volume + c01 + 2.0 * c20 + (c10 / limit if limit != 0.0 else 0.0)  # ¼ λ
-    x = -lame / (lame + c10 + c01) * growth
+    x, theta, thinning, step = -lame / (lame + c10 + c01) * growth, 1.0, 0.0, 0.0
     most = limit + 1.0 - excess
     for _ in range(30):
         if limit != 0.0 and math.exp(x) >= most:
@@ -86,40 +85,37 @@ def logarithm_of_thickness(
         x -= step
         if abs(step) <= 1e-5 * abs(x):
             break
-    return x
+    return x, thinning - theta * step * (1.0 - 0.5 * step)
 
 
 @njit(cache=True, error_model="numpy")
 def rubber(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory, Four]:
     """Return W since rest; θ − 1 and A, which `stiffness_of_rubber` takes; S."""
+    if k[4] + k[5] == 0.0:  # there is no cell
+        return 0.0 * half, (0.0, 1.0), (0.0 * half, 0.0 * half, 0.0 * half, 0.0 * half)
     e1, e2 = (d[0] + d[3] / 12.0) / g[0], (d[1] + d[3] / 12.0) / g[1]
     square = d[2] * d[2] / (area * area)
     product = e1 * e2 - square
     change = e1 + e2 + product  # of A
-    now = g[0] + d[0]
-    face = k[13] * g[0] / now
-    sheared = (k[12] + face) * d[2]
-    energy, thinning, m1, m2, m3, p1, p2 = half * sheared * d[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    if k[8] != 0.0 or k[4] != 0.0 or k[5] != 0.0:
-        excess, growth = e1 + e2, math.log1p(change)
-        x = logarithm_of_thickness(growth, excess, k[4], k[5], k[6], k[7], k[8], k[9])
-        thinning = math.expm1(x)
-        theta, volume, c01 = 1.0 + thinning, growth + x, k[5]
-        f0, f1, _, _ = of_trace(excess + thinning, k[4], k[6], k[7], k[9])
-        f1 += k[4]
-        curved = less_logarithm(change) + less_logarithm(thinning)
-        stored = f0 + k[4] * (curved - product) + c01 * (curved + curved - product + thinning * excess)
-        d1, d2 = d[0] + 0.25 * d[3], d[1] + 0.25 * d[3]
-        w1, p1, _, _ = elongation(half, d1, g[0] + d1, math.sqrt(g[0]), k[10])
-        w2, p2, _, _ = elongation(half, d2, g[1] + d2, math.sqrt(g[1]), k[11])
-        energy += stored + 0.125 * k[8] * volume * volume - w1 - w2
-        turned = c01 * theta * square
-        inverse = 1.0 / (1.0 + change)
-        m1 = inverse / g[0] * ((f1 + c01 * (1.0 + e2)) * (e1 + product - thinning * (1.0 + e2)) - turned)
-        m2 = inverse / g[1] * ((f1 + c01 * (1.0 + e1)) * (e2 + product - thinning * (1.0 + e1)) - turned)
-        m3 = 2.0 * d[2] / (area * area) * (theta * (f1 + c01 * (2.0 + excess)) * inverse - c01)
+    sheared = k[12] * d[2]
+    excess, growth = e1 + e2, math.log1p(change)
+    x, thinning = logarithm_of_thickness(growth, excess, k[4], k[5], k[6], k[7], k[8], k[9])
+    theta, volume, c01 = 1.0 + thinning, growth + x, k[5]
+    f0, f1, _, _ = of_trace(excess + thinning, k[4], k[6], k[7], k[9])
+    f1 += k[4]
+    curved = less_logarithm(change, growth) + less_logarithm(thinning, x)
+    stored = f0 + k[4] * (curved - product) + c01 * (curved + curved - product + thinning * excess)
+    d1, d2 = d[0] + 0.25 * d[3], d[1] + 0.25 * d[3]
+    w1, p1, _, _ = elongation(half, d1, g[0] + d1, math.sqrt(g[0]), k[10])
+    w2, p2, _, _ = elongation(half, d2, g[1] + d2, math.sqrt(g[1]), k[11])
+    energy = half * sheared * d[2] + stored + 0.125 * k[8] * volume * volume - w1 - w2
+    turned = c01 * theta * square
+    inverse = 1.0 / (1.0 + change)
+    m1 = inverse / g[0] * ((f1 + c01 * (1.0 + e2)) * (e1 + product - thinning * (1.0 + e2)) - turned)
+    m2 = inverse / g[1] * ((f1 + c01 * (1.0 + e1)) * (e2 + product - thinning * (1.0 + e1)) - turned)
+    m3 = 2.0 * d[2] / (area * area) * (theta * (f1 + c01 * (2.0 + excess)) * inverse - c01)
     stress = (
-        m1 - p1 - half * face * d[2] * d[2] / now,
+        m1 - p1,
         m2 - p2,
         m3 + sheared,
         (m1 + m2) / 12.0 - 0.25 * (p1 + p2),
@@ -132,24 +128,19 @@ def stiffness_of_rubber(
     d: Four, g: Three, area: float, memory: Memory, share: float, k: Constants
 ) -> tuple[Six, Four]:
     """M + share (D − M) of `rubber`, its 11 22 33 12 13 23 and 14 24 34 44."""
-    now = g[0] + d[0]
-    face = k[13] * g[0] / now
-    o, c1, c2 = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0, 0.0
-    if k[8] != 0.0 or k[4] != 0.0 or k[5] != 0.0:
-        o = _stiffness_of_membrane(d, g, area, memory, k)
-        d1, d2 = d[0] + 0.25 * d[3], d[1] + 0.25 * d[3]
-        _, _, m1, r1 = elongation(0.5, d1, g[0] + d1, math.sqrt(g[0]), k[10])
-        _, _, m2, r2 = elongation(0.5, d2, g[1] + d2, math.sqrt(g[1]), k[11])
-        c1, c2 = m1 + r1, m2 + r2
-    square = now * (g[1] + d[1]) - d[2] * d[2]
+    o = _stiffness_of_membrane(d, g, area, memory, k)
+    d1, d2 = d[0] + 0.25 * d[3], d[1] + 0.25 * d[3]
+    _, _, m1, r1 = elongation(0.5, d1, g[0] + d1, math.sqrt(g[0]), k[10])
+    _, _, m2, r2 = elongation(0.5, d2, g[1] + d2, math.sqrt(g[1]), k[11])
+    c1, c2 = m1 + r1, m2 + r2
+    square = (g[0] + d[0]) * (g[1] + d[1]) - d[2] * d[2]
     m, _ = stiffness_of_area_and_strains(d, g, area, (0.0, square), 0.0, k)
-    turn = d[2] / now
     return (
-        m[0] + share * (o[0] - c1 + face * turn * turn - m[0]),
+        m[0] + share * (o[0] - c1 - m[0]),
         m[1] + share * (o[1] - c2 - m[1]),
-        m[2] + share * (o[2] + k[12] + face - m[2]),
+        m[2] + share * (o[2] + k[12] - m[2]),
         m[3] + share * (o[3] - m[3]),
-        m[4] + share * (o[4] - face * turn - m[4]),
+        m[4] + share * (o[4] - m[4]),
         m[5] + share * (o[5] - m[5]),
     ), (
         share * ((o[0] + o[3]) / 12.0 - 0.25 * c1),

@@ -16,7 +16,7 @@ from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
-from lumped.springs.all_families import NO_STRESSES, Stresses, all_families, copy_above
+from lumped.springs.all_families import NO_INERTIA, NO_STRESSES, AllFamilies, Stresses
 from lumped.springs.families import Cells, Links, families
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
@@ -67,10 +67,11 @@ class Assembly:
             self.coupling_slots = self.pattern.slots(*own)
         self.springs = families(self.lattice, self.pattern, calibration.springs)
         self.links = next(family for family in self.springs if isinstance(family, Links))
-        self.all_families = all_families(self.springs)
+        self.all_families = AllFamilies(self.springs, self.pattern)
         self.precision = precision
-        single = precision == "single"
-        self._forcing = tuple(family.rounded() for family in self.springs) if single else self.springs
+        self._rounded: AllFamilies | None = None
+        if precision == "single":
+            self._rounded = AllFamilies([family.rounded() for family in self.springs], self.pattern)
 
     @cached_property
     def plan(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -114,13 +115,20 @@ class Assembly:
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and its gradient, the internal force, (n, 3) [N]."""
-        if self.all_families is not None and self.precision == "double":
+        if self._rounded is None:
             return self.all_families.force(u)
-        kept = u.astype(np.float32) if self.precision == "single" else u
-        force, energy = np.zeros(kept.shape, kept.dtype), 0.0
-        for family in self._forcing:
-            energy += family.add_force(kept, force)
-        return energy, force.astype(float, copy=False)
+        energy, force = self._rounded.force(u.astype(np.float32))
+        return energy, force.astype(float)
+
+    def advance(
+        self, u: np.ndarray, step: np.ndarray, predict: bool
+    ) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
+        """Where a step from u leads, how far at most [m], the internal force there, and the stresses that the
+        linearisation at u predicts there, none unless asked to `predict`."""
+        after, length, internal, stresses = self.all_families.advance(u, step, predict)
+        if self._rounded is not None:
+            internal = self.force(after)[1]
+        return after, length, internal, stresses
 
     def average_force(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
         """Internal force (n, 3) [N] whose work from `start` to `end` is the elastic energy stored."""
@@ -137,28 +145,19 @@ class Assembly:
                 found[name] = found.get(name, 0.0) + energy
         return found
 
-    def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
-        """Stresses that the linearisation at u predicts after `step`."""
-        if self.all_families is not None:
-            return self.all_families.extrapolated(u, step)
-        return tuple(family.extrapolated(u, step) for family in self.springs)
-
     def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
         """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite."""
-        stresses: Stresses = tuple(family.nonnegative_part(u) for family in self.springs)
-        if self.all_families is not None:
-            stresses = self.all_families.every(stresses)
-        return self.tangent(u, stresses, 0.0)
+        return self.all_families.tangent(u, self.all_families.nonnegative_parts(u), 0.0)
 
-    def tangent(self, u: np.ndarray, stresses: Stresses | None = None, share: float = 1.0) -> np.ndarray:
-        """Return blocks (b, 3, 3) [N/m] of the tangent at u, with the stresses given or the share of those at
-        u, and of the stiffness the material part and this share of the rest (`lumped.springs.laws`)."""
-        if self.all_families is not None:
-            return self.all_families.tangent(u, stresses or NO_STRESSES, self.pattern, share)
-        stresses = stresses or tuple(family.no_stress for family in self.springs)
-        blocks = np.zeros((self.pattern.blocks, 3, 3))
-        for family, stress in zip(self.springs, stresses, strict=True):
-            family.add_tangent(u, stress, blocks, share, self.conservative)
-        if self.conservative:
-            copy_above(blocks, self.pattern.mirror)
-        return blocks
+    def tangent(
+        self,
+        u: np.ndarray,
+        stresses: Stresses | None = None,
+        share: float = 1.0,
+        scale: float = 1.0,
+        inertia: np.ndarray = NO_INERTIA,
+    ) -> np.ndarray:
+        """Return scale × blocks (b, 3, 3) [N/m] of the tangent at u, with the stresses given or the share of
+        those at u, and of the stiffness the material part and this share of the rest (`lumped.springs.laws`);
+        on the diagonal `inertia` (n,) [N/m] beside it."""
+        return self.all_families.tangent(u, stresses or NO_STRESSES, share, scale, inertia)

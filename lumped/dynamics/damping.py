@@ -35,7 +35,6 @@ class Damping:
             time = scene.material.dashpot_time
             self.dampers = [family.damped(time) for family in assembly.springs] if time else []
             self.time = time if assembly.conservative else 0.0
-        self._diagonal = assembly.pattern.diagonal[: len(mass)]
         self._in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
         self.proportional = scene.dampers is None and not scene.actuators and assembly.conservative
         self.present = bool(self.dampers or self.rate.any() or self._in_chains)
@@ -55,12 +54,10 @@ class Damping:
 
     def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         """Add scale × the derivative of the force by the velocity to the 3×3 blocks, but for the dampers in
-        proportion to the springs (`time`)."""
+        proportion to the springs (`time`) and to the masses (`rate`)."""
         if not self.time:
             for dampers in self.dampers:
                 dampers.add_velocity_tangent(u, scale, blocks)
-        if self.rate.any():
-            blocks[self._diagonal] += scale * self.rate[:, None, None] * np.eye(3)
         if self._in_chains and self._coupling is not None:
             self._coupling.add_damping_tangent(u, scale, self._coupling_slots, blocks)
 

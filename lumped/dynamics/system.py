@@ -50,14 +50,14 @@ class System:
         self.damping = Damping(scene, self.assembly, self.lattice_mass)
         self.packing = pack(lattice, self.assembly.springs, self.damping.dampers)
         self.scratch = scratch(self.packing)
-        self.mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
+        mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         own = self.assembly.pattern.diagonal[: lattice.mass_count]
-        self.mass_blocks[own] = self.lattice_mass[:, None, None] * np.eye(3)
+        mass_blocks[own] = self.lattice_mass[:, None, None] * np.eye(3)
         if self.coupling is not None:
-            own = self.coupling.mass_blocks()[:, None, None] * np.eye(3)
-            np.add.at(self.mass_blocks, self.assembly.coupling_slots, own)
+            self._chain_mass = self.coupling.mass_blocks()[:, None, None] * np.eye(3)
+            np.add.at(mass_blocks, self.assembly.coupling_slots, self._chain_mass)
         pattern = self.assembly.pattern
-        self.mass = sp.csr_array(sp.bsr_array((self.mass_blocks, pattern.indices, pattern.indptr)))
+        self.mass = sp.csr_array(sp.bsr_array((mass_blocks, pattern.indices, pattern.indptr)))
         self.mass.eliminate_zeros()
         algebraic = np.zeros((size, 3), dtype=bool) if self.coupling is None else self.coupling.algebraic
         self.algebraic = abs(self.transform).T @ algebraic.ravel() > 0.0
@@ -194,17 +194,18 @@ class System:
         """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once."""
         both = stiffness + damping * self.damping.time  # dampers in proportion stand where the springs do
         share = stiffness / both if both else 0.0
-        blocks = self.assembly.tangent(u, None, share)
-        blocks *= both
+        inertia = mass * self.lattice_mass + damping * self.damping.rate
+        blocks = self.assembly.tangent(u, None, share, both, inertia)
         self.problem.loads.add_tangent(u, stiffness, blocks, time)
         if not self.problem.conservative or self.coupling is not None:
             others = np.zeros_like(blocks)
             if not self.problem.conservative:
                 self.damping.add_displacement_tangent(u, v, others)
             if self.coupling is not None:
-                self.coupling.add_tangent(u, self.drive(time), self.assembly.coupling_slots, others)
+                slots = self.assembly.coupling_slots
+                self.coupling.add_tangent(u, self.drive(time), slots, others)
+                np.add.at(blocks, slots, mass * self._chain_mass)
             blocks += stiffness * others
-        blocks += mass * self.mass_blocks
         self.damping.add_velocity_tangent(u, damping, blocks)
         return blocks
 

@@ -1,9 +1,9 @@
-"""All families of springs with an energy in one compiled call: energy and force, stresses, tangent.
+"""All families of springs at once: energy and force, stresses, tangent.
 
-A call from Python costs microseconds, as much as a small lattice's springs do; so statics make one call, not
-one a family. Its arrays always are of the same kinds, empty where a lattice has no such springs: links, the
-layers' cells, the mid-surface's cells, upright faces. The loops themselves are each family's own; here they
-release the interpreter's lock.
+A call from Python costs microseconds, as much as a small lattice's springs do; so those with an energy have
+one compiled call, not one a family. Its arrays always are of the same kinds, empty where a lattice has no
+such springs: links, the layers' cells, the mid-surface's cells, upright faces. The loops themselves are each
+family's own; here they release the interpreter's lock. Springs without an energy are added to what it gives.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from lumped.pattern import Pattern
 from lumped.springs import cells, links
 from lumped.springs.cell_laws import AreaAndStrains
 from lumped.springs.cells import CellArrays
-from lumped.springs.families import Cells, Links
+from lumped.springs.families import Cells
 from lumped.springs.family import Family
 from lumped.springs.links import LinkArrays
 from lumped.springs.tiles import NUMBA_TRUE
 
 
 class Springs(NamedTuple):
-    """The springs of a lattice."""
+    """The springs of a lattice that have an energy."""
 
     links: LinkArrays
     layers: CellArrays
@@ -34,57 +34,87 @@ class Springs(NamedTuple):
     faces: CellArrays
 
 
-Stresses = tuple[np.ndarray, ...]  # four, as `Springs`, where there is a table of those
+class Blocks(NamedTuple):
+    """Where a tangent's blocks are: their number; `Pattern.mirror`; each mass's block with itself (n,)."""
+
+    total: int
+    mirror: np.ndarray
+    diagonal: np.ndarray
+
+
+Stresses = tuple[np.ndarray, ...]  # four, as `Springs`
 NO_STRESSES: Stresses = (np.empty(0), *3 * (np.empty((0, 3)),))
+NO_INERTIA = np.empty(0)
 
 
 class AllFamilies:
-    """Families of springs in one call. Displacements and forces are (n, 3) [m], [N]; stresses those of
-    each family, in turn."""
+    """Families of springs together. Displacements and forces are (n, 3) [m], [N]; stresses as `Springs`."""
 
-    def __init__(self, families: Sequence[Family], places: Sequence[int]):
-        found = dict(zip(places, families, strict=True))
+    def __init__(self, families: Sequence[Family], pattern: Pattern):
+        found = {_place(family): family for family in families}
         links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
         self.springs = Springs(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_))
-        self._places = places
+        self._found, self._pattern = found, pattern
+        self._others = [family for place, family in found.items() if place < 0]
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force."""
         energy, internal = force(np.ascontiguousarray(u), self.springs)
+        for family in self._others:
+            family.add_force(u, internal)
         return energy, internal
 
+    def advance(
+        self, u: np.ndarray, step: np.ndarray, predict: bool
+    ) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
+        """Return where a step leads, how far at most [m], the internal force there, and the stresses that the
+        linearisation at u predicts there, none unless asked to `predict`."""
+        after, length, internal, stresses = advance(
+            np.ascontiguousarray(u), np.ascontiguousarray(step), predict, self.springs
+        )
+        for family in self._others:
+            family.add_force(after, internal)
+        return after, length, internal, stresses
+
     def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
-        """Return the stresses that the linearisation at u predicts after `step`, as `Springs`."""
-        predicted: Stresses = extrapolated(np.ascontiguousarray(u), np.ascontiguousarray(step), self.springs)
-        return predicted
+        """Return the stresses that the linearisation at u predicts after `step`."""
+        return self.advance(u, step, True)[3]
 
-    def tangent(self, u: np.ndarray, stress: Stresses, pattern: Pattern, share: float = 1.0) -> np.ndarray:
-        """Return blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the springs' own
-        where they are empty, and with M + share (D − M)."""
-        place = pattern.blocks, pattern.mirror
-        blocks: np.ndarray = tangent(np.ascontiguousarray(u), self.springs, stress, share, *place)
+    def nonnegative_parts(self, u: np.ndarray) -> Stresses:
+        """Return the stresses less what could make the tangent indefinite."""
+        found = self._found
+        return tuple(
+            found[at].nonnegative_part(u) if at in found else none for at, none in enumerate(NO_STRESSES)
+        )
+
+    def tangent(
+        self,
+        u: np.ndarray,
+        stress: Stresses = NO_STRESSES,
+        share: float = 1.0,
+        scale: float = 1.0,
+        inertia: np.ndarray = NO_INERTIA,
+    ) -> np.ndarray:
+        """Return scale × the blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
+        springs' own where they are empty, and with M + share (D − M); inertia: (n,) [N/m] on the
+        diagonal."""
+        pattern = self._pattern
+        where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
+        blocks: np.ndarray = tangent(
+            np.ascontiguousarray(u), stress, share, scale, inertia, self.springs, where
+        )
+        for family in self._others:
+            apart = np.zeros_like(blocks)
+            family.add_tangent(u, NO_STRESSES[0], apart)
+            blocks += scale * apart
         return blocks
-
-    def every(self, stress: Stresses) -> Stresses:
-        """Return the families' stresses, and those of none where there is no such family."""
-        every = list(NO_STRESSES)
-        for at, values in zip(self._places, stress, strict=True):
-            every[at] = values
-        return tuple(every)
-
-
-def all_families(families: Sequence[Family]) -> AllFamilies | None:
-    """Return families in one call; None where one is of another kind."""
-    places = [_place(family) for family in families]
-    each_once = 0 in places and -1 not in places and len(set(places)) == len(places)
-    return AllFamilies(families, places) if each_once else None
 
 
 def _place(family: Family) -> int:
     """Which of the families in `Springs` it is; −1 if none."""
     if isinstance(family, Cells):
         return 3 if family.upright else 1 if family.nodes.shape[2] == 1 else 2
-    return 0 if type(family) is Links else -1
+    return 0 if family.conservative else -1
 
 
 def _arrays(family: Family) -> tuple[Any, ...]:
@@ -109,37 +139,56 @@ def force(u: np.ndarray, springs: Springs) -> tuple[float, np.ndarray]:
 
 
 @njit(cache=True, nogil=True)
-def extrapolated(u: np.ndarray, step: np.ndarray, springs: Springs) -> Stresses:
-    """Return the stresses that the linearisation at u predicts after `step`."""
-    return (
-        links.extrapolated(u, step, springs.links),
-        cells.extrapolated(u, step, springs.layers),
-        cells.extrapolated(u, step, springs.middle),
-        cells.extrapolated(u, step, springs.faces),
-    )
+def advance(
+    u: np.ndarray, step: np.ndarray, predict: bool, springs: Springs
+) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
+    """Return where a step (n, 3) [m] leads, how far at most [m], the internal force (n, 3) [N] there, and the
+    stresses that the linearisation at u predicts there, none unless asked to `predict`."""
+    after, length = np.empty_like(u), 0.0
+    for i in range(len(u)):
+        for q in range(3):
+            after[i, q] = u[i, q] + step[i, q]
+            length = max(length, abs(step[i, q]))
+    none = np.empty((0, 3))
+    stresses: Stresses = np.empty(0), none, none, none
+    if predict:
+        stresses = (
+            links.extrapolated(u, step, springs.links),
+            cells.extrapolated(u, step, springs.layers),
+            cells.extrapolated(u, step, springs.middle),
+            cells.extrapolated(u, step, springs.faces),
+        )
+    return after, length, force(after, springs)[1], stresses
 
 
 @njit(cache=True, nogil=True)
 def tangent(
-    u: np.ndarray, springs: Springs, stress: Stresses, share: float, count: int, mirror: np.ndarray
+    u: np.ndarray,
+    stress: Stresses,
+    share: float,
+    scale: float,
+    inertia: np.ndarray,
+    springs: Springs,
+    where: Blocks,
 ) -> np.ndarray:
-    """Return blocks (count, 3, 3) [N/m] of the tangent with these stresses, or the share of the springs' own
-    where they are empty, and with M + share (D − M). It is symmetric: what is above the diagonal is copied,
-    mirror (k, 2) `Pattern.mirror`."""
-    blocks = np.zeros((count, 3, 3))
+    """Return scale × blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
+    springs' own where they are empty, and with M + share (D − M), and on the diagonal `inertia` (n,) [N/m].
+    It is symmetric: what is above the diagonal is copied."""
+    blocks = np.zeros((where.total, 3, 3))
     links.add_tangent(u, springs.links, stress[0], share, NUMBA_TRUE, blocks)
     cells.add_tangent(u, springs.layers, stress[1], share, NUMBA_TRUE, blocks)
     cells.add_tangent(u, springs.middle, stress[2], share, NUMBA_TRUE, blocks)
     cells.add_tangent(u, springs.faces, stress[3], share, NUMBA_TRUE, blocks)
-    copy_above(blocks, mirror)
-    return blocks
-
-
-@njit(cache=True, nogil=True)
-def copy_above(blocks: np.ndarray, mirror: np.ndarray) -> None:
-    """Copy the blocks below the diagonal to those above it, mirror (k, 2) `Pattern.mirror`."""
-    for k in range(len(mirror)):
-        below, above = blocks[np.uint64(mirror[k, 0])], blocks[np.uint64(mirror[k, 1])]
+    if scale != 1.0:
+        entries = blocks.ravel()
+        for e in range(len(entries)):
+            entries[e] *= scale
+    for i in range(len(inertia)):
+        for q in range(3):
+            blocks[where.diagonal[i], q, q] += inertia[i]
+    for k in range(len(where.mirror)):
+        below, above = blocks[np.uint64(where.mirror[k, 0])], blocks[np.uint64(where.mirror[k, 1])]
         for q in range(3):
             for r in range(3):
                 above[q, r] = below[r, q]
+    return blocks

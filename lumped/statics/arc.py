@@ -61,7 +61,7 @@ def arc_step(
         return state, end
     move = change * tangent
     load_factor = start.load_factor + change
-    stresses = problem.assembly.extrapolated(start.u, move)
+    stresses = problem.assembly.all_families.extrapolated(start.u, move)
     u = np.where(problem.constraints.fixed, problem.prescribed(load_factor), start.u + move)
     for count in range(CORRECTIONS):
         residual = problem.residual(u, load_factor)
@@ -79,7 +79,7 @@ def arc_step(
         loaded = loaded + _prescribed_rate(problem, load_factor, factor, blocks)
         correction = -float(np.sum(tangent * free)) / float(np.sum(tangent * loaded))
         move = free + correction * loaded
-        stresses = problem.assembly.extrapolated(u, move)
+        stresses = problem.assembly.all_families.extrapolated(u, move)
         u, load_factor = u + move, load_factor + correction
         u = np.where(problem.constraints.fixed, problem.prescribed(load_factor), u)
         if count == CORRECTIONS - 1:

@@ -45,7 +45,8 @@ from lumped.statics.limits import (
     SHORTEST_STEP,
     STALE_FACTORS_ABOVE,
 )
-from lumped.statics.problem import SOLVED, Advance, Problem, Residual, Tangent
+from lumped.statics.problem import SOLVED, Advance, Problem, Tangent
+from lumped.statics.residual import Residual
 from sheetbench.numerics.reduced import Factor, SingularMatrixError
 
 

@@ -11,25 +11,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped import equations
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
-from lumped.equations import Equations, equations_of, size_of, unbalanced_force
 from lumped.loads import Loads
-from lumped.springs.all_families import NO_STRESSES, Stresses
+from lumped.springs.all_families import Stresses
 from lumped.statics.faults import Fault
+from lumped.statics.residual import Residual, size_of, unbalanced_force
 from lumped.supports import Constraints
 from sheetbench.numerics.iterated import iterated
 from sheetbench.numerics.maps import product, transposed_product
-from sheetbench.numerics.reduced import BandedFactor, Factor, ReducedSystem, SingularMatrixError
+from sheetbench.numerics.reduced import Factor, ReducedSystem
 from sheetbench.scenes import Iteration
 
 Progress = Callable[[Iteration], None]
-
-
 SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
 ITERATED = 5000  # unknowns from which a factorisation costs as much as ten solutions
-NO_FORCE, NO_FACTORS, NO_INERTIA = np.empty(0), np.empty((0, 0)), np.empty(0)
 
 
 class Tangent(NamedTuple):
@@ -37,21 +33,6 @@ class Tangent(NamedTuple):
 
     blocks: np.ndarray
     factor: Factor
-
-
-class Residual(NamedTuple):
-    """What the equilibrium equation leaves: the unbalanced force (n, 3) [N], the part of it on the free
-    unknowns (m,) and that one's norm [N]; scale: the norm [N] of the external forces plus the supports'."""
-
-    force: np.ndarray
-    reduced: np.ndarray
-    norm: float
-    scale: float
-
-    @property
-    def relative(self) -> float:
-        """The norm over the scale of the forces."""
-        return self.norm / self.scale if self.scale > 0.0 else self.norm
 
 
 class Advance(NamedTuple):
@@ -95,10 +76,6 @@ class Problem:
         else:
             multipliers = self._multiplier_unknowns(coupling)
             self.system = ReducedSystem(pattern, transform, self.conservative, multipliers)
-        self.equations: Equations | None = None  # where the compiled ones serve
-        if not (self.loads.turning or (self.base is not None and self.base.follow)):
-            pressed = bool(self.loads.pressure)
-            self.equations = equations_of(self.assembly, self.constraints, self.system.band, pressed)
 
     def _multiplier_unknowns(self, coupling: Coupling) -> np.ndarray:
         """Which unknowns are multipliers of the actuators' constraints, (m,) bool."""
@@ -215,54 +192,24 @@ class Problem:
     def linearise(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> Tangent:
         """Return the tangent at u, or with these stresses, and its factors; every call counts. Raises
         SingularMatrixError when there are none."""
-        if self.equations is None:
-            blocks = self.tangent(u, load_factor, stresses)
-            return Tangent(blocks, self.factor(blocks))
-        self.factorisations += 1
-        pressing = load_factor * self.loads.pressure
-        definite, blocks, factors = equations.linearise(
-            np.ascontiguousarray(u), stresses or NO_STRESSES, 1.0, 1.0, NO_INERTIA, pressing, self.equations
-        )
-        if definite:
-            return Tangent(blocks, BandedFactor(self.equations.band, blocks, factors))
-        return Tangent(blocks, self.system.factor(blocks))
+        blocks = self.tangent(u, load_factor, stresses)
+        return Tangent(blocks, self.factor(blocks))
 
-    def advance(
-        self,
-        u: np.ndarray,
-        step: np.ndarray,
-        load_factor: float,
-        predict: bool = False,
-        right: np.ndarray = NO_FORCE,
-        factors: np.ndarray = NO_FACTORS,
-    ) -> Advance:
-        """Go from u by a step (n, 3) [m], or by what banded factors make of a force (m,) [N] on the unknowns;
-        predict: the stresses too. Raises SingularMatrixError where that is no number."""
-        if self.equations is None:
-            after = u + step
-            forces = self.internal(after, load_factor)[1], self.external(after, load_factor)
-            found = unbalanced_force(*forces, self.constraints.held, self._free, self.system.unknowns)
-            predicted = self.assembly.extrapolated(u, step) if predict else None
-            return Advance(after, float(np.abs(step).max()), Residual(*found), predicted)
-        dead = load_factor * self.loads.last_dead
-        if self.base is not None:
-            dead += self.base.last_dead
-        after, length, stresses, force, reduced, norm, size = equations.advance(
-            np.ascontiguousarray(u), np.ascontiguousarray(step), right, factors, predict, dead,
-            load_factor * self.loads.pressure, self.equations,
-        )  # fmt: skip
-        if not np.isfinite(length):
-            raise SingularMatrixError("the tangent's factors solve nothing: a number overflowed")
-        return Advance(after, length, Residual(force, reduced, norm, size), stresses if predict else None)
+    def advance(self, u: np.ndarray, step: np.ndarray, load_factor: float, predict: bool = False) -> Advance:
+        """Go from u by a step (n, 3) [m]; predict: the stresses too."""
+        after, length, internal, stresses = self.assembly.advance(u, step, predict)
+        if self.assembly.coupling is not None:
+            self.assembly.coupling.add_force(after, self.commands(load_factor), internal)
+        external = self.external(after, load_factor)
+        left = unbalanced_force(internal, external, self.constraints.held, self._free, self.system.unknowns)
+        return Advance(after, length, Residual(*left), stresses if predict else None)
 
     def correct(
         self, factor: Factor, u: np.ndarray, load_factor: float, residual: Residual, predict: bool = False
     ) -> Advance:
         """Go from u by the Newton correction of its residual with these factors; predict: the stresses too.
         Raises SingularMatrixError when they do not solve the system."""
-        if self.equations is None or not isinstance(factor, BandedFactor):
-            return self.advance(u, self.expand(factor.solve(residual.reduced, SOLVED)), load_factor, predict)
-        return self.advance(u, u, load_factor, predict, residual.reduced, factor.factors)
+        return self.advance(u, self.expand(factor.solve(residual.reduced, SOLVED)), load_factor, predict)
 
     def solve_near(
         self, u: np.ndarray, load_factor: float, residual: Residual, stresses: Stresses | None, near: Factor

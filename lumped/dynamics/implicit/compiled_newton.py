@@ -13,8 +13,6 @@ import numpy as np
 from numba import njit
 
 from lumped.dynamics.system import System
-from lumped.equations import linearise
-from lumped.springs.all_families import NO_STRESSES
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
@@ -69,8 +67,6 @@ class CompiledNewton:
         right = banded.padded_vector(len(band.order), band.width)
         self.workspace = Workspace(force, velocity, base_u, base_v, right)
         self.factors = np.empty((0, 0))
-        proportional = system.damping.time or not system.damping.dampers
-        self._equations = system.problem.equations if proportional else None
 
     @staticmethod
     def serves(system: System) -> bool:
@@ -83,17 +79,11 @@ class CompiledNewton:
         self, u: np.ndarray, v: np.ndarray, time: float, mass_coefficient: float, damping_coefficient: float
     ) -> bool:
         """Keep the factors of K + c₁ C + c₂ M at a state; False where it is not positive definite."""
-        system, by, band = self._system, (mass_coefficient, damping_coefficient), self._band
-        system.problem.factorisations += 1
-        if self._equations is not None:  # K̃ + c₁ t M̃ = s (M̃ + (D − M̃)/s) of springs with dampers of time t
-            scale = 1.0 + damping_coefficient * system.damping.time
-            inertia = mass_coefficient * system.lattice_mass + damping_coefficient * system.damping.rate
-            definite, _, factors = linearise(
-                np.ascontiguousarray(u), NO_STRESSES, 1.0 / scale, scale, inertia, 0.0, self._equations
-            )
-        else:
-            factors = banded.stored(system.matrix(u, v, time, *by, 1.0), band)
-            definite = banded.factor(factors, len(band.order), band.width)
+        band = self._band
+        self._system.problem.factorisations += 1
+        blocks = self._system.matrix(u, v, time, mass_coefficient, damping_coefficient, 1.0)
+        factors = banded.stored(blocks, band)
+        definite = banded.factor(factors, len(band.order), band.width)
         if definite:
             self.factors = factors
         return bool(definite)

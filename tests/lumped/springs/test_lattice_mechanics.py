@@ -32,7 +32,7 @@ def test_extrapolated_stresses_are_the_linearisation():
     u, direction = state(assembly), state(assembly, seed=2)
 
     def flat(at, step):
-        return np.concatenate([stress.ravel() for stress in assembly.extrapolated(at, step)])
+        return np.concatenate([stress.ravel() for stress in assembly.all_families.extrapolated(at, step)])
 
     h, rest = 1e-6, np.zeros_like(u)
     slope = (flat(u + h * direction, rest) - flat(u - h * direction, rest)) / (2 * h)

@@ -60,26 +60,6 @@ def test_what_is_not_positive_definite_has_no_factors(spoilt):
     assert not banded.factor(banded.stored(entries, band), 20, band.width)
 
 
-def test_families_together_are_the_families():
-    scene = load("two-edges-clamped")
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 9))  # long cells: strain springs too
-    assembly = lumped.build_problem(scene, springs).assembly
-    assert assembly.all_families is not None and len(assembly.springs) == 3
-    u = 1e-4 * np.random.default_rng(0).standard_normal((assembly.pattern.size, 3))
-    apart = lumped.build_problem(scene, springs).assembly
-    apart.all_families = None
-    energy, force = assembly.force(u)
-    assert energy == pytest.approx(apart.force(u)[0], rel=1e-14)
-    assert force == pytest.approx(apart.force(u)[1], rel=1e-14, abs=1e-18)
-    stresses = assembly.all_families.every(apart.extrapolated(u, u))
-    for found, expected in zip(assembly.extrapolated(u, u), stresses, strict=True):
-        assert np.array_equal(found, expected)
-    expected = apart.tangent(u)  # of sums that cancel, rounding is that of their terms
-    assert assembly.tangent(u) == pytest.approx(expected, rel=1e-14, abs=1e-15 * np.abs(expected).max())
-    above = assembly.pattern.rows < assembly.pattern.indices
-    assert above.any() and np.abs(assembly.tangent(u)[above]).max() > 0.0
-
-
 @pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
 @pytest.mark.parametrize("edge", ["", "hinged"])
 def test_reduction_is_the_triple_product(name, edge):

@@ -1,7 +1,5 @@
 """What tests of several files stand on: answers without a solver, a campaign's store."""
 
-from __future__ import annotations
-
 import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The catalogue's answers are those of the table, the same on one thread and on two and in every process."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

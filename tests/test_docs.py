@@ -1,7 +1,5 @@
 """The documentation: the tutorial runs as written; commands, scenes and links name what exists."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import shutil

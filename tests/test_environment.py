@@ -1,7 +1,5 @@
 """The command line against a system that is against it: outputs, names, terminals' sizes, files."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Every script of the gallery runs and draws something."""
 
-from __future__ import annotations
-
 import runpy
 from pathlib import Path
 

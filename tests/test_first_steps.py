@@ -1,7 +1,5 @@
 """First steps with one's own scene: new, check, schema and the reference page, all made of the types."""
 
-from __future__ import annotations
-
 import json
 import tomllib
 from pathlib import Path

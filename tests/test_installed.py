@@ -1,7 +1,5 @@
 """What `make install` leaves: packages that editors and type checkers find, as plain folders on the path."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

@@ -5,8 +5,6 @@ printed (`pytest -s tests/test_matrix.py`). The other verbs: test_matrix_verbs.p
 test_matrix_small.py.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import combinations, product
 

@@ -3,8 +3,6 @@
 Left out: `live`, a server, and `report --open`, a browser.
 """
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Callable
 

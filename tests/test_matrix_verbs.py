@@ -3,8 +3,6 @@
 Fits are met by `calibrate`, on every scene and grid, and by `compare`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

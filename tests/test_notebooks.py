@@ -1,7 +1,5 @@
 """The documentation's notebooks run, and what they keep is of the cells that they have."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

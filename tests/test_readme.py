@@ -1,7 +1,5 @@
 """The README and what it leads to: Python runs, commands parse, pictures exist and are small."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from pathlib import Path

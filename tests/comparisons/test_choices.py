@@ -1,7 +1,5 @@
 """What the command line offers is what there is: the names, options and defaults of the tables themselves."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from inspect import signature

@@ -1,8 +1,6 @@
 """The same words mean the same lattice, whichever verb or function is asked: its constants, caught where the
 solver gets them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -139,10 +137,7 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
         python(lambda scene, at, **own: sb.identify(scene, at / "measured.csv", "thickness", **own)),
         WORDS,
     ),
-    "sb.calibrate": (
-        python(lambda scene, _, **own: sb.calibrate(scene, **own)),
-        WORDS,
-    ),
+    "sb.calibrate": (python(lambda scene, _, **own: sb.calibrate(scene, **own)), WORDS),
     "sb.export": (python(lambda scene, at, **own: sb.export(scene, at / "lattice", **own)), WORDS),
     "sb.tradeoff": (python(listed), WORDS),
 }

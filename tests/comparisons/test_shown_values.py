@@ -1,7 +1,5 @@
 """What tables, a picture and lists of cells hold, where nothing else would notice another number."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Mapping
 from inspect import signature

@@ -1,7 +1,5 @@
 """Sizes told before anything is built: near what is measured, and a refusal where they do not fit."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

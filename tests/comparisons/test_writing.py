@@ -1,7 +1,5 @@
 """Files of results are whole or absent, have one writer, and say in a line where they cannot be written."""
 
-from __future__ import annotations
-
 import errno
 import os
 import subprocess
@@ -67,10 +65,7 @@ def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path: Path)
 @pytest.mark.parametrize("kind", ["link", "folder", "pipe"])
 @pytest.mark.parametrize(
     "asked",
-    [
-        ("report", "{folder}", "--out", "{file}"),
-        ("new", "{file}", "--overwrite"),
-    ],
+    [("report", "{folder}", "--out", "{file}"), ("new", "{file}", "--overwrite")],
     ids=lambda asked: asked[0],
 )
 def test_verbs_that_write_one_file_replace_no_other_kind(

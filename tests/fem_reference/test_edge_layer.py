@@ -1,7 +1,5 @@
 """What a mesh misses of the layer along edges that let twist go: closed forms, and the plate's own error."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -5,8 +5,6 @@ first: its limit point is at 0.7645 of the weight, with −15.1 mm at P3. Static
 the other order is a series of scenes, each begun in the shape of the one before.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

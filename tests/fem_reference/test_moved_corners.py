@@ -1,7 +1,5 @@
 """An edge moved rigidly beside a support, a chain or another moved edge: refused, or the models agree."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Supports that move, in statics: every model puts them where their motion ends."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose

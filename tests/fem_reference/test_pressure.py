@@ -19,7 +19,6 @@ HINGED = [{"edge": edge, "kind": "hinged"} for edge in EDGES]
 ACROSS = [{"edge": edge, "kind": "held", "components": [edge[0]]} for edge in EDGES[:3]]
 ACROSS += [{"edge": "y1", "kind": "curved", "curvature": 0.0}]
 FREE = [{"edge": edge, "kind": "clamped"} for edge in EDGES[:3]]
-PRESSURE = [{"kind": "pressure", "value": 300.0}]
 
 
 def pressed(supports, value=300.0, **material):

@@ -1,10 +1,8 @@
 """Snaps of one unknown: how many there may be, what is said where nothing is found, follower loads."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
-from scipy.sparse import csr_matrix
+from one_unknown import Spring
 
 from fem_reference.solving.equilibrium import SNAPS, trace
 from fem_reference.solving.path import Path, StepFailed
@@ -14,41 +12,14 @@ from sheetbench.scenes import Status
 pytestmark = pytest.mark.smoke
 
 
-@dataclass
-class Balance:
-    residual: float
-    size: float = 1.0
+def humps(rise: float, symmetric: bool = True) -> Spring:
+    """From every whole u the force rises by a quarter, then falls back."""
 
-
-@dataclass
-class Humps:
-    """One unknown u with force f(u) = λ: from every whole u it rises by a quarter, then falls back."""
-
-    rise: float
-    symmetric: bool = True
-
-    def rest(self):
-        return 0.0
-
-    def forces(self, u, load_factor):
+    def force(u: float) -> float:
         part = u - np.floor(u)
-        return Balance(self.rise * np.floor(u) + part - part**2 - load_factor)
+        return rise * np.floor(u) + part - part**2
 
-    def imbalance(self, u, forces):
-        return abs(forces.residual)
-
-    def gap(self, u, load_factor):
-        return 0.0
-
-    def system(self, u, forces, load_factor, mixed=True):
-        slope = 1.0 - 2.0 * (u - np.floor(u))
-        return csr_matrix(([slope], ([0], [0]))), np.array([-forces.residual])
-
-    def advance(self, u, forces, load_factor, step):
-        return u + step[0]
-
-    def length(self, start, end):
-        return abs(end - start)
+    return Spring(force, lambda u: 1.0 - 2.0 * (u - np.floor(u)), symmetric)
 
 
 def foothold(path: Path, load_factor: float, rise: float) -> float:
@@ -64,7 +35,7 @@ def nothing(path: Path, load_factor: float) -> float:
 
 def test_snaps_are_bounded():
     rise = 0.02
-    path = trace(Humps(rise), DirectSolver(), settle=lambda *where: foothold(*where, rise))
+    path = trace(humps(rise), DirectSolver(), settle=lambda *where: foothold(*where, rise))
     assert len(path.snaps) == SNAPS
     assert path.status is Status.STEP_LIMIT and "no equilibrium found beyond" in path.notes[-1]
     found = path.snaps
@@ -72,8 +43,8 @@ def test_snaps_are_bounded():
 
 
 def test_where_nothing_is_found_status_and_place_stay_and_a_clause_says_what_was_tried():
-    stopped = trace(Humps(0.2), DirectSolver())
-    path = trace(Humps(0.2), DirectSolver(), settle=nothing)
+    stopped = trace(humps(0.2), DirectSolver())
+    path = trace(humps(0.2), DirectSolver(), settle=nothing)
     assert stopped.status is Status.STEP_LIMIT
     assert (path.status, path.state, path.load_factor) == (stopped.status, stopped.state, stopped.load_factor)
     (said,) = stopped.notes
@@ -81,6 +52,6 @@ def test_where_nothing_is_found_status_and_place_stay_and_a_clause_says_what_was
 
 
 def test_follower_loads_do_not_snap():
-    path = trace(Humps(0.2, symmetric=False), DirectSolver(symmetric=False), settle=nothing)
+    path = trace(humps(0.2, symmetric=False), DirectSolver(symmetric=False), settle=nothing)
     assert path.status is Status.STEP_LIMIT
     assert not path.snaps and "relaxed" not in path.notes[-1]

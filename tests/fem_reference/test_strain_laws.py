@@ -1,7 +1,5 @@
 """Laws of strain in shell and solid: triads, tangents, closed forms, patches, and the lattice beside them."""
 
-from __future__ import annotations
-
 import json
 from functools import partial
 

@@ -1,7 +1,5 @@
 """A clamp turned about its edge: rigid turns, beams with turned ends, the models' agreement, refusals."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from cases import GRAVITY, OBLONG, SILICONE, relative

@@ -1,7 +1,5 @@
 """The reference's error bar: orders and bars of made-up answers, true errors covered, what compare says."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What ends a run early says its status, the place on the sheet, and what to change."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -3,8 +3,6 @@
 A few hundred examples, the same ones every time; `make fuzz` draws 24 000 others (`fuzz.long`).
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Answers asked for more than once."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

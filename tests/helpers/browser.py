@@ -3,8 +3,6 @@
 Tests take the fixture `browser` by importing it; where there is no Chromium they are skipped.
 """
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Tasks for the tests of campaigns: what a worker process is to do."""
 
-from __future__ import annotations
-
 import os
 import signal
 import time

@@ -1,7 +1,5 @@
 """Campaigns as the tests run and watch them."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sqlite3

@@ -5,8 +5,6 @@ compare the answers with it. Newton's iterations end at a residual of 5e-9 of th
 of the largest displacement an answer is the same on every machine.
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The command line in this process, as the tests call it."""
 
-from __future__ import annotations
-
 import pytest
 
 from comparisons.cli import main

@@ -1,7 +1,5 @@
 """Scenes and shorthands that the tests of dynamics and actuators share."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import lumped

@@ -1,7 +1,5 @@
 """Solutions without a solver: a closed-form field on a small lattice."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

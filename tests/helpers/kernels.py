@@ -6,8 +6,6 @@ Two processes, since that is what small machines have: one for equilibria and im
 explicit ones, in both precisions, and the shell. Where all is in the cache, three seconds.
 """
 
-from __future__ import annotations
-
 import multiprocessing
 
 DURATION = 1e-3  # s: kernels are compiled whatever the duration

@@ -1,7 +1,5 @@
 """Limits that a test sets for a while."""
 
-from __future__ import annotations
-
 import contextlib
 import resource
 from collections.abc import Iterator

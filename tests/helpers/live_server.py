@@ -1,7 +1,5 @@
 """A server of `sheetbench live` in a thread of the tests, and a page's side of the conversation with it."""
 
-from __future__ import annotations
-
 import asyncio
 import json
 import threading

@@ -1,7 +1,5 @@
 """Options that verbs share, by dimension, and scenes that the catalogue lacks."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from sheetbench.choices import CALIBRATIONS

@@ -4,8 +4,6 @@
 that brings most new pairs. It needs about as many rows as the product of the two largest dimensions.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Measured data by others, in `../shared/data` of a checkout: tests that need a file skip without it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

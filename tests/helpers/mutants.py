@@ -6,8 +6,6 @@ Faults are put into a clone of the last commit, one at a time. NUMBA_DISABLE_JIT
 kernels as Python. docs/quality.md has what was found so.
 """
 
-from __future__ import annotations
-
 import os
 import sqlite3
 import subprocess

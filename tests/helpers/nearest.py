@@ -6,8 +6,6 @@ folder or a function is nearer than that.
 Usage: python tests/helpers/nearest.py FILE [COUNT]   (10 unless given)
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

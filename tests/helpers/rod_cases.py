@@ -1,7 +1,5 @@
 """Scenes of elastic rods on sheets, for the tests of the references' actuators."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

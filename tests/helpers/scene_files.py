@@ -1,7 +1,5 @@
 """Scenes as files: one that is good, those with a fault and what is said of it, those that float."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from sheetbench import scenes

@@ -1,7 +1,5 @@
 """A block, for the tests of the solid."""
 
-from __future__ import annotations
-
 from sheetbench.scenes import Material, Scene, Sheet
 
 

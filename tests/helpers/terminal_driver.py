@@ -7,8 +7,6 @@ standard error]. In one process, so that starting up and compiling are paid once
 clock ticks at every look, so that the same solve takes the same time whenever it is run; its machine is idle.
 """
 
-from __future__ import annotations
-
 import importlib
 import io
 import itertools

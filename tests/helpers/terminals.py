@@ -1,7 +1,5 @@
 """A program on a terminal of its own, as a person has it: what it shows, keys pressed, how it ends."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 import pty

@@ -55,8 +55,7 @@ def motion(integrator: str) -> History:
 
 
 @pytest.mark.parametrize(
-    "integrator, held",
-    [("generalised-alpha", 5e-3), ("esdirk", 1e-3), ("midpoint", 2e-2)],
+    "integrator, held", [("generalised-alpha", 5e-3), ("esdirk", 1e-3), ("midpoint", 2e-2)]
 )
 def test_integrators_agree(integrator: str, held: float) -> None:
     """With velocity Verlet's small steps, of the corner's path."""

@@ -1,7 +1,5 @@
 """The solvers' clock: it stands still while kernels are compiled, on the thread that compiles."""
 
-from __future__ import annotations
-
 import threading
 from time import perf_counter, sleep
 

@@ -1,7 +1,5 @@
 """A folder's own options, from a file."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The face in Python: quick to import, one name for everything, and a scene is a scene, a name or a path."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Every verb is a function of `import sheetbench`, or is named in docs/first-steps.md as one that is not."""
 
-from __future__ import annotations
-
 import inspect
 import re
 from pathlib import Path

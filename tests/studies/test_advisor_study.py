@@ -1,7 +1,5 @@
 """The advisor's validation: the scenes drawn at random, and a part of the study."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The training of the calibration `central`."""
 
-from __future__ import annotations
-
 import pytest
 
 from lumped.calibration.central_table import ROWS

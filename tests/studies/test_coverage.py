@@ -1,7 +1,5 @@
 """Error bars against errors: the drawn scenes, the counting, and a part of the study."""
 
-from __future__ import annotations
-
 import json
 from itertools import islice
 from pathlib import Path
@@ -79,10 +77,7 @@ def test_bars_of_plate_and_shell_hold_on_six_drawn_scenes(store: Store) -> None:
 
 
 def test_the_command_writes_what_it_counted(
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    in_process: None,
-    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], in_process: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(study.TRUTH, "plate", 20)
     asked = ["study", "coverage", "--scenes", "1", "--model", "plate", "--json", "--out", str(tmp_path)]

@@ -1,7 +1,5 @@
 """The study of expected errors: its stored answers, and what it finds on them."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The comparison with peers: its arithmetic, its report, and the equations that SciPy is given."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

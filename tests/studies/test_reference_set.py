@@ -1,7 +1,5 @@
 """The reference set computed anew, on coarse meshes."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -1,7 +1,5 @@
 """Habibi et al.'s study in depth: errors recomputed, what its tables ask of any sheet, the nearest sheets."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from pathlib import Path

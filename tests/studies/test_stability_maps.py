@@ -1,7 +1,5 @@
 """Stability studies: their cells, rows and texts, the limits they promise, the command from end to end."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path

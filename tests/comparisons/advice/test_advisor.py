@@ -1,7 +1,5 @@
 """The advisor: what it chooses and leaves out."""
 
-from __future__ import annotations
-
 import json
 import shlex
 from collections.abc import Mapping

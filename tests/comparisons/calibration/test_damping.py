@@ -1,7 +1,5 @@
 """Damping from what is known of a material: the relation, the modes that have it, measured moduli."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

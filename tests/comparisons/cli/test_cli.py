@@ -1,7 +1,5 @@
 """The command line: exit statuses, one line for bad input, one JSON document, and quick help."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Ctrl-C on a terminal: a line, status 130, no traceback, nobody left behind, and what was kept goes on."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

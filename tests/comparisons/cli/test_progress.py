@@ -1,7 +1,5 @@
 """What is said while people wait: what is solved, how large it is, how far it has come; little in a pipe."""
 
-from __future__ import annotations
-
 import io
 import re
 from concurrent.futures import Executor, Future

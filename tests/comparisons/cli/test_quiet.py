@@ -1,7 +1,5 @@
 """--quiet and --no-pictures: every verb takes them; quiet leaves results, warnings and errors."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Callable
 
@@ -76,8 +74,8 @@ def test_a_quiet_comparison_prints_its_result_alone(
 
 
 def test_quiet_is_quiet_of_what_the_packages_log(capsys: pytest.CaptureFixture[str]) -> None:
-    from comparisons.cli import messages
+    from comparisons.cli import announced
 
-    with messages.in_lines(), console.quietly():
+    with announced.in_a_line(), console.quietly():
         logging.getLogger("sheetbench").info("compiling")
     assert capsys.readouterr().err == ""

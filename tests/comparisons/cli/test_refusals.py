@@ -3,8 +3,6 @@
 A row is a command line and the parts of its line, with | between them.
 """
 
-from __future__ import annotations
-
 import shlex
 from pathlib import Path
 

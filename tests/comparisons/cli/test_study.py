@@ -1,7 +1,5 @@
 """`sheetbench study`: names, options and exit statuses of the studies; refused without a checkout."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """What people see on a terminal: every verb there as well as in a pipe."""
 
-from __future__ import annotations
-
 import io
 import json
 import re

@@ -1,7 +1,5 @@
 """Quantities with units where a person types them: options, the questions of `new`; and -V, help VERB."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

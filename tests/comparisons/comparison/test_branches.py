@@ -1,7 +1,5 @@
 """Several equilibria in one comparison: one branch for all, unstable answers, buckled branches."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

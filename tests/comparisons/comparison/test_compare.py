@@ -1,7 +1,5 @@
 """Comparisons: what error and difference mean, what is left out when a solve fails, and real solves."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Both at rest and more than 100 % apart: a coarse grid is told from another branch of equilibria."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest
@@ -91,10 +89,7 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
 ) -> None:
     """A lattice that is 50 % off, and what a finer grid says."""
     settings = {"grid": [5, 3, 2], "calibration": calibration}
-    both = (
-        solution(SCENE, size=-0.005, settings=settings),
-        solution(SCENE, "shell", stretch=stretch),
-    )
+    both = (solution(SCENE, size=-0.005, settings=settings), solution(SCENE, "shell", stretch=stretch))
     lattice = LATTICE.but(calibration=calibration)
     apart, other_branch = far_apart_note(
         resolve(SCENE, lattice), both, error, 0.01, lambda other: fine(finer)
@@ -108,11 +103,7 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
     [
         (fine(0.007), 0.01, "different branches of equilibria, or too coarse a grid: on 9×5×2"),
         (fine(0.0101), 0.8, "the shell's mesh leaves ± 80 %"),
-        (
-            fine(0.0101, status=Status.DIVERGED),
-            0.01,
-            "twice as many cells a side the lattice ends diverged",
-        ),
+        (fine(0.0101, status=Status.DIVERGED), 0.01, "twice as many cells a side the lattice ends diverged"),
         (None, 0.01, "different branches of equilibria, or too coarse a grid or mesh"),
     ],
 )

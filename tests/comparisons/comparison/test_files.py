@@ -1,7 +1,5 @@
 """Files that a comparison leaves: VTU that opens elsewhere, tables with units, manifest, picture."""
 
-from __future__ import annotations
-
 import csv
 import json
 import subprocess

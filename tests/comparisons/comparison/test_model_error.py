@@ -1,7 +1,5 @@
 """What a reference leaves out on every mesh: the bounds beside what solids and other laws answer."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Who is told apart from whom: judges with known errors, and the verb with them."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Springs out: what `--export` writes, and that other programs find our displacements with nothing else."""
 
-from __future__ import annotations
-
 import csv
 import json
 import runpy

@@ -1,7 +1,5 @@
 """Files for named simulators: MuJoCo finds our forces and our equilibrium, SOFA's scene holds our lattice."""
 
-from __future__ import annotations
-
 import runpy
 from pathlib import Path
 from typing import Any
@@ -26,11 +24,7 @@ CORNER = scenes.load("two-edges-clamped").replace(
     loads=(PointLoad(at=(0.188, 0.188), force=(0.05, 0.0, 0.1)),), gravity=None
 )
 HINGED = Scene(
-    name="hinged",
-    sheet=OBLONG,
-    material=SILICONE,
-    gravity=GRAVITY,
-    support=(CLAMP, Hinged(edge="x1")),
+    name="hinged", sheet=OBLONG, material=SILICONE, gravity=GRAVITY, support=(CLAMP, Hinged(edge="x1"))
 )
 
 
@@ -39,9 +33,7 @@ def described(scene: Scene, grid: Any = 4, method: str = "central") -> lumped.De
 
 
 @pytest.mark.parametrize(
-    "scene",
-    [scenes.load("two-edges-clamped"), scenes.load("curved-edge"), CORNER],
-    ids=lambda s: s.name,
+    "scene", [scenes.load("two-edges-clamped"), scenes.load("curved-edge"), CORNER], ids=lambda s: s.name
 )
 def test_mujocos_masses_rest_where_ours_do(scene: Scene) -> None:
     """Put where we say, no mass accelerates by more than rounding beside what its springs would do to it."""

@@ -1,7 +1,5 @@
 """A sheet of bricks, what holds it and what acts on it, as other people's programs are given them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

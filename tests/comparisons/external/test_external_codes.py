@@ -1,7 +1,5 @@
 """Other people's programs: what they are given, what is read of them, how they fail, and what they answer."""
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path
@@ -144,10 +142,7 @@ def test_a_judge_that_is_not_here_says_what_it_needs(monkeypatch: pytest.MonkeyP
 def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge: ExternalCode) -> None:
     needed(judge)
     chain = Chain(edge="x1", segments=2, bending_stiffness=1.0, line_density=1.0, radius=1e-3)
-    for scene in (
-        changed(actuators=(chain,)),
-        changed(loads=(EdgeLoad(edge="x1", moment_per_length=0.1),)),
-    ):
+    for scene in (changed(actuators=(chain,)), changed(loads=(EdgeLoad(edge="x1", moment_per_length=0.1),))):
         solution = judge.solve(scene, judge.settings)
         assert solution.status is Status.REFUSED and len(solution.remarks) == 1
 

@@ -1,7 +1,5 @@
 """Models from outside: the example of the docs in our tables, and what is said of faulty ones."""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Iterator

@@ -1,8 +1,6 @@
 """Models that are programs: what they are asked and answer, and that one that crashes, hangs, floods, lies or
 answers nothing that can be read costs its own row and no other."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """What an identification does where a plain least squares fit from one start goes wrong without a word."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import log
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Values found with a shell are those of its law of strain."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

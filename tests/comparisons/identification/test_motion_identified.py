@@ -1,7 +1,5 @@
 """Material from a measured decay: E and loss factor at once, branches, markers of a motion capture."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Laws of rubber from tensile tests: closed forms, intervals that hold, Treloar's rubber, refusals."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A lattice for control: poles, step responses, what commands do at rest, and the files with them."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`sheetbench live`: who is let in, what is refused, that the newest question counts, compare's answers."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import http.client

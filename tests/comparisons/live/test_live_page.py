@@ -1,7 +1,5 @@
 """The page of `sheetbench live` in a browser: a slider is dragged, lattice and shell answer."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

@@ -1,7 +1,5 @@
 """The error that is expected of a lattice's grid, beside the one that it has."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from math import prod

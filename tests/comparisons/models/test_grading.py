@@ -1,7 +1,5 @@
 """--grading: one meaning on every verb, chosen by the scene's layers where it is auto, and its reasons."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

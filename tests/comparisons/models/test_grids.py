@@ -1,7 +1,5 @@
 """One rule for grids: a number counts along the shorter side with near-square cells, on every verb."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any
@@ -19,13 +17,7 @@ from sheetbench.scenes import BadInput, Clamped, Scene, Sheet, SpringTable, load
 from sheetbench.scenes.grid import grid_of, near_square
 
 LONG = Sheet(length_x=0.2, length_y=0.1, thickness=0.003)
-SCENE = Scene(
-    name="long",
-    sheet=LONG,
-    material=RUBBER,
-    gravity=GRAVITY,
-    support=(Clamped(edge="x0"),),
-)
+SCENE = Scene(name="long", sheet=LONG, material=RUBBER, gravity=GRAVITY, support=(Clamped(edge="x0"),))
 END = np.array([[0.2, 0.05]])
 
 

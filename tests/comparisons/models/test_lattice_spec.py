@@ -1,7 +1,5 @@
 """A lattice is resolved in one place: every verb that has one takes the same options and means the same."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from commands import run

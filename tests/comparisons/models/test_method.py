@@ -1,7 +1,5 @@
 """Which springs a scene gets where the choice is left to it, and how near that brings coarse grids."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Two lattices extrapolated: nearer than the finer one on scenes that grids miss, within the bar on all."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

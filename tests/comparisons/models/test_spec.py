@@ -1,7 +1,5 @@
 """Specs: one noun for a model, in Python, as text and as JSON."""
 
-from __future__ import annotations
-
 import json
 from inspect import signature
 

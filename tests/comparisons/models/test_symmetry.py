@@ -1,7 +1,5 @@
 """Half and quarter sheets: the whole sheet's answer, to rounding, and when a scene has no symmetry to use."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from cases import GRAVITY, RUBBER

@@ -1,7 +1,5 @@
 """Modes about the equilibrium: the heavy string, lattice beside shell, and flat where nothing loads it."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """`sheetbench modes`: both models' natural frequencies, in a table and as a document."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -130,11 +130,7 @@ def test_its_picture_has_a_panel_a_probe():
 
 @pytest.mark.parametrize(
     ("options", "said"),
-    [
-        ({"reference": "beam"}, "beam"),
-        ({"elements": 0}, "elements"),
-        ({"elements": 2000}, "large"),
-    ],
+    [({"reference": "beam"}, "beam"), ({"elements": 0}, "elements"), ({"elements": 2000}, "large")],
 )
 def test_what_cannot_be_compared_is_refused(options, said):
     with pytest.raises(BadInput, match=said):

@@ -1,7 +1,5 @@
 """`sheetbench report` on manifests and documents that no verb wrote: a sentence, and no traceback."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

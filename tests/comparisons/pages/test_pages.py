@@ -1,7 +1,5 @@
 """`sheetbench report`: a folder's studies as one page, in a browser and as text."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Pictures for papers: a column's width, no title, embedded fonts, the same bytes again, error bars."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from functools import partial

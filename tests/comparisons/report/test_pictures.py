@@ -1,7 +1,5 @@
 """Pictures: text of scenes is no mathematics, names stand apart, loads and actuators are seen."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import matplotlib

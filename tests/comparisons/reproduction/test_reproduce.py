@@ -1,7 +1,5 @@
 """The study of Habibi et al. reproduced: its inputs, the tables beside our answers, the verb."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Campaigns: each run carried out once and kept at once, through failures, dead workers and kill -9."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sqlite3

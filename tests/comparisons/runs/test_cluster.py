@@ -1,7 +1,5 @@
 """Campaigns on a cluster: lost workers and schedulers, patience, Ctrl-C."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Answers in: scores, the place beside other models, and every fault named in a line."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Callable, Sequence

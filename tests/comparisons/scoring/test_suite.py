@@ -1,7 +1,5 @@
 """The reference set: frozen, complete, and what the codes of today still find."""
 
-from __future__ import annotations
-
 import csv
 import json
 from hashlib import sha256

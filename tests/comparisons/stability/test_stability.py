@@ -1,7 +1,5 @@
 """`sheetbench stability SCENE`: what is varied, where each model holds, the largest stable steps."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

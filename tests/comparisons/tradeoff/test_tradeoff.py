@@ -1,7 +1,5 @@
 """Trade-offs: the front, the orders, what is measured against what, and the command from end to end."""
 
-from __future__ import annotations
-
 import csv
 import json
 import signal

@@ -1,7 +1,5 @@
 """Maxwell branches of the references in motion: relaxation under a held strain, decay, energy."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,12 +1,10 @@
 """The linear plate: patch tests, zero modes, convergence, published and closed-form answers, no locking."""
 
-from __future__ import annotations
-
 import re
-from math import cosh, pi, tanh
 
 import numpy as np
 import pytest
+from cases import WEIGHT
 from skfem import Functional, MeshQuad
 
 from fem_reference.plate import statics as plate
@@ -15,7 +13,7 @@ from fem_reference.surface.location import locate
 from fem_reference.verification.manufactured_plate import share
 from sheetbench import scenes
 from sheetbench.numerics.direct import solve_free
-from sheetbench.scenes import EDGES, BadInput, Material, Scene, Sheet, Status
+from sheetbench.scenes import EDGES, BadInput, Material, Scene, Sheet
 
 MATERIAL = Material(young=1.0e7, poisson=0.3, density=1000.0)
 
@@ -84,50 +82,6 @@ def test_zero_modes_of_the_free_plate(mesh, thickness):
         assert values[3] > 1e-3
 
 
-@pytest.mark.parametrize(
-    ("ratio", "hard_simple", "clamped"),
-    [(0.001, 0.00406, 0.0012653), (0.1, 0.00427, 0.001505), (0.2, 0.00490, 0.002172)],
-)
-def test_published_uniform_load(ratio, hard_simple, clamped):
-    """w_centre D/(q L⁴) of the Mindlin square plate, ν 0.3, κ 5/6 (Wang, Reddy, Lee 2000), within 0.3 %."""
-    pressure = [{"kind": "pressure", "value": 1.0}]
-    for published, kind, hard in ((hard_simple, "hinged", tuple(EDGES)), (clamped, "clamped", ())):
-        scene = square(ratio, kind, pressure)
-        deflection = plate.solve(scene, 16, hard_edges=hard).displacement([[0.5, 0.5]])[0, 2]
-        bending = plate.section_stiffness(scene)["bending"][0, 0]
-        assert deflection * bending == pytest.approx(published, rel=3e-3)
-
-
-def hard_simple_series(ratio: float) -> float:
-    """Centre deflection D/(q L⁴): Kirchhoff's single series plus the shear of a membrane, exact for Mindlin.
-
-    Wang, Reddy & Lee, Shear Deformable Beams and Plates (2000): with hard simple supports
-    w = w_K + M_K/(κ_s G h), M the moment sum, and M_K solves ∇²M = −q.
-    """
-    bending = membrane = 0.0
-    for n in range(1, 60, 2):
-        sign = (-1.0) ** ((n - 1) // 2)
-        a = n * pi / 2
-        bending += 4 / pi**5 * sign / n**5 * (1 - (a * tanh(a) + 2) / (2 * cosh(a)))
-        membrane += 4 / pi**3 * sign / n**3 * (1 - 1 / cosh(a))
-    shear_over_bending = (5 / 6) * 6 * (1 - MATERIAL.poisson) / ratio**2
-    return bending + membrane / shear_over_bending
-
-
-@pytest.mark.parametrize("ratio", [1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.2])
-def test_no_locking_from_1e5_to_02(ratio):
-    """8×8 elements: within 2 % of the converged value at every thickness, clamped and hard simple."""
-    pressure = [{"kind": "pressure", "value": 1.0}]
-    bending = plate.section_stiffness(square(ratio))["bending"][0, 0]
-    simple = plate.solve(square(ratio, "hinged", pressure), 8, hard_edges=tuple(EDGES))
-    deflection = simple.displacement([[0.5, 0.5]])[0, 2] * bending
-    assert deflection == pytest.approx(hard_simple_series(ratio), rel=2e-3)
-    coarse, fine = (
-        plate.solve(square(ratio, "clamped", pressure), n).displacement([[0.5, 0.5]])[0, 2] for n in (8, 24)
-    )
-    assert coarse == pytest.approx(fine, rel=2e-3)
-
-
 @pytest.mark.parametrize("ratio", [1e-3, 0.1])
 def test_order_of_convergence(ratio):
     """Clamped unit square with a polynomial solution (Chinosi & Lovadina 1995): deflection and tilt in L²."""
@@ -192,28 +146,19 @@ def test_strip_with_edge_moment_and_forces():
     np.testing.assert_allclose(answer.reactions["x0"], -width * np.array([fx, fy, fz]), rtol=1e-8, atol=1e-10)
 
 
-@pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down"])
-def test_reactions_and_energies(name):
-    """Reactions balance the weight to 1e-8; at rest supports, energy is half the loads' work."""
-    scene = scenes.load(name)
-    answer = plate.solve(scene, 8)
-    weight = 0.188**2 * 0.003 * 1678.0 * 9.81
-    assert answer.status is Status.CONVERGED
-    np.testing.assert_allclose(sum(answer.reactions.values()), [0, 0, weight], atol=1e-8 * weight)
-    if "curved" not in name:
-        x = np.polynomial.legendre.leggauss(24)
-        points, shares = 0.094 * (x[0] + 1.0), x[1] / 2.0
-        grid = np.array([(a, b) for a in points for b in points])
-        work = -weight * np.outer(shares, shares).ravel() @ answer.displacement(grid)[:, 2]
-        assert sum(answer.energies.values()) == pytest.approx(work / 2, rel=1e-4)
+@pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped"])
+def test_the_energy_is_half_the_work_of_the_weight(name):
+    answer = plate.solve(scenes.load(name), 8)
+    x = np.polynomial.legendre.leggauss(24)
+    points, shares = 0.094 * (x[0] + 1.0), x[1] / 2.0
+    grid = np.array([(a, b) for a in points for b in points])
+    work = -WEIGHT * np.outer(shares, shares).ravel() @ answer.displacement(grid)[:, 2]
+    assert sum(answer.energies.values()) == pytest.approx(work / 2, rel=1e-4)
 
 
 def test_in_plane_loads_and_a_corner_shared_by_two_supports():
     """Uniaxial stretch between rollers, ν = 0.3: exact; a corner obeys both of its supports."""
-    rollers = (
-        scenes.Held(edge="x0", components=("x", "z")),
-        scenes.Held(edge="y0", components=("y", "z")),
-    )
+    rollers = (scenes.Held(edge="x0", components=("x", "z")), scenes.Held(edge="y0", components=("y", "z")))
     pull = [{"kind": "edge", "edge": "x1", "force_per_length": (50.0, 0.0, 0.0)}]
     scene = square(0.01, loads=pull).model_copy(update={"supports": rollers})
     answer = plate.solve(scene, 2)
@@ -226,11 +171,8 @@ def test_in_plane_loads_and_a_corner_shared_by_two_supports():
     np.testing.assert_allclose(answer.reactions["x0"], [-50.0, 0.0, 0.0], atol=1e-6)
 
 
-def test_symmetry_and_reciprocity():
-    """Test 1 is symmetric in x and y; a force at A moves B as the force at B moves A."""
-    answer = plate.solve(scenes.load("two-edges-clamped"), 8)
-    a, b = answer.displacement([[0.05, 0.14], [0.14, 0.05]])
-    np.testing.assert_allclose(a, b[[1, 0, 2]], rtol=1e-8)
+def test_reciprocity():
+    """A force at A moves B as the force at B moves A."""
     points, force = [(0.3, 0.41), (0.77, 0.9)], (1.0, 0.0, 2.0)
     moved = [
         plate.solve(
@@ -272,11 +214,6 @@ def test_the_mass_of_rigid_motions_is_that_of_a_slab():
     for name, motion in motions.items():
         v = motion.T.ravel()
         assert v @ mass @ v == pytest.approx(per_area * of[name], rel=1e-12), name
-
-
-def test_refuses_a_sheet_that_nothing_holds():
-    with pytest.raises(scenes.SceneError, match="nothing stops"):
-        plate.solve(square(0.01))
 
 
 def sheet_on(kinds: dict[str, str]) -> Scene:

@@ -1,7 +1,5 @@
 """The linear plate beyond its range: what it says, and from which share of the load on."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

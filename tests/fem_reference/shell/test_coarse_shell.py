@@ -1,7 +1,5 @@
 """A fine shell that begins at a coarse one's equilibrium: the same answer, or the whole path after all."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

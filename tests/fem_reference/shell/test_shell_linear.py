@@ -1,9 +1,8 @@
 """The sparse direct solver with rslab and without, and the adaptive tracing of an awkward structure."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
+from one_unknown import Spring
 from scipy.sparse import csr_matrix, random_array
 
 import fem_reference.shell.statics
@@ -67,42 +66,6 @@ def test_the_shell_does_without_rslab(monkeypatch):
     np.testing.assert_allclose(
         without.displacement(points), with_it.displacement(points), rtol=1e-9, atol=1e-12
     )
-
-
-@dataclass
-class Spring:
-    """One unknown with force f(u) = λ: whatever the test wants it to be."""
-
-    force: object
-    slope: object
-    symmetric: bool = True
-
-    def rest(self):
-        return 0.0
-
-    def forces(self, u, load_factor):
-        return Balance(self.force(u) - load_factor)
-
-    def imbalance(self, u, forces):
-        return abs(forces.residual)
-
-    def gap(self, u, load_factor):
-        return 0.0
-
-    def system(self, u, forces, load_factor, mixed=True):
-        return csr_matrix(([self.slope(u)], ([0], [0]))), np.array([-forces.residual])
-
-    def advance(self, u, forces, load_factor, step):
-        return u + step[0]
-
-    def length(self, start, end):
-        return abs(end - start)
-
-
-@dataclass
-class Balance:
-    residual: float
-    size: float = 1.0
 
 
 def test_steps_shrink_where_one_step_does_not_converge():

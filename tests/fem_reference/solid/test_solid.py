@@ -1,10 +1,8 @@
 """The solid on scenes: the seed's, agreement with the shell and closed forms, convergence, no locking."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
-from cases import relative, with_material
+from cases import CONVERGED, WEIGHT, relative, with_material
 from solid_cases import block
 
 from fem_reference.shell import statics as shell
@@ -17,22 +15,12 @@ from sheetbench.choices import STRAIN_LAWS
 from sheetbench.numerics.direct import solve_free
 from sheetbench.scenes import Material, Scene, Sheet, Status
 
-TABLE = {  # probe → component → millimetres: this project's own, converged; P4 of the first is CalculiX's too
-    "two-edges-clamped": {"P1": {2: -2.456}, "P2": {2: -6.102}, "P4": {0: -0.405, 1: -0.405, 2: -13.504}},
-    "one-edge-clamped": {
-        "P1": {2: -17.10},
-        "P2": {2: -16.51},
-        "P3": {0: -7.19, 2: -48.04},
-        "P4": {2: -47.64},
-    },
-}
-
 
 def with_poisson(name: str, poisson: float) -> Scene:
     return with_material(scenes.load(name), poisson=poisson)
 
 
-@pytest.mark.parametrize("name", TABLE)
+@pytest.mark.parametrize("name", CONVERGED)
 def test_seed_scenes(name):
     """Within 0.3 % of the published figures and of the shell, probe by probe; reactions balance to 1e-8."""
     scene = scenes.load(name)
@@ -40,12 +28,11 @@ def test_seed_scenes(name):
     answer = solid.solve(scene, 10)
     assert answer.status is Status.CONVERGED and answer.iterations < 12
     u = answer.displacement(points)
-    for row, probe in enumerate(scene.probes):
-        for component, millimetres in TABLE[name].get(probe, {}).items():
-            assert u[row, component] * 1e3 == pytest.approx(millimetres, rel=3e-3)
+    at = dict(zip(scene.probes, u, strict=True))
+    for (probe, axis), millimetres in CONVERGED[name].items():
+        assert at[probe][axis] * 1e3 == pytest.approx(millimetres, rel=3e-3)
     assert relative(u, shell.solve(scene, 12).displacement(points)) < 3e-3
-    weight = 0.188**2 * 0.003 * 1678.0 * 9.81
-    np.testing.assert_allclose(sum(answer.reactions.values()), [0.0, 0.0, weight], atol=1e-8 * weight)
+    np.testing.assert_allclose(sum(answer.reactions.values()), [0.0, 0.0, WEIGHT], atol=1e-8 * WEIGHT)
 
 
 @pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])
@@ -68,25 +55,14 @@ def test_curved_edge(name):
     np.testing.assert_allclose(along, x[face, 2], atol=2e-4 * 0.003 + 2e-2 * np.abs(x[face, 2]).max())
     mid = np.abs(x[face, 2]) < 1e-12
     np.testing.assert_allclose(along[mid], 0.0, atol=1e-12)
-    weight = 0.188**2 * 0.003 * 1678.0 * 9.81
-    np.testing.assert_allclose(answer.reactions["x0"], [0.0, 0.0, weight], atol=1e-7 * weight)
+    np.testing.assert_allclose(answer.reactions["x0"], [0.0, 0.0, WEIGHT], atol=1e-7 * WEIGHT)
 
 
-def test_no_volumetric_locking():
-    """The 8×8 mesh is as near the converged answer as at any ν."""
+def test_no_volumetric_locking_of_a_full_clamp():
+    """The 8×8 mesh is as near the converged answer as at any ν; of the other clamp: test_locking.py."""
     scene = with_poisson("two-edges-clamped", 0.4999)
     points = scene.probe_points()
-    coarse, fine = (solid.solve(scene, n).displacement(points) for n in (8, 16))
-    assert relative(coarse, fine) < 2e-3
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("clamp", ["shell-like", "full"])
-@pytest.mark.parametrize("poisson", [0.3, 0.48, 0.499, 0.4999])
-def test_no_volumetric_locking_against_a_fine_mesh(poisson, clamp):
-    scene = with_poisson("two-edges-clamped", poisson)
-    points = scene.probe_points()
-    coarse, fine = (solid.solve(scene, n, clamp=clamp).displacement(points) for n in (8, 24))
+    coarse, fine = (solid.solve(scene, n, clamp="full").displacement(points) for n in (8, 12))
     assert relative(coarse, fine) < 1e-2
 
 
@@ -118,14 +94,6 @@ def cantilever(**load) -> Scene:
         supports=[{"edge": "x0", "kind": "clamped"}],
         loads=[{"kind": "edge", "edge": "x1", **load}],
     )
-
-
-@pytest.mark.parametrize(("share", "shortening", "rise"), [(0.25, 0.563, 3.015), (1.0, 3.286, 6.698)])
-def test_cantilever_end_shear(share, shortening, rise):
-    """Published to three decimals, within 0.5 %."""
-    scene = cantilever(length=10.0, force_per_length=(0.0, 0.0, 4.0 * share))
-    u = solid.solve(scene, (16, 1), grading="uniform").displacement([[10.0, 0.5]])[0]
-    np.testing.assert_allclose([-u[0], u[2]], [shortening, rise], rtol=5e-3)
 
 
 def test_convergence_of_the_bent_cantilever():
@@ -201,8 +169,7 @@ def test_hinges_agree_with_the_shell(hinged):
     answer, expected = (model.solve(scene, 8) for model in (solid, shell))
     points = scene.probe_points()[:1]
     assert relative(answer.displacement(points), expected.displacement(points)) < 3e-3
-    weight = 0.188**2 * 0.003 * 1678.0 * 9.81
-    np.testing.assert_allclose(sum(answer.reactions.values()), [0.0, 0.0, weight], atol=1e-8 * weight)
+    np.testing.assert_allclose(sum(answer.reactions.values()), [0.0, 0.0, WEIGHT], atol=1e-8 * WEIGHT)
 
 
 def test_full_clamp_is_stiffer():
@@ -213,13 +180,6 @@ def test_full_clamp_is_stiffer():
     ratio = full.displacement(points)[2, 2] / like_a_shell.displacement(points)[2, 2]
     assert 0.98 < ratio < 1.0
     np.testing.assert_allclose(full.reactions["x0"], like_a_shell.reactions["x0"], atol=1e-7)
-
-
-def test_symmetry_of_test_1():
-    answer = solid.solve(scenes.load("two-edges-clamped"), 6)
-    a, b = answer.displacement([[0.05, 0.14], [0.14, 0.05]])
-    np.testing.assert_allclose(a, b[[1, 0, 2]], rtol=1e-8)
-    np.testing.assert_allclose(answer.reactions["x0"], answer.reactions["y0"][[1, 0, 2]], rtol=1e-7)
 
 
 def test_a_compressed_flat_sheet_is_unstable():
@@ -280,8 +240,3 @@ def test_field_mesh_has_every_node():
 def test_misuse(options, said):
     with pytest.raises(ValueError, match=said):
         solid.solve(scenes.load("two-edges-clamped"), 2, **options)
-
-
-def test_refuses_a_sheet_that_nothing_holds():
-    with pytest.raises(scenes.SceneError, match="nothing stops"):
-        solid.solve(block())

@@ -1,7 +1,5 @@
 """The solid's element: laws, bricks, zero modes, patch tests, the tangent of the bent structure."""
 
-from __future__ import annotations
-
 from functools import partial
 from itertools import product
 

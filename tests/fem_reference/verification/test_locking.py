@@ -1,7 +1,5 @@
 """Neither thin nor nearly incompressible sheets lock: fixed 8 × 8 meshes beside converged ones; the plot."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

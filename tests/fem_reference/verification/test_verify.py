@@ -1,7 +1,5 @@
 """`sheetbench verify`: the quick cases, the table and its document; all of them in the slow run."""
 
-from __future__ import annotations
-
 import json
 import re
 from functools import cache

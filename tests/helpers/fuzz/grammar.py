@@ -4,8 +4,6 @@ A scene is drawn from a grammar of sound ones, or is one of the catalogue; a mut
 swaps, renames or replaces values anywhere in it, and another breaks its text.
 """
 
-from __future__ import annotations
-
 import copy
 import tomllib
 from typing import Any
@@ -75,17 +73,7 @@ WORDS = (
         "nan",
         "inf",
     ),
-    *(
-        "consistent",
-        "uniform",
-        "cauchy",
-        "moduli",
-        "verlet",
-        "midpoint",
-        "plate",
-        "shell",
-        "solid",
-    ),
+    *("consistent", "uniform", "cauchy", "moduli", "verlet", "midpoint", "plate", "shell", "solid"),
     *(
         "true",
         "weight",

@@ -1,7 +1,5 @@
 """What every run must keep to, whatever was asked: its exit status, its words, its numbers, its folder."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json

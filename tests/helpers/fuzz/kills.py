@@ -9,8 +9,6 @@ the end must be what an undisturbed process leaves: nothing lost, nothing double
 that came to its end is a line of FOLDER/kills-SEED.jsonl and is not filled again.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import random

@@ -8,8 +8,6 @@ stand in FOLDER/faults, the run ends with status 1, and the next draws its batch
 mended. At the end a table of counts, FOLDER/fuzz.md.
 """
 
-from __future__ import annotations
-
 import signal
 import sys
 import tempfile

@@ -1,7 +1,5 @@
 """What long runs have in common: what they are asked for, and the lines that one keeps for the next."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from collections.abc import Iterator, Mapping

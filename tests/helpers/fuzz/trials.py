@@ -3,8 +3,6 @@
 Each takes a folder of its own, in which it may write, and what its strategy of `fuzz.grammar` has drawn.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path

@@ -69,10 +69,7 @@ def test_the_order_of_the_actuators_makes_no_difference(model: str, name: str) -
 
 @pytest.mark.parametrize(
     ("asked", "grids"),
-    [
-        ((WIDE, 3.0, "y1", "x1"), [(13, 7), (25, 13)]),
-        ((SQUARE, 5.0, "x1", "y1"), [(13, 13), (25, 25)]),
-    ],
+    [((WIDE, 3.0, "y1", "x1"), [(13, 7), (25, 13)]), ((SQUARE, 5.0, "x1", "y1"), [(13, 13), (25, 25)])],
     ids=["wide", "square"],
 )
 def test_the_lattice_converges_to_the_shell(asked, grids) -> None:

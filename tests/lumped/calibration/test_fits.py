@@ -80,10 +80,7 @@ def test_frequency_slopes_against_differences():
         )
         sides = [
             lumped.modes(
-                scene,
-                springs.with_constant(name, k * (1 + sign * 1e-4)),
-                3,
-                "tributary",
+                scene, springs.with_constant(name, k * (1 + sign * 1e-4)), 3, "tributary"
             ).frequencies
             for sign in (1, -1)
         ]

@@ -89,12 +89,7 @@ def test_integrators_agree_with_solve_ivp(reference, name, step):
     assert largest(history.probes["P4"] - truth) < 1e-3 * largest(truth)
 
 
-ORDER_STEPS = {
-    "verlet": 4e-5,
-    "generalised-alpha": 4e-5,
-    "esdirk": 4e-4,
-    "midpoint": 4e-5,
-}
+ORDER_STEPS = {"verlet": 4e-5, "generalised-alpha": 4e-5, "esdirk": 4e-4, "midpoint": 4e-5}
 # damped, the slope of a fifth-order method wanders where its steps pass the dampers' own times
 ORDERS = [(name, d) for name in INTEGRATORS for d in (0.0, 1e-3) if (name, d) != ("esdirk", 1e-3)]
 

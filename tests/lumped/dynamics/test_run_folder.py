@@ -17,12 +17,7 @@ from sheetbench.runs.store import FolderStore
 from sheetbench.scenes import BadInput
 
 DURATION = 0.025  # s, two checkpoints
-RUNS = {
-    "generalised-alpha": [],
-    "esdirk": [],
-    "verlet": [],
-    "midpoint": [{"segments": 2, "curvature": 3.0}],
-}
+RUNS = {"generalised-alpha": [], "esdirk": [], "verlet": [], "midpoint": [{"segments": 2, "curvature": 3.0}]}
 
 
 @pytest.mark.parametrize("name", RUNS)

@@ -43,10 +43,7 @@ CASES = {
     ),
     "three layers": (SHEET, {"grid": (5, 5, 3), "method": "moduli"}),
     "dampers of a table": (scene().replace(dampers=TABLE), {"grid": (5, 6)}),
-    "with rows of a chain": (
-        scene("one-edge-clamped", actuators=[ROD], damping_time=1e-3),
-        {"grid": (5, 5)},
-    ),
+    "with rows of a chain": (scene("one-edge-clamped", actuators=[ROD], damping_time=1e-3), {"grid": (5, 5)}),
 }
 
 

@@ -83,10 +83,7 @@ def test_absent_families_are_not_assembled():
 
 
 @settings(max_examples=25, deadline=None)
-@given(
-    turn=st.tuples(*[st.floats(-3.0, 3.0)] * 3),
-    shift=st.tuples(*[st.floats(-1.0, 1.0)] * 3),
-)
+@given(turn=st.tuples(*[st.floats(-3.0, 3.0)] * 3), shift=st.tuples(*[st.floats(-1.0, 1.0)] * 3))
 def test_rigid_motions_cost_nothing(turn, shift):
     assembly = assembly_of(**ALL)
     x = assembly.lattice.positions.copy()  # a rotation takes no array that is not to be written to

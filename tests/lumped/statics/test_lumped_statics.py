@@ -86,15 +86,6 @@ def test_reactions_balance_the_weight(name):
     assert np.abs(on_masses - total).max() < 1e-12 * WEIGHT
 
 
-def test_symmetry_of_test_1():
-    scene = SEED["two-edges-clamped"]
-    solution = solve(scene)
-    points = np.random.default_rng(0).uniform(0, 0.188, (50, 2))
-    u, mirrored = solution.displacement(points), solution.displacement(points[:, ::-1])
-    assert np.abs(u - mirrored[:, [1, 0, 2]]).max() < 1e-8 * np.abs(u).max()
-    assert np.allclose(solution.reactions["x0"][[1, 0, 2]], solution.reactions["y0"], atol=1e-8 * WEIGHT)
-
-
 def test_energies_and_link_fields_agree():
     solution = solve(SEED["one-edge-clamped"])
     per_link, per_cell = solution.mesh.cell_data["elastic_energy"]
@@ -138,10 +129,7 @@ def test_point_edge_pressure_and_gravity_deflect_a_cantilever_as_beam_theory_say
     line = solve(strip(EdgeLoad(edge="x1", force_per_length=(0, 0, force))), (33, 9))
     assert tip(line)[2] == pytest.approx(force / (3 * BENDING) + force * shear, rel=2e-3)
     q = 1e-3
-    for load in (
-        strip(Pressure(value=q)),
-        strip(gravity=Gravity(acceleration=(0, 0, q / (1000.0 * 0.02)))),
-    ):
+    for load in (strip(Pressure(value=q)), strip(gravity=Gravity(acceleration=(0, 0, q / (1000.0 * 0.02))))):
         assert tip(solve(load, (33, 9)))[2] == pytest.approx(q / (8 * BENDING) + q * shear / 2, rel=2e-3)
     whole = 1e-3
     at_tip = solve(strip(PointLoad(at=(1.0, 0.125), force=(0, 0, whole))), (33, 9))
@@ -245,12 +233,6 @@ def test_no_stiffness_against_twisting_is_singular_not_a_crash():
         SEED["one-edge-clamped"], axial=0.0, diagonal=0.0, cross=0.0, cross_diagonal=0.0, area=0.0
     )
     assert lumped.solve(scene).status is Status.SINGULAR
-
-
-def test_unsupported_sheet_is_refused():
-    scene = SEED["one-edge-clamped"].model_copy(update={"supports": ()})
-    with pytest.raises(scenes.SceneError, match="support"):
-        solve(scene)
 
 
 @pytest.mark.parametrize("slenderness", [1e-4, 1e-3, 1e-2, 0.1])

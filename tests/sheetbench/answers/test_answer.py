@@ -1,7 +1,5 @@
 """The shape of answers: rows whose fields carry their columns, and what follows from tables and figures."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -41,7 +39,7 @@ ROWS = [
 ]
 
 
-def compose(answer: Pair, style: object) -> Figure:
+def compose(answer: "Pair", style: object) -> Figure:
     if not answer.drawn:
         raise NoPicture("nothing moves")
     figure = Figure()

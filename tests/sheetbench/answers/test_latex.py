@@ -1,7 +1,5 @@
 """Tables in LaTeX: read by a parser of its own, with nothing in them that a plain pdfTeX does not know."""
 
-from __future__ import annotations
-
 import unicodedata
 
 import pytest

@@ -1,7 +1,5 @@
 """Tables as lines of text: whole at any width; broken, set apart or stacked where that is narrow."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

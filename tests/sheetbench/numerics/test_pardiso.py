@@ -1,7 +1,5 @@
 """The extra `mkl`: PARDISO's factors of a lattice's tangent are those of rslab, each in its own memory."""
 
-from __future__ import annotations
-
 import gc
 import weakref
 

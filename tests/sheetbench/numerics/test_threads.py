@@ -1,7 +1,5 @@
 """References solve, and springs are fitted, on one BLAS thread whatever is set, which stays as it was."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Numbers that nobody means: one line that names the option or the key, or a status that says so."""
 
-from __future__ import annotations
-
 import json
 import re
 import warnings
@@ -29,7 +27,6 @@ OPTIONS = [
     (("tradeoff", SEED), "--duration"),
     (("advise", SEED), "--tolerance"),
 ]
-HUGE = "9" * 22
 
 
 @pytest.mark.parametrize("value", ["1e-308", "1e308", "inf", "nan"])

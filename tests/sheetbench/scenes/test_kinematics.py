@@ -1,7 +1,5 @@
 """Values over time, and where bent, tilted and moved edges are, against formulas written another way."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose

@@ -253,8 +253,7 @@ def shaken(damping_time=0.0):
 
 @pytest.mark.parametrize("damping", [0.0, 1e-3])
 @pytest.mark.parametrize(
-    "name, tolerance",
-    [("midpoint", 1e-9), ("generalised-alpha", 1e-4), ("esdirk", 1e-4), ("verlet", 1e-4)],
+    "name, tolerance", [("midpoint", 1e-9), ("generalised-alpha", 1e-4), ("esdirk", 1e-4), ("verlet", 1e-4)]
 )
 def test_the_energy_balance_holds_with_loads_that_change(name, tolerance, damping):
     asked = shaken(damping)
@@ -279,11 +278,7 @@ def test_weight_with_a_history_does_work_and_has_no_potential():
     assert static.reactions["x0"][2] == pytest.approx(weight)
 
 
-ORDER_STEPS = {
-    "verlet": 4e-5,
-    "generalised-alpha": 4e-5,
-    "midpoint": 4e-5,
-}
+ORDER_STEPS = {"verlet": 4e-5, "generalised-alpha": 4e-5, "midpoint": 4e-5}
 
 
 @pytest.mark.parametrize("name", ORDER_STEPS)  # a table's corners hide the error of a fifth order

@@ -10,8 +10,7 @@ from sheetbench.scenes.parameters import parameter, put
 SCENE = scenes.load("one-edge-clamped")
 CHAIN = {"edge": "x1", "segments": 4, "bending_stiffness": 0.01, "line_density": 0.05, "radius": 1e-3}
 RICH = SCENE.replace(
-    supports=(Curved(edge="x1", curvature=2.0),),
-    actuators=(Chain(**{**CHAIN, "edge": "y0"}, curvature=1.0),),
+    supports=(Curved(edge="x1", curvature=2.0),), actuators=(Chain(**{**CHAIN, "edge": "y0"}, curvature=1.0),)
 )
 VALUES = {
     "young": 1e6,

@@ -1,7 +1,5 @@
 """Numbers that are fine in SI units and hardly meant are said once, with the unit, and solved."""
 
-from __future__ import annotations
-
 import json
 import warnings
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Quantities with units, scene objects by place, and what sheetbench does not model, refused as such."""
 
-from __future__ import annotations
-
 import inspect
 import tomllib
 import warnings

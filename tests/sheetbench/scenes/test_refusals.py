@@ -1,7 +1,5 @@
 """What a scene's author gets wrong is said in the scene's words: near misses, lists from 1, no tracebacks."""
 
-from __future__ import annotations
-
 import random
 import tomllib
 from pathlib import Path

@@ -1,7 +1,5 @@
 """How a material damps: what is refused, one damper by a loss factor, and branches that keep it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Answers at a prompt and in notebooks: a few lines that say what matters, and ways on to other programs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from inspect import isfunction, signature

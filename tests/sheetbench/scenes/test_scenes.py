@@ -1,7 +1,5 @@
 """Scenes: what is refused and how it is said, defaults, rigid motions, and the published figures."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -12,7 +12,7 @@ import numpy as np
 
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Material, Status
-from sheetbench.scenes.material import WORDS, Energy
+from sheetbench.scenes.material import WORDS, Energy, limit_note
 
 
 class Slopes(NamedTuple):
@@ -52,7 +52,4 @@ def limit_notes(law: object, material: Material, status: Status) -> list[str]:
     """Return a sentence on the law's limit where numbers have overflowed under a law that has one."""
     if law != "gent" or status is not Status.NON_FINITE:
         return []
-    return [
-        f"the law 'gent' lets no load bring I1 - 3 to its limit = {material.limit:g}, as what is prescribed "
-        "here may do: move the supports less, or give a larger limit"
-    ]
+    return [limit_note(material)]

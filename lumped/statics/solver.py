@@ -53,6 +53,7 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
+from sheetbench.scenes.material import limit_note
 
 STRETCH = "largest in-plane link strain"
 UNKNOWN = "stability not known: the tangent's factors do not tell how many eigenvalues are negative"
@@ -219,6 +220,8 @@ def solve_path(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
                 f"a limit point between load factors {ends[0]:.5g} and {ends[1]:.5g}: from there on the load "
                 "falls as the sheet gives way"
             )
+        elif scene.material.limit and any(support.motion is not None for support in scene.supports):
+            notes.append(limit_note(scene.material))
         return Outcome(status, state, tuple(snaps), tuple(notes))
     return classify(scene, problem, state, snaps, notes)
 

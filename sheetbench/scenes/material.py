@@ -249,6 +249,15 @@ class Material(Frozen):
         return type(self)(**{**kept, **values})
 
 
+def limit_note(material: Material) -> str:
+    """Return a sentence on the limit of the material's law, for an answer that what is prescribed may rule
+    out."""
+    return (
+        f"the law 'gent' lets no load bring I1 - 3 to its limit = {material.limit:g}, as what is prescribed "
+        "here may do: move the supports less, or give a larger limit"
+    )
+
+
 def _require_pull(energy: Energy, given: str, law: str | None) -> None:
     """Raise ValueError for constants of which a sheet, pulled one way or both ways far enough, would push."""
     least = energy.c20**2 / (3.0 * energy.c10) if energy.c20 < 0.0 < energy.c10 else 0.0

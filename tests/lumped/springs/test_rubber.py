@@ -135,6 +135,15 @@ def test_beyond_gents_limit_the_energy_is_no_number():
     assert np.isnan(assembly.force(u)[0])
 
 
+def test_a_strip_moved_beyond_gents_limit_is_told_with_the_limit():
+    far = {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [0.3, 0.0, 0.0]]}
+    held = [{"edge": "x0", "kind": "clamped"}, {"edge": "x1", "kind": "clamped", "motion": far}]
+    scene = Scene(name="far", sheet=SHEET, material=rubber("gent").replace(limit=2.0), supports=held)
+    found = lumped.solve(scene)
+    assert found.status is Status.DIVERGED and 0.5 < found.load_factor < 1.0
+    assert "its limit = 2" in found.message
+
+
 def test_neo_hookean_springs_of_another_law_are_refused():
     with pytest.raises(BadInput, match="the material's law is 'gent'; take 'hyperelastic'"):
         lumped.calibrate(SHEET, rubber("gent"), grid=5, method="neo-hookean")

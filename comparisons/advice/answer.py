@@ -7,7 +7,7 @@ from shlex import join
 from typing import Annotated, Any
 
 from comparisons.comparison.model_error import ModelError
-from comparisons.models.grading import read
+from comparisons.models.grading import parse_grading
 from comparisons.models.scales import Scales
 from comparisons.models.spec import Elements, Lattice, Spec, counted
 from sheetbench.answers.answer import Answer
@@ -172,7 +172,7 @@ class Advice(Answer):
                 if name in spec.settings:
                     options += [f"--{name.replace('_', '-')}", f"{spec.settings[name]:g}"]
             options += symmetry
-            options += ["--grading", f"{read(spec.grading):g}"] if spec.grading else []
+            options += ["--grading", f"{parse_grading(spec.grading):g}"] if spec.grading else []
         elif isinstance(spec, Elements):
             options = ["--reference", spec.kind, "--elements", spec.size.replace("×", "x"), *symmetry]
         return join(["sheetbench", "compare", self.called or self.scene.name, *options])

@@ -57,18 +57,18 @@ class Trial:
 class Probing:
     """The solves of a scene so far."""
 
-    def __init__(self, scene: Scene, asked: Lattice = Lattice()) -> None:  # noqa: B008  # frozen
-        """asked: the springs that lattices may have too, and by how much they may be graded too. Raises
+    def __init__(self, scene: Scene, lattice: Lattice = Lattice()) -> None:  # noqa: B008  # frozen
+        """lattice: springs that lattices may have too, and by how much they may be graded too. Raises
         BadInput for a grid, where springs and grading are none or do not go together, and where the first
         references take too much memory; otherwise the larger models are left out."""
-        if asked.grid is not None:
-            raise BadInput(f"grid = {counted(asked.grid)}: is chosen here; leave it out")
+        if lattice.grid is not None:
+            raise BadInput(f"grid = {counted(lattice.grid)}: is chosen here; leave it out")
         self.scene = scene
-        usual = resolve(scene, asked.but(grid=MASSES), "springs", own=False)
-        self.grading, self.method = asked.grading, usual.spec.calibration or CALIBRATION
-        own = {"calibration": self.method, "k": asked.k, "layer_distance": asked.layer_distance}
+        resolved = resolve(scene, lattice.but(grid=MASSES), "springs", own=False)
+        self.grading, self.method = lattice.grading, resolved.spec.calibration or CALIBRATION
+        own = {"calibration": self.method, "k": lattice.k, "layer_distance": lattice.layer_distance}
         self.springs = {name: value for name, value in own.items() if value not in (None, CALIBRATION)}
-        self.because = usual.reasons.get("calibration_reason", "")
+        self.because = resolved.reasons.get("calibration_reason", "")
         self.points = scene.probe_points()
         self.planes = planes(scene)
         self.trials: dict[Spec, Trial] = {}

@@ -157,14 +157,14 @@ def _module(file: Path) -> ModuleType:
     return module
 
 
-def settings_of(model: Model, asked: Mapping[str, Any]) -> dict[str, Any]:
+def settings_of(model: Model, given: Mapping[str, Any]) -> dict[str, Any]:
     """Return the model's defaults overridden by what is asked. Raises BadInput for a setting it does not
     have."""
-    unknown = [key for key in asked if key not in model.settings]
+    unknown = [key for key in given if key not in model.settings]
     if unknown and not getattr(model, "takes_any", False):
         known = ", ".join(model.settings) or "none"
         raise BadInput(f"model = '{model.name}': no setting '{unknown[0]}'; it has {known}")
-    return {**model.settings, **asked}
+    return {**model.settings, **given}
 
 
 @cache

@@ -41,19 +41,19 @@ def linearise(
     """
     import lumped
 
-    asked = scene_of(scene)
+    scene = scene_of(scene)
     require_choice("about", about, ABOUT)
     if modes is not None and modes < 1:
         raise BadInput(f"modes = {modes}: at least 1")
     order, tolerance = _balance(reduce)
-    model = resolve(asked, Lattice.given(lattice, keywords), "motion")
+    model = resolve(scene, Lattice.given(lattice, keywords), "motion")
     springs = model.springs
     context().progress(Work("linearising the lattice", model.size))
-    found = lumped.linearise(asked, springs, "flat" if about == "flat" else "deformed")
+    found = lumped.linearise(scene, springs, "flat" if about == "flat" else "deformed")
     most = found.mass.shape[0]
     space = found.state_space(None if modes is None else min(modes, most))
     balanced = None if reduce is None else space.balanced(order, tolerance)
-    return Linearisation(asked, f"lumped {springs.title}", about, found, space, balanced)
+    return Linearisation(scene, f"lumped {springs.title}", about, found, space, balanced)
 
 
 def _balance(reduce: str | None) -> tuple[int | None, float | None]:

@@ -23,7 +23,7 @@ from sheetbench.scenes.loads import Pressure
 from sheetbench.scenes.parameters import parameter, put
 
 MASSES_CAP, ELEMENTS_CAP = 33, 16  # along the side of a square sheet, and as many in all on any other
-ELEMENTS = 8  # unless asked for: a shell of 8 × 8 elements answers in a tenth of a second
+ELEMENTS = 8  # unless given: a shell of 8 × 8 elements answers in a tenth of a second
 OWN = "scene"  # the calibration's name where the scene brings its own [springs]
 SETTINGS = ("grid", "grading", "elements", "k")  # sliders of the models, not of the scene
 
@@ -119,7 +119,7 @@ class Panel:
             _refuse("number: a whole number from 0")
         if unlike := set(values) ^ set(self.sliders):
             _refuse(
-                f"values: {', '.join(sorted(map(str, unlike)))[:80]}: {', '.join(self.sliders)} are asked for"
+                f"values: {', '.join(sorted(map(str, unlike)))[:80]}: {', '.join(self.sliders)} are needed"
             )
         read = {name: self._within(slider, values[name]) for name, slider in self.sliders.items()}
         if found.get("calibration") not in self.calibrations:
@@ -131,7 +131,7 @@ class Panel:
     def _question(self, number: int, values: dict[str, float], calibration: str, copy: str = "") -> Question:
         return Question(number, values, calibration, copy, self._lattice.layer_distance)
 
-    def asked(self, question: Question) -> Scene:
+    def scene_of(self, question: Question) -> Scene:
         """Return the scene of a question. Raises SceneError where the values do not go together."""
         scene = self.scene
         for name, value in question.values.items():
@@ -141,12 +141,12 @@ class Panel:
 
     def _within(self, slider: Slider, value: Any) -> float:
         if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > 1e300:
-            _refuse(f"{slider.name}: a finite number is asked for")
+            _refuse(f"{slider.name}: a finite number is needed")
         if not isfinite(value) or not slider.low <= value <= slider.high:
             bounds = f"{slider.low:g} to {slider.high:g}"
             _refuse(f"{slider.name} = {value:g}: from {bounds} on this page")
         if slider.whole and value != int(value):
-            _refuse(f"{slider.name} = {value:g}: a whole number is asked for")
+            _refuse(f"{slider.name} = {value:g}: a whole number is needed")
         return float(value)
 
 

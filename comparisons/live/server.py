@@ -59,7 +59,9 @@ async def served(panel: Panel, port: int = 0) -> AsyncIterator[str]:
         listening = _listening(port)
         guard = Guard(listening.getsockname()[1])
         first = panel.first()
-        desk = _Desk(panel, models, guard, asyncio.ensure_future(models.warm_up(panel.asked(first), first)))
+        desk = _Desk(
+            panel, models, guard, asyncio.ensure_future(models.warm_up(panel.scene_of(first), first))
+        )
         async with serve(
             desk.converse,
             sock=listening,

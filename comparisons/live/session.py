@@ -37,7 +37,7 @@ class Session:
     def __init__(self, panel: Panel, models: Models, warm: Awaitable[None], send: Send) -> None:
         """warm: over when the models are ready."""
         self._panel, self._models, self._warm, self._send = panel, models, warm, send
-        self._asked: Newest[Question] = Newest()
+        self._questions: Newest[Question] = Newest()
         self._answered: Newest[Answered] = Newest()
         self._known: np.ndarray | None = None  # rest places of the masses that the page has
 
@@ -70,17 +70,17 @@ class Session:
                     {"kind": "text", "number": question.number, "of": question.copy, "text": text}
                 )
         else:
-            self._asked.put(question)
+            self._questions.put(question)
 
     async def _lattices(self) -> None:
         last: Answered | None = None
         while True:
-            question = await self._asked.get()
+            question = await self._questions.get()
             last = await self._of(question, self._lattice(question, last))
             if last is None:
                 continue
             await self._tell(last)
-            if last.from_flat or await self._asked.comes_within(PAUSE):
+            if last.from_flat or await self._questions.comes_within(PAUSE):
                 continue
             settled = await self._of(question, self._lattice(question))
             if settled is not None and not settled.agrees(last):
@@ -100,10 +100,10 @@ class Session:
                 await self._say(found)
 
     async def _lattice(self, question: Question, last: Answered | None = None) -> Answered:
-        return await self._models.lattice(self._panel.asked(question), question, last)
+        return await self._models.lattice(self._panel.scene_of(question), question, last)
 
     async def _text(self, question: Question) -> str:
-        return await self._models.text(self._panel.asked(question), question)
+        return await self._models.text(self._panel.scene_of(question), question)
 
     async def _of(self, question: Question, work: Awaitable[T]) -> T | None:
         """Return what the work comes to; None where it is refused or fails, which the page is told in a

@@ -30,27 +30,27 @@ NARROW = 0.6
 RESOLVED = 24.0
 
 
-def read(asked: Grading) -> Graded | str | None:
+def parse_grading(grading: Grading) -> Graded | str | None:
     """Return a number or a grading towards some edges, or "auto", from what is asked, text too (0.5,
     0.5:x0,y0); None where nothing is. Raises BadInput."""
-    if asked is None or asked == AUTO or isinstance(asked, EdgeGrading):
-        return asked
-    by, _, edges = str(asked).partition(":")
+    if grading is None or grading == AUTO or isinstance(grading, EdgeGrading):
+        return grading
+    by, _, edges = str(grading).partition(":")
     try:
         value = float(by)
     except ValueError:
         value = -1.0
     if not 0.0 <= value <= 1.0:
         raise BadInput(
-            f"grading = {asked}: a number from 0 (cells of one size) to 1 (finest at the edges), 0.5:x0 "
+            f"grading = {grading}: a number from 0 (cells of one size) to 1 (finest at the edges), 0.5:x0 "
             "(at that edge alone), or auto"
         )
     return towards(value, edges.split(",") if edges else None)
 
 
-def fixed(asked: Grading) -> Graded | None:
+def fixed(grading: Grading) -> Graded | None:
     """Return the grading that is asked for; None for "auto" too. Raises BadInput."""
-    chosen = read(asked)
+    chosen = parse_grading(grading)
     return None if isinstance(chosen, str) else chosen
 
 
@@ -59,7 +59,7 @@ def grading_of(
 ) -> tuple[Graded | None, str]:
     """Return the grading, None where nothing is asked, and for "auto" the reason in a sentence. Raises
     BadInput for what is neither."""
-    chosen = read(lattice.grading)
+    chosen = parse_grading(lattice.grading)
     if not isinstance(chosen, str):
         return chosen, ""
     return (0.0, why_not) if (why_not := one_size(grid, lattice)) else _by_layers(scene, grid)

@@ -46,10 +46,10 @@ def parse_grid(sheet: Sheet, text: str) -> Grid:
     return grid_of(sheet, numbers)
 
 
-def scene_grid(scene: Scene, asked: GridLike = None) -> Grid:
+def scene_grid(scene: Scene, grid: GridLike = None) -> Grid:
     """Return the grid asked for, as text or as numbers; else that of the scene's own [springs], if they name
     one, or nine masses along the shorter side."""
-    if isinstance(asked, str):
-        return parse_grid(scene.sheet, asked)
+    if isinstance(grid, str):
+        return parse_grid(scene.sheet, grid)
     own = scene.springs.grid if isinstance(scene.springs, SpringTable) else None
-    return grid_of(scene.sheet, asked if asked is not None else own or MASSES)
+    return grid_of(scene.sheet, grid if grid is not None else own or MASSES)

@@ -160,15 +160,15 @@ def resolve_each(
 
     grading: of those whose calibration and layers take one. Raises BadInput where none of them does.
     """
-    asked = [cast(Lattice, one) for one in specs]  # a pair has what is asked of it here
+    given_lattices = [cast(Lattice, one) for one in specs]  # a pair has the settings that are used here
     for one in specs:
         _check_lattice(one.lattice(one.grid) if isinstance(one, LatticePair) else cast(Lattice, one))
-    takers = [one for one in asked if not one_size(scene_grid(scene, one.grid), one)]
+    takers = [one for one in given_lattices if not one_size(scene_grid(scene, one.grid), one)]
     if fixed(grading) and not takers:
         raise BadInput(f"grading = {grading}: none of these calibrations takes cells of different sizes")
     found: list[Spec] = []
     methods, gradings = [], list[str]()
-    for one in asked:
+    for one in given_lattices:
         meant = resolve(scene, one.but(grading=grading if one in takers else None), use="springs")
         found.append(meant.spec if meant.spec.grading else meant.spec.but(grading=None))
         if why := meant.reasons.get("grading_reason"):

@@ -37,8 +37,8 @@ def size(scene: Scene, spec: Spec) -> Size | None:
 def has_room(scene: Scene, spec: Spec) -> bool:
     """Return whether there is as much memory as a model takes, as far as either is known, or none is asked
     for."""
-    room, asked = memory.available(), size(scene, spec)
-    return context().large or room is None or asked is None or asked.memory <= room
+    room, needed = memory.available(), size(scene, spec)
+    return context().large or room is None or needed is None or needed.memory <= room
 
 
 def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") -> None:
@@ -47,8 +47,8 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") 
     option: by which the size is asked for, --lumped or --elements unless said; instead: what to do where
     it is not asked for.
     """
-    room, asked = memory.available(), size(scene, spec)
-    if room is None or asked is None or asked.memory <= room:
+    room, needed = memory.available(), size(scene, spec)
+    if room is None or needed is None or needed.memory <= room:
         return
     counts = "x".join(str(n) for n in along(scene, spec))
     lattice = _is_lattice(spec)
@@ -57,9 +57,9 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") 
         2 if lattice else 1, lambda n: _estimate(spec, _sized(scene.sheet, spec, n)).memory <= room
     )
     advice = f"{option} {fitting} would fit" if fitting else f"take fewer along the longer side, {option} NxM"
-    needed, free = amounts.memory(asked.memory), amounts.memory(room)
+    taken, free = amounts.memory(needed.memory), amounts.memory(room)
     raise BadInput(
-        f"{spec.model} {counts}: {amounts.count(asked.unknowns)} unknowns take about {needed} of "
+        f"{spec.model} {counts}: {amounts.count(needed.unknowns)} unknowns take about {taken} of "
         f"memory, and {free} are free here; {instead or advice}, or give --large (in Python large=True) to "
         "try all the same"
     )

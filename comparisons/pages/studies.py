@@ -55,11 +55,11 @@ class Study:
     @cached_property
     def scene(self) -> Scene | None:
         """The scene that was asked about, where there is one that can be read."""
-        asked = self.run.get("scene") or self.document.get("scene")
-        if not isinstance(asked, dict):
+        data = self.run.get("scene") or self.document.get("scene")
+        if not isinstance(data, dict):
             return None
         try:
-            return Scene.model_validate(asked)
+            return Scene.model_validate(data)
         except (BadInput, ValueError) as error:
             said = " ".join(str(error).split())
             self.troubles.append(f"{self.place}: its scene cannot be read: {said[:200]}")
@@ -68,8 +68,8 @@ class Study:
     @property
     def title(self) -> str:
         """What the study is about."""
-        asked = self.run.get("scene")
-        named = self.words.get("title") or (asked.get("name") if isinstance(asked, dict) else None)
+        data = self.run.get("scene")
+        named = self.words.get("title") or (data.get("name") if isinstance(data, dict) else None)
         alone = self.files[0] if not self.verb and len(self.files) == 1 else ""
         return str(named or alone or self.place or self.folder.resolve().name)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 
-from comparisons.models.grading import read
+from comparisons.models.grading import parse_grading
 from comparisons.models.sizes import require_room
 from comparisons.models.spec import Grading, Lattice
 from comparisons.runs.campaign import Progress, Run, carry_out
@@ -36,7 +36,7 @@ def survey(
     grading that is none or that no study takes, and unless `large` for cells that take more memory than there
     is.
     """
-    graded = read(grading)
+    graded = parse_grading(grading)
     own = {} if graded is None else Lattice(grading=graded).settings
     queue = [(s, cell | own if s.graded else cell) for s in studies for cell in s.cells(full)]
     if own and not any("grading" in cell for _, cell in queue):

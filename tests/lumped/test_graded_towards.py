@@ -10,7 +10,7 @@ from commands import one_line, run
 import fem_reference
 import lumped
 from comparisons.comparison.comparison import error
-from comparisons.models.grading import ONE_SIDED, grading_of, read
+from comparisons.models.grading import ONE_SIDED, grading_of, parse_grading
 from comparisons.models.spec import Lattice
 from lumped.grid_lines import grid_lines
 from lumped.springs.constants import of_edge_cells
@@ -38,13 +38,13 @@ def test_lines_towards_one_edge_are_half_of_a_side_twice_as_long() -> None:
 
 
 def test_what_is_asked_is_read_as_people_write_it() -> None:
-    assert read("0.6:x0") == LEFT and str(LEFT) == "0.6:x0" and read(LEFT) is LEFT
-    assert read("0.5:x1,x0") == Grading(0.5, ("x0", "x1"))
-    assert read("0.5:y1,y0,x0,x1") == 0.5 and read("0:x0") == 0.0
+    assert parse_grading("0.6:x0") == LEFT and str(LEFT) == "0.6:x0" and parse_grading(LEFT) is LEFT
+    assert parse_grading("0.5:x1,x0") == Grading(0.5, ("x0", "x1"))
+    assert parse_grading("0.5:y1,y0,x0,x1") == 0.5 and parse_grading("0:x0") == 0.0
     assert of_settings(as_settings(LEFT)) == LEFT and as_settings(0.5) == {"grading": 0.5}
     for wrong in ("0.5:z0", "0.5:x0;y0", "2:x0", "auto:x0"):
         with pytest.raises(BadInput, match="grading = "):
-            read(wrong)
+            parse_grading(wrong)
     with pytest.raises(BadInput, match="towards no edge"):
         towards(0.5, ())
 

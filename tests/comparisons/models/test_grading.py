@@ -9,7 +9,7 @@ from commands import one_line, run
 
 import lumped
 import sheetbench as sb
-from comparisons.models.grading import GRADED, grading_of, read
+from comparisons.models.grading import GRADED, grading_of, parse_grading
 from comparisons.models.resolve import resolve_each
 from comparisons.models.spec import Lattice
 from sheetbench.face import solve
@@ -100,7 +100,7 @@ def test_auto_leaves_alone_what_the_cells_resolve_and_what_has_cells_of_one_size
         0.0,
         "nothing bends the sheet, so that it has no layers at its edges",
     )
-    assert [read(asked) for asked in (None, "auto", "0.25", 1)] == [None, "auto", 0.25, 1.0]
+    assert [parse_grading(asked) for asked in (None, "auto", "0.25", 1)] == [None, "auto", 0.25, 1.0]
     with pytest.raises(BadInput, match=r"grading = 0.5: the calibration uniform is for cells of one size"):
         solve(curved, "lumped", grid=3, calibration="uniform", grading=0.5)
 

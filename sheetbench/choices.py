@@ -37,8 +37,8 @@ CALIBRATIONS: dict[str, Method] = {
     "consistent-oblique": Method(
         "consistent, and waves oblique to the grid right in second order", CELL_BY_CELL
     ),
-    "neo-hookean": Method("layers as neo-Hookean membranes, for rubbers at any strain", ("grading",)),
-    "hyperelastic": Method("the same of the law of the scene's material", ("grading",)),
+    "neo-hookean": Method("layers as neo-Hookean membranes, for rubbers at any strain", GRADED),
+    "hyperelastic": Method("the same of the law of the scene's material", GRADED),
     "moduli": Method("bounded least squares on the moduli"),
     "fit-static": Method("fitted to displacements", (*GRADED, "targets")),
     "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),

@@ -38,7 +38,7 @@ def resolve_calibration(scene: Scene, grid: Sequence[int], lattice: Lattice) -> 
     """Return the calibration asked for, None where nothing is; and where it is "auto", or nothing but the
     grading "auto" is asked, the one for this scene, and why."""
     left_open = lattice.calibration is lattice.k is lattice.layer_distance is None
-    if scene.material.law is not None and (left_open or lattice.calibration == AUTO):
+    if scene.material.law is not None and lattice.k is None and lattice.calibration in (None, AUTO):
         return RUBBER, f"the material has the law {scene.material.law}"
     if lattice.calibration != AUTO and not (left_open and lattice.grading == AUTO):
         return lattice.calibration, ""

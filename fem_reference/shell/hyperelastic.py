@@ -1,12 +1,13 @@
 """Shell elements of a law that is not quadratic in Green's strain (`laws`), integrated through the thickness.
 
-At height ζ the in-plane strain is E + ζ κ, of the assumed membrane and bending strains at the element's 3 × 3
-Gauss points; three more through the thickness give
+At the height ζ of the flat sheet the in-plane strain is e = E + ζ t κ, of the assumed membrane and bending
+strains at the element's 3 × 3 Gauss points and the stretch t(E) of the thickness; three more points through
+the thickness give
 
-    s = ∫∫ (T_m, ζ T_b)ᵀ S(E + ζ κ) dζ dA,     D = ∫∫ (T_m, ζ T_b)ᵀ ∂S/∂E (T_m, ζ T_b) dζ dA
+    s = ∫∫ ∇eᵀ S(e) dζ dA,   D = ∫∫ ∇eᵀ ∂S/∂e ∇e + S·∇∇e dζ dA,   ∇e = ((1 + ζ κ ∇tᵀ) T_m, ζ t T_b)
 
 with T what makes Cartesian strains of the sampled ones (`element.cartesian`). Transverse shear stays linear.
-With St Venant–Kirchhoff's law these are the stresses of `Element`.
+With St Venant–Kirchhoff's law, under which t = 1, these are the stresses of `Element`.
 """
 
 from __future__ import annotations
@@ -59,10 +60,14 @@ class HyperelasticElement(Element):
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s (m, 54), conjugate to the sampled strains."""
-        found = self._response(strain).stress * self._volumes[..., None]
+        stretch, curvature = self._strains(strain)
+        t, slope, _ = self.law.thickness(self.material, stretch)
+        found = self._response(stretch, t[..., None] * curvature).stress * self._volumes[..., None]
+        force, moment = found.sum(axis=2), np.einsum("egza,z->ega", found, self.heights)
+        force += np.sum(moment * curvature, axis=-1)[..., None] * slope
         out = self.drag * (self.stiffness @ (strain - self.past)[:, :, None])[:, :, 0]
-        out[:, MEMBRANE] += np.einsum("egak,egza->ek", self.membrane, found, optimize=True)
-        out[:, BENDING] += np.einsum("egak,egza,z->ek", self.bending, found, self.heights, optimize=True)
+        out[:, MEMBRANE] += np.einsum("egak,ega->ek", self.membrane, force, optimize=True)
+        out[:, BENDING] += np.einsum("egak,ega->ek", self.bending, t[..., None] * moment, optimize=True)
         out[:, SHEAR] += (self.stiffness[:, SHEAR, SHEAR] @ strain[:, SHEAR, None])[:, :, 0]
         return out
 
@@ -78,21 +83,34 @@ class HyperelasticElement(Element):
 
     def moduli(self, strain: np.ndarray) -> np.ndarray:
         """D (m, 54, 54)."""
-        found, areas = self._response(strain).tangent * self.weights[:, None, None], self.areas
-        stretch, mixed, turn = (np.einsum("egzab,z->egab", found, self.heights**n) for n in range(3))
+        stretch, curvature = self._strains(strain)
+        t, slope, bend = self.law.thickness(self.material, stretch)
+        _, stress, tangent = self._response(stretch, t[..., None] * curvature)
+        weighed = tangent * self.weights[:, None, None]
+        force, mixed, turn = (np.einsum("egzab,z->egab", weighed, self.heights**n) for n in range(3))
+        moment = np.einsum("egza,z->ega", stress, self.weights * self.heights)
+        by_thinning, turned = _applied(mixed, curvature), _applied(turn, curvature)
+        force += _outer(by_thinning, slope) + _outer(slope, by_thinning)
+        force += np.sum(turned * curvature, axis=-1)[..., None, None] * _outer(slope, slope)
+        force += np.sum(moment * curvature, axis=-1)[..., None, None] * bend
+        t, areas = t[..., None, None], self.areas
+        mixed = t * (mixed + _outer(slope, turned)) + _outer(slope, moment)
         out = self.drag * self.stiffness
-        out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, stretch, areas)
+        out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, force, areas)
         coupled = integrated(self.membrane, mixed, areas, self.bending)
         out[:, MEMBRANE, BENDING] += coupled
         out[:, BENDING, MEMBRANE] += coupled.swapaxes(1, 2)
-        out[:, BENDING, BENDING] += integrated(self.bending, turn, areas)
+        out[:, BENDING, BENDING] += integrated(self.bending, t * t * turn, areas)
         out[:, SHEAR, SHEAR] += self.stiffness[:, SHEAR, SHEAR]
         return out
 
     def energies(self, strain: np.ndarray) -> dict[str, float]:
         """Energy [J] of strains e (m, 54): that of the mid-surface's stretch, what bending adds, of shear."""
-        flat = np.concatenate([strain[:, MEMBRANE], np.zeros_like(strain[:, MEMBRANE])], axis=1)
-        total, membrane = (float(np.sum(self._volumes * self._response(e).energy)) for e in (strain, flat))
+        stretch, curvature = self._strains(strain)
+        bent = self.law.thickness(self.material, stretch).energy[..., None] * curvature
+        total, membrane = (
+            float(np.sum(self._volumes * self._response(stretch, part).energy)) for part in (bent, 0.0 * bent)
+        )
         slant = strain[:, SHEAR, None]
         shear = 0.5 * np.sum(slant * (self.stiffness[:, SHEAR, SHEAR] @ slant))
         return {"membrane": membrane, "bending": total - membrane, "shear": float(shear)}
@@ -101,15 +119,28 @@ class HyperelasticElement(Element):
         """Elements of stresses s + σ D₀ (e − e_n), from strains e_n (m, 54) with drag σ."""
         return replace(self, past=strain, drag=drag)
 
-    def _response(self, strain: np.ndarray) -> Response:
-        """Of the sampled strains (m, ≥ 42) at the points of every element, (m, 9, 3, …)."""
-        stretch = np.einsum("egak,ek->ega", self.membrane, strain[:, MEMBRANE])
-        curvature = np.einsum("egak,ek->ega", self.bending, strain[:, BENDING])
+    def _strains(self, strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return E and κ (m, 9, 3) at every element's points of the sampled strains (m, ≥ 42)."""
+        return (
+            np.einsum("egak,ek->ega", self.membrane, strain[:, MEMBRANE]),
+            np.einsum("egak,ek->ega", self.bending, strain[:, BENDING]),
+        )
+
+    def _response(self, stretch: np.ndarray, bent: np.ndarray) -> Response:
+        """Return that to E and t κ through the thickness, (m, 9, 3, …)."""
         return self.law.response(
-            self.material, stretch[:, :, None] + self.heights[:, None] * curvature[:, :, None]
+            self.material, stretch[:, :, None] + self.heights[:, None] * bent[:, :, None]
         )
 
     @property
     def _volumes(self) -> np.ndarray:
         """(m, 9, 3) [m³]."""
         return self.areas[:, :, None] * self.weights
+
+
+def _outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return a[..., :, None] * b[..., None, :]
+
+
+def _applied(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    return np.asarray((matrix @ vector[..., None])[..., 0])

@@ -140,10 +140,24 @@ def _outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 class Law(NamedTuple):
-    """response: of a material at strains (…, 3); stands_any_strain: whether it is meant for large ones."""
+    """response: of a material at strains (…, 3); stands_any_strain: whether it is meant for large ones, and
+    sheets of it get thinner."""
 
     response: Callable[[Material, np.ndarray], Response]
     stands_any_strain: bool = True
+
+    def thickness(self, material: Material, strain: np.ndarray) -> Response:
+        """Return the stretch of the thickness j^(−ν/(1 − ν)) (…) and its derivatives by the strain (…, 3): as
+        at small strains, and at any where ν = ½; 1 of a law that is not for large strains."""
+        if not self.stands_any_strain:
+            none = np.zeros_like(strain)
+            return Response(1.0 + none[..., 0], none, _outer(none, none))
+        power = material.poisson / (1.0 - material.poisson)
+        area, first, second = _area(strain)
+        stretch = area**-power
+        slope = (power * stretch / area)[..., None]
+        bent = ((power + 1.0) / area)[..., None, None] * _outer(first, first) - second
+        return Response(stretch, -slope * first, slope[..., None] * bent)
 
 
 LAWS = {

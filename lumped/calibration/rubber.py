@@ -12,7 +12,9 @@ sin² 2θ/48 times
 
 and d is such that it vanishes (derived here; `lumped.calibration.closed_form` has the links' like). A cell
 bent in its own plane, which mean sides do not see, is the axial links': E h/3L along each side, which the
-cells' law takes off again where opposite sides are as long. Vertical links keep their length, kz = 8 D/lz².
+cells' law takes off again where opposite sides are as long. Vertical links keep their length, kz = 8 D/lz²:
+bending does not follow the thinning of a sheet that is stretched. One that is stretched before it bends has
+the layer distance t h/√(L² − 1), t = 1/(λ₁ λ₂) the stretch of its thickness.
 Edges are as in `lumped.calibration.edge_twist`. Cells may differ.
 """
 
@@ -35,30 +37,49 @@ from sheetbench.scenes import Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 
 
-def neo_hookean(sheet: Sheet, material: Material, grid: Grid, grading: Graded = 0.0) -> Calibration:
+def neo_hookean(
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None = None,
+    grading: Graded = 0.0,
+) -> Calibration:
     """Neo-Hookean layers with the moduli of the sheet at small strains. Raises BadInput for a material of
     another law."""
     if material.law not in (None, "neo-hookean"):
         raise BadInput(
             f"calibration 'neo-hookean': the material's law is '{material.law}'; take 'hyperelastic'"
         )
-    return _rubber("neo-hookean", sheet, material, grid, grading)
+    return _rubber("neo-hookean", sheet, material, grid, layer_distance, grading)
 
 
-def hyperelastic(sheet: Sheet, material: Material, grid: Grid, grading: Graded = 0.0) -> Calibration:
+def hyperelastic(
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None = None,
+    grading: Graded = 0.0,
+) -> Calibration:
     """Layers of the material's law, of a material without one neo-Hooke's."""
-    return _rubber("hyperelastic", sheet, material, grid, grading)
+    return _rubber("hyperelastic", sheet, material, grid, layer_distance, grading)
 
 
-def _rubber(method: str, sheet: Sheet, material: Material, grid: Grid, grading: Graded) -> Calibration:
+def _rubber(
+    method: str,
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None,
+    grading: Graded,
+) -> Calibration:
     layers, energy = grid[2], material.energy
     thickness = sheet.thickness / layers
 
-    def of_cell(cell: Sheet, material: Material, _: float | None = None) -> SpringSet:
+    def of_cell(cell: Sheet, material: Material, distance: float | None = layer_distance) -> SpringSet:
         lx, ly = cell.lengths
         asked = moduli.of_sheet(cell, material, cell.lengths)
         side = material.young * thickness / 3.0
-        square = sheet.thickness**2 / (layers**2 - 1)
+        square = sheet.thickness**2 / (layers**2 - 1) if distance is None else distance**2
         gap, squares = asked.shear / moduli.shear_gaps(layers), np.array([lx * lx, ly * ly])
         share = diagonals_for_waves(asked, lx * ly, 7.0 + material.poisson**2)
         diagonal = share * float((gap / squares).min() * squares.sum() / 2.0)
@@ -80,7 +101,7 @@ def _rubber(method: str, sheet: Sheet, material: Material, grid: Grid, grading: 
         )
 
     if grading:
-        springs = cell_by_cell(of_cell, sheet, material, grid, grading, None)
+        springs = cell_by_cell(of_cell, sheet, material, grid, grading, None, layer_distance)
     else:
         lx, ly = plan_spacing(sheet, grid)
         springs = of_cell(sheet.model_copy(update={"length_x": lx, "length_y": ly}), material)

@@ -24,7 +24,7 @@ from typing import Any
 import typer
 from typer.main import get_command
 
-from comparisons.cli import announced, characters, defaults, interruption, removed, startup, warned
+from comparisons.cli import characters, defaults, interruption, messages, removed, startup
 from comparisons.cli.verb import as_verb
 from comparisons.runs import interrupts
 
@@ -120,7 +120,7 @@ def main(arguments: list[str] | None = None) -> None:
         startup.begin()
     called = tuple(arguments[:1]) if arguments[:1] and arguments[0] in VERBS else VERBS  # one is read sooner
     command = verb_group(called, boxes=get_terminal_size().columns >= BOXES)
-    with interruption.heeded(), warned.in_a_line(), announced.in_a_line():
+    with interruption.heeded(), messages.in_lines():
         try:
             try:
                 status = command(args=arguments, prog_name="sheetbench", standalone_mode=False)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from comparisons.cli import console, startup, warned
+from comparisons.cli import console, messages, startup
 from sheetbench import clock
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ class Output:
         """
         report = answer.report()
         own = report.document.get("warnings", ())  # before those about the scene
-        document = {**report.document, "warnings": [*own, *warned.shown]}
+        document = {**report.document, "warnings": [*own, *messages.shown]}
         pictures = () if self._options.no_pictures else report.pictures
         notes = (*report.notes, *self._notes)
         report = replace(report, document=document, pictures=pictures, notes=notes).with_style(self._style)

@@ -9,13 +9,13 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from comparisons.pages.studies import Study
-from sheetbench.answers.table import Column, Table, Unit, number, unit
+from sheetbench.answers.table import Column, Table, Unit, unit
 
 MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folded
 WORD = 24  # letters; longer texts are broken over lines
@@ -119,33 +119,17 @@ def _cell(column: Column, of_units: bool, value: Any) -> Any:
 
 
 def _undescribed(name: str, rows: list[list[str]], aside: bool) -> HtmlTable:
-    head, body = rows[0], rows[1 : MOST + 1]
-    width = len(head)
-    body = [(row + [""] * width)[:width] for row in body]
-    numeric = [all(_value(row[i]) is not None for row in body if row[i]) and bool(body) for i in range(width)]
-    shown = [_scaled(text) if numeric[i] else (text, Unit("", "")) for i, text in enumerate(head)]
-    cells = [
-        [
-            Cell(number(v * shown[i][1].scale, ".5g"), v)
-            if numeric[i] and (v := _value(text)) is not None
-            else Cell(text)
-            for i, text in enumerate(row)
-        ]
-        for row in body
-    ]
-    long = [max((len(row[i]) for row in body), default=0) > WORD for i in range(width)]
-    kinds = ["number" if numeric[i] else "prose" if long[i] else "word" for i in range(width)]
-    heads = [Head(text, kind) for (text, _), kind in zip(shown, kinds, strict=True)]
-    return HtmlTable(name, "", heads, cells, _left_out(rows[1:]), aside)
-
-
-def _scaled(head: str) -> tuple[str, Unit]:
-    """Return a heading "name [m]" with the unit as people read it, and that unit."""
-    found = re.fullmatch(r"(.*) \[(.+)\]", head)
-    if not found:
-        return head, Unit("", "")
-    shown = unit(found[2])
-    return f"{found[1]} [{shown.shown}]", shown
+    """Return a CSV file's table, its columns found from headings "name [m]" and what stands below."""
+    width, columns = len(rows[0]), []
+    body = [(row + [""] * width)[:width] for row in rows[1:]]
+    for i, head in enumerate(rows[0]):
+        cells = [row[i] for row in body[:MOST] if row[i]]
+        numeric = bool(cells) and all(_value(cell) is not None for cell in cells)
+        found = re.fullmatch(r"(.*) \[(.+)\]", head) if numeric else None
+        shown = unit(found[2]) if found else Unit("", "")
+        column = Column(found[1] if found else head, shown.si, shown.shown, shown.scale, ".5g" * numeric)
+        columns.append({**vars(column), "prose": max(map(len, cells), default=0) > WORD})
+    return replace(_described({"caption": name, "columns": columns}, body), aside=aside)
 
 
 def _left_out(rows: Sequence[Any]) -> str:

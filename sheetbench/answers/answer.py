@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from sheetbench.answers.escape import terminal
 from sheetbench.answers.report import NoPicture, Picture, Report, Write
 from sheetbench.answers.table import Table
 from sheetbench.errors import BadInput
@@ -15,8 +14,6 @@ from sheetbench.errors import BadInput
 if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
-
-ROWS = 6  # of a table at a prompt
 
 
 class Answer(ABC):
@@ -112,11 +109,7 @@ class Answer(ABC):
         return self.report().save(folder, figure)
 
     def __repr__(self) -> str:
-        from sheetbench.answers.layout import text
-
-        title = terminal("  ".join(filter(None, self.heading()[:2])))
-        tables = (text(table, ROWS) for table in self.printed())
-        return "\n".join([title, "", *tables, *map(terminal, self.complaints())]).rstrip()
+        return repr(self.report())
 
     def _repr_html_(self) -> str:
         return self.report()._repr_html_()

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Write = Callable[[Path], None]
-
-
+ROWS = 6  # of a table at a prompt
 RASTER = ("png", "pdf")
 
 
@@ -151,14 +150,9 @@ class Report:
     def __repr__(self) -> str:
         from sheetbench.answers.layout import text
 
-        heading = " ".join(filter(None, [self.title, self.subtitle]))
-        return "\n".join(
-            [
-                f"{terminal(heading)}\n",
-                *(text(table) for table in self.shown),
-                *(terminal(said, keep="\n") for said in self.notes),
-            ]
-        )
+        title = terminal("  ".join(filter(None, [self.title, self.subtitle])))
+        tables = (text(table, ROWS) for table in self.shown)
+        return "\n".join([title, "", *tables, *map(terminal, self.complaints)]).rstrip()
 
     def _repr_html_(self) -> str:
         heading = " ".join(filter(None, [self.title, self.subtitle]))

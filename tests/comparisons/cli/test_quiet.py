@@ -74,8 +74,8 @@ def test_a_quiet_comparison_prints_its_result_alone(
 
 
 def test_quiet_is_quiet_of_what_the_packages_log(capsys: pytest.CaptureFixture[str]) -> None:
-    from comparisons.cli import announced
+    from comparisons.cli import messages
 
-    with announced.in_a_line(), console.quietly():
+    with messages.in_lines(), console.quietly():
         logging.getLogger("sheetbench").info("compiling")
     assert capsys.readouterr().err == ""

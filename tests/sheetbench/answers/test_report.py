@@ -11,8 +11,8 @@ import pytest
 from commands import one_line, run
 from scene_files import written
 
+from comparisons.cli.messages import in_lines
 from comparisons.cli.verb import OutputOptions
-from comparisons.cli.warned import in_a_line
 from comparisons.runs.folder import MANIFEST, Folder
 from sheetbench import scenes
 from sheetbench.answers import escape
@@ -272,7 +272,7 @@ def test_brackets_in_help_are_no_markup(capsys: pytest.CaptureFixture[str]) -> N
 def test_a_questions_own_warnings_stand_before_those_about_its_scene(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    with in_a_line():
+    with in_lines():
         warnings.warn(Implausible("young = 54.5 Pa"), stacklevel=1)
         with OutputOptions("identify", json=True).open() as out:
             out.show(Said("identification", "t", {"warnings": ["a poor fit"]}))

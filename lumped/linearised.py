@@ -51,6 +51,7 @@ from sheetbench.scenes import (
     Status,
     Symmetric,
     holds_director,
+    require_no_branches,
     require_static,
     scene_of,
 )
@@ -119,6 +120,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     """
     scene = _at_last(scene_of(scene))
     require_static(scene)
+    require_no_branches(scene.material, "a linear system")
     calibration = calibration or default(scene)
     problem = build_problem(scene, calibration)
     if problem.loads.follow or not problem.conservative:

@@ -12,7 +12,7 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.springs.families import table_dampers
-from sheetbench.scenes import Scene, require_no_branches
+from sheetbench.scenes import Scene
 
 
 class Damping:
@@ -24,7 +24,6 @@ class Damping:
     """
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
-        require_no_branches(scene.material, "the lattice's motion")
         self._coupling = assembly.coupling
         self._coupling_slots = assembly.coupling_slots if assembly.coupling is not None else np.empty(0, int)
         self.rate = scene.material.damping_rate * mass

@@ -10,7 +10,7 @@ M is diagonal on the lattice and constant throughout. Units: m, s, N, kg, J.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -19,21 +19,25 @@ from scipy.sparse.linalg import splu
 
 from lumped.actuators import Drive
 from lumped.dynamics.damping import Damping
+from lumped.dynamics.maxwell import Maxwell
 from lumped.masses import masses
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
+from sheetbench.errors import BadInput
 from sheetbench.scenes import PiecewiseLinear, Scene, held_axes, holds_director
 
 
 @dataclass(frozen=True)
 class State:
-    """Time [s], displacement, velocity and acceleration (size, 3); multiplier rows of u hold λ."""
+    """Time [s], displacement, velocity and acceleration (size, 3); multiplier rows of u hold λ. memory: of
+    the material's branches, where it has some (`lumped.dynamics.maxwell`)."""
 
     time: float
     u: np.ndarray
     v: np.ndarray
     a: np.ndarray
+    memory: np.ndarray | None = None
 
 
 class System:
@@ -70,7 +74,11 @@ class System:
         self._own[entries.col[identity]] = entries.row[identity]
         self.reduced_mass = sp.csc_array(self.moving_part.T @ self.mass @ self.moving_part)
         self.solve_mass = _mass_solver(self.reduced_mass)
-        self._single = self.assembly.precision == "single"
+        branches = scene.material.branches
+        self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
+        if self.maxwell is not None and self.assembly.precision == "single":
+            raise BadInput("precision = 'single': takes no Maxwell branches; leave it out")
+        self._apart = self.maxwell is not None or self.assembly.precision == "single"
         # integrators ask for the same two moments several times a step
         self.place, self.place_rate = lru_cache(4)(self._place), lru_cache(4)(self._place_rate)
         self.motions = self._support_motions()
@@ -138,12 +146,12 @@ class System:
     def internal(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, float, np.ndarray]:
         """Elastic energy, power taken by the dampers, and both their forces, actuators with their multipliers
         included."""
-        energy, force = self.elastic(u, time) if self._single else (0.0, np.zeros_like(u))
+        energy, force = self.elastic(u, time) if self._apart else (0.0, np.zeros_like(u))
         stored, power = add_forces(
-            u, v, not self._single, self.packing.damped, self.packing, self.scratch, force
+            u, v, not self._apart, self.packing.damped, self.packing, self.scratch, force
         )
         power += self.damping.add_other_forces(u, v, force)
-        if self.coupling is not None and not self._single:
+        if self.coupling is not None and not self._apart:
             energy += self.coupling.add_force(u, self.drive(time), force)
         return energy + stored, power, force
 
@@ -156,11 +164,13 @@ class System:
         return np.unique([time for table in tables if table is not None for time in table.time])
 
     def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
-        """Elastic energy and internal force, actuators with their multipliers included."""
-        if self._single:
+        """Elastic energy and internal force, actuators with their multipliers and branches included."""
+        force = np.zeros_like(u)
+        if self.maxwell is not None:
+            energy = self.maxwell.add_force(u, force)
+        elif self._apart:
             energy, force = self.assembly.force(u)
         else:
-            force = np.zeros_like(u)
             energy, _ = add_forces(u, u, True, False, self.packing, self.scratch, force)
         if self.coupling is not None:
             energy += self.coupling.add_force(u, self.drive(time), force)
@@ -173,6 +183,15 @@ class System:
             _, power = add_forces(u, v, False, True, self.packing, self.scratch, force)
         return power + self.damping.add_other_forces(u, v, force), force
 
+    def power(self, state: State) -> float:
+        """Power [W] that goes into dampers and branches."""
+        power, _ = self.damping_force(state.u, state.v)
+        if self.maxwell is not None and state.memory is not None:
+            force = np.zeros_like(state.u)
+            self.maxwell.add_branch_force(state.u, state.memory, force)
+            power += float(np.sum(force * state.v))
+        return power
+
     def external(self, u: np.ndarray, time: float) -> np.ndarray:
         """External force."""
         return self.problem.loads.force(u, time)
@@ -181,21 +200,28 @@ class System:
         """f_ext − f_int − f_damp − Jᵀλ; on multiplier rows −Φ."""
         return self.external(u, time) - self.internal(u, v, time)[2]
 
-    def average_elastic(self, start: np.ndarray, end: np.ndarray, time: float) -> np.ndarray:
-        """Internal force whose work from `start` to `end` is the energy stored, commands as at `time`."""
-        force = self.assembly.average_force(start, end)
+    def average_elastic(self, start: State, end: np.ndarray, time: float) -> np.ndarray:
+        """Internal force whose work from `start` to the displacement `end` is the energy stored or, by
+        branches, taken; commands as at `time`."""
+        force = self.assembly.average_force(start.u, end)
+        if self.maxwell is not None and start.memory is not None:
+            self.maxwell.add_mean_force(start.memory, 0.5 * (start.u + end), end, force)
         if self.coupling is not None:
-            self.coupling.add_average_force(start, end, self.drive(time), force)
+            self.coupling.add_average_force(start.u, end, self.drive(time), force)
         return force
 
     def matrix(
         self, u: np.ndarray, v: np.ndarray, time: float, mass: float, damping: float, stiffness: float
     ) -> np.ndarray:
         """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once."""
-        both = stiffness + damping * self.damping.time  # dampers in proportion stand where the springs do
-        share = stiffness / both if both else 0.0
+        own = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
+        both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
+        share, stresses = own / both if both else 0.0, None
+        if self.maxwell is not None and both:
+            each = self.maxwell.stresses(u, share, stiffness / both)
+            stresses = self.assembly.all_families.arranged(each)
         inertia = mass * self.lattice_mass + damping * self.damping.rate
-        blocks = self.assembly.tangent(u, None, share, both, inertia)
+        blocks = self.assembly.tangent(u, stresses, share, both, inertia)
         self.problem.loads.add_tangent(u, stiffness, blocks, time)
         if not self.problem.conservative or self.coupling is not None:
             others = np.zeros_like(blocks)
@@ -208,6 +234,21 @@ class System:
             blocks += stiffness * others
         self.damping.add_velocity_tangent(u, damping, blocks)
         return blocks
+
+    def since(self, state: State, ahead: float = 0.0) -> None:
+        """Begin a step of second order: forces are those `ahead` [s] of a state, as the branches have it."""
+        if self.maxwell is not None and state.memory is not None:
+            self.maxwell.since(state.memory, ahead)
+
+    def relaxed(self, before: State, after: State) -> tuple[State, float]:
+        """The state at the end of a step of second order with its memory, and the energy [J] that the
+        branches took in it."""
+        if self.maxwell is None or before.memory is None:
+            return after, 0.0
+        self.since(before, after.time - before.time)
+        after = replace(after, memory=self.maxwell.after(after.u))
+        assert after.memory is not None
+        return after, self.maxwell.dissipated(before.memory, after.memory)
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
         """Force on the free unknowns that have mass."""
@@ -229,7 +270,10 @@ class System:
     def balance(self, state: State) -> tuple[dict[str, float], np.ndarray]:
         """Kinetic, elastic and potential energy [J], of which only constant dead loads have the last; and
         M a + f_int + f_damp − f_ext, (size, 3): what supports and actuators exert on their masses."""
+        self.since(state)
         elastic, _, force = self.internal(state.u, state.v, state.time)
+        if self.maxwell is not None and state.memory is not None:
+            elastic += self.maxwell.stored(state.memory)
         v = state.v.ravel()
         energies = {
             "kinetic": 0.5 * float(v @ (self.mass @ v)),

@@ -8,7 +8,7 @@ family's own; here they release the interpreter's lock. Springs without an energ
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -82,10 +82,12 @@ class AllFamilies:
 
     def nonnegative_parts(self, u: np.ndarray) -> Stresses:
         """Return the stresses less what could make the tangent indefinite."""
-        found = self._found
-        return tuple(
-            found[at].nonnegative_part(u) if at in found else none for at, none in enumerate(NO_STRESSES)
-        )
+        return self.arranged(family.nonnegative_part(u) for family in self._found.values())
+
+    def arranged(self, stresses: Iterable[np.ndarray]) -> Stresses:
+        """Return the stresses of the families, in turn, as `Springs`."""
+        found = dict(zip(self._found, stresses, strict=True))
+        return tuple(found.get(at, none) for at, none in enumerate(NO_STRESSES))
 
     def tangent(
         self,

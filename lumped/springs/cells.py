@@ -151,6 +151,31 @@ def add_forces(u: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
 
 
 @njit(cache=True, error_model="numpy")
+def add_remembering_forces(
+    u: np.ndarray,
+    cells: CellArrays,
+    own: float,
+    constant: np.ndarray,
+    stress: np.ndarray,
+    change: np.ndarray,
+    force: np.ndarray,
+) -> float:
+    """Add the force of the stress own · S + constant (c, 4) [N/m]; return the energy of S [J], and fill in S
+    and the change of the measure (c, 4)."""
+    energy = 0.0
+    for c in range(len(cells.nodes)):
+        d, g, shape = measure(u, cells, c)
+        stored, _, s = respond(cells.law, HALF, d, g, cells.area[c], constants(cells.law, c))
+        energy += stored
+        k = constant[c]
+        for e in range(4):
+            stress[c, e], change[c, e] = s[e], d[e]
+        both = own * s[0] + k[0], own * s[1] + k[1], own * s[2] + k[2], own * s[3] + k[3]
+        pull(cells, c, both, shape, force)
+    return energy
+
+
+@njit(cache=True, error_model="numpy")
 def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
     """Energy of every cell, (c,) [J]."""
     out = np.empty(len(cells.nodes))

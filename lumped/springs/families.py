@@ -37,6 +37,7 @@ class Links(Family):
     names: tuple[str, ...]
 
     loops: ClassVar[Any] = links
+    measures: ClassVar[int] = 1
     no_stress: ClassVar[np.ndarray] = np.empty(0)
 
     @cached_property

@@ -24,6 +24,7 @@ class Family(ABC):
     slots: np.ndarray
 
     loops: ClassVar[Any]
+    measures: ClassVar[int] = 4  # that a spring's memory holds room for
     conservative: ClassVar[bool] = True  # whether there is an energy, and so a symmetric tangent
     no_stress: ClassVar[np.ndarray]  # for which the tangent takes its own
 

@@ -72,6 +72,28 @@ def add_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) -> float:
 
 
 @njit(cache=True, error_model="numpy")
+def add_remembering_forces(
+    u: np.ndarray,
+    links: LinkArrays,
+    own: float,
+    constant: np.ndarray,
+    stress: np.ndarray,
+    change: np.ndarray,
+    force: np.ndarray,
+) -> float:
+    """Add the force of the stress own · S + constant (m, 1) [N/m]; return the energy of S [J], and fill in S
+    and δg (m, 1)."""
+    energy = 0.0
+    for m in range(len(links.nodes)):
+        d, square, r = measure(u, links.nodes, links.offset, m)
+        stored, s, _, _ = elongation(HALF, d, square, links.rest_length[m], links.constants[m])
+        stress[m, 0], change[m, 0] = s, d
+        energy += stored
+        pull(links.nodes, m, 2.0 * (own * s + constant[m, 0]), r, force)
+    return energy
+
+
+@njit(cache=True, error_model="numpy")
 def elongations(u: np.ndarray, links: LinkArrays) -> np.ndarray:
     """Elongation of every link, (m,) [m]."""
     out = np.empty(len(links.nodes))

@@ -27,7 +27,7 @@ class Verlet(Integrator):
         super().__init__(system, step)
         self._projection = Projection(system)
         chains = system.coupling is not None and system.coupling.bodies
-        self._flat = None if chains else FlatSystem(system)
+        self._flat = None if chains or system.maxwell is not None else FlatSystem(system)
         if self._flat is not None:
             self._flat.compile()
 
@@ -37,7 +37,8 @@ class Verlet(Integrator):
         return step_limit(system, u)
 
     def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
-        """Steps in one compiled call; one at a time where there are chains. Raises StepFailed."""
+        """Steps in one compiled call; one at a time where there are chains or
+        branches. Raises StepFailed."""
         if self._flat is None:
             return super().march(state, step, most)
         return self._flat.march(state, step, most)
@@ -58,6 +59,7 @@ class Verlet(Integrator):
             u = moved
         if system.moving:
             half = half + system.place_rate(time) - system.place_rate(state.time)
+        system.since(state, h)
         _, elastic = system.elastic(u, time)
         force = system.external(u, time) - elastic
         damped = system.damping.present
@@ -84,8 +86,8 @@ class Verlet(Integrator):
             acceleration = system.accelerate(force - resisting)
         elif projection.active:
             acceleration = system.accelerate(force)
-        after = State(time, u, v, acceleration)
-        return Advance(after, taken, system.work(state, after))
+        after, relaxed = system.relaxed(state, State(time, u, v, acceleration))
+        return Advance(after, taken + relaxed, system.work(state, after))
 
     def _constrained(self, state: State, moved: np.ndarray, time: float) -> np.ndarray:
         try:

@@ -15,6 +15,7 @@ history, a support's motion. No chains: their constraints would lower the order.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -98,6 +99,7 @@ class Esdirk(DenseIntegrator):
             if self._fixed:
                 break
             error = h * float(np.abs(ERRORS @ stages.v.reshape(len(ERRORS), -1)).max())
+            error = max(error, self._largest * self._error_of_branches(h))
             largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
             ratio = 0.9 * (self._error * largest / max(error, 1e-30)) ** (1.0 / 5.0)
             if ratio < 0.9 and h > shortest:
@@ -113,6 +115,7 @@ class Esdirk(DenseIntegrator):
         """What the error is relative to before anything has moved, and the first step [s]: parts of how far
         the forces lead until all rests, were it linear, and of the time in which they get there."""
         system, problem, still = self.system, self.system.problem, np.zeros_like(state.u)
+        system.since(state)
         force = system.unbalanced(state.u, still, state.time)
         try:
             factor = problem.factor(system.matrix(state.u, still, state.time, 0.0, 0.0, 1.0))
@@ -134,8 +137,9 @@ class Esdirk(DenseIntegrator):
         if np.any(np.abs(system.kinks - now) < near) and now > near:
             if system.moving:  # a velocity jumps, and dampers with it: the steps begin as at the start
                 self.step = min(self.step, self._first)
+            system.since(state)
             force = system.unbalanced(state.u, state.v, now)
-            state = State(now, state.u, state.v, system.accelerate(force))
+            state = replace(state, time=now, a=system.accelerate(force))
         ahead = system.kinks[system.kinks > now + near]
         return state, min([at_most, *(ahead[:1] - now)])
 
@@ -145,6 +149,8 @@ class Esdirk(DenseIntegrator):
         u, v, a = np.empty((3, len(times), *state.u.shape))
         u[0], v[0], a[0] = state.u, state.v, state.a
         stages = Stages(times, u, v, a, np.zeros((len(times), 2)))
+        self._memories = [state.memory] * len(times)
+        self._begin_stage(0, h)
         if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
             middle = state.u + 0.5 * h * state.v
             self._newton.renew(StepEquation(state.time + 0.5 * h, middle, state.v, by * by, by), middle)
@@ -176,12 +182,36 @@ class Esdirk(DenseIntegrator):
             v = stages.v[0] + h * np.tensordot(STAGES[i, :i], stages.a[:i], 1)
             if len(step.shifts):
                 u += step.shifts[i]
+            self._begin_stage(i, h)
             equation = StepEquation(float(stages.time[i]), u + v / c1, v, c2, c1)
             guess = equation.base_u + np.tensordot(GUESSES[i, :i], stages.a[:i], 1) / c1**2
             u = self._newton.solve_equation(equation, guess, tolerance)
             stages.u[i] = u
             stages.v[i], stages.a[i] = self._newton.state(equation, u)
-            stages.power[i, 0], _ = self.system.damping_force(u, stages.v[i])
+            if self.system.maxwell is not None:
+                self._memories[i] = self.system.maxwell.after(u)
+            stages.power[i, 0] = self.system.power(self._stage(stages, i))
+
+    def _stage(self, stages: Stages, i: int) -> State:
+        return State(float(stages.time[i]), stages.u[i], stages.v[i], stages.a[i], self._memories[i])
+
+    def _relaxed(self, weights: np.ndarray) -> np.ndarray:
+        """A weighted sum of what the branches kept at the first stages."""
+        parts = zip(weights, self._memories, strict=False)
+        return np.sum([weight * memory[1:] for weight, memory in parts if memory is not None], axis=0)
+
+    def _begin_stage(self, i: int, h: float) -> None:
+        if self.system.maxwell is not None and (start := self._memories[0]) is not None:
+            self.system.maxwell.stage(start, h * self._relaxed(STAGES[i, : max(i, 1)]), GAMMA * h)
+
+    def _error_of_branches(self, h: float) -> float:
+        """Error of what the branches' springs remember in a step, relative to the largest strain."""
+        maxwell, start = self.system.maxwell, self._memories[0]
+        if maxwell is None or start is None:
+            return 0.0
+        largest = max(float(np.abs(memory[0, 1]).max()) for memory in self._memories)
+        missed = self._relaxed(h * ERRORS)[:, 1] / maxwell.times[:, None]
+        return float(np.abs(missed).max()) / largest if largest else 0.0
 
     def at(self, time: float) -> Passed:
         """The state at a time within the last step, and what was taken and put in since its start."""
@@ -190,25 +220,31 @@ class Esdirk(DenseIntegrator):
             self._curve, self._passed = _curve(stages, h), h * (CUMULATIVE @ stages.power)
         theta = (time - float(stages.time[0])) / h
         vectors, taken, put_in = _at(self._curve, self._passed, theta, h)
-        return Passed(State(time, *vectors), taken, put_in)
+        maxwell, start, memory = self.system.maxwell, self._memories[0], None
+        if maxwell is not None and start is not None:
+            maxwell.stage(start, self._relaxed(h * theta ** np.arange(8) @ CUMULATIVE), 0.0)
+            memory = maxwell.after(vectors[0])
+            taken -= maxwell.stored(memory) - maxwell.stored(start)
+        return Passed(State(time, *vectors, memory), taken, put_in)
 
     def _advance(self, start: State, stages: Stages, h: float) -> Advance:
         system, power = self.system, stages.power
         if self._end[0] is start:
             power[0] = self._end[1]
         else:
-            power[0, 0], _ = system.damping_force(start.u, start.v)
+            power[0, 0] = system.power(start)
             power[0, 1] = self._put_in(start, start.time)
-        end = State(float(stages.time[-1]), stages.u[-1], stages.v[-1], stages.a[-1])
+        end = self._stage(stages, -1)
         if system.moving or system.working:
             for i in range(1, len(power)):
-                stage = State(float(stages.time[i]), stages.u[i], stages.v[i], stages.a[i])
-                power[i, 1] = self._put_in(stage, start.time)
+                power[i, 1] = self._put_in(self._stage(stages, i), start.time)
         self._step, self._curve = (stages, h), None
         taken, put_in = h * (STAGES[-1] @ power)
+        if system.maxwell is not None and start.memory is not None and end.memory is not None:
+            taken -= system.maxwell.stored(end.memory) - system.maxwell.stored(start.memory)
         if system.moving:
             last, turn = end, system.place_rate(end.time) - system.place_rate(start.time)
-            end = State(last.time, last.u, last.v + turn, last.a)
+            end = replace(last, v=last.v + turn)
             put_in += system.kinetic_of_placed(end) - system.kinetic_of_placed(last)
         self._end = end, power[-1]
         return Advance(end, float(taken), float(put_in))

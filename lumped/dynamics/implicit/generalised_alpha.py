@@ -90,11 +90,12 @@ class GeneralisedAlpha(Integrator):
             self._largest = largest
             break
         self._algorithm = algorithm
+        after, relaxed = self.system.relaxed(state, after)
         if self._taken[0] is not state:
             self._taken = state, self.system.damping_force(state.u, state.v)[0]
         before, power = self._taken[1], self.system.damping_force(after.u, after.v)[0]
         self._taken = after, power
-        return Advance(after, 0.5 * h * (before + power), self.system.work(state, after))
+        return Advance(after, 0.5 * h * (before + power) + relaxed, self.system.work(state, after))
 
     @property
     def _masses(self) -> int:
@@ -112,6 +113,7 @@ class GeneralisedAlpha(Integrator):
         base_v = state.v + h * ((1.0 - gamma) * old + gamma * start) + turn
         mass_coefficient, damping_coefficient = 1.0 / (h * h * beta * share), gamma / (h * beta)
 
+        system.since(state, h)
         equation = StepEquation(time, base_u, base_v, mass_coefficient, damping_coefficient)
         try:
             u = self._newton.solve_equation(equation, base_u + state.a / mass_coefficient)

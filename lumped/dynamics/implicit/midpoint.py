@@ -53,7 +53,7 @@ class Midpoint(Integrator):
             rate = velocity(u)
             gained = rate - state.v - jump  # what is prescribed has its work apart
             inertia: np.ndarray = (system.mass @ ((2.0 / h) * gained).ravel()).reshape(-1, 3)
-            force = inertia + system.average_elastic(state.u, u, middle)
+            force = inertia + system.average_elastic(state, u, middle)
             return force + system.damping_force(mean(u), rate)[1] - system.external(mean(u), middle)
 
         def halved(u: np.ndarray) -> np.ndarray:
@@ -66,6 +66,7 @@ class Midpoint(Integrator):
         def weigh(correction: np.ndarray) -> np.ndarray:
             return np.where(algebraic, 0.5 * correction, correction)
 
+        system.since(state, h)
         guess = state.u + moved
         free = state.v - system.place_rate(state.time) + 0.5 * h * state.a
         guess = guess + h * system.expand(system.contract(free))
@@ -75,9 +76,9 @@ class Midpoint(Integrator):
         if system.moving:
             v = v + system.place_rate(time) - system.place_rate(state.time) - 2.0 * jump
         power, _ = system.damping_force(mean(u), rate)
-        after = State(time, u, v, (v - state.v) / h)
+        after, relaxed = system.relaxed(state, State(time, u, v, (v - state.v) / h))
         resisting = residual(u) if system.moving else u
-        return Advance(after, h * power, self._work(state, after, resisting, mean(u), moved))
+        return Advance(after, h * power + relaxed, self._work(state, after, resisting, mean(u), moved))
 
     def _work(
         self, before: State, after: State, exerted: np.ndarray, mean: np.ndarray, moved: np.ndarray

@@ -24,6 +24,7 @@ from sheetbench.numerics.reduced import Factor
 
 CORRECTIONS = 20
 STALE = 0.2  # ratio of successive corrections above which the factors are made anew
+ROUNDED = 1e-11  # correction over the sheet's side below which what no longer shrinks is rounding
 REUSE_FACTORS_WITHIN = 0.2  # relative change of c₂ within which factors serve
 UNSOLVED = "the time step's equations did not converge: use smaller steps"
 
@@ -82,7 +83,7 @@ class Newton:
             length = float(np.abs(correction[self._placed]).max())
             if not np.isfinite(length):
                 break
-            if length < small:
+            if length < small or (fresh and 0.5 * last < length < ROUNDED * problem.size):
                 return u
             if length > problem.size:
                 break

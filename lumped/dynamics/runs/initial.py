@@ -34,11 +34,13 @@ def initial_state(system: System, calibration: Calibration, weights: Weights) ->
         held = tuple(_at_the_start(support) for support in scene.supports)
         unloaded = scene.replace(gravity=None, loads=(), actuators=slack, supports=held)
         u = solve_path(unloaded, build_problem(unloaded, calibration, weights), "path").state.u
+    memory = None if system.maxwell is None else system.maxwell.at_rest(u)
     v = system.place_rate(0.0)
     v = v if system.moving else np.zeros_like(u)
+    system.since(State(0.0, u, v, v, memory))
     a = system.accelerate(system.unbalanced(u, v, 0.0))
     projection = Projection(system)
     if projection.active:
         a, multipliers = projection.tangential(a, projection.jacobian(u))
         u = u + multipliers
-    return State(0.0, u, v, a)
+    return State(0.0, u, v, a, memory)

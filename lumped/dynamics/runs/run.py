@@ -68,7 +68,7 @@ class Run:
             self._kept.sample(row)
             self._keep_frame(start)
             return
-        state = State(float(checkpoint["time"]), *(checkpoint[name] for name in ("u", "v", "a")))
+        state = State(float(checkpoint["time"]), *(checkpoint.get(name) for name in ("u", "v", "a", "memory")))
         energies = (float(energy) for energy in checkpoint["energies"])
         self.reached = Reached(state, int(checkpoint["done"]), int(checkpoint["steps"]), *energies)
         own = {k.removeprefix("method_"): v for k, v in checkpoint.items() if k.startswith("method_")}
@@ -149,6 +149,7 @@ class Run:
         reached, state = self.reached, self.reached.state
         self._method.forget()
         content: dict[str, Any] = {"time": state.time, "u": state.u, "v": state.v, "a": state.a}
+        content |= {"memory": state.memory} if state.memory is not None else {}
         content |= {"done": reached.samples, "steps": reached.steps}
         content |= {f"method_{k}": v for k, v in self._method.memory().items() if v is not None}
         energies = [reached.dissipated, reached.work, reached.largest, reached.origin]

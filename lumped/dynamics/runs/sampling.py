@@ -31,7 +31,8 @@ class Sampling:
             *(("actuator", name, wrench.shape) for name, wrench in actuators.items()),
         ]
         self._observed: Observed | None = None
-        if system.coupling is None and system.assembly.precision == "double":
+        plain = system.coupling is None and system.maxwell is None
+        if plain and system.assembly.precision == "double":
             masses = system.assembly.pattern.size
             self._observed = Observed(
                 system.packing,

@@ -14,18 +14,19 @@ from limits import at_most
 import lumped
 from sheetbench.files import only_writer
 from sheetbench.runs.store import FolderStore
-from sheetbench.scenes import BadInput
+from sheetbench.scenes import BadInput, Relaxation
 
 DURATION = 0.025  # s, two checkpoints
 RUNS = {"generalised-alpha": [], "esdirk": [], "verlet": [], "midpoint": [{"segments": 2, "curvature": 3.0}]}
 
 
+@pytest.mark.parametrize("branches", [(), (Relaxation(0.3, 0.02),)])
 @pytest.mark.parametrize("name", RUNS)
-def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name):
+def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name, branches):
     """From a copy of its folder at a moment between two samples, which is what kill -9 leaves there. In one
     process: one that compiles kernels links other copies of those whose sums may be taken in any order, so
     that its last digits may be others than where they come from the cache."""
-    asked = scene("one-edge-clamped", RUNS[name], damping_time=1e-3)
+    asked = scene("one-edge-clamped", RUNS[name], damping_time=1e-3).replace(relaxation=branches)
     masses, whole, killed = springs(asked, 4), tmp_path / "whole", tmp_path / "killed"
     after = []
 

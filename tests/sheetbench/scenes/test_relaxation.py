@@ -76,7 +76,7 @@ def test_a_scene_with_branches_is_kept_in_files_and_solved_at_rest(tmp_path: Pat
     assert "54.5 MPa" in said and "109 MPa at once" in said
 
 
-def test_a_motion_without_branches_refuses_them_by_name() -> None:
+def test_what_has_no_branches_refuses_them_by_name() -> None:
     scene = scenes.load("one-edge-clamped").replace(loss_factor=0.1, band=(1.0, 20.0))
-    with pytest.raises(scenes.BadInput, match=r"material\.band.*frequency"):
-        lumped.simulate(scene, lumped.calibrate(scene.sheet, scene.material, (3, 3)), 0.01)
+    with pytest.raises(scenes.BadInput, match=r"material\.band: a linear system.*frequency"):
+        lumped.linearise(scene, lumped.calibrate(scene.sheet, scene.material, (3, 3)))

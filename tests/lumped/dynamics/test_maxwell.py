@@ -1,0 +1,104 @@
+"""Maxwell branches of the lattice in motion: relaxation, tangent, energy, the reference's motion, resuming."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from dynamic_cases import springs
+
+import fem_reference
+import lumped
+from lumped.dynamics.runs.initial import initial_state
+from sheetbench import scenes
+from sheetbench.scenes import Clamped, Held, Material, Motion, PerDirection, Relaxation, Scene, Sheet, Status
+
+BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
+
+
+def pulled(material: Material, by: float, within: float) -> Scene:
+    """A strip whose end is pulled and then held."""
+    pull = Motion(time=(0.0, within), displacement=((0.0, 0.0, 0.0), (by, 0.0, 0.0)))
+    supports = (Clamped("x0"), Held("x1", ("x", "y", "z"), motion=pull))
+    return Scene("strip", Sheet(0.1, 0.04, 0.002), material, supports=supports, probes={"P": (0.05, 0.0)})
+
+
+@pytest.mark.parametrize("name", ["generalised-alpha", "esdirk"])
+def test_a_held_strain_relaxes_as_its_prony_series(name: str) -> None:
+    """A strip of next to no mass, beside its own force at rest: R = R∞ (1 + Σ a g e^(−(t−T)/τ)), g of the
+    ramp. Midpoint and verlet damp no ringing; they are held to esdirk below."""
+    ramp = 0.01
+    strip = pulled(Material(1e6, 0.0, 1e-3, relaxation=BRANCHES), 1e-9, ramp)
+    lattice = lumped.calibrate(strip.sheet, strip.material, (4, 3))
+    run = lumped.simulate(strip, lattice, 0.2, integrator=name, step=1e-3, every=0.01)
+    assert run.status is Status.CONVERGED
+    held, material = run.time > 1.5 * ramp, strip.material.branches
+    fading = [t / ramp * -np.expm1(-ramp / t) * np.exp(-(run.time - ramp) / t) for t in material.times]
+    series = 1.0 + np.array(material.stiffness) @ fading
+    at_rest = lumped.solve(strip, lattice).reactions["x1"][0]
+    assert run.reactions["x1"][held, 0] == pytest.approx(at_rest * series[held], rel=1e-6)
+
+
+@pytest.mark.parametrize("law", [None, "neo-hookean"])
+def test_the_tangent_is_the_forces_derivative(law: str | None) -> None:
+    """In a step at large strain, with stresses left from the steps before."""
+    strip = pulled(Material(1e6, 0.4, 1e3, damping_time=1e-3, law=law, relaxation=BRANCHES), 0.01, 0.01)
+    lattice = lumped.calibrate(strip.sheet, strip.material, (3, 3), "hyperelastic" if law else "consistent")
+    system = lumped.System(strip, lumped.build_problem(strip, lattice))
+    start, draw = initial_state(system, lattice, "tributary"), np.random.default_rng(1).standard_normal
+    u, step = 2e-3 * draw(start.u.shape), draw(start.u.shape)
+    state, _ = system.relaxed(start, replace(start, time=0.01, u=u))
+    system.since(state, 0.005)
+    there = u + 1e-3 * draw(u.shape)
+    blocks = system.matrix(there, np.zeros_like(u), 0.015, 0.0, 0.0, 1.0)
+    found = system.problem.system.apply(blocks, step)
+    sides = [system.elastic(there + sign * 1e-7 * step, 0.015)[1] for sign in (1.0, -1.0)]
+    assert found == pytest.approx((sides[0] - sides[1]) / 2e-7, abs=1e-6 * np.abs(found).max())
+
+
+def test_integrators_agree_and_keep_their_energy_in_books() -> None:
+    """Each within its own error of esdirk's fifth order; branches only take energy."""
+    asked = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
+    exact = lumped.simulate(asked, springs(asked), 0.2, integrator="esdirk", error=1e-7, every=0.01)
+    size = np.abs(exact.probes["P4"]).max()
+    for name, step in {"generalised-alpha": None, "midpoint": 1e-3, "verlet": None, "esdirk": None}.items():
+        run = lumped.simulate(asked, springs(asked), 0.2, integrator=name, step=step, every=0.01)
+        kinetic, dissipated = run.energies["kinetic"].max(), run.energies["dissipated"]
+        assert run.probes["P4"] == pytest.approx(exact.probes["P4"], abs=5e-4 * size)
+        assert np.abs(run.balance - run.balance[0]).max() < 3e-3 * kinetic
+        assert dissipated[-1] > 0.3 * kinetic and np.diff(dissipated).min() > 0.0
+
+
+@pytest.mark.parametrize("name", ["esdirk", "verlet"])
+def test_a_relaxing_sheet_moves_as_the_shell(name: str) -> None:
+    asked = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
+    shell = fem_reference.simulate(asked, "shell", 0.2, elements=4, every=0.01, error=1e-4)
+    run = lumped.simulate(asked, springs(asked, 9), 0.2, integrator=name, every=0.01)
+    apart = max(np.abs(run.probes[p] - shell.probes[p]).max() for p in asked.probes)
+    assert apart < 0.01 * max(np.abs(probe).max() for probe in shell.probes.values())
+    assert run.energies["dissipated"][-1] == pytest.approx(shell.energies["dissipated"][-1], rel=0.02)
+
+
+@pytest.mark.parametrize("damped", [{"relaxation": BRANCHES}, {"damping_time": 5e-3}])
+@pytest.mark.parametrize("name", ["esdirk", "generalised-alpha", "midpoint", "verlet"])
+def test_rubber_is_pulled_by_half_with_its_energy_in_books(name: str, damped: dict) -> None:
+    material = Material(1e6, 0.45, 1e3, damping_rate=200.0, law="neo-hookean", **damped)
+    strip = pulled(material, 0.05, 0.05)
+    rubber = lumped.calibrate(strip.sheet, material, (5, 3), "hyperelastic")
+    step = 2e-4 if name == "midpoint" else None
+    run = lumped.simulate(strip, rubber, 0.1, integrator=name, step=step, every=0.005)
+    assert run.status is Status.CONVERGED
+    elastic = run.energies["elastic"].max()
+    assert np.abs(run.balance - run.balance[0]).max() < 5e-3 * elastic
+    assert run.energies["dissipated"][-1] > 0.1 * elastic
+
+
+def test_what_takes_no_branches_says_so() -> None:
+    asked = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
+    with pytest.raises(scenes.BadInput, match="precision = 'single': takes no Maxwell branches"):
+        lumped.simulate(asked, springs(asked, 3), 0.01, precision="single")
+    unlike = springs(asked, 3).springs.replace(axial=PerDirection(x=1e3, y=1e3, z=1.0))
+    without_energy = replace(springs(asked, 3), springs=unlike)
+    with pytest.raises(scenes.BadInput, match=r"material\.relaxation: .* no energy, and no Maxwell branches"):
+        lumped.simulate(asked, without_energy, 0.01)

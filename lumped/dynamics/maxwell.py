@@ -1,7 +1,8 @@
 """Maxwell branches beside every spring in motion: a law that remembers its measure.
 
 X = (S, δg) are a spring's elastic stress and the change of its measure (`lumped.springs.laws`). A branch of
-stiffness a, over the long-time one, and time τ keeps R, resists with the stress a R_S, and stores ½ a R_S·R_g:
+stiffness a, over the long-time one, and time τ keeps R, resists with the stress a R_S and stores
+½ a R_S·R_g:
 
     Ṙ + R/τ = Ẋ,    which in a step is    R = w X + c,
 
@@ -18,6 +19,7 @@ in a stage of a Runge–Kutta method of diagonal γ, which takes ẏ = R/τ with
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -34,12 +36,12 @@ class Maxwell:
     def __init__(self, families: Sequence[Family], branches: Branches):
         if not all(family.conservative for family in families):
             raise BadInput(
-                "material.relaxation: springs with different stiffnesses along x, y and z have no energy, and no "
-                "Maxwell branches; give each link one number, or a damping_time"
+                "material.relaxation: springs with different stiffnesses along x, y and z have no energy, and "
+                "no Maxwell branches; give each link one number, or a damping_time"
             )
         self._families = families
         ends = np.cumsum([0, *(len(family) * family.measures for family in families)]).tolist()
-        self._places = [slice(*both) for both in zip(ends, ends[1:], strict=False)]
+        self._places = [slice(*both) for both in pairwise(ends)]
         self._stiffness = np.array(branches.stiffness)
         self.times = np.array(branches.times)
         self._begin(np.ones(len(self.times)), np.zeros((len(self.times), 2, ends[-1])))
@@ -81,7 +83,9 @@ class Maxwell:
         """Add the force of the branches alone with the stresses of a memory."""
         self._pass(u, force, 0.0, np.tensordot(self._stiffness, memory[1:, 0], 1))
 
-    def add_mean_force(self, before: np.ndarray, middle: np.ndarray, u: np.ndarray, force: np.ndarray) -> None:
+    def add_mean_force(
+        self, before: np.ndarray, middle: np.ndarray, u: np.ndarray, force: np.ndarray
+    ) -> None:
         """Add the force in the middle (n, 3) [m] of a step to u, whose work is that of the mean stresses."""
         self.add_branch_force(middle, 0.5 * (before + self.after(u)), force)
 
@@ -99,8 +103,8 @@ class Maxwell:
         return energy, x
 
     def stresses(self, u: np.ndarray, own: float, past: float) -> list[np.ndarray]:
-        """Return the stresses of every family that its tangent takes: so much of their own at u, and of what is
-        constant in the step."""
+        """Return the stresses of every family that its tangent takes: so much of their own at u, and of
+        what is constant in the step."""
         _, x = self._pass(u, np.zeros_like(u), 0.0, self._past)
         both = own * x[0] + past * self._past
         each = zip(self._families, self._places, strict=True)

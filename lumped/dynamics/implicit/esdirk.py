@@ -209,7 +209,8 @@ class Esdirk(DenseIntegrator):
         maxwell, start = self.system.maxwell, self._memories[0]
         if maxwell is None or start is None:
             return 0.0
-        largest = max(float(np.abs(memory[0, 1]).max()) for memory in self._memories)
+        strains = [np.abs(memory[0, 1]).max() for memory in self._memories if memory is not None]
+        largest = float(max(strains))
         missed = self._relaxed(h * ERRORS)[:, 1] / maxwell.times[:, None]
         return float(np.abs(missed).max()) / largest if largest else 0.0
 
@@ -225,7 +226,7 @@ class Esdirk(DenseIntegrator):
             maxwell.stage(start, self._relaxed(h * theta ** np.arange(8) @ CUMULATIVE), 0.0)
             memory = maxwell.after(vectors[0])
             taken -= maxwell.stored(memory) - maxwell.stored(start)
-        return Passed(State(time, *vectors, memory), taken, put_in)
+        return Passed(State(time, *vectors, memory=memory), taken, put_in)
 
     def _advance(self, start: State, stages: Stages, h: float) -> Advance:
         system, power = self.system, stages.power

@@ -68,7 +68,8 @@ class Run:
             self._kept.sample(row)
             self._keep_frame(start)
             return
-        state = State(float(checkpoint["time"]), *(checkpoint.get(name) for name in ("u", "v", "a", "memory")))
+        moving = (checkpoint[name] for name in ("u", "v", "a"))
+        state = State(float(checkpoint["time"]), *moving, memory=checkpoint.get("memory"))
         energies = (float(energy) for energy in checkpoint["energies"])
         self.reached = Reached(state, int(checkpoint["done"]), int(checkpoint["steps"]), *energies)
         own = {k.removeprefix("method_"): v for k, v in checkpoint.items() if k.startswith("method_")}

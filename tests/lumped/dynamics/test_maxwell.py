@@ -1,4 +1,4 @@
-"""Maxwell branches of the lattice in motion: relaxation, tangent, energy, the reference's motion, resuming."""
+"""Maxwell branches of the lattice in motion: relaxation, tangent, energy, the shell's motion."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ def pulled(material: Material, by: float, within: float) -> Scene:
 @pytest.mark.parametrize("name", ["generalised-alpha", "esdirk"])
 def test_a_held_strain_relaxes_as_its_prony_series(name: str) -> None:
     """A strip of next to no mass, beside its own force at rest: R = R∞ (1 + Σ a g e^(−(t−T)/τ)), g of the
-    ramp. Midpoint and verlet damp no ringing; they are held to esdirk below."""
+    ramp. Generalised-α damps what rings by then; midpoint and verlet, held to esdirk below, never do."""
     ramp = 0.01
     strip = pulled(Material(1e6, 0.0, 1e-3, relaxation=BRANCHES), 1e-9, ramp)
     lattice = lumped.calibrate(strip.sheet, strip.material, (4, 3))
     run = lumped.simulate(strip, lattice, 0.2, integrator=name, step=1e-3, every=0.01)
     assert run.status is Status.CONVERGED
-    held, material = run.time > 1.5 * ramp, strip.material.branches
+    held, material = run.time > 4.5 * ramp, strip.material.branches
     fading = [t / ramp * -np.expm1(-ramp / t) * np.exp(-(run.time - ramp) / t) for t in material.times]
     series = 1.0 + np.array(material.stiffness) @ fading
     at_rest = lumped.solve(strip, lattice).reactions["x1"][0]

@@ -36,8 +36,8 @@ class Maxwell:
     def __init__(self, families: Sequence[Family], branches: Branches):
         if not all(family.conservative for family in families):
             raise BadInput(
-                "material.relaxation: springs with different stiffnesses along x, y and z have no energy, and "
-                "no Maxwell branches; give each link one number, or a damping_time"
+                "material.relaxation: springs with different stiffnesses along x, y and z have no energy, "
+                "and no Maxwell branches; give each link one number, or a damping_time"
             )
         self._families = families
         ends = np.cumsum([0, *(len(family) * family.measures for family in families)]).tolist()

@@ -220,13 +220,13 @@ class Esdirk(DenseIntegrator):
         if self._curve is None:
             self._curve, self._passed = _curve(stages, h), h * (CUMULATIVE @ stages.power)
         theta = (time - float(stages.time[0])) / h
-        vectors, taken, put_in = _at(self._curve, self._passed, theta, h)
+        (u, v, a), taken, put_in = _at(self._curve, self._passed, theta, h)
         maxwell, start, memory = self.system.maxwell, self._memories[0], None
         if maxwell is not None and start is not None:
             maxwell.stage(start, self._relaxed(h * theta ** np.arange(8) @ CUMULATIVE), 0.0)
-            memory = maxwell.after(vectors[0])
+            memory = maxwell.after(u)
             taken -= maxwell.stored(memory) - maxwell.stored(start)
-        return Passed(State(time, *vectors, memory=memory), taken, put_in)
+        return Passed(State(time, u, v, a, memory), taken, put_in)
 
     def _advance(self, start: State, stages: Stages, h: float) -> Advance:
         system, power = self.system, stages.power

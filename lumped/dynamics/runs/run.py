@@ -68,8 +68,8 @@ class Run:
             self._kept.sample(row)
             self._keep_frame(start)
             return
-        moving = (checkpoint[name] for name in ("u", "v", "a"))
-        state = State(float(checkpoint["time"]), *moving, memory=checkpoint.get("memory"))
+        u, v, a = (checkpoint[name] for name in ("u", "v", "a"))
+        state = State(float(checkpoint["time"]), u, v, a, checkpoint.get("memory"))
         energies = (float(energy) for energy in checkpoint["energies"])
         self.reached = Reached(state, int(checkpoint["done"]), int(checkpoint["steps"]), *energies)
         own = {k.removeprefix("method_"): v for k, v in checkpoint.items() if k.startswith("method_")}

@@ -59,7 +59,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     ],
     "tradeoff --repeats 1 --elements 3 --plate 2 --workers 1": [
         (("one-edge-clamped",), ("{pressed}",), ("{weightless}",)),
-        (("--lumped", "3"), ("--lumped", "3x4,4"), ("--lumped", ""), ("--lumped-pair", "3:4")),
+        (("--lumped", "3"), ("--lumped", "3x4,4"), ("--lumped", ""), ("--lumped=", "--lumped-pair", "3:4")),
         (("--calibration", "neo-hookean"), ("--calibration", "auto"), ("--grading", "auto")),
         (("--shell", "2", "--solid", ""), ("--shell", "", "--solid", "2")),
         OUTPUTS[:3],
@@ -69,7 +69,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         ((), ("--calibration", "neo-hookean")),
         OUTPUTS[:3],
     ],
-    "crosscheck --plate 2,3 --shell 2,3 --workers 1": [
+    "crosscheck --plate 2,3 --shell 2,3 --judges= --workers 1": [
         (("one-edge-clamped",), ("{pressed}",)),
         (("--lumped", "3,4,5"), ("--lumped", "3,4")),
         (("--solid", ""), ("--solid", "1,2")),

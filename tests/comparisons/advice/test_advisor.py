@@ -5,7 +5,6 @@ import shlex
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -184,14 +183,12 @@ def test_a_scene_with_actuators() -> None:
     assert actual_error(advice) <= 0.05
 
 
-def test_the_document_has_the_promised_keys(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    assert run("advise", "one-edge-clamped", "--tolerance", "0.02", "--json", "--out", str(tmp_path)) == 0
+def test_the_document_has_the_promised_keys(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("advise", "one-edge-clamped", "--tolerance", "0.02", "--json") == 0
     document = json.loads(capsys.readouterr().out)
     assert set(document["choice"]) == {"model", "settings"}
     assert document["predicted"]["error"] <= 0.02 and document["predicted"]["solve_seconds"] > 0
     assert "bending" in document["needs"]
-    assert json.loads((tmp_path / "advice.json").read_text(encoding="utf-8")) == document
-    assert (tmp_path / "tried.csv").exists() and (tmp_path / "manifest.json").exists()
 
 
 def test_the_printed_command_solves_the_choice(

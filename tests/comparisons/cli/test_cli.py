@@ -114,13 +114,6 @@ def test_scene_that_floats_leaves_with_2_and_names_the_file(
     assert str(path) in said and "support" in said
 
 
-def test_out_that_is_a_file_leaves_with_2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    taken = tmp_path / "taken"
-    taken.write_text("")
-    assert run("compare", "two-edges-clamped", "--out", str(taken)) == 2
-    assert str(taken) in one_line(capsys)
-
-
 @pytest.mark.parametrize("arguments", [("compare",), ("weigh",), ("compare", "x", "--elements", "many")])
 def test_usage_errors_leave_with_2(arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
     assert run(*arguments) == 2

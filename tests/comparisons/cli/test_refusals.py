@@ -98,6 +98,21 @@ ROWS = {
 }
 
 
+SHORT = {
+    "compare": f"compare {ONE}",
+    "modes": f"modes {ONE}",
+    "calibrate": f"calibrate {ONE}",
+    "simulate": f"simulate {ONE} --duration 0.01",
+    "identify": f"identify {ONE} --measured measured.csv",
+    "tradeoff": f"tradeoff {ONE}",
+}
+for verb, command in SHORT.items():
+    ROWS |= {f"{command} --grading={wrong}": f"grading = {wrong}" for wrong in ("2", "-0.1", "fine", "nan")}
+    ROWS[f"{command} --grid 9y"] = "9y|--grid"
+    if verb not in ("calibrate", "simulate"):
+        ROWS[f"{command} --elements 8y"] = "--elements = '8y'"
+
+
 @pytest.mark.smoke
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.replace(HUGE, "99…"))
 def test_it_is_refused_in_a_line(

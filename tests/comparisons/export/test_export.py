@@ -126,8 +126,9 @@ def test_numpy_alone_finds_our_displacements(scene: Scene, settings: dict[str, A
         found, gradient = NUMPY["gradient"](lattice, along, u)
         assert found == pytest.approx(energy, rel=1e-9)  # rounding of lengths: L eps / elongation
         np.testing.assert_allclose(gradient, force, atol=1e-9 * np.abs(force).max())
-    u, truth = NUMPY["equilibrium"](lattice, along, 4), lattice["state_displacement"][-1]
-    assert np.abs(u - truth).max() < AGREED * np.abs(truth).max()
+    if scene.material.law in (None, "gent"):  # seconds each
+        u, truth = NUMPY["equilibrium"](lattice, along, 4), lattice["state_displacement"][-1]
+        assert np.abs(u - truth).max() < AGREED * np.abs(truth).max()
 
 
 def test_the_numpy_reader_is_a_program(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -139,6 +140,7 @@ def test_the_numpy_reader_is_a_program(folder: Path, capsys: pytest.CaptureFixtu
     assert capsys.readouterr().out.startswith("forces of 3 states off by")
 
 
+@pytest.mark.nightly  # six seconds
 def test_the_numpy_reader_takes_as_many_load_steps_as_a_large_rotation_needs() -> None:
     """A strip that falls by most of its length: Newton alone ends elsewhere."""
     scene = Scene("strip", Sheet(0.12, 0.04, 0.001), Material(1.5e6, 0.45, 1100.0), GRAVITY, (CLAMP,))

@@ -22,6 +22,8 @@ from comparisons.identification.residual_test import UNLIKELY, explained, runs
 from comparisons.identification.starts import Fit, nearest
 from comparisons.identification.unknowns import Unknown, unknown
 from sheetbench import scenes
+from sheetbench.errors import BadInput
+from sheetbench.face import solve
 
 SEED = scenes.load("two-edges-clamped")
 TRUE = 1.23e6
@@ -284,3 +286,17 @@ def test_a_strip_that_swings_far():
     assert found.explained and not found.warnings
     for name, value in (("young", 0.6e6), ("damping_time", 4e-3), ("damping_rate", 0.5)):
         assert found.unknowns[name].value == pytest.approx(value, rel=0.05)
+
+
+def test_unknowns_are_identified_on_springs_with_a_layer_distance() -> None:
+    """The slopes are those of springs with that distance, or the search would not end where it began."""
+    scene = scenes.load("two-edges-clamped")
+    own = {"calibration": "consistent", "layer_distance": 0.004}
+    points = np.array([(x, y) for x in (0.1, 0.188) for y in (0.1, 0.188)])
+    truth = solve(with_material(scene, young=50e6), "lumped", grid=3, **own)
+    data = Displacements(points, truth.displacement(points))
+    found = identify(scene, data, "young", grid=3, refine=False, **own)
+    assert found.unknowns["young"].value == pytest.approx(50e6, rel=1e-6)
+    assert found.settings["layer_distance"] == 0.004
+    with pytest.raises(BadInput, match="k = 550 N/m given the springs do not depend on it"):
+        identify(scene, data, "young", grid=3, k=550.0)

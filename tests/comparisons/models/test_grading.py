@@ -8,7 +8,6 @@ import pytest
 from commands import one_line, run
 
 import lumped
-import sheetbench as sb
 from comparisons.models.grading import GRADED, grading_of, parse_grading
 from comparisons.models.resolve import resolve_each
 from comparisons.models.spec import Lattice
@@ -28,25 +27,6 @@ VERBS = {
 
 def measured(folder: Path) -> None:
     (folder / "measured.csv").write_text("x,y,ux,uy,uz\n0.188,0.094,,,-0.02\n0.1,0.094,,,-0.01\n")
-
-
-@pytest.mark.parametrize("verb", VERBS)
-def test_every_verb_takes_a_number(verb, tmp_path, monkeypatch, capsys) -> None:
-    monkeypatch.chdir(tmp_path)
-    measured(tmp_path)
-    others, settings = VERBS[verb]
-    for asked, used in (("0.7", 0.7), ("0", 0.0)):
-        assert run(verb, "one-edge-clamped", "--grid", "3", "--grading", asked, "--json", *others) == 0
-        assert settings(json.loads(capsys.readouterr().out))["grading"] == used
-
-
-@pytest.mark.parametrize("verb", [*VERBS, "tradeoff"])
-def test_what_is_no_grading_leaves_with_2(verb, tmp_path, monkeypatch, capsys) -> None:
-    monkeypatch.chdir(tmp_path)
-    measured(tmp_path)
-    for wrong in ("2", "-0.1", "fine", "nan"):
-        assert run(verb, "one-edge-clamped", f"--grading={wrong}", *VERBS.get(verb, ((),))[0]) == 2
-        assert f"grading = {wrong}" in one_line(capsys)
 
 
 @pytest.mark.parametrize("verb", VERBS)
@@ -146,10 +126,3 @@ def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatc
     assert shown == lattices[1:] and reasons == ()
     with pytest.raises(BadInput, match="none of these calibrations"):
         resolve_each(load("curved-edge"), lattices[1:], 0.5)
-
-
-def test_python_takes_it_too() -> None:
-    springs = sb.calibrate("curved-edge", grid=3, grading="auto")
-    assert springs.grading == 0.3 and "grading " in repr(springs)
-    history = sb.simulate("one-edge-clamped", 0.01, grid=3, grading=0.3)
-    assert history.settings["grading"] == 0.3 and "grading 0.3" in history.label

@@ -65,30 +65,6 @@ material = { young = 54.5e6, poisson = 0.48, density = 1678.0 }
 gravity = { acceleration = [0.0, 0.0, -9.81] }
 support = [{ edge = "x0", kind = "clamped" }]
 """
-VERBS = {
-    "compare": (("--elements", "2", "--no-uncertainty"), lambda d: d["solutions"][0]["settings"]["grid"]),
-    "modes": (("--elements", "2", "--count", "2"), lambda d: d["solutions"][0]["settings"]["grid"]),
-    "calibrate": ((), lambda d: d["grid"]),
-    "simulate": (("--duration", "0.01"), lambda d: d["settings"]["grid"]),
-    "identify": (("--measured", "measured.csv"), lambda d: d["settings"]["grid"]),
-}
-
-
-@pytest.mark.parametrize("option", ["--lumped", "--grid"])
-@pytest.mark.parametrize("verb", VERBS)
-def test_every_verb_means_the_same(
-    verb: str,
-    option: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("long.toml").write_text(TEXT)
-    Path("measured.csv").write_text("x,y,ux,uy,uz\n0.2,0.05,,,-0.02\n0.1,0.05,,,-0.01\n")
-    others, grid = VERBS[verb]
-    assert run(verb, "long.toml", option, "3", "--json", *others) == 0
-    assert grid(json.loads(capsys.readouterr().out)) == [5, 3, 2]
 
 
 @pytest.mark.usefixtures("in_process")
@@ -128,30 +104,6 @@ def test_elements_along_x_and_y_on_every_verb(
     traded = document("tradeoff", *others, "--calibration", "uniform", "--elements", "4x2")
     assert traded["reference"]["settings"]["elements"] == [4, 2]
     assert traded["reference"]["uncertainty"] > 0.0 and traded["rows"][0]["error"] > 0.0
-
-
-@pytest.mark.parametrize("verb", ["compare", "modes", "identify", "tradeoff"])
-def test_what_is_no_number_of_elements_leaves_with_2(
-    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("long.toml").write_text(TEXT)
-    Path("measured.csv").write_text("x,y,ux,uy,uz\n0.2,0.05,,,-0.02\n")
-    measured = ("--measured", "measured.csv") if verb == "identify" else ()
-    assert run(verb, "long.toml", *measured, "--elements", "8y") == 2
-    assert "--elements = '8y'" in one_line(capsys)
-
-
-@pytest.mark.parametrize("verb", [*VERBS, "tradeoff"])
-def test_what_is_not_a_grid_leaves_with_2(
-    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("long.toml").write_text(TEXT)
-    Path("measured.csv").write_text("x,y,ux,uy,uz\n0.2,0.05,,,-0.02\n0.1,0.05,,,-0.01\n")
-    assert run(verb, "long.toml", "--grid", "9y", *VERBS.get(verb, [()])[0]) == 2
-    said = one_line(capsys)
-    assert "9y" in said and "--grid" in said
 
 
 def pasted(grid: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Path:

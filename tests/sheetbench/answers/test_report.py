@@ -232,38 +232,6 @@ def test_a_manifest_that_is_not_ours_is_refused(tmp_path: Path, text: str) -> No
         Folder(tmp_path, "modes", ["m"], about=about(), overwrite=True)
 
 
-@pytest.mark.usefixtures("undrawn")
-def test_commands_refuse_a_folder_of_another_scene(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    few = ("--lumped", "3", "--elements", "2", "--count", "2", "--out", str(tmp_path))
-    assert run("modes", "one-edge-clamped", *few) == 0
-    capsys.readouterr()
-    assert run("modes", "two-edges-clamped", *few) == 2
-    said = one_line(capsys)
-    assert "one-edge-clamped there, two-edges-clamped here" in said and "--overwrite" in said
-    assert run("modes", "two-edges-clamped", *few, "--overwrite") == 0
-
-
-@pytest.mark.parametrize(
-    "verb",
-    [
-        ("scenes",),
-        ("compare", "one-edge-clamped"),
-        ("calibrate", "one-edge-clamped"),
-        ("modes", "one-edge-clamped"),
-        ("simulate", "one-edge-clamped"),
-        ("tradeoff", "one-edge-clamped"),
-        ("advise", "one-edge-clamped"),
-        ("stability", "one-edge-clamped"),
-        ("verify",),
-    ],
-)
-def test_an_empty_out_is_refused(verb: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(*verb, "--out", "") == 2
-    assert "--out = ''" in one_line(capsys)
-
-
 def test_brackets_in_help_are_no_markup(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("calibrate", "--help") == 0
     assert "[springs]" in capsys.readouterr().out

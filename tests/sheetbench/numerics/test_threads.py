@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.sparse import csr_matrix
 from threadpoolctl import threadpool_info, threadpool_limits
 
 import fem_reference
@@ -24,7 +25,7 @@ def test_a_reference_is_solved_on_one_thread(model: str, monkeypatch: pytest.Mon
     seen: list[int] = []
     factor = linear.DirectSolver.factor
 
-    def watched(self: linear.DirectSolver, matrix: linear.csr_matrix) -> linear.Factor:
+    def watched(self: linear.DirectSolver, matrix: csr_matrix) -> linear.Factor:
         seen.extend(blas_threads())
         return factor(self, matrix)
 

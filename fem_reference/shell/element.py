@@ -141,7 +141,7 @@ class Element:
 
     @property
     def coupled(self) -> bool:
-        """Whether D mixes membrane and bending; shear it mixes with neither."""
+        """Whether D mixes membrane, bending and shear."""
         return False
 
     @property
@@ -212,11 +212,12 @@ def add_tangents(
     tangent.add_tangents(vectors, moduli, element.coupled, forms, frames, on, TABLES, slots, data)
 
 
-def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """What makes Cartesian strains [xx, yy, 2xy] at the Gauss points of the sampled membrane and bending
-    ones, (m, 9, 3, 21) each, of elements with nodes (m, 9, 2)."""
-    _, in_plane, bending, _ = _geometry(nodes)
-    return in_plane, bending
+    ones, (m, 9, 3, 21) each, and [xz, yz] of the shear ones, (m, 9, 2, 12), of elements with nodes (m, 9, 2).
+    """
+    _, in_plane, bending, slanted = _geometry(nodes)
+    return in_plane, bending, slanted
 
 
 @kept(last=4, most=1 << 16)

@@ -6,8 +6,9 @@ the thickness give
 
     s = ∫∫ ∇eᵀ S(e) dζ dA,   D = ∫∫ ∇eᵀ ∂S/∂e ∇e + S·∇∇e dζ dA,   ∇e = ((1 + ζ κ ∇tᵀ) T_m, ζ t T_b)
 
-with T what makes Cartesian strains of the sampled ones (`element.cartesian`). Transverse shear stays linear.
-With St Venant–Kirchhoff's law, under which t = 1, these are the stresses of `Element`.
+with T what makes Cartesian strains of the sampled ones (`element.cartesian`). Transverse shear γ, of a
+director that has the length t, stores ½ κ G h t² γᵀ C⁻¹ γ (`slant`). With St Venant–Kirchhoff's law t and C
+are 1, and these are the stresses of `Element`.
 """
 
 from __future__ import annotations
@@ -19,8 +20,9 @@ import numpy as np
 
 from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, STRAINS, Element, cartesian
 from fem_reference.shell.laws import Law, Response
+from fem_reference.shell.slant import Slant, slant
 from fem_reference.surface.biquadratic import integrated
-from fem_reference.surface.materials import section_of
+from fem_reference.surface.materials import section_of, transverse_shear_stiffness
 from sheetbench.scenes import Material
 
 _LEVELS, _SHARES = np.polynomial.legendre.leggauss(3)
@@ -29,13 +31,14 @@ _LEVELS, _SHARES = np.polynomial.legendre.leggauss(3)
 @dataclass(frozen=True)
 class HyperelasticElement(Element):
     """Elements of a material and its law; stiffness: D at no strain; membrane, bending: T (m, 9, 3, 21);
-    heights, weights: ζ [m] and ∫ dζ [m] of the points through the thickness, (3,). drag: σ of a step of creep
-    from strains `past` (m, 54), at stresses s + σ D₀ (e − e_n)."""
+    slanted: T of shear (m, 9, 2, 12); heights, weights: ζ [m] and ∫ dζ [m] of points through the thickness,
+    (3,). drag: σ of a step of creep from strains `past` (m, 54), at stresses s + σ D₀ (e − e_n)."""
 
     law: Law
     material: Material
     membrane: np.ndarray
     bending: np.ndarray
+    slanted: np.ndarray
     heights: np.ndarray
     weights: np.ndarray
     past: np.ndarray
@@ -65,10 +68,17 @@ class HyperelasticElement(Element):
         found = self._response(stretch, t[..., None] * curvature).stress * self._volumes[..., None]
         force, moment = found.sum(axis=2), np.einsum("egza,z->ega", found, self.heights)
         force += np.sum(moment * curvature, axis=-1)[..., None] * slope
+        leaning = self._slant(stretch, strain)
+        if leaning is not None:
+            force += self._shear[..., None] * leaning.by_strain
         out = self.drag * (self.stiffness @ (strain - self.past)[:, :, None])[:, :, 0]
         out[:, MEMBRANE] += np.einsum("egak,ega->ek", self.membrane, force, optimize=True)
         out[:, BENDING] += np.einsum("egak,ega->ek", self.bending, t[..., None] * moment, optimize=True)
-        out[:, SHEAR] += (self.stiffness[:, SHEAR, SHEAR] @ strain[:, SHEAR, None])[:, :, 0]
+        if leaning is None:
+            out[:, SHEAR] += (self.stiffness[:, SHEAR, SHEAR] @ strain[:, SHEAR, None])[:, :, 0]
+        else:
+            pull = self._shear[..., None] * leaning.by_slant
+            out[:, SHEAR] += np.einsum("egak,ega->ek", self.slanted, pull, optimize=True)
         return out
 
     @property
@@ -78,7 +88,7 @@ class HyperelasticElement(Element):
 
     @property
     def coupled(self) -> bool:
-        """Whether D mixes membrane and bending."""
+        """Whether D mixes membrane, bending and shear."""
         return True
 
     def moduli(self, strain: np.ndarray) -> np.ndarray:
@@ -101,7 +111,14 @@ class HyperelasticElement(Element):
         out[:, MEMBRANE, BENDING] += coupled
         out[:, BENDING, MEMBRANE] += coupled.swapaxes(1, 2)
         out[:, BENDING, BENDING] += integrated(self.bending, t * t * turn, areas)
-        out[:, SHEAR, SHEAR] += self.stiffness[:, SHEAR, SHEAR]
+        if (leaning := self._slant(stretch, strain)) is None:
+            out[:, SHEAR, SHEAR] += self.stiffness[:, SHEAR, SHEAR]
+            return out
+        out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, leaning.strains, self._shear)
+        out[:, SHEAR, SHEAR] += integrated(self.slanted, leaning.slants, self._shear)
+        coupled = integrated(self.membrane, leaning.mixed, self._shear, self.slanted)
+        out[:, MEMBRANE, SHEAR] += coupled
+        out[:, SHEAR, MEMBRANE] += coupled.swapaxes(1, 2)
         return out
 
     def energies(self, strain: np.ndarray) -> dict[str, float]:
@@ -111,8 +128,11 @@ class HyperelasticElement(Element):
         total, membrane = (
             float(np.sum(self._volumes * self._response(stretch, part).energy)) for part in (bent, 0.0 * bent)
         )
-        slant = strain[:, SHEAR, None]
-        shear = 0.5 * np.sum(slant * (self.stiffness[:, SHEAR, SHEAR] @ slant))
+        if (leaning := self._slant(stretch, strain)) is None:
+            sampled = strain[:, SHEAR, None]
+            shear = 0.5 * np.sum(sampled * (self.stiffness[:, SHEAR, SHEAR] @ sampled))
+        else:
+            shear = np.sum(self._shear * leaning.energy)
         return {"membrane": membrane, "bending": total - membrane, "shear": float(shear)}
 
     def dragged(self, strain: np.ndarray, drag: float) -> Element:
@@ -131,6 +151,19 @@ class HyperelasticElement(Element):
         return self.law.response(
             self.material, stretch[:, :, None] + self.heights[:, None] * bent[:, :, None]
         )
+
+    def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Slant | None:
+        """Return transverse shear at every element's points; None of a law with which it is linear."""
+        if not self.law.stands_any_strain:
+            return None
+        leaning = np.einsum("egak,ek->ega", self.slanted, strain[:, SHEAR])
+        return slant(self.law.shear(self.material, stretch), stretch, leaning)
+
+    @property
+    def _shear(self) -> np.ndarray:
+        """κ G h times the points' areas (m, 9) [N m]."""
+        stiffness = transverse_shear_stiffness(self.material, float(self.weights.sum()))
+        return self.areas * stiffness[0, 0]
 
     @property
     def _volumes(self) -> np.ndarray:

@@ -139,6 +139,15 @@ def _outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return a[..., :, None] * b[..., None, :]
 
 
+def _power(strain: np.ndarray, power: float) -> Response:
+    """Return j^power and its derivatives."""
+    area, first, second = _area(strain)
+    value = area**power
+    slope = (power * value / area)[..., None]
+    bent = second + ((power - 1.0) / area)[..., None, None] * _outer(first, first)
+    return Response(value, slope * first, slope[..., None] * bent)
+
+
 class Law(NamedTuple):
     """response: of a material at strains (…, 3); stands_any_strain: whether it is meant for large ones, and
     sheets of it get thinner."""
@@ -152,12 +161,11 @@ class Law(NamedTuple):
         if not self.stands_any_strain:
             none = np.zeros_like(strain)
             return Response(1.0 + none[..., 0], none, _outer(none, none))
-        power = material.poisson / (1.0 - material.poisson)
-        area, first, second = _area(strain)
-        stretch = area**-power
-        slope = (power * stretch / area)[..., None]
-        bent = ((power + 1.0) / area)[..., None, None] * _outer(first, first) - second
-        return Response(stretch, -slope * first, slope[..., None] * bent)
+        return _power(strain, -material.poisson / (1.0 - material.poisson))
+
+    def shear(self, material: Material, strain: np.ndarray) -> Response:
+        """Return t²/j² (…) of that thickness and its derivatives (`slant`)."""
+        return _power(strain, -2.0 / (1.0 - material.poisson))
 
 
 LAWS = {

@@ -1,8 +1,7 @@
 """The tangent of the shell's elements in their unknowns, as compiled loops.
 
 Unknowns of an element are the displacements of its nine nodes, then two rotations β of nine directors: a
-director turns in its tangent plane, δd = T β. With B on them, (54, 45), and D by parts, membrane and bending
-coupled or not,
+director turns in its tangent plane, δd = T β. With B on them, (54, 45), and D by parts, these coupled or not,
 
     K = Bᵀ D B + Σ s_k H_k ⊗ I,
 
@@ -74,8 +73,8 @@ def _add_weighed(moduli: np.ndarray, coupled: bool, gradient: np.ndarray, out: n
         row0, row1, row2 = out[k], out[k + 1], out[k + 2]
         columns = FEW if k < PLANE else ALL
         start, end = k // PLANE * PLANE, min((k // PLANE + 1) * PLANE, len(out))
-        if coupled and k < 2 * PLANE:
-            start, end = 0, 2 * PLANE
+        if coupled:
+            start, end = 0, len(out)
         for by in range(start, end, AT_ONCE):
             d00, d01, d02 = moduli[k, by], moduli[k, by + 1], moduli[k, by + 2]
             d10, d11, d12 = moduli[k + 1, by], moduli[k + 1, by + 1], moduli[k + 1, by + 2]

@@ -69,8 +69,8 @@ def advise(
     while not probing.reference.usable and probing.refine():
         pass
     if not probing.reference.usable:
-        said = probing.reference.solution
-        reason = f"the shell finds no stable equilibrium: {said.status}: {said.message}"
+        failed = probing.reference.solution
+        reason = f"the shell finds no stable equilibrium: {failed.status}: {failed.message}"
         return _advice(probing, sizes, tolerance, budget, None, resolution, reason)
     linear = not scene.actuators and sizes.span_load_number <= LINEAR_LOAD_NUMBER
     candidates = probing.candidates(linear)
@@ -201,8 +201,8 @@ def _grading(probing: Probing, chosen: Trial | None) -> str:
     value, why = probing.grading_of(lattice)
     masses = " × ".join(lattice.size.split("×")[:2])
     taken = "taken" if lattice.grading else "not taken"
-    said = f"grading {value:g} {taken}" if value else "no grading"
-    return f"{said}, {masses} masses" + (f": {why}" if why else "")
+    text = f"grading {value:g} {taken}" if value else "no grading"
+    return f"{text}, {masses} masses" + (f": {why}" if why else "")
 
 
 def _calibration(probing: Probing, chosen: Trial | None) -> str:
@@ -211,8 +211,8 @@ def _calibration(probing: Probing, chosen: Trial | None) -> str:
         return ""
     settings = {} if chosen is None else chosen.candidate.settings
     taken = settings.items() >= {"calibration": probing.method, **probing.springs}.items()
-    said = f"calibration {probing.method} {'taken' if taken else 'not taken'}"
-    return f"{said}: {probing.because}" if probing.because else said
+    text = f"calibration {probing.method} {'taken' if taken else 'not taken'}"
+    return f"{text}: {probing.because}" if probing.because else text
 
 
 def _limit(probing: Probing, chosen: Trial | None) -> str:

@@ -82,9 +82,9 @@ class Advice(Answer):
         if self.error is None or self.seconds is None:
             return self.message
         size = f"{few(100 * self.error, 3)} % ± {few(100 * self.bar)} %"
-        said = f"predicted error {size} in {_time(self.seconds)}"
-        said += f", {self.model}" if self.model else ""
-        return f"{said}; {self.message}" if self.message else said
+        text = f"predicted error {size} in {_time(self.seconds)}"
+        text += f", {self.model}" if self.model else ""
+        return f"{text}; {self.message}" if self.message else text
 
     @property
     def succeeded(self) -> bool:
@@ -118,7 +118,7 @@ class Advice(Answer):
             "probing_seconds": self.probing_seconds,
             "tried": [one.as_dict() for one in self.tried],
             "message": self.message,
-            **{name: said for name in ("grading", "calibration", "limit") if (said := getattr(self, name))},
+            **{name: text for name in ("grading", "calibration", "limit") if (text := getattr(self, name))},
             "warnings": list(self.warnings),
             "command": self.command,
         }

@@ -48,9 +48,9 @@ def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "")
     for kind, data in parts.items():
         data |= {key: value for key, value in given.items() if key in kind.model_fields}
     sheet, material = checked(Sheet, parts[Sheet], option), checked(Material, parts[Material], option)
-    for said in [*sheet_slips(sheet), *material_slips(material)]:
-        if said not in known:
-            warn(Implausible(said), stacklevel=3)
+    for slip in [*sheet_slips(sheet), *material_slips(material)]:
+        if slip not in known:
+            warn(Implausible(slip), stacklevel=3)
     if loaded is None:
         return training_scenes(sheet, material)[0]
     probes = loaded.probes if sheet == loaded.sheet else {}
@@ -71,7 +71,7 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
             )
     found = resolve(scene, lattice, "springs", own=False)
     springs = found.calibrated([scene] if named else None)
-    known = [said] if named and (said := lumped.polygons(scene, found.grid)) else []
+    known = [slip] if named and (slip := lumped.polygons(scene, found.grid)) else []
     return replace(springs, remarks=(*choice_notes(found.settings), *known, *springs.remarks))
 
 

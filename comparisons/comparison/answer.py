@@ -239,8 +239,8 @@ class Comparison(Answer):
         """Return the deformed sheets, and what every model is off by at the probes."""
         lattice, reference = self.solutions[:2]
         off = self.error(lattice)
-        said = "" if off is None else f": error at the probes {100 * off:.2f} %"
-        described = f"{self.scene.name}: {lattice.label} against {reference.label}{said}"
+        error_text = "" if off is None else f": error at the probes {100 * off:.2f} %"
+        described = f"{self.scene.name}: {lattice.label} against {reference.label}{error_text}"
         return (
             Picture("comparison", "comparisons.comparison.figure:compose", (self,), described, RASTER),
             Picture("probes", "comparisons.comparison.probes_figure:compose", (self,)),

@@ -82,9 +82,9 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
         "Difference",
     ]
     error = comparison.error(lattice)
-    said = "" if error is None else f"error at the probes {100 * error:.2f} %"
+    caption = "" if error is None else f"error at the probes {100 * error:.2f} %"
     for panel, (image, pixels), title, subtitle in zip(
-        axes, shots, titles, (lattice.label, reference.label, said), strict=True
+        axes, shots, titles, (lattice.label, reference.label, caption), strict=True
     ):
         _panel(panel, image, title, subtitle)
         place_labels(panel, pixels, list(scene.probes))

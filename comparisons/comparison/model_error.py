@@ -46,11 +46,11 @@ class ModelError:
     def __str__(self) -> str:
         parts = {"thickness": self.thickness, "law of strain": self.strain_law}
         named = ", ".join(f"{name} {_percent(part)}" for name, part in parts.items() if part > 0.0)
-        said = [f"model error ± {_percent(self.value)} ({named})"] if named else []
+        sentences = [f"model error ± {_percent(self.value)} ({named})"] if named else []
         if self.clamp > 0.0:
             other = "a clamp that also prevents the change of thickness would change it by up to"
-            said.append(f"{other} {_percent(self.clamp)}")
-        return "; ".join(said)
+            sentences.append(f"{other} {_percent(self.clamp)}")
+        return "; ".join(sentences)
 
     def as_dict(self) -> dict[str, float | dict[str, float]]:
         """For JSON."""

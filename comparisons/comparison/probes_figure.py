@@ -43,9 +43,9 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     bars = [100.0 * bar for bar in relative_bars(comparison, probes)]
     bottom = 0.5 * min([*drawn, *(bar for bar in bars if bar > 0.0)])
     for place, bar in enumerate(bars):
-        said = f"error bar of the {reference.model}" if place == 0 else None
+        label = f"error bar of the {reference.model}" if place == 0 else None
         axis.fill_between(
-            [place - HALF, place + HALF], bottom, max(bar, bottom), color=GREY, alpha=0.3, lw=0, label=said
+            [place - HALF, place + HALF], bottom, max(bar, bottom), color=GREY, alpha=0.3, lw=0, label=label
         )
     others = [s for s in comparison.solutions if s is not reference]
     aside = np.linspace(-0.2, 0.2, len(others)) if len(others) > 1 else [0.0]

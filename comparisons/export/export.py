@@ -77,7 +77,7 @@ def export(
     target.write("lattice.npz", lambda path: _written(path, _to_npz, values))
     target.write("lattice.mat", lambda path: _written(path, _to_mat, values))
     target.finish(calibration.document())
-    missing = "".join(f"; {said}" for said in lattice.notes)
+    missing = "".join(f"; {note}" for note in lattice.notes)
     named = "".join(f", and {file} for {name}" for name, file in zip(simulators, own, strict=True))
     return f"Springs, masses, supports and loads in {target.path}{named}: start at its README.md{missing}"
 

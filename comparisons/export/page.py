@@ -91,7 +91,7 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
         f"ρ = {material.density:g} kg/m³, springs by the calibration {calibration.method}. "
         f"Written by sheetbench {version()}."
     )
-    notes = "".join(f"- Not in here: {markdown(said)}\n" for said in lattice.notes)
+    notes = "".join(f"- Not in here: {markdown(note)}\n" for note in lattice.notes)
     return PAGE.format(
         title=f"The lattice of {markdown(scene.name)}",
         about=about,
@@ -99,5 +99,5 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
         rate=lattice.damping_rate,
         layers=layers,
         notes=notes + "".join(f"\nThe same lattice for one simulator: `{name}`.\n" for name in others),
-        arrays="\n".join(f"- `{name}` {markdown(said)}" for name, said in NAMES.items()),
+        arrays="\n".join(f"- `{name}` {markdown(note)}" for name, note in NAMES.items()),
     )

@@ -73,8 +73,8 @@ def plugin(name: str) -> Model:
     try:
         model = _loaded(name)
     except (Exception, SystemExit) as error:  # whatever it does on import, the user is told whose it is
-        said = str(error) or type(error).__name__
-        raise BadInput(f"model = '{name}': the plug-in cannot be loaded: {said}") from None
+        reason = str(error) or type(error).__name__
+        raise BadInput(f"model = '{name}': the plug-in cannot be loaded: {reason}") from None
     if not isinstance(model, Model):
         raise BadInput(f"model = '{name}': the plug-in lacks a name, settings or solve(scene, settings)")
     if not re.fullmatch(r"\w[\w.+-]*", str(model.name)):
@@ -114,8 +114,8 @@ def digest(name: str) -> str | None:
         return plugin_sources.digest(plugin_sources.of_file(file))
     if (entry := _found().get(name)) is None:
         return None
-    said = [entry.dist.name, entry.dist.version] if entry.dist is not None else []
-    return plugin_sources.digest(plugin_sources.of_module(entry.module), *said)
+    installed = [entry.dist.name, entry.dist.version] if entry.dist is not None else []
+    return plugin_sources.digest(plugin_sources.of_module(entry.module), *installed)
 
 
 def answer(model: Model, scene: Scene, settings: Mapping[str, Any]) -> Solution:

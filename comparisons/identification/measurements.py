@@ -207,8 +207,8 @@ def _cloud(path: Path, sheet: Sheet) -> Surface:
     except BadInput:
         raise
     except Exception as error:  # VTK's reader has no error of its own for a damaged file
-        said = str(error) or type(error).__name__
-        raise BadInput(f"{path}: cannot be read as a point cloud: {said}") from None
+        reason = str(error) or type(error).__name__
+        raise BadInput(f"{path}: cannot be read as a point cloud: {reason}") from None
     finite = np.isfinite(points).all(axis=1)
     if not finite.all():
         raise BadInput(f"{path}: point {int(np.argmin(finite))} is not finite")

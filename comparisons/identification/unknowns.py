@@ -72,8 +72,8 @@ def unknown(scene: Scene, name: str) -> Unknown:
         if name.startswith("tilt_"):
             put(scene, name, found.value or LARGEST_TILT)
     except SceneError as error:
-        said = "supports and actuators allow no tilt there"
-        raise BadInput(f"unknown = '{name}': {said}: {error}") from None
+        reason = "supports and actuators allow no tilt there"
+        raise BadInput(f"unknown = '{name}': {reason}: {error}") from None
     except BadInput as error:
         raise BadInput(f"unknown = {error}") from None
     if found.low < 0.0:

@@ -150,8 +150,8 @@ class Panel:
         return float(value)
 
 
-def _refuse(said: str) -> NoReturn:
-    raise BadInput(said)
+def _refuse(message: str) -> NoReturn:
+    raise BadInput(message)
 
 
 def _of_scene(scene: Scene) -> Iterator[Slider]:

@@ -111,11 +111,11 @@ class Session:
         try:
             return await work
         except BadInput as error:
-            said = str(error)
+            message = str(error)
         except Exception as error:  # a fault of the program: the page goes on, and the terminal shows it
             traceback.print_exception(error, file=sys.stderr)
-            said = "a fault of the program; the terminal that it was started from says more"
-        await self._say({"kind": "refused", "number": question.number, "said": said})
+            message = "a fault of the program; the terminal that it was started from says more"
+        await self._say({"kind": "refused", "number": question.number, "said": message})
         return None
 
     async def _say(self, document: dict[str, Any]) -> None:

@@ -64,6 +64,6 @@ def method_for(scene: Scene) -> tuple[str, str]:
         far = numbers.bending_number / numbers.slenderness
         one, other = sorted(held)
         beside = f"{'above' if far > FAR else 'not above'} {FAR:g}"
-        said = f"{one} and {other} hold the sheet, (q a³/D)(a/h) = {far:.3g} is {beside}"
-        return MEMBRANE if far > FAR else CALIBRATION, said
+        reason = f"{one} and {other} hold the sheet, (q a³/D)(a/h) = {far:.3g} is {beside}"
+        return MEMBRANE if far > FAR else CALIBRATION, reason
     return CALIBRATION, "edges hold the sheet on several sides, so that it stretches as it bends"

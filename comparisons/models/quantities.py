@@ -32,8 +32,8 @@ def checked(kind: type[Quantities], data: dict[str, Any], option: str = "--") ->
     try:
         return kind.model_validate(data)
     except ValidationError as error:
-        said = in_one_line(error, kind)
+        reason = in_one_line(error, kind)
         if error.errors()[0]["loc"]:
             key = str(error.errors()[0]["loc"][0])
-            said = f"{option}{'side' if key.startswith('length') else key}{said.removeprefix(key)}"
-        raise BadInput(said) from None
+            reason = f"{option}{'side' if key.startswith('length') else key}{reason.removeprefix(key)}"
+        raise BadInput(reason) from None

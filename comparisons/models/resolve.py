@@ -102,8 +102,8 @@ class Resolved(Generic[S]):
             return lumped.given(self.scene, self.grid, grading)
         sheet, material = self.scene.sheet, self.scene.material
         if spec.layer_distance is not None:
-            for said in layer_slips(sheet, spec.layer_distance, "layer-distance"):
-                warn(Implausible(said), stacklevel=2)
+            for slip in layer_slips(sheet, spec.layer_distance, "layer-distance"):
+                warn(Implausible(slip), stacklevel=2)
         own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading or 0.0}
         if _fitted(spec):
             from comparisons.models.training import fitted
@@ -213,8 +213,8 @@ def _lattice(scene: Scene, spec: Lattice, own: bool) -> Resolved[Lattice]:
     spec = spec.but(calibration=method_of(method, spec.k))
     grading, why = grading_of(scene, grid, spec)
     reasons = {"grading_reason": why, "calibration_reason": because}
-    said = {name: reason for name, reason in reasons.items() if reason}
-    return Resolved(scene, spec.but(grading=grading), said)
+    given = {name: reason for name, reason in reasons.items() if reason}
+    return Resolved(scene, spec.but(grading=grading), given)
 
 
 def _pair(scene: Scene, spec: LatticePair) -> Resolved[LatticePair]:

@@ -61,14 +61,14 @@ class Spec(ABC):
 
     def __str__(self) -> str:
         """Return the text that `parse` reads as this spec."""
-        said = ",".join(f"{key}={_written(value)}" for key, value in self.settings.items())
-        return f"{self.model}:{said}" if said else self.model
+        parts = ",".join(f"{key}={_written(value)}" for key, value in self.settings.items())
+        return f"{self.model}:{parts}" if parts else self.model
 
     @property
     def label(self) -> str:
         """The model and its settings in words."""
-        said = ", ".join(f"{name} {counted(value)}" for name, value in self.settings.items())
-        return f"{plugins.shown_name(self.model)} {said}"
+        parts = ", ".join(f"{name} {counted(value)}" for name, value in self.settings.items())
+        return f"{plugins.shown_name(self.model)} {parts}"
 
     @property
     def size(self) -> str:
@@ -80,14 +80,14 @@ class Spec(ABC):
         """What stays the same as the grid is refined: the model's name, calibration and other settings."""
         settings = self.settings
         grid = settings.get("grid")
-        said = [str(settings.get("calibration", ""))]
-        said += [f"{n} layers" for n in (grid[2:] if isinstance(grid, list) else []) if n != LAYERS]
-        said += [
+        parts = [str(settings.get("calibration", ""))]
+        parts += [f"{n} layers" for n in (grid[2:] if isinstance(grid, list) else []) if n != LAYERS]
+        parts += [
             name if value is True else f"{name} {counted(value)}"
             for name, value in sorted(settings.items())
             if name not in (*SIZES, "calibration") and value is not False
         ]
-        return " ".join(part for part in (plugins.shown_name(self.model), *said) if part)
+        return " ".join(part for part in (plugins.shown_name(self.model), *parts) if part)
 
 
 @dataclass(frozen=True)
@@ -168,14 +168,14 @@ class Elements(Spec):
         """Return the reference that a function is called with, changed by what flat keywords say; solids,
         which are solved whole, are not cut, and "path" is the usual branch."""
         spec = reference if isinstance(reference, Elements) else cls(reference)
-        said = {
+        known = {
             name: value
             for name, value in keywords.items()
             if value not in (None, "path") and value is not False
         }
         if spec.kind == "solid":
-            said.pop("symmetry", None)
-        return spec.but(**{"count" if name == "elements" else name: value for name, value in said.items()})
+            known.pop("symmetry", None)
+        return spec.but(**{"count" if name == "elements" else name: value for name, value in known.items()})
 
     @property
     def settings(self) -> dict[str, Any]:

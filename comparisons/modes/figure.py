@@ -51,8 +51,8 @@ def compose(found: Spectra, style: FigureStyle = PLAIN) -> Figure:
             axis.plot(x[[0, -1, -1, 0, 0]], y[[0, 0, -1, -1, 0]], color=GREY, linewidth=0.6)
             axis.set_aspect("equal")
             kind = found.kinds[column]
-            said = f"{number + 1}: {spectrum.frequencies[number]:.4g} Hz"
-            axis.set_title(f"{kind}\n{said}" if kind and row == 0 else said, fontsize=6.5, pad=2)
+            title = f"{number + 1}: {spectrum.frequencies[number]:.4g} Hz"
+            axis.set_title(f"{kind}\n{title}" if kind and row == 0 else title, fontsize=6.5, pad=2)
         panels[row, 0].text(
             -0.06, 0.5, spectrum.model, rotation=90, ha="right", va="center", fontsize=7.5,
             transform=panels[row, 0].transAxes,

@@ -35,7 +35,7 @@ MANY, OTHERS = 4, 30  # studies from which on each is folded; other files that a
 def page(found: FolderContents, title: str) -> str:
     """Return the HTML of a folder's studies."""
     shown = [_study(study, n) for n, study in enumerate(found.studies, start=1)]
-    troubles = [*found.troubles, *(said for study in found.studies for said in study.troubles)]
+    troubles = [*found.troubles, *(trouble for study in found.studies for trouble in study.troubles)]
     style, script = viewer.style() + _own("page.css"), viewer.script() + _own("page.js")
     environment = Environment(
         loader=PackageLoader(PACKAGE, "."), autoescape=True, undefined=StrictUndefined, trim_blocks=True,

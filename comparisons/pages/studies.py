@@ -61,8 +61,8 @@ class Study:
         try:
             return Scene.model_validate(data)
         except (BadInput, ValueError) as error:
-            said = " ".join(str(error).split())
-            self.troubles.append(f"{self.place}: its scene cannot be read: {said[:200]}")
+            reason = " ".join(str(error).split())
+            self.troubles.append(f"{self.place}: its scene cannot be read: {reason[:200]}")
             return None
 
     @property

@@ -156,7 +156,7 @@ class Report:
 
     def _repr_html_(self) -> str:
         heading = " ".join(filter(None, [self.title, self.subtitle]))
-        notes = "".join(f"<p>{html(said)}</p>" for said in (*self.notes, *self.complaints))
+        notes = "".join(f"<p>{html(line)}</p>" for line in (*self.notes, *self.complaints))
         return f"<h3>{html(heading)}</h3>{''.join(table._repr_html_() for table in self.shown)}{notes}"
 
     def files(self, made_with: str = "") -> dict[str, Write]:
@@ -176,7 +176,7 @@ class Report:
         name."""
         drawn = {picture.name: picture.names[0] for picture in self.pictures}
         parts = [f"# {markdown(self.title)}\n"]
-        parts += [f"{markdown(said)}\n" for said in (self.subtitle, self.lead) if said]
+        parts += [f"{markdown(line)}\n" for line in (self.subtitle, self.lead) if line]
         for table in self.tables:
             section = table.text and table.name in drawn
             if section:
@@ -186,8 +186,8 @@ class Report:
             if section:
                 parts.append(f"![{markdown(table.caption)}]({drawn[table.name]})\n")
             parts.append(table.to_markdown())
-        parts += [f"{markdown(said)}\n" for said in self.notes]
-        parts += [f"- {markdown(said)}\n" for said in self.complaints]
+        parts += [f"{markdown(line)}\n" for line in self.notes]
+        parts += [f"- {markdown(line)}\n" for line in self.complaints]
         return "\n".join([*parts, f"{made_with}\n"] if made_with else parts)
 
     def words(self) -> dict[str, Any]:

@@ -225,10 +225,10 @@ class Table:
 
     def words(self) -> dict[str, Any]:
         """Return what the CSV file does not say, ready for JSON; where there is none, the rows too."""
-        said = {"name": self.name, "caption": self.caption, "text": self.text, "grouped": self.grouped}
+        known = {"name": self.name, "caption": self.caption, "text": self.text, "grouped": self.grouped}
         units = [any(isinstance(row[i], Unit) for row in self.rows) for i in range(len(self.columns))]
-        said |= {"columns": [{**asdict(c), "units": u} for c, u in zip(self.columns, units, strict=True)]}
-        return said if self.name else {**said, "rows": [list(row) for row in self.rows]}
+        known |= {"columns": [{**asdict(c), "units": u} for c, u in zip(self.columns, units, strict=True)]}
+        return known if self.name else {**known, "rows": [list(row) for row in self.rows]}
 
     def to_latex(self) -> str:
         """Return a booktabs tabular with shown units and without details, its caption as a comment above

@@ -168,6 +168,6 @@ def _unstable(law: str, constants: dict[str, float]) -> str:
     try:
         Material.model_validate({"law": law, "poisson": POISSON, "density": 1000.0, **constants})
     except (BadInput, ValueError) as error:
-        said = error.errors()[0]["msg"] if hasattr(error, "errors") else str(error)
-        return str(said).removeprefix("Value error, ")
+        reason = error.errors()[0]["msg"] if hasattr(error, "errors") else str(error)
+        return str(reason).removeprefix("Value error, ")
     return "" if all(map(isfinite, constants.values())) else "not finite"

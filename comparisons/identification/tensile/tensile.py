@@ -92,17 +92,17 @@ class TensileFit(Answer):
 
     def notes(self) -> list[str]:
         """Return what to put into a scene, and what the curves leave open."""
-        said = []
+        sentences = []
         mooney = next((f for f in self.fits if f.law == "mooney-rivlin"), None)
         if mooney is not None and len(self.covered) == 1:
-            said.append(
+            sentences.append(
                 "One kind of test cannot tell c1 from c2 of mooney-rivlin: their errors have the correlation "
                 f"{number(mooney.correlation, '.3f')}, and it is not chosen; pure shear or equibiaxial "
                 "tension beside it would tell."
             )
         if self.open is not None:
             at, (low, high) = self.open
-            said.append(
+            sentences.append(
                 f"Not measured: equibiaxial tension. At stretch {at:.3g}, as far as these data go in I₁, "
                 f"laws that fit about as well predict {low / 1e6:.3g} to {high / 1e6:.3g} MPa."
             )
@@ -110,8 +110,8 @@ class TensileFit(Answer):
             material = self.material()
             keys = {key: getattr(material, key) for key in (*self.law.constants, "poisson")}
             lines = "\n".join(f"{key} = {value:.6g}" for key, value in keys.items())
-            said.append(f'In a scene:\n[material]\nlaw = "{self.law.law}"\n{lines}')
-        return said
+            sentences.append(f'In a scene:\n[material]\nlaw = "{self.law.law}"\n{lines}')
+        return sentences
 
     def complaints(self) -> tuple[str, ...]:
         return () if self.law else ("no law fits these curves stably; try a smaller --up-to",)

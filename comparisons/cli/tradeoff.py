@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from comparisons.cli import options
 from comparisons.cli.lattice_options import SpringOptions
@@ -13,10 +13,18 @@ from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, INTEGRATORS, REF
 
 if TYPE_CHECKING:
     from comparisons.tradeoff.answer import Tradeoff
-    from comparisons.tradeoff.motion import DynamicTradeoff
+    from comparisons.tradeoff.motion_answer import DynamicTradeoff
 
 GRIDS, PAIRS = "3,5,9,17,33", "5:9,9:17"
+MESHES = {"plate": "8", "shell": "2,4,8,12,16", "solid": "2,4,8"}
+MOVING = {"plate": "8", "shell": "2,4,8", "solid": "2,4"}  # with --duration
 USUAL = f"{CALIBRATION},uniform"
+
+
+def _elements(name: str, what: str) -> Any:
+    """The option of a reference's meshes."""
+    usual = f"{MESHES[name]} unless given, {MOVING[name]} with --duration"
+    return option(f"Elements of the {what} along the shorter side, or NxM; {usual}.", "ELEMENTS")
 
 
 def command(
@@ -26,7 +34,7 @@ def command(
         str | None,
         option(
             "Masses of lattices: along the shorter side with near-square cells, or NxM, NxMxL. "
-            f"{GRIDS} unless given; with --duration one lattice, 9 unless given.",
+            f"{GRIDS} unless given, 9 with --duration.",
             "GRIDS",
             "--lumped",
             "--grid",
@@ -45,22 +53,20 @@ def command(
         str | None,
         option(
             f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. {USUAL} unless "
-            "given; with --duration one.",
+            "given; with --duration that of `simulate`.",
             "NAMES",
         ),
     ] = None,
-    plate: Annotated[
-        str, option("Elements of the linear plate along the shorter side, or NxM.", "ELEMENTS")
-    ] = "8",
-    shell: Annotated[str, option("Elements of the nonlinear shell, likewise.", "ELEMENTS")] = ("2,4,8,12,16"),
-    solid: Annotated[str, option("Elements of the nonlinear solid, likewise.", "ELEMENTS")] = ("2,4,8"),
+    plate: Annotated[str | None, _elements("plate", "linear plate")] = None,
+    shell: Annotated[str | None, _elements("shell", "nonlinear shell")] = None,
+    solid: Annotated[str | None, _elements("solid", "nonlinear solid")] = None,
     model: Models = None,
     symmetry: Symmetry = False,
     elements: Annotated[
         str | None,
         option(
             "Elements of the reference shell along the shorter side, or 8x4 along x and y; twice the "
-            "finest one's, 32 at least, unless given.",
+            "finest one's, 32 at least, unless given, 16 with --duration.",
             "N",
         ),
     ] = None,
@@ -68,7 +74,8 @@ def command(
     duration: Annotated[
         float | None,
         option(
-            "Trade-off of integrators and steps instead: one lattice's motion over so many seconds.",
+            "Trade-off of the motion over so many seconds instead: integrators and steps of lattices, and "
+            "the other models in steps of an error.",
             "S",
             unit="s",
         ),
@@ -88,13 +95,29 @@ def command(
     from comparisons.comparison.comparison import load_static
     from comparisons.models.spec import items
     from comparisons.tradeoff.asked import of_motion, of_statics
+    from sheetbench.errors import BadInput
     from sheetbench.scenes import load
 
     measure: Callable[..., Tradeoff | DynamicTradeoff]
+    meshes = dict(MESHES if duration is None else MOVING)
+    given = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
+    meshes |= {name: sizes for name, sizes in given.items() if sizes is not None}
     if duration is not None:
+        for option, value in {"--symmetry": symmetry, "--lumped-pair": lumped_pair}.items():
+            if value:
+                raise BadInput(f"{option}: is for statics; leave it out with --duration")
         loaded = load(scene)
-        one = lattice.spec.but(grid=grid, calibration=calibration)
-        measure = of_motion(loaded, duration, one, integrator)
+        measure = of_motion(
+            loaded,
+            duration,
+            grid,
+            calibration,
+            lattice.spec,
+            integrator,
+            meshes,
+            model or (),
+            elements,
+        )
     else:
         loaded = load_static(scene)
         calibration = calibration or (USUAL if lattice.k is None else "uniform")
@@ -102,7 +125,6 @@ def command(
             usual = grid is None and not {CALIBRATION, AUTO}.isdisjoint(items(calibration))
             lumped_pair = PAIRS if usual else ""
         grids = GRIDS if grid is None else grid
-        meshes = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
         measure = of_statics(
             loaded,
             grids,

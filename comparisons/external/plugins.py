@@ -29,7 +29,7 @@ from typing import Any, Protocol, runtime_checkable
 from comparisons.external import plugin_sources
 from comparisons.external.program import PREFIX, Program
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes import History, Scene, Solution
 
 GROUP = "sheetbench.models"
 OURS = {  # external codes that come with this package
@@ -60,6 +60,17 @@ class Model(Protocol):
         ...
 
 
+@runtime_checkable
+class MovingModel(Model, Protocol):
+    """One that answers motions too."""
+
+    def simulate(
+        self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
+    ) -> History:
+        """The motion over `duration` [s] from rest, sampled every so often [s], the start too."""
+        ...
+
+
 def names() -> list[str]:
     """Names of the installed plug-ins."""
     return sorted(_found())
@@ -79,6 +90,14 @@ def plugin(name: str) -> Model:
         raise BadInput(f"model = '{name}': the plug-in lacks a name, settings or solve(scene, settings)")
     if not re.fullmatch(r"\w[\w.+-]*", str(model.name)):
         raise BadInput(f"model = '{name}': its name = '{model.name}': letters, digits and . + - _ alone")
+    return model
+
+
+def moving(name: str) -> MovingModel:
+    """The plug-in of a name. Raises BadInput for one that has no motion, and as `plugin` does."""
+    model = plugin(name)
+    if not isinstance(model, MovingModel):
+        raise BadInput(f"{name}: has no motion: it lacks simulate(scene, settings, duration, every=…)")
     return model
 
 

@@ -100,12 +100,24 @@ def _elements(scene: Scene, spec: Elements, watch: Watch | None) -> Solution:
     return by_parts(scene, axes, answer)
 
 
-def simulate(lattice: Resolved[Lattice], duration: float, **settings: Any) -> History:
-    """Return the lattice's motion over `duration` [s]; settings: those of `lumped.simulate`."""
-    import lumped
+def simulate(model: Resolved[Any], duration: float, **settings: Any) -> History:
+    """Return a model's motion over `duration` [s]; settings: those of its own `simulate`.
 
-    history = lumped.simulate(lattice.scene, lattice.springs, duration, **settings)
-    return replace(history, settings={**history.settings, **lattice.reasons})
+    Raises BadInput for a plug-in that does not move.
+    """
+    spec, scene = model.spec, model.scene
+    if isinstance(spec, Elements):
+        import fem_reference
+
+        counts = tuple(along(scene, spec)[:2])
+        return fem_reference.simulate(scene, spec.kind, duration, elements=counts, **spec.options, **settings)
+    if isinstance(spec, Lattice):
+        import lumped
+
+        history = lumped.simulate(scene, model.springs, duration, **settings)
+        return replace(history, settings={**history.settings, **model.reasons})
+    outside = plugins.moving(spec.model)
+    return outside.simulate(scene, plugins.settings_of(outside, spec.settings), duration, **settings)
 
 
 @cache

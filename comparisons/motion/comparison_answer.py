@@ -128,8 +128,7 @@ def _measures(found: MotionComparison) -> Table:
     rows = []
     for name, history in found.histories.items():
         of = measured_alike(history, truth)[0]
-        damping = None if of.decay is None else of.decay / np.hypot(2.0 * np.pi, of.decay)
-        rows.append((name, of.peak, of.peak_time, of.period, of.decay, damping))
+        rows.append((name, of.peak, of.peak_time, of.period, of.decay, of.damping))
     columns = (
         Column("model"),
         Column("first peak", "m", "mm", 1e3, "z.3f"),

@@ -36,6 +36,11 @@ class Measures:
     decay: float | None
     last: float | None
 
+    @property
+    def damping(self) -> float | None:
+        """The damping ratio of the decrement."""
+        return None if self.decay is None else float(self.decay / np.hypot(2.0 * np.pi, self.decay))
+
     def as_dict(self) -> dict[str, float | None]:
         """For JSON."""
         return {key: value for key, value in vars(self).items() if key != "last"}
@@ -83,6 +88,11 @@ def measured_alike(one: History, other: History) -> tuple[Measures, Measures]:
     count = len(pairs) if pairs.all() else int(np.argmin(pairs))
     first, second = (measures(found, count) for found in both)
     return first, second
+
+
+def largest(one: History, other: History) -> float:
+    """The largest difference of two motions' probes, over the other's largest component."""
+    return float(difference(one, other)["largest"])
 
 
 def difference(one: History, other: History) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from typing import Any
 
 TASKS = {
     "timing": "comparisons.tradeoff.timing:measure",
-    "motion": "comparisons.tradeoff.motion:measure",
+    "motion": "comparisons.motion.run:measure",
     "stability.run": "comparisons.stability.tasks:run",
     "crosscheck": "comparisons.crosscheck.task:answer",
 }

@@ -26,6 +26,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice
+from comparisons.motion.run import motion_run
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
@@ -171,15 +172,9 @@ class _Maker:
         springs = resolve(self.scene, self.lattice).springs
 
         def run(integrator: str, step: float, duration: float) -> Run:
-            arguments = {
-                "scene": self.scene.document(),
-                "lattice": self.lattice.settings,
-                "integrator": integrator,
-                "step": step,
-                "duration": duration,
-                "every": max(step, period / SAMPLES),
-            }
-            return Run("motion", arguments, f"{integrator} {step:.3g} s")
+            every, label = max(step, period / SAMPLES), f"{integrator} {step:.3g} s"
+            of = (self.scene, self.lattice, duration, every, label)
+            return motion_run(*of, integrator=integrator, step=step)
 
         truth = run("midpoint", period / FINE, PERIODS * period)
         for name in INTEGRATORS:

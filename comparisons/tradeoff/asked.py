@@ -8,9 +8,10 @@ from functools import partial
 from comparisons.models.grids import Elements as Count
 from comparisons.models.grids import parse_elements
 from comparisons.models.resolve import resolve_each
-from comparisons.models.spec import Elements, Lattice, items, lattices, pairs, parse, references
+from comparisons.models.spec import Elements, Lattice, Spec, items, lattices, pairs, parse, references
 from comparisons.tradeoff.answer import Tradeoff
-from comparisons.tradeoff.motion import DynamicTradeoff, dynamic_tradeoff
+from comparisons.tradeoff.motion import dynamic_tradeoff
+from comparisons.tradeoff.motion_answer import DynamicTradeoff
 from comparisons.tradeoff.statics import tradeoff
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
@@ -61,8 +62,31 @@ def _halved_too(text: str) -> Count:
 
 
 def of_motion(
-    scene: Scene, duration: float, lattice: Lattice, integrators: str
+    scene: Scene,
+    duration: float,
+    grids: str | None,
+    calibrations: str | None,
+    lattice: Lattice,
+    integrators: str,
+    meshes: Mapping[str, str],
+    models: Sequence[str] = (),
+    elements: str | None = None,
 ) -> Callable[..., DynamicTradeoff]:
-    """The trade of a motion over `duration` [s]: integrators and steps, on one lattice. Raises BadInput."""
+    """The trade of a motion over `duration` [s]: integrators and steps on lattices, as `of_statics` has them,
+    references on meshes by name, models that move. elements: of the reference that all are held against.
+    Raises BadInput."""
     require_positive("--duration", duration, "s")
-    return partial(dynamic_tradeoff, scene, duration, lattice=lattice, integrators=items(integrators))
+    named, sizes = ([None] if text is None else items(text) for text in (calibrations, grids))
+    others: list[Spec] = []
+    for name, counts in meshes.items():
+        others += references(name, items(counts))
+    others += [parse(text) for text in models]
+    return partial(
+        dynamic_tradeoff,
+        scene,
+        duration,
+        lattices=[lattice.but(grid=size, calibration=name) for name in named for size in sizes],
+        others=others,
+        reference=None if elements is None else Elements(REFERENCE, _halved_too(elements)),
+        integrators=items(integrators),
+    )

@@ -1,49 +1,44 @@
-"""The trade of a motion: time step and integrator against error and time, on one lattice.
+"""The trade of a motion: models, integrators and steps against error and time.
 
-Of P4 (or the probe that moves most), over the whole run and against the finest reference:
+    error     the largest |component of u(t) − u_ref(t)| over the probes and samples / largest |component of
+              u_ref|, against the reference: the shell with twice as many elements as the finest among the
+              rows, `FINEST` at least
+    of steps  the same against the same lattice, moved by the energy-conserving midpoint rule with `REFERENCE`
+              steps in the period: what its steps alone miss
 
-    error     largest |component of u(t) − u_ref(t)| / largest |component of u_ref(t)|
-    period    mean time between upward passes of the largest component through its mean
-    damping   ratio ζ from the logarithmic decrement of successive maxima above the mean, ln(a₁/aₙ)/2π(n − 1)
-
-Cost is the solver's time per simulated second. The reference is the energy-conserving midpoint rule with
-`REFERENCE` steps in the period; its uncertainty its distance from half as many, an upper bound for any order
-above one. Steps are the period over `divisions`, the period being the lowest mode's about the flat sheet or
-about its equilibrium, the shorter of the two: a sheet that hangs is stiffer than it was flat. Where an
-integrator converges with none of them its steps are halved until it does, down to the reference's. Explicit
-integrators take shares of their stability limit instead. Springs, period, limit and runs are of one lattice.
+Period and damping are those of `comparisons.motion.measures`; cost is the solver's time per simulated second.
+The reference's uncertainty is its grid convergence index from n, ¾ n and ½ n elements a side, and a third of
+what steps twice as long change, for it is of second order. Steps of a lattice are the period over
+`divisions`, the period being the lowest mode's about the flat sheet or about its equilibrium, the shorter of
+the two: a sheet that hangs is stiffer than it was flat. Where an integrator converges with none of them its
+steps are halved until it does, down to the midpoint rule's. Explicit integrators take shares of their
+stability limit instead. Plate, shell and solid keep their steps to an error.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
 from functools import partial
-from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.models.context import large_in_context, running
-from comparisons.models.resolve import resolve
-from comparisons.models.solve import simulate
-from comparisons.models.spec import Lattice
-from comparisons.runs import load, manifest
+from comparisons.models.context import large_in_context
+from comparisons.models.resolve import Resolved, resolve
+from comparisons.models.spec import Elements, Lattice, Spec
+from comparisons.motion.measures import largest
+from comparisons.motion.run import history_of, motion_run, require_motion
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
-from comparisons.tradeoff.motion_row import MotionRow, measured_row
-from comparisons.tradeoff.pareto import cheapest, error_order, front, grouped
-from sheetbench.answers.answer import Answer
-from sheetbench.answers.report import Picture
-from sheetbench.answers.table import Table
+from comparisons.tradeoff.motion_answer import DynamicTradeoff
+from comparisons.tradeoff.motion_row import measured_row
+from fem_reference.uncertainty import coarser, estimate, mesh_size
 from sheetbench.choices import INTEGRATORS
 from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Scene, SceneError, Status
 from sheetbench.scenes.quantities import require_positive
-from sheetbench.scenes.summary import few, milliseconds
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -51,140 +46,10 @@ if TYPE_CHECKING:
 DIVISIONS = (20, 40, 100, 200, 400)  # steps in the lowest period
 SHARES = (0.9, 0.45)  # of the explicit integrator's limit
 REFERENCE = 3200
-SHOWN = (
-    "integrator",
-    "step",
-    "steps",
-    "seconds_per_second",
-    "error",
-    "period_error",
-    "damping",
-    "front",
-    "status",
-)
-SAMPLES = 20  # in the lowest period; no step is longer than the time between samples
-
-
-@dataclass(frozen=True, repr=False)
-class DynamicTradeoff(Answer):
-    """A row per integrator and step, the reference that they are measured against; lowest_period [s]: about
-    the flat sheet or its equilibrium, the shorter; lattice: what all runs are of."""
-
-    file_name = "motion"
-    scene: Scene
-    duration: float
-    lowest_period: float
-    rows: tuple[MotionRow, ...]
-    reference: MotionRow
-    uncertainty: float | None
-    reasons: tuple[str, ...] = ()
-    lattice: str = ""
-
-    @property
-    def warnings(self) -> list[str]:
-        """What to hold against the times."""
-        return load.warnings([row.load_average for row in self.rows])
-
-    @property
-    def front(self) -> list[int]:
-        """Rows on the Pareto front of error and time per simulated second."""
-        seconds = [row.seconds_per_second or inf for row in self.rows]
-        return front([row.error for row in self.rows], seconds, self.uncertainty or 0.0)
-
-    @property
-    def orders(self) -> dict[str, float | None]:
-        """Observed order of the error in the step, by integrator."""
-        found = {}
-        for name, numbers in grouped([row.integrator for row in self.rows]).items():
-            rows = [self.rows[i] for i in numbers]
-            found[name] = error_order([r.step for r in rows], [r.error for r in rows], self.uncertainty)
-        return found
-
-    def document(self) -> dict[str, Any]:
-        """For JSON."""
-        return {
-            "scene": self.scene.document(),
-            "duration": self.duration,
-            "lowest_period": self.lowest_period,
-            "lattice": self.lattice,
-            "warnings": self.warnings,
-            "rows": [row.as_dict() for row in self.rows],
-            "front": self.front,
-            "orders": [{"series": name, "error_order": slope} for name, slope in self.orders.items()],
-            "reference": {**self.reference.as_dict(), "uncertainty": self.uncertainty},
-        }
-
-    def tables(self) -> tuple[Table, ...]:
-        """A row per integrator and step."""
-        front = self.front
-        rows = [replace(row, front=i in front) for i, row in enumerate(self.rows)]
-        caption = (
-            f"Over {self.duration:g} s. cost: per simulated second; period: off by; damping: of critical"
-        )
-        return (Table.of(MotionRow, rows, caption, "motion", fields=SHOWN),)
-
-    def figures(self) -> tuple[Picture, ...]:
-        drawn = Picture("motion", "comparisons.tradeoff.motion_figure:compose", (self,))
-        return (drawn,) if any(row.error for row in self.rows) else ()
-
-    def notes(self) -> list[str]:
-        known = "unknown" if self.uncertainty is None else f"{few(100 * self.uncertainty)} %"
-        names = [f"{row.integrator} with steps of {milliseconds(row.step)}" for row in self.rows]
-        seconds = [row.seconds_per_second for row in self.rows]
-        return [
-            f"{self.lattice}; lowest period {self.lowest_period:.4g} s; uncertainty of the reference {known}",
-            *self.reasons,
-            *cheapest(names, [row.error for row in self.rows], seconds, " a simulated second"),
-            *self.warnings,
-        ]
-
-    def complaints(self) -> tuple[str, ...]:
-        return folded([*self.rows, self.reference])
-
-    def choices(self) -> dict[str, Any]:
-        return {"duration": self.duration}
-
-
-def folded(rows: Sequence[MotionRow]) -> tuple[str, ...]:
-    """A line for all steps of an integrator that ended alike."""
-    ends: dict[tuple[str, str, str], list[MotionRow]] = {}
-    for row in rows:
-        if row.status != Status.CONVERGED:
-            why = re.sub(r"^at [\d.e+-]+ s: ", "", row.message)
-            ends.setdefault((row.integrator, row.status, why), []).append(row)
-    return tuple(
-        f"{integrator}, {'steps' if len(alike) > 1 else 'step'} "
-        f"{', '.join(f'{1e3 * row.step:.3g}' for row in alike)} ms: {status}: {why}"
-        for (integrator, status, why), alike in ends.items()
-    )
-
-
-def measure(
-    scene: dict[str, Any],
-    lattice: dict[str, Any],
-    integrator: str,
-    step: float,
-    duration: float,
-    every: float,
-) -> dict[str, Any]:
-    """Task: one run and what it cost; the history of the probes included."""
-    asked = Scene.model_validate(scene)
-    with running(large=True):  # `dynamic_tradeoff` has looked at the size
-        meant = resolve(asked, Lattice.given(None, lattice), "motion")
-    common: dict[str, Any] = {"integrator": integrator, "every": every, "step": step}
-    simulate(meant, 2.0 * every, **common)  # warm
-    history = simulate(meant, duration, **common)
-    return {
-        "status": str(history.status),
-        "message": history.message,
-        "steps": history.steps,
-        "solve_seconds": history.solve_seconds,
-        "time": history.time,
-        "probes": history.probes,
-        "load_average": load.average(),
-        "machine": manifest.machine(),
-        "versions": {"sheetbench": manifest.version(), **manifest.versions()},
-    }
+ERRORS = (1e-4, 1e-5)  # of a step of plate, shell and solid; the latter of the reference too
+LONGER = 8.0  # times the error of a step: steps twice as long
+FINEST = 16  # elements of the reference along the shorter side, at least
+SAMPLES = 20  # in the lowest period; no step of a lattice is longer than the time between samples
 
 
 @large_in_context
@@ -193,79 +58,140 @@ def dynamic_tradeoff(
     duration: float,
     store: Store,
     *,
-    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
+    lattices: Sequence[Lattice] = (Lattice(),),
+    others: Sequence[Spec] = (),
+    reference: Elements | None = None,
     integrators: Sequence[str] = tuple(sorted(INTEGRATORS)),
     divisions: Sequence[int] = DIVISIONS,
-    reference: int = REFERENCE,
+    fine: int = REFERENCE,
     workers: int = 1,
     pool: Pool = processes,
     retry: bool = False,
     large: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> DynamicTradeoff:
-    """Measure every integrator at every step on one lattice.
+    """Measure every integrator at every step on every lattice, and the other models.
 
-    retry: what failed or was lost before is run again. large: even if it takes more memory than there is.
-    Raises BadInput for an integrator that does not exist. A run that diverges is a row with its status.
+    others: plate, shell and solid, or models from outside that move; reference: what all are measured
+    against; fine: steps of the midpoint rule in a period. retry: what failed or was lost before is run again.
+    large: even if it takes more memory than there is. Raises BadInput for an integrator that does not exist
+    and for a model that does not move. A run that diverges is a row with its status.
     """
     import lumped
 
     require_positive("duration", duration, "s")
     for name in integrators:
         lumped.require_integrator(name)
-    meant = resolve(scene, lattice, "motion")
-    springs = meant.springs
-    period = shortest_period(scene, springs)
+    finest = reference or _finest(others)
+    for other in (*others, finest):
+        require_motion(scene, other)
+    meant = [resolve(scene, one, "motion") for one in lattices]
+    each = [(one, shortest_period(scene, one.springs)) for one in meant]
+    every = min(period for _, period in each) / SAMPLES
+    run = partial(motion_run, scene, duration=duration, every=every)
 
-    def run(integrator: str, step: float, timed: bool) -> Run:
-        arguments = {
-            "scene": scene.document(),
-            "lattice": meant.spec.settings,
-            "integrator": integrator,
-            "step": step,
-            "duration": duration,
-            "every": period / SAMPLES,
-        }
-        return Run("motion", arguments, f"{integrator} {step:.3g} s", timed)
+    def of_lattice(one: Resolved[Lattice], name: str, step: float, timed: bool = True) -> Run:
+        label = f"{one.springs.title}, {name} {step:.3g} s"
+        return run(one.spec, label=label, timed=timed, integrator=name, step=step)
 
-    judges = [run("midpoint", period / n, False) for n in (reference, reference // 2)]
-    asked = []
-    for name in integrators:
-        if lumped.INTEGRATORS[name].explicit:
-            limit = explicit_limit(name, scene, springs)
-            asked += [run(name, share * limit, True) for share in SHARES]
+    judges = [run(finest.but(count=n), error=ERRORS[-1]) for n in coarser(finest.elements)]
+    judges.append(run(finest, error=LONGER * ERRORS[-1]))
+    own = [of_lattice(one, "midpoint", period / n, False) for n in (fine, fine // 2) for one, period in each]
+    asked: list[tuple[Run, int | None]] = []  # with the number of its lattice
+    for number, (one, period) in enumerate(each):
+        for name in integrators:
+            steps = [period / n for n in divisions]
+            if lumped.INTEGRATORS[name].explicit:
+                limit = explicit_limit(name, scene, one.springs)
+                steps = [share * limit for share in SHARES]
+            asked += [(of_lattice(one, name, step), number) for step in steps]
+    for other in others:
+        if isinstance(other, Elements):
+            asked += [(run(other, timed=True, error=error), None) for error in ERRORS]
         else:
-            asked += [run(name, period / n, True) for n in divisions]
+            asked.append((run(other, timed=True), None))
     carried = partial(carry_out, store=store, workers=workers, pool=pool, progress=progress)
-    truth, half, *found = carried([*judges, *asked], retry=retry)
+    found = carried([*judges, *own, *(one for one, _ in asked)], retry=retry)
+    judged, found = found[: len(judges)], found[len(judges) :]
+    truths, halves, found = found[: len(each)], found[len(each) : len(own)], found[len(own) :]
     finer = 2 * max(divisions)
-    while finer <= reference and (names := _unsolved(asked, found)):
-        more = [run(name, period / finer, True) for name in names]
-        found += carried(more)
+    while finer <= fine and (unsolved := _unsolved(asked, found)):
+        more = [(of_lattice(each[n][0], name, each[n][1] / finer), n) for n, name in unsolved]
+        found += carried([one for one, _ in more])
         asked += more
         finer *= 2
-    rows = [measured_row(r, outcome, truth, duration) for r, outcome in zip(asked, found, strict=True)]
+    ordered = sorted(
+        zip(asked, found, strict=True), key=lambda both: _place(both[0][0], both[0][1], integrators)
+    )
+    reasons = (why for one, _ in each for why in one.reasons.items())
     return DynamicTradeoff(
         scene,
         duration,
-        period,
-        tuple(sorted(rows, key=lambda row: integrators.index(row.integrator))),
-        measured_row(judges[0], truth, truth, duration),
-        measured_row(judges[1], half, truth, duration).error,
-        tuple(f"{name.removesuffix('_reason')}: {why}" for name, why in meant.reasons.items()),
-        f"lumped {springs.title}",
+        min(period for _, period in each),
+        tuple(
+            measured_row(one, outcome, judged[0], None if n is None else truths[n])
+            for (one, n), outcome in ordered
+        ),
+        measured_row(judges[0], judged[0], judged[0]),
+        _uncertainty(scene, judges, judged),
+        tuple(dict.fromkeys(f"{name.removesuffix('_reason')}: {why}" for name, why in reasons)),
+        tuple(f"lumped {one.springs.title}" for one, _ in each),
+        max((_off(half, truth) for half, truth in zip(halves, truths, strict=True)), default=0.0),
     )
 
 
-def _unsolved(asked: Sequence[Run], found: Sequence[Finished]) -> list[str]:
-    """The implicit integrators that converged with no step so far."""
+def _finest(others: Sequence[Spec]) -> Elements:
+    ours = [one for one in others if isinstance(one, Elements) and one.kind == "shell"]
+    return Elements("shell", max([FINEST, *(2 * int(np.min(one.elements)) for one in ours)]))
+
+
+def _place(run: Run, number: int | None, integrators: Sequence[str]) -> tuple[float, int]:
+    """Lattices first, and the rows of each by integrator."""
+    name = run.arguments["run"].get("integrator")
+    return (np.inf if number is None else number, integrators.index(name) if name in integrators else 0)
+
+
+def _uncertainty(scene: Scene, runs: Sequence[Run], outcomes: Sequence[Finished]) -> float | None:
+    """Of the reference, by its meshes, the finest first, and the run in longer steps, the last."""
+    *meshes, longer = (history_of(outcome) for outcome in outcomes)
+    truth = meshes[0]
+    if truth is None or longer is None:
+        return None
+    usable = [
+        (np.concatenate(list(history.probes.values())), mesh_size(scene, _counts(one)))
+        for one, history in zip(runs, meshes, strict=False)
+        if history is not None
+    ]
+    if len(usable) < 2:
+        return None
+    by_mesh = estimate([u for u, _ in usable], [size for _, size in usable]).error
+    return by_mesh + largest(longer, truth) / 3.0
+
+
+def _counts(run: Run) -> int | tuple[int, int]:
+    counts = run.arguments["settings"]["elements"]
+    return counts if isinstance(counts, int) else (counts[0], counts[1])
+
+
+def _off(one: Finished, other: Finished) -> float:
+    """The largest difference of two runs, 0 where one of them has not ended."""
+    ours, theirs = history_of(one), history_of(other)
+    return 0.0 if ours is None or theirs is None else largest(ours, theirs)
+
+
+def _unsolved(asked: Sequence[tuple[Run, int | None]], found: Sequence[Finished]) -> list[tuple[int, str]]:
+    """Numbers of lattices and the implicit integrators that converged there with no step so far."""
     import lumped
 
-    ended: dict[str, set[str]] = {}
-    for one, outcome in zip(asked, found, strict=True):
-        ended.setdefault(one.arguments["integrator"], set()).add(outcome.status)
-    implicit = [name for name in ended if not lumped.INTEGRATORS[name].explicit]
-    return [name for name in implicit if not ended[name] & {Status.CONVERGED, Status.REFUSED}]
+    ended: dict[tuple[int, str], set[str]] = {}
+    for (one, number), outcome in zip(asked, found, strict=True):
+        if number is not None:
+            ended.setdefault((number, one.arguments["run"]["integrator"]), set()).add(outcome.status)
+    return [
+        (number, name)
+        for (number, name), statuses in ended.items()
+        if not lumped.INTEGRATORS[name].explicit and not statuses & {Status.CONVERGED, Status.REFUSED}
+    ]
 
 
 def shortest_period(scene: Scene, springs: Calibration) -> float:

@@ -1,14 +1,15 @@
-"""The picture of a motion's trade-off: error against time a simulated second, and against the step."""
+"""The picture of a motion's trade-off: errors against time a simulated second, and of steps against steps."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.tradeoff.axes import logarithmic
-from comparisons.tradeoff.motion import DynamicTradeoff
-from comparisons.tradeoff.pareto import grouped
+from comparisons.tradeoff.motion_answer import DynamicTradeoff
+from comparisons.tradeoff.motion_row import MotionRow
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import GREY, SERIES, plain
 
@@ -18,44 +19,48 @@ MARKERS = "osvD^P*"
 def compose(found: DynamicTradeoff, style: FigureStyle = PLAIN) -> Figure:
     """The figure. Rows on the front are filled; the band is the uncertainty of the reference."""
     above, beside = style.panels(2)
-    figure = Figure(figsize=(style.width, 3.0 * above + 0.5), layout="constrained")
-    left, right = figure.subplots(above, beside, sharey=True)
-    on_front = set(found.front)
-    for n, (name, numbers) in enumerate(grouped([row.integrator for row in found.rows]).items()):
-        known = [i for i in numbers if found.rows[i].error and found.rows[i].seconds_per_second]
-        if not known:
-            continue
-        rows = [found.rows[i] for i in known]
-        errors = [100 * (row.error or 0.0) for row in rows]
+    figure = Figure(figsize=(style.width, 3.0 * above + 0.9), layout="constrained")
+    left, right = figure.subplots(above, beside)
+    on_front = {id(found.rows[i]) for i in found.front}
+    for n, (name, numbers) in enumerate(found.series.items()):
+        rows = [row for row in (found.rows[i] for i in numbers) if row.error and row.seconds_per_second]
         line: dict[str, Any] = {"color": SERIES[n % len(SERIES)], "marker": MARKERS[n % len(MARKERS)]}
-        order = found.orders[name]
-        label = plain(name) if order is None else f"{plain(name)}  (order {order:z.1f})"
-        for axis, across in (
-            (left, [row.seconds_per_second or 0.0 for row in rows]),
-            (right, [1e3 * row.step for row in rows]),
-        ):
-            axis.plot(across, errors, label=label, markerfacecolor="white", lw=0.9, ms=3.6, **line)
-            filled = [(x, e) for x, e, i in zip(across, errors, known, strict=True) if i in on_front]
-            axis.plot([x for x, _ in filled], [e for _, e in filled], ls="", ms=4.6, **line)
-    for axis in (left, right):
+        order = found.orders.get(name)
+        label = plain(name) if order is None else f"{plain(name)}  (order of steps {order:z.1f})"
+        if not rows:
+            continue
+        left.plot(*_points(rows), label=label, markerfacecolor="white", lw=0.9, ms=3.6, **line)
+        left.plot(*_points([row for row in rows if id(row) in on_front]), ls="", ms=4.6, **line)
+        stepped = [(1e3 * row.step, 100 * row.step_error) for row in rows if row.step and row.step_error]
+        if stepped:
+            right.plot(*zip(*stepped, strict=True), markerfacecolor="white", lw=0.9, ms=3.6, **line)
+    for axis in (left, right) if right.lines else (left,):
         logarithmic(axis)
-    bottom = left.get_ylim()[0]
-    for axis in (left, right):
-        if found.uncertainty:
-            axis.axhspan(bottom, 100 * found.uncertainty, color=GREY, alpha=0.18, lw=0)
-    left.set_ylim(bottom)
-    if found.uncertainty:
-        at = (0.99, 100 * found.uncertainty)
-        said = {"xytext": (0, -2), "textcoords": "offset points", "ha": "right", "va": "top"}
-        of = left.get_yaxis_transform()
-        left.annotate("uncertainty of the reference", at, xycoords=of, fontsize=6, color=GREY, **said)
+    _band(left, found.uncertainty)
     left.set_xlabel("solve time of a simulated second [s]")
-    left.set_ylabel("error of the motion [%]")
+    left.set_ylabel(f"error against the {found.reference.model} [%]")
     right.set_xlabel("step [ms]")
+    right.set_ylabel("error of the steps alone [%]")
     left.set_title("Error against time; filled: on the front", loc="left")
-    right.set_title("Error against step", loc="left")
-    names, ncols = left.get_legend_handles_labels(), 2 if style.narrow else 4
+    right.set_title("What a lattice's steps miss", loc="left")
+    names, ncols = left.get_legend_handles_labels(), 1 if style.narrow else 2
     figure.legend(*names, loc="outside lower center", ncols=ncols, frameon=False)
     if style.titled:
         figure.suptitle(plain(found.scene.title or found.scene.name, longest=105))
     return figure
+
+
+def _points(rows: list[MotionRow]) -> tuple[list[float], list[float]]:
+    return [row.seconds_per_second or 0.0 for row in rows], [100 * (row.error or 0.0) for row in rows]
+
+
+def _band(axis: Axes, uncertainty: float | None) -> None:
+    """The reference's uncertainty, below which errors cannot be told apart."""
+    bottom = axis.get_ylim()[0]
+    if uncertainty:
+        axis.axhspan(min(bottom, 50 * uncertainty), 100 * uncertainty, color=GREY, alpha=0.18, lw=0)
+        said: dict[str, Any] = {"xytext": (0, -2), "textcoords": "offset points", "ha": "right", "va": "top"}
+        of = axis.get_yaxis_transform()
+        at = (0.99, 100 * uncertainty)
+        axis.annotate("uncertainty of the reference", at, xycoords=of, fontsize=6, color=GREY, **said)
+        axis.set_ylim(min(bottom, 50 * uncertainty))

@@ -1,44 +1,57 @@
-"""A row of a motion's trade: an integrator and a step, how its run ended, what it cost, how far off it is."""
+"""A row of a motion's trade: model, integrator, step, how its run ended, what it cost, how far off it is."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
-from itertools import pairwise
 from typing import Annotated, Any
 
-import numpy as np
-
+from comparisons.models.spec import counted
+from comparisons.motion.measures import difference, largest, measured_alike
+from comparisons.motion.run import history_of
 from comparisons.runs.campaign import Run
 from comparisons.runs.store import Finished
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Unit
-from sheetbench.scenes import Status
+
+OF_AN_ANSWER = ("unknowns", "peak_memory_bytes", "load_average", "machine", "versions")
 
 
 @dataclass(frozen=True)
 class MotionRow:
-    """A run of a lattice's motion, step [s] by step, against the reference's history.
+    """A run of a model's motion beside the reference's.
 
-    seconds_per_second: the solver's time in a simulated second; error: of the displacement, a fraction;
-    period [s] and damping ratio as `oscillation` has them, and how far they are off: the period by a
-    fraction, the damping by a difference. None where a run has no answer, or does not swing.
+    size: the grid, or the elements; step [s]: fixed, or the mean of steps that keep to an error;
+    seconds_per_second: the solver's time in a simulated second; error: the largest of the displacement's,
+    a fraction of the reference's largest; step_error: likewise against the same lattice in fine steps;
+    period [s] and damping ratio as `comparisons.motion.measures` has them, and how far they are off: the
+    period by a fraction, the damping by a difference. None where a run has no answer, or does not swing.
     """
 
+    model: str
+    size: str
     integrator: str
-    step: Annotated[float, MILLISECONDS(".4g")]
+    step: Annotated[float | None, MILLISECONDS(".3g")]
     status: Annotated[str, Column(detail=True)]
     message: str
+    unknowns: Annotated[int | None, NUMBER("d", detail=True)] = None
     steps: Annotated[int | None, NUMBER("d", detail=True)] = None
     seconds_per_second: Annotated[float | None, Unit("s/s", "s/s")(".3g", "cost")] = None
+    peak_memory_bytes: Annotated[float | None, Unit("B", "MB", 1e-6)(".1f", "memory")] = None
     error: Annotated[float | None, PERCENT(".3g")] = None
+    step_error: Annotated[float | None, PERCENT(".2g", "of steps")] = None
     period: float | None = None
-    period_error: Annotated[float | None, PERCENT("z.3f", "period")] = None
-    damping: Annotated[float | None, PERCENT("z.3f")] = None
+    period_error: Annotated[float | None, PERCENT("z.2f", "period")] = None
+    damping: Annotated[float | None, PERCENT("z.2f")] = None
     damping_error: float | None = None
     load_average: float | None = None
     machine: Mapping[str, Any] | None = None
     versions: Mapping[str, Any] | None = None
     front: Annotated[bool, Column(words=("yes", ""))] = False
+
+    @property
+    def name(self) -> str:
+        """The model with its size, and the integrator where there is a choice."""
+        return " ".join(filter(None, [self.model, self.size, self.integrator]))
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON; machine and versions where there is an answer."""
@@ -49,52 +62,33 @@ class MotionRow:
         return found
 
 
-def measured_row(run: Run, outcome: Finished, truth: Finished, duration: float) -> MotionRow:
-    """The row of a run: what was asked, cost, and errors against the reference's history."""
-    ended = MotionRow(
-        integrator=run.arguments["integrator"],
-        step=run.arguments["step"],
+def measured_row(run: Run, outcome: Finished, truth: Finished, own: Finished | None = None) -> MotionRow:
+    """The row of a run: what was asked, cost, and errors; own: the same lattice in fine steps."""
+    settings, asked = run.arguments["settings"], run.arguments["run"]
+    row, history, reference = outcome.row, history_of(outcome), history_of(truth)
+    steps, duration = row.get("steps"), run.arguments["duration"]
+    found = MotionRow(
+        model=run.arguments["model"],
+        size=counted(settings.get("grid") or settings.get("elements") or ""),
+        integrator=asked.get("integrator", ""),
+        step=asked.get("step") or (duration / steps if history is not None and steps else None),
         status=outcome.status,
         message=outcome.message,
-        steps=outcome.row.get("steps"),
+        steps=steps,
     )
-    if outcome.status != Status.CONVERGED or truth.status != Status.CONVERGED:
-        return ended
-    u, reference = (_history(o) for o in (outcome, truth))
-    time = np.array(truth.row["time"])
-    axis = int(np.argmax(np.abs(reference).max(axis=0)))
-    period, damping = oscillation(time, u[:, axis])
-    true_period, true_damping = oscillation(time, reference[:, axis])
+    if history is None or reference is None:
+        return found
+    off, (mine, theirs) = difference(history, reference), measured_alike(history, reference)
+    fine = None if own is None else history_of(own)
+    damping_error = None if mine.damping is None or theirs.damping is None else mine.damping - theirs.damping
     return replace(
-        ended,
-        seconds_per_second=outcome.row["solve_seconds"] / duration,
-        error=float(np.abs(u - reference).max() / np.abs(reference).max()),
-        period=period,
-        period_error=None if period is None or true_period is None else period / true_period - 1.0,
-        damping=damping,
-        damping_error=None if damping is None or true_damping is None else damping - true_damping,
-        load_average=outcome.row.get("load_average"),
-        machine=outcome.row["machine"],
-        versions=outcome.row["versions"],
+        found,
+        **{name: row[name] for name in OF_AN_ANSWER},
+        seconds_per_second=history.solve_seconds / duration,
+        error=off["largest"],
+        step_error=None if fine is None else largest(history, fine),
+        period=mine.period,
+        period_error=off["period"],
+        damping=mine.damping,
+        damping_error=damping_error,
     )
-
-
-def _history(outcome: Finished) -> np.ndarray:
-    """Displacement (n, 3) [m] of P4, or of the last probe where there is none of that name."""
-    probes = outcome.row["probes"]
-    return np.array(probes.get("P4") or list(probes.values())[-1], dtype=float)
-
-
-def oscillation(time: np.ndarray, u: np.ndarray) -> tuple[float | None, float | None]:
-    """Period [s] and damping ratio of u(t) (n,), None where it does not swing often enough to tell."""
-    about = u - u[len(u) // 2 :].mean()
-    up = np.flatnonzero((about[:-1] < 0.0) & (about[1:] >= 0.0))
-    if len(up) < 2:
-        return None, None
-    share = about[up] / (about[up] - about[up + 1])
-    passes = time[up] + share * (time[up + 1] - time[up])
-    period = float(np.mean(np.diff(passes)))
-    peaks = np.array([about[a:b].max() for a, b in pairwise(up)])
-    if len(peaks) < 2 or peaks.min() <= 0.0:
-        return period, None
-    return period, float(np.log(peaks[0] / peaks[-1]) / (2.0 * np.pi * (len(peaks) - 1)))

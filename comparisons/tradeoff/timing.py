@@ -8,14 +8,7 @@ code loaded (Linux; elsewhere the rise of the largest resident set so far). Quic
 
 from __future__ import annotations
 
-import ctypes
-import gc
-import re
-import resource
 import statistics
-import sys
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -28,6 +21,7 @@ from comparisons.models.solve import solve, warm
 from comparisons.models.spec import Spec, spec_of
 from comparisons.runs import load, manifest
 from comparisons.runs.campaign import Run
+from comparisons.runs.peak_memory import with_peak_memory
 from sheetbench.scenes import Scene, Sheet, Solution, Status
 
 SETTLED, MOST = 0.1, 25
@@ -69,7 +63,7 @@ def measure(
     if solution.status is Status.FAILED:
         repeats = 0
     if repeats:
-        solution, memory = _with_peak_memory(solved)
+        solution, memory = with_peak_memory(solved)
     if plugins.is_program(model):  # whose memory is not this process'
         memory = None
     while len(samples) < repeats or (samples and sum(samples) < SETTLED and len(samples) < MOST):
@@ -104,48 +98,3 @@ def field_points(sheet: Sheet) -> tuple[np.ndarray, np.ndarray]:
     at, weight = np.polynomial.legendre.leggauss(GAUSS_POINTS)
     x, y = np.meshgrid(*(0.5 * (1.0 + at) * length for length in sheet.lengths), indexing="ij")
     return np.column_stack([x.ravel(), y.ravel()]), np.outer(weight, weight).ravel() / 4.0
-
-
-def _with_peak_memory(solve: Callable[[], Solution]) -> tuple[Solution, int]:
-    """What `solve` returns, and by how many bytes the process grew meanwhile."""
-    gc.collect()
-    _release_freed_memory()
-    before = _start_watching_memory()
-    solution = solve()
-    return solution, max(0, _peak_memory() - before)
-
-
-def _start_watching_memory() -> int:
-    """Memory [bytes] from which growth is counted."""
-    try:
-        Path("/proc/self/clear_refs").write_text("5")  # the peak restarts from the present resident set
-        return _proc("VmRSS")
-    except (OSError, LookupError):
-        return _largest_resident_set()
-
-
-def _peak_memory() -> int:
-    try:
-        return _proc("VmHWM")
-    except (OSError, LookupError):
-        return _largest_resident_set()
-
-
-def _proc(name: str) -> int:
-    found = re.search(rf"^{name}:\s+(\d+) kB", Path("/proc/self/status").read_text(), re.MULTILINE)
-    if found is None:
-        raise LookupError(name)
-    return 1024 * int(found.group(1))
-
-
-def _largest_resident_set() -> int:
-    largest = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return largest if sys.platform == "darwin" else 1024 * largest
-
-
-def _release_freed_memory() -> None:
-    """Give the heap's free pages back, so that reusing them counts as growth (glibc; elsewhere nothing)."""
-    try:
-        ctypes.CDLL("libc.so.6").malloc_trim(0)
-    except (OSError, AttributeError):
-        return

@@ -24,7 +24,7 @@ from comparisons.stability import tiles as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure
 from comparisons.tradeoff import statics
 from comparisons.tradeoff.answer import Tradeoff
-from comparisons.tradeoff.motion import DynamicTradeoff
+from comparisons.tradeoff.motion_answer import DynamicTradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from lumped.calibration.tables import moduli
 from sheetbench import scenes

@@ -121,7 +121,7 @@ def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatc
     assert run("tradeoff", "curved-edge", "--duration", "0.1", "--grading", "0.3") == 2
     lattices = [candidate for candidate in seen[0][0][1] if candidate.model == "lumped"]
     assert [candidate.settings.get("grading") for candidate in lattices] == [0.3, None]
-    assert seen[1][1]["lattice"].grading == "0.3" and "bent by 4 1/m" in seen[0][1]["reasons"][0]
+    assert seen[1][1]["lattices"][0].grading == "0.3" and "bent by 4 1/m" in seen[0][1]["reasons"][0]
     shown, reasons = resolve_each(load("curved-edge"), lattices[1:], "auto")
     assert shown == lattices[1:] and reasons == ()
     with pytest.raises(BadInput, match="none of these calibrations"):

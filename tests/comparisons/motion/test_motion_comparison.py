@@ -10,7 +10,7 @@ import pytest
 import sheetbench as sb
 from comparisons.cli import main
 from comparisons.motion.comparison import compare_motion
-from comparisons.motion.measures import difference, extrema, measured_alike
+from comparisons.motion.measures import difference, extrema, measured_alike, measures
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
 from sheetbench.errors import BadInput
@@ -185,3 +185,12 @@ def test_an_undamped_sheet_is_said_not_to_settle():
     swinging = sb.simulate("one-edge-clamped", 0.02, grid=3)
     assert any("does not settle" in note for note in swinging.notes())
     assert not any("settle" in note for note in sb.simulate("two-edges-settling", 0.02, grid=3).notes())
+
+
+def test_a_damped_cosine_has_its_period_and_its_damping() -> None:
+    time = np.linspace(0.0, 2.0, 401)
+    rate = 2.0 * np.pi * 5.0
+    found = extrema(time, -0.3 - 0.1 * np.exp(-0.03 * rate * time) * np.cos(rate * time))
+    measured = measures(found, len(found))
+    assert measured.period == pytest.approx(0.2, rel=1e-3)
+    assert measured.damping == pytest.approx(0.03, rel=0.02)

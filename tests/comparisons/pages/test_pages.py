@@ -22,7 +22,7 @@ from comparisons.pages.remarks import notes
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
 from comparisons.runs.folder import Folder
-from comparisons.tradeoff.motion import DynamicTradeoff
+from comparisons.tradeoff.motion_answer import DynamicTradeoff
 from comparisons.tradeoff.motion_row import MotionRow
 from sheetbench.answers.report import Report
 from sheetbench.answers.table import Column, Table, unit
@@ -162,10 +162,11 @@ def test_several_grids_are_not_the_sides_of_one(tmp_path: Path) -> None:
 
 
 def _motion_tradeoff(folder: Path, drawn: bool = False) -> Path:
+    lattice = "lumped", "9×9×2"
     rows = [
-        MotionRow("midpoint", 0.01, "converged", "", 10, 0.2, 0.03),
-        MotionRow("midpoint", 0.001, "converged", "", 100, 1.5, 0.0003),
-        MotionRow("verlet", 0.01, "diverged", "not finite"),
+        MotionRow(*lattice, "midpoint", 0.01, "converged", "", steps=10, seconds_per_second=0.2, error=0.03),
+        MotionRow(*lattice, "midpoint", 0.001, "converged", "", steps=99, seconds_per_second=1.5, error=0.0),
+        MotionRow(*lattice, "verlet", 0.01, "diverged", "not finite"),
     ]
     found = DynamicTradeoff(load("two-edges-settling"), 0.1, 0.5, tuple(rows), rows[1], 1e-5)
     Folder(folder, "tradeoff", ["sheetbench", "tradeoff"]).report(
@@ -178,7 +179,7 @@ def test_a_trade_of_motion_has_its_figure_and_its_notes(tmp_path: Path) -> None:
     (study,) = read(_motion_tradeoff(tmp_path, drawn=True)).studies
     assert {"motion.svg", "motion.png", "motion.pdf"} <= set(study.files)
     assert [name for name, _ in pictures(study)] == ["motion.svg"]
-    assert "uncertainty of the reference" in notes(study)[0] and not study.troubles
+    assert "uncertainty of that reference" in notes(study)[0] and not study.troubles
 
 
 def test_no_verb_has_a_page_of_its_own() -> None:

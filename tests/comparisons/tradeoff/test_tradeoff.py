@@ -17,12 +17,14 @@ import lumped
 from comparisons.models.spec import Elements, External, Lattice, lattices, parse, references
 from comparisons.runs import load
 from comparisons.runs.campaign import campaign
+from comparisons.runs.peak_memory import with_peak_memory
 from comparisons.runs.store import FILE
 from comparisons.tradeoff import timing
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.figure import compose
-from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff, explicit_limit, folded
-from comparisons.tradeoff.motion_row import MotionRow, oscillation
+from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff, explicit_limit
+from comparisons.tradeoff.motion_answer import folded
+from comparisons.tradeoff.motion_row import MotionRow
 from comparisons.tradeoff.pareto import front, grouped, order
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
@@ -122,7 +124,7 @@ def test_a_measured_row_says_what_it_cost(scene: Scene) -> None:
 
 
 def test_memory_is_that_of_the_run(scene: Scene) -> None:
-    _, memory = timing._with_peak_memory(lambda: np.ones(8_000_000).sum())  # type: ignore[arg-type, return-value]
+    _, memory = with_peak_memory(lambda: np.ones(8_000_000).sum())
     assert memory == pytest.approx(64e6, rel=0.1)
 
 
@@ -174,15 +176,6 @@ def test_asked_again_nothing_is_run_and_the_document_is_the_same(
     assert rows_in(finished / FILE) == before
 
 
-def test_oscillation_of_a_damped_cosine() -> None:
-    time = np.linspace(0.0, 2.0, 401)
-    rate = 2.0 * np.pi * 5.0
-    period, damping = oscillation(time, -0.3 - 0.1 * np.exp(-0.03 * rate * time) * np.cos(rate * time))
-    assert period == pytest.approx(0.2, rel=1e-3)
-    assert damping == pytest.approx(0.03, rel=0.02)
-    assert oscillation(time, time) == (None, None)
-
-
 def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path) -> None:
     scene = scenes.load("two-edges-settling")
     with campaign(tmp_path) as store:
@@ -190,18 +183,24 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path
             scene,
             0.6,
             store,
-            lattice=Lattice(grid=(3, 3, 2)),
+            lattices=[Lattice(grid=(3, 3, 2))],
+            others=[Elements("shell", 1), Elements("plate", 1)],
+            reference=Elements("shell", 2),
             integrators=("generalised-alpha", "midpoint"),
             divisions=(40, 80, 160),
-            reference=800,
+            fine=800,
             pool=Here,
         )
-    assert len(found.rows) == 6 and all(row.status == "converged" for row in found.rows)
-    assert found.uncertainty is not None and found.uncertainty < 1e-4
+    of_lattice, others = found.rows[:6], found.rows[6:]
+    assert [row.model for row in others] == 2 * ["shell"] + 2 * ["plate"]
+    assert all(row.status == "converged" for row in found.rows) and found.uncertainty is not None
+    assert len(found.orders) == 2 and found.step_uncertainty < 1e-4
     for slope in found.orders.values():
         assert slope == pytest.approx(2.0, abs=0.15)
-    assert all(row.error < 1e-3 for row in found.rows if row.step < found.lowest_period / 150)
-    assert found.reference.damping == pytest.approx(found.rows[-1].damping, rel=1e-2)
+    assert all(row.step_error < 1e-3 for row in of_lattice if row.step < found.lowest_period / 150)
+    assert all(row.step_error is None and row.error > 0.0 for row in others)
+    assert found.reference.error == 0.0
+    assert of_lattice[0].damping == pytest.approx(of_lattice[-1].damping, rel=0.1)
     assert all(row.seconds_per_second > 0.0 for row in found.rows)
     assert found.front and json.loads(to_json(found.document()))["rows"]
 
@@ -246,15 +245,15 @@ def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path: Path) -> None:
     table = {**stiff, "layer_distance": springs.layer_distance, "grid": [3, 3, 2]}
     own = scene.replace(springs=table)
     names = ("verlet",)
-    options = {"integrators": names, "reference": 400, "pool": Here}
+    options = {"integrators": names, "fine": 400, "pool": Here, "reference": Elements("shell", 2)}
     with campaign(tmp_path) as store:
         found = dynamic_tradeoff(own, 0.02, store, **options)
-        k_given = dynamic_tradeoff(scene, 0.02, store, lattice=Lattice(3, k=800.0), **options)
+        k_given = dynamic_tradeoff(scene, 0.02, store, lattices=[Lattice(3, k=800.0)], **options)
     limit = explicit_limit(names[0], own, lumped.given(own))
     assert limit < 0.7 * explicit_limit(names[0], own, springs)
     assert [row.step for row in found.rows] == [pytest.approx(share * limit) for share in SHARES]
     assert all(row.status == "converged" for row in (*found.rows, *k_given.rows))
-    assert k_given.lattice == "lumped 3×3×2 uniform"
+    assert k_given.lattices == ("lumped 3×3×2 uniform",)
 
 
 def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until_a_row_converges(
@@ -272,9 +271,9 @@ def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until
     )
     springs = lumped.calibrate(sheet, material, grid=3)
     flat = 1.0 / float(lumped.modes(strip, springs, 1, springs.masses).frequencies[0])
-    options = {"lattice": Lattice(3), "integrators": ("esdirk",), "reference": 800, "pool": Here}
+    options = {"lattices": [Lattice(3)], "integrators": ("esdirk",), "fine": 800, "pool": Here}
     with campaign(tmp_path) as store:
-        found = dynamic_tradeoff(strip, 0.1, store, divisions=(4,), **options)
+        found = dynamic_tradeoff(strip, 0.1, store, divisions=(4,), reference=Elements("shell", 2), **options)
     assert found.lowest_period < 0.5 * flat
     assert any(row.status == "converged" for row in found.rows)
     assert len(found.rows) == 1 or found.rows[0].status != "converged"
@@ -282,14 +281,14 @@ def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until
 
 def test_equal_complaints_are_one_line() -> None:
     ended = [
-        MotionRow("esdirk", step, "diverged", f"at {time} s: use smaller steps")
+        MotionRow("lumped", "3×3×2", "esdirk", step, "diverged", f"at {time} s: use smaller steps")
         for step, time in ((0.02, 0.1), (0.01, 0.2))
     ]
-    fine = MotionRow("esdirk", 0.005, "converged", "")
-    other = MotionRow("midpoint", 0.02, "diverged", "use smaller steps")
+    fine = MotionRow("lumped", "3×3×2", "esdirk", 0.005, "converged", "")
+    other = MotionRow("shell", "4", "", None, "diverged", "use smaller steps")
     assert folded([*ended, fine, other]) == (
-        "esdirk, steps 20, 10 ms: diverged: use smaller steps",
-        "midpoint, step 20 ms: diverged: use smaller steps",
+        "lumped 3×3×2 esdirk, steps 20, 10 ms: diverged: use smaller steps",
+        "shell 4: diverged: use smaller steps",
     )
 
 

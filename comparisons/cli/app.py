@@ -76,7 +76,8 @@ def verb_group(verbs: Sequence[str] = VERBS, boxes: bool = True) -> Any:
     )
     for verb in verbs:
         module = import_module(f"comparisons.cli.{verb}")
-        app.command(verb, context_settings=getattr(module, "CONTEXT", None))(as_verb(verb, module.command))
+        command, short = as_verb(verb, module.command), module.command.__doc__.partition("\n")[0]
+        app.command(verb, short_help=short, context_settings=getattr(module, "CONTEXT", None))(command)
     return get_command(app)
 
 

@@ -200,7 +200,7 @@ class Comparison(Answer):
     def _displacements(self) -> Table:
         off = {(d.probe, d.of): d.relative for d in self.differences}
         ordered = sorted(self.solutions, key=lambda solution: solution is not self.reference)
-        models = [(s.model, self.probes(s), self._relative_bars(s)) for s in ordered]
+        models = [(s.model, self.probes(s), self.relative_bars(s)) for s in ordered]
         rows = (
             ProbeRow(probe, x, y, model, _named("u", moved[probe]), off.get((probe, model)), bars.get(probe))
             for probe, (x, y) in self.scene.probes.items()
@@ -208,7 +208,7 @@ class Comparison(Answer):
         )
         return Table.of(ProbeRow, rows, "Displacement of the mid-surface", "table", grouped=True)
 
-    def _relative_bars(self, solution: Solution) -> dict[str, float]:
+    def relative_bars(self, solution: Solution) -> dict[str, float]:
         """Return the bar of a model that has one over its displacement, at the probes where it moves."""
         lengths = self.own_bar(solution)
         if solution is self.reference and self.bar is not None:

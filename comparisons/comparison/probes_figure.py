@@ -6,7 +6,6 @@ told from the reference. A probe that the reference leaves still has no such num
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import cycle
 
 import numpy as np
@@ -40,7 +39,8 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     axis = figure.add_subplot()
     found = {(d.probe, d.of): 100.0 * d.relative for d in comparison.differences if d.relative is not None}
     drawn = [max(LEAST, value) for value in found.values()]
-    bars = [100.0 * bar for bar in relative_bars(comparison, probes)]
+    own = comparison.relative_bars(reference)
+    bars = [100.0 * own[probe] for probe in probes] if own else []
     bottom = 0.5 * min([*drawn, *(bar for bar in bars if bar > 0.0)])
     for place, bar in enumerate(bars):
         label = f"error bar of the {reference.model}" if place == 0 else None
@@ -68,11 +68,3 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     if style.titled:
         figure.suptitle(plain(comparison.scene.title or comparison.scene.name, longest=105), fontsize=8)
     return figure
-
-
-def relative_bars(comparison: Comparison, probes: Sequence[str]) -> list[float]:
-    """Return the reference's bar at each probe over its displacement there; none where it has no bar."""
-    if comparison.bar is None:
-        return []
-    moved = comparison.probes(comparison.reference)
-    return [comparison.bar.at(probe) / float(np.linalg.norm(moved[probe])) for probe in probes]

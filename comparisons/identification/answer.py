@@ -165,15 +165,15 @@ class Identification(Answer):
         tried = " → ".join("×".join(map(str, grid)) for grid in self.grids)
         cells = f" (cells chosen by the fit: {tried})" if len(self.grids) > 1 else ""
         contained = {
-            "noise only": "",
-            "noise and grid": "contains the grid's error, twice the step to finer cells, and ",
-            "noise and mesh": "contains the mesh's error, by a look at elements twice as large, and ",
+            "noise only": "It contains no ",
+            "noise and grid": "It contains the grid's error, twice the change on finer cells, and no other ",
+            "noise and mesh": "It contains the mesh's error, found on elements twice as large, and no other ",
         }[self.contains]
         return (
             f"{self.model} {size}{cells}: residuals have a standard deviation of {1e3 * self.noise:.3g} mm, "
             f"{100 * self.noise / self.measured.scale:.3g} % of the largest measurement, and reach "
-            f"{100 * self.relative:.3g} %. The interval assumes independent noise of equal variance and "
-            f"{contained}leaves out other model error."
+            f"{100 * self.relative:.3g} %. The interval assumes independent noise of equal variance. "
+            f"{contained}error of the model."
         )
 
     def complaints(self) -> list[str]:

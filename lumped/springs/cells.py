@@ -218,21 +218,6 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
 
 
 @njit(cache=True, error_model="numpy")
-def add_damping_forces(u: np.ndarray, v: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
-    """Add the damping force of the stress M ġ, signed as an internal one, to `force` (n, 3) [N]; return the
-    power taken [W]."""
-    power = 0.0
-    for c in range(len(cells.nodes)):
-        _, _, shape = measure(u, cells, c)
-        va, vb, _ = changes(v, cells.nodes, c)
-        moving = rate(shape[0], shape[1], va, vb)
-        s = times_six(_material(cells, c, products(shape[0], shape[1])), moving)
-        power += dot(s, moving)
-        pull(cells, c, (s[0], s[1], s[2], 0.0), shape, force)
-    return power
-
-
-@njit(cache=True, error_model="numpy")
 def _material(cells: CellArrays, c: int, now: Three) -> Six:
     """M of area and strains of cell c, whose measure is `now`."""
     memory = 0.0, now[0] * now[1] - now[2] * now[2]

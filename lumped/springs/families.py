@@ -86,28 +86,16 @@ class DirectionalLinks(Links):
         """Add the force in the middle of the step, for want of an energy."""
         self.add_force(0.5 * (start + end), force)
 
-    def stresses(self, u: np.ndarray) -> np.ndarray:
-        """Return none: the tangent takes none."""
-        return np.zeros(len(self))
-
-    def extrapolated(self, u: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Return none."""
-        return np.zeros(len(self))
-
     def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
         """Return zero: this law has no energy."""
         return np.zeros(len(self))
 
-    def symmetric(self) -> Links:
-        """Return central links as stiff as the stiffest direction."""
-        return self._central(self.stiffness.max(axis=1))
-
     def damped(self, time: float) -> Dampers:
         """Return dampers along the links, of the mean stiffness."""
-        return Dampers(self._central(time * self.stiffness.mean(axis=1)))
-
-    def _central(self, stiffness: np.ndarray) -> Links:
-        return Links(self.nodes, stiffness, self.slots, self.offset, self.rest_length, self.kind, self.names)
+        mean = time * self.stiffness.mean(axis=1)
+        return Dampers(
+            Links(self.nodes, mean, self.slots, self.offset, self.rest_length, self.kind, self.names)
+        )
 
 
 @dataclass(frozen=True, eq=False)

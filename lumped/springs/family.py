@@ -75,10 +75,6 @@ class Family(ABC):
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
         """Return energies summed under the names that the springs have in a spring set [J]."""
 
-    def symmetric(self) -> Family:
-        """Return springs with an energy, and so a symmetric tangent, that stand for these in a matrix."""
-        return self
-
     def rounded(self) -> Family:
         """Return the springs whose force is computed in single precision: these, with their rest data."""
         return self
@@ -94,11 +90,6 @@ class Dampers:
     stiffness: stress M ġ, power taken ġ·M ġ. Velocities are (n, 3) [m/s]."""
 
     family: Family
-
-    def add_force(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
-        """Add the damping force, signed as an internal one; return the power taken [W]."""
-        power: float = self.family.loops.add_damping_forces(u, v, self.family.arrays, force)
-        return power
 
     def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         """Add scale × the derivative of the force by the velocity to the 3×3 blocks."""

@@ -128,20 +128,6 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, fo
 
 
 @njit(cache=True, error_model="numpy")
-def add_damping_forces(u: np.ndarray, v: np.ndarray, links: LinkArrays, force: np.ndarray) -> float:
-    """Add the damping force c (n·dv) n, n = r/|r|, signed as an internal one, to `force` (n, 3) [N]; return
-    the power taken [W]."""
-    power = 0.0
-    for m in range(len(links.nodes)):
-        _, square, r = measure(u, links.nodes, links.offset, m)
-        along = dot(r, difference(v, links.nodes, m))
-        resisting = links.constants[m] * along / square
-        power += resisting * along
-        pull(links.nodes, m, resisting, r, force)
-    return power
-
-
-@njit(cache=True, error_model="numpy")
 def add_tangent(
     u: np.ndarray, links: LinkArrays, stress: np.ndarray, share: float, lower: bool, blocks: np.ndarray
 ) -> None:

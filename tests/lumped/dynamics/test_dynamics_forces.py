@@ -6,6 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lattice_cases import ALL, assembly_of, dense, derivative, state
 
+from lumped.springs.all_forces import add_forces
+from lumped.springs.packing import pack, scratch
+
 pytestmark = pytest.mark.smoke
 
 GRIDS = [(3, 4, 2), (3, 3, 3)]
@@ -16,8 +19,8 @@ def dampers_of(assembly):
 
 
 def damper_force(assembly, u, v):
-    force = np.zeros_like(u)
-    return sum(dampers.add_force(u, v, force) for dampers in dampers_of(assembly)), force
+    force, packing = np.zeros_like(u), pack(assembly.lattice, assembly.springs, dampers_of(assembly))
+    return add_forces(u, v, False, True, packing, scratch(packing), force)[1], force
 
 
 @pytest.mark.parametrize("grid", GRIDS)

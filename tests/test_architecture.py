@@ -92,7 +92,7 @@ FLOORS = {  # of comparisons; CONTRIBUTING.md says what is in each room
     "runs": 1,
     **dict.fromkeys(("comparison", "check", "crosscheck", "export", "identification", "linearisation"), 2),
     **dict.fromkeys(("cells", "modes", "scoring", "verification"), 2),
-    **dict.fromkeys(("advice", "calibration", "motion", "tradeoff"), 3),
+    **dict.fromkeys(("advice", "calibration", "codes", "motion", "tradeoff"), 3),
     **dict.fromkeys(("live", "reproduction", "stability", "pages"), 4),
     "cli": 5,
 }

@@ -76,7 +76,7 @@ class CellModuli(Answer):
     def tables(self) -> tuple[Table, ...]:
         units = self.cell.units()
         coefficients = [Coefficient(name, units[name], value) for name, value in self.coefficients.items()]
-        codes = parameters(self.cell.hinge, self.coefficients) if self.cell.triangles else []
+        codes = parameters(self.cell.hinge, self.coefficients, self.scene) if self.cell.triangles else []
         caption = "The same as parameters of codes with such cells"
         return (
             Table.of(Coefficient, coefficients, "Coefficients", "coefficients"),

@@ -1,6 +1,8 @@
-"""A cell's coefficients as the parameters of codes that have such cells, in their own units.
+"""Parameters of other people's codes from a cell's coefficients, in each code's own words and units.
 
-A code's energy is in its documentation or source, at the version named; only its law at small strain counts.
+A row is a code: its elements, what each parameter is there, the line of its source that says so, what its
+sheet cannot be and which mesh to take. Only laws at small strain count. C(λh, μh, hinge) are our coefficients
+[N/m, N/m, by the hinge's weight], h the thickness [m], ρ the density [kg/m³].
 """
 
 from __future__ import annotations
@@ -9,58 +11,333 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-from comparisons.cells.cell import HINGE_UNITS
 from sheetbench.answers.table import Column
+from sheetbench.scenes import Scene
+
+Numbers = Mapping[str, float]
+BEND_SCALE = 1.28e-5  # ppf-contact-solver's own number
 
 
 @dataclass(frozen=True)
-class Parameter:
-    """A parameter of a code."""
+class Key:
+    """A parameter: its unit and convention there, and its value from coefficients, h and ρ."""
 
-    code: str
-    parameter: str
+    name: str
     unit: str
-    value: Annotated[float, Column("value", form="#.6g")]
+    convention: str
+    value: Callable[[Numbers], float]
 
 
 @dataclass(frozen=True)
 class Code:
-    """A code of triangles and hinges: the weight of its hinges; its parameters from our coefficients."""
+    """A code. hinge: the weight of its hinges; elements: "triangles", or "springs" alone; mesh: the one to
+    take; cannot: what its sheet cannot be; source: repository, file and what is said there; runs: whether it
+    was run here."""
 
     name: str
+    title: str
     hinge: str
-    parameters: Callable[[Mapping[str, float]], Mapping[str, float]]
+    keys: tuple[Key, ...]
+    source: str
+    cannot: str = ""
+    mesh: str = "alternate-diagonals"
+    elements: str = "triangles"
+    licence: str = ""
+    runs: bool = False
 
 
-CODES = (
-    # newton/_src/solvers/vbd/particle_vbd_kernels.py: area × (μ/2 (tr FᵀF − 2) + λ/2 (J − 1 − μ/λ)²) with
-    # μ = tri_ke, λ = tri_ka, whose small strains have Lamé's λ less μ; ½ edge_ke L θ² over an edge.
-    Code(
-        "Newton 1.8, VBD",
-        "length",
-        lambda c: {
-            "tri_ke": c["mu_h"],
-            "tri_ka": c["lambda_h"] + c["mu_h"],
-            "edge_ke": c["hinge"],
-        },
-    ),
-    # the same with St Venant–Kirchhoff triangles, μ |G|² + λ/2 (tr G)²
-    Code(
-        "Newton 1.3, VBD",
-        "length",
-        lambda c: {"tri_ke": c["mu_h"], "tri_ka": c["lambda_h"], "edge_ke": c["hinge"]},
-    ),
-    # Grinspun et al., Discrete shells, SCA 2003, equation (1): k θ² L/h̄ over an edge, h̄ = (A₁ + A₂)/(3 L)
-    Code("Discrete shells (Grinspun)", "height", lambda c: {"k_B": c["hinge"] / 2.0}),
-)
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of a code, as it is shown."""
+
+    code: str
+    parameter: str
+    value: Annotated[float, Column("value", form="#.6g")]
+    unit: str
+    convention: Annotated[str, Column("what it is there", prose=True)]
 
 
-def parameters(hinge: str, coefficients: Mapping[str, float]) -> list[Parameter]:
-    """The parameters of the codes whose hinges have this weight."""
-    units = {name: HINGE_UNITS[hinge] for name in ("edge_ke", "k_B")} if hinge else {}
+def _spatial_poisson(c: Numbers) -> float:
+    """ν whose three-dimensional λ/μ is the sheet's plane-stress one: ν/(1 + ν) of the sheet's."""
+    return c["lambda_h"] / (2.0 * (c["lambda_h"] + c["mu_h"]))
+
+
+def _plane_poisson(c: Numbers) -> float:
+    return c["lambda_h"] / (c["lambda_h"] + 2.0 * c["mu_h"])
+
+
+def _young_h(c: Numbers) -> float:
+    return 2.0 * c["mu_h"] * (1.0 + _plane_poisson(c))
+
+
+def _rigidity(c: Numbers) -> float:
+    return (c["lambda_h"] + 2.0 * c["mu_h"]) * c["thickness"] ** 2 / 12.0
+
+
+def _flex_thickness(c: Numbers) -> float:
+    return float((36.0 * c["hinge"] / (c["lambda_h"] + 2.0 * c["mu_h"])) ** 0.5)
+
+
+def _flex_young(c: Numbers) -> float:
+    return _young_h(c) / _flex_thickness(c)
+
+
+DENSITY = Key("density", "kg/m³", "of the volume", lambda c: c["density"])
+AREAL = Key("density", "kg/m²", "of the area: times thickness", lambda c: c["density"] * c["thickness"])
+HINGED = "hinges are an isotropic sheet of no Poisson's ratio but −1/3, or none: see docs/cells.md"
+
+CODES = {
+    row.name: row
+    for row in (
+        Code(
+            "newton",
+            "Newton 1.8, VBD",
+            "length",
+            (
+                Key("tri_ke", "N/m", "μ of the membrane: per area, times thickness", lambda c: c["mu_h"]),
+                Key("tri_ka", "N/m", "λ of the membrane: per area, times thickness", lambda c: c["lambda_h"]),
+                Key("edge_ke", "N", "½ edge_ke L θ² of an edge: times its length", lambda c: c["hinge"]),
+            ),
+            "newton-physics/newton 1.8.0, newton/_src/solvers/vbd/particle_vbd_kernels.py: evaluate_neo_"
+            "hookean_membrane_force_hessian («lambda_NH = lambda_Lamé + mu_Lamé», so tri_ka is Lamé's), "
+            "evaluate_dihedral_angle_based_bending_force_hessian («k = stiffness * edge_rest_length»); "
+            "hinges of triangles below 5e-7 m² are left out there (n1_norm < eps)",
+            HINGED,
+            licence="Apache-2.0",
+            runs=True,
+        ),
+        Code(
+            "mujoco",
+            "MuJoCo 4.0, flex",
+            "height",
+            (
+                Key(
+                    "young", "Pa", "times thickness; with the thickness below no longer its own", _flex_young
+                ),
+                Key("poisson", "", "the sheet's own", _plane_poisson),
+                Key("thickness", "m", "how hinges compare with the membrane", _flex_thickness),
+            ),
+            "forces of the wheel 4.0.0, measured (tests/comparisons/codes/test_codes.py): E, ν and "
+            "thickness make plane stress, and hinges ½ D L²/(A₁ + A₂) θ². Before, google-deepmind/mujoco at "
+            "a725507, src/user/user_mesh.cc: λ of a solid (ComputeStiffness), «3 * mu * pow(thickness, 3) / "
+            "(24 * volume)» in place of D/(A₁ + A₂) (ComputeBending)",
+            HINGED + "; its bending is quadratic in places",
+            licence="Apache-2.0",
+            runs=True,
+        ),
+        Code(
+            "pybullet",
+            "PyBullet 3.2.7, mass-spring soft body",
+            "",
+            (
+                Key("springElasticStiffness", "N/m", "of every link, whatever its length", lambda c: c["k"]),
+                Key("layers", "m", "distance of the two layers of nodes", lambda c: c["layers"]),
+            ),
+            "bulletphysics/bullet3, src/BulletSoftBody/btDeformableMassSpringForce.h: addScaledElasticForce "
+            "(«scaled_stiffness * (dir - dir_normalized * r)»); springBendingStiffness is of links between "
+            "nodes two links apart (btSoftBody.cpp, generateBendingConstraints)",
+            "a cloth of one layer has no bending stiffness while it is flat, whatever springBendingStiffness "
+            "is: take two layers of nodes in tetrahedra; one k for all links is near ν = 1/3, and a sheet of "
+            "another ν is met in one stiffness alone",
+            "tetrahedra",
+            "springs",
+            "zlib",
+            True,
+        ),
+        Code(
+            "genesis",
+            "Genesis 0.4, PBD cloth",
+            "angle",
+            (
+                Key(
+                    "stretch_compliance",
+                    "m/N",
+                    "1/k of every side of a triangle, whatever its length",
+                    lambda c: 1.0 / c["k"],
+                ),
+                Key(
+                    "bending_compliance",
+                    "rad/(N·m)",
+                    "1/k, ½ k θ² of an edge whatever its length",
+                    lambda c: 1.0 / c["hinge"],
+                ),
+                Key("rho", "kg/m²", "of the area: times thickness", lambda c: c["density"] * c["thickness"]),
+            ),
+            "Genesis-Embodied-AI/Genesis, genesis/engine/solvers/pbd_solver.py: _kernel_solve_stretch, "
+            "_kernel_solve_bending («alpha = … compliance / substep_dt**2», no multiplier is kept, so that n "
+            "iterations of relaxation r are n r times as stiff); pbd_entity.py remeshes («remesh(edge_len_abs"
+            "=particle_size)»)",
+            "springs along the sides of triangles are near ν = 1/3; a constraint is never stiffer than n r/"
+            "((w₁ + w₂) dt²), and the mesh that you give is replaced by one of its own",
+            elements="springs",
+            licence="Apache-2.0",
+        ),
+        Code(
+            "sofa",
+            "SOFA 24.06, TriangularFEMForceField and FastTriangularBendingSprings",
+            "height",
+            (
+                Key("youngModulus", "N/m", "E of plane stress, per area: times thickness", _young_h),
+                Key("poissonRatio", "", "the sheet's own", _plane_poisson),
+                Key(
+                    "bendingStiffness",
+                    "N·m",
+                    "½ (1/3) k L²/(A₁ + A₂) θ² of an edge",
+                    lambda c: 9.0 * c["hinge"],
+                ),
+            ),
+            "sofa-framework/sofa, …/fem/elastic/TriangularFEMForceField.inl: computeMaterialStiffness («"
+            "materialMatrix *= (y / (1.0f - p * p)) * tinfo->area»: no thickness); …/spring/"
+            "FastTriangularBendingSprings.inl: setEdgeSpring («lambda = (2./3) * (ha+hb)/(ha*ha*hb*hb) * l * "
+            "materialBendingStiffness»)",
+            HINGED,
+            licence="LGPL-2.1",
+        ),
+        Code(
+            "arcsim",
+            "ArcSim 0.2",
+            "height",
+            (
+                AREAL,
+                Key(
+                    "stretching 1",
+                    "N/m",
+                    "C11 h/2: the program doubles it",
+                    lambda c: c["lambda_h"] / 2 + c["mu_h"],
+                ),
+                Key("stretching 2", "N/m", "C12 h/2", lambda c: c["lambda_h"] / 2.0),
+                Key("stretching 3", "N/m", "C22 h/2", lambda c: c["lambda_h"] / 2.0 + c["mu_h"]),
+                Key(
+                    "stretching 4",
+                    "N/m",
+                    "G h, of the force; the energy that is printed has half of it",
+                    lambda c: c["mu_h"],
+                ),
+                Key("bending", "N·m", "⅛ k L²/(A₁ + A₂) θ² of an edge", lambda c: 12.0 * c["hinge"]),
+            ),
+            "ArcSim as in DrapeTester/ClothDrapeTester, arcsim/AdaptiveCloth/physics.cpp: bending_energy («"
+            "shape = sq(edge->l) / (2 * a); return ke * shape * sq(theta - …) / 4»), stretching_force («2 * "
+            "k[3] * G(0, 1)»); dde.cpp: evaluate_stretching_sample («real_elastic[0] *= 2»)",
+            HINGED + "; remeshing changes what hinges weigh: set refine_angle and the like to nothing",
+            licence="University of California, not for profit",
+        ),
+        Code(
+            "c-ipc",
+            "Codim-IPC",
+            "height",
+            (
+                Key(
+                    "E",
+                    "Pa",
+                    "the sheet's own: membrane times thickness, plane stress",
+                    lambda c: _young_h(c) / c["thickness"],
+                ),
+                Key("nu", "", "the sheet's own", _plane_poisson),
+                Key(
+                    "thickness", "m", "the sheet's own; also the offset of contacts", lambda c: c["thickness"]
+                ),
+                DENSITY,
+                Key(
+                    "bendingStiffMult",
+                    "",
+                    "times E h³/24(1 − ν²) of θ² L/h̄, h̄ = (A₁ + A₂)/3L",
+                    lambda c: c["hinge"] / _rigidity(c),
+                ),
+            ),
+            "ipc-sim/Codim-IPC, Library/FEM/Shell/DISCRETE_SHELL.h («lambda = E * nu / (1 - nu * nu)», «k = "
+            "E * std::pow(thickness, 3) / (24 * (1 - nu * nu))», h̄ = (|n1| + |n2|)/(6 |e|)); "
+            "BENDING.h («k * (theta - thetabar) * (theta - thetabar) * ebarnorm / hbar»)",
+            HINGED,
+            licence="Apache-2.0",
+        ),
+        Code(
+            "ppf",
+            "ppf-contact-solver, model arap",
+            "height",
+            (
+                AREAL,
+                Key(
+                    "young-mod",
+                    "m²/s²",
+                    "E′/ρ, with λ of a solid: 2 μ h (1 + poiss-rat) over the density per area",
+                    lambda c: 2.0 * c["mu_h"] * (1.0 + _spatial_poisson(c)) / (c["density"] * c["thickness"]),
+                ),
+                Key("poiss-rat", "", "of a solid, not of plane stress: ν/(1 + ν)", _spatial_poisson),
+                Key(
+                    "bend",
+                    "m⁴/s²",
+                    "½ 1.28e-5 bend ρ_A L²/(A₁ + A₂) θ², called dimensionless there",
+                    lambda c: 3.0 * c["hinge"] / (BEND_SCALE * c["density"] * c["thickness"]),
+                ),
+            ),
+            "st-tech/ppf-contact-solver, crates/ppf-cts-solver/src/cpp/energy/energy.cu: embed_hinge_force_"
+            "hessian («BEND_SCALE * bend_dir * (length * length / area) * areal_density»), embed_face_force_"
+            "hessian («mass * …»); builder.rs: convert_prop (λ of a solid); crates/ppf-cts-core/src/"
+            "datamodel/params.rs («pre-normalized by density (units of Pa/rho)», density in kg/m²)",
+            HINGED,
+            licence="Apache-2.0",
+        ),
+        Code(
+            "openusd",
+            "OpenUSD, deformables proposal as Newton 1.8 reads it",
+            "length",
+            (
+                DENSITY,
+                Key(
+                    "thickness",
+                    "m",
+                    "the sheet's own: physics:thicknesses of the mesh",
+                    lambda c: c["thickness"],
+                ),
+                Key("physics:youngsModulus", "Pa", "the sheet's own", lambda c: _young_h(c) / c["thickness"]),
+                Key("physics:poissonsRatio", "", "the sheet's own", _plane_poisson),
+                Key(
+                    "physics:surfaceStretchStiffness",
+                    "N/m",
+                    "E h/(1 − ν²): times thickness",
+                    lambda c: c["lambda_h"] + 2.0 * c["mu_h"],
+                ),
+                Key("physics:surfaceShearStiffness", "N/m", "G h: times thickness", lambda c: c["mu_h"]),
+                Key(
+                    "physics:surfaceBendStiffness",
+                    "N·m",
+                    "E h³/12(1 − ν²), of the sheet and not of an edge",
+                    _rigidity,
+                ),
+            ),
+            "newton-physics/newton 1.8.0, newton/_src/utils/import_usd_deformable_cloth.py: _resolve_surface_"
+            "structural_stiffnesses («youngs * thickness / plane_stress», «youngs * thickness**3 / (12.0 * "
+            "plane_stress)»)",
+            "of use for hinges as they are: a program has to make its hinges of the sheet's stiffness. "
+            "Newton 1.8 takes them for tri_ke and edge_ke, a stiffness [N·m] for what is multiplied by an "
+            "edge's length [N], and tri_ka = 0: there take what --for newton says",
+            licence="Apache-2.0 (modified)",
+        ),
+        Code(
+            "discrete-shells",
+            "Discrete shells (Grinspun et al. 2003)",
+            "height",
+            (Key("k_B", "N·m", "k θ² L/h̄ of an edge, h̄ = (A₁ + A₂)/3L", lambda c: c["hinge"] / 2.0),),
+            "Grinspun et al., Discrete shells, SCA 2003, equation (1)",
+            HINGED,
+        ),
+    )
+}
+
+
+def parameters(hinge: str, coefficients: Numbers, scene: Scene) -> list[Parameter]:
+    """The parameters of the codes of triangles whose hinges have this weight."""
     return [
-        Parameter(code.name, name, units.get(name, "N/m"), value)
-        for code in CODES
-        if code.hinge == hinge
-        for name, value in code.parameters(coefficients).items()
+        one
+        for code in CODES.values()
+        if code.hinge == hinge and code.elements == "triangles"
+        for one in parameters_of(code, coefficients, scene)
+    ]
+
+
+def parameters_of(code: Code, coefficients: Numbers, scene: Scene) -> list[Parameter]:
+    """The parameters of a code for a scene's sheet."""
+    numbers = {"thickness": scene.sheet.thickness, "density": scene.material.density, **coefficients}
+    return [
+        Parameter(code.title, key.name, key.value(numbers), key.unit, key.convention) for key in code.keys
     ]

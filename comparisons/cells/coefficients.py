@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from scipy.optimize import least_squares, minimize_scalar
 
@@ -18,8 +20,10 @@ STIFF = 1e3  # times κGh, of a cell whose normals stay normal
 TURNED = np.array([[1.0, 1.0, 2.0**0.5], [1.0, 1.0, 2.0**0.5], [2.0**0.5, 2.0**0.5, 2.0]])
 
 
-def nearest(cell: Cell, material: Material, thickness: float) -> dict[str, float]:
-    """Coefficients, none negative, whose moduli come nearest to the sheet's.
+def nearest(
+    cell: Cell, material: Material, thickness: float, fixed: Mapping[str, float] | None = None
+) -> dict[str, float]:
+    """Coefficients, none negative, whose moduli come nearest to the sheet's; those of `fixed` as they are.
 
     Triangles have the membrane's λh = E ν h/(1 − ν²) and μh = E h/2(1 + ν), bricks Lamé's constants. The
     others are found by least squares over A and D, each over its 11, in a norm that no turn of the axes
@@ -29,7 +33,7 @@ def nearest(cell: Cell, material: Material, thickness: float) -> dict[str, float
     stretching = material.young * thickness / (1.0 - nu**2)
     exact = {"lambda_h": nu * stretching, "mu_h": 0.5 * (1.0 - nu) * stretching}
     mu = 0.5 * material.young / (1.0 + nu)
-    exact |= {"lambda": 2.0 * mu * nu / (1.0 - 2.0 * nu), "mu": mu}
+    exact |= {"lambda": 2.0 * mu * nu / (1.0 - 2.0 * nu), "mu": mu, **(fixed or {})}
     units = cell.units()
     known = {name: value for name, value in exact.items() if name in units}
     names = [name for name in units if name not in known]

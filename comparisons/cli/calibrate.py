@@ -51,8 +51,9 @@ def command(
     simulators: Annotated[
         list[str] | None,
         option(
-            "With --export, also a file for this simulator, of springs without cells (--method "
-            "central): mujoco (MJCF), sofa (a scene). May be repeated.",
+            "Parameters, mesh and scene in this code's words: newton, mujoco, pybullet, genesis, sofa, "
+            "arcsim, c-ipc, ppf, openusd; files with --out, --grid vertices. With --export instead the "
+            "lattice's springs, of a calibration without cells (--method central): mujoco, sofa.",
             "NAME",
             "--for",
         ),
@@ -103,14 +104,21 @@ def command(
 
     if toml and output.json:
         raise BadInput("--toml and --json: choose one")
-    if simulators and export is None:
-        raise BadInput("--for: goes with --export DIR")
+    if simulators and export is None and len(simulators) > 1:
+        raise BadInput("--for: one code at a time, but with --export")
     values = {"young": young, "poisson": poisson, "thickness": thickness, "density": density, **sides(side)}
     damped = damping.keys(loss_factor, damping_ratio, log_decrement, quality, at, band, prony)
     if young is not None and "young" in damped:
         raise BadInput("--young and --prony: the measured moduli give the long-time one; leave --young out")
     of = subject(scene, values | damped, "--")
     about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
+    if simulators and export is None:
+        from comparisons.codes.setup import setup, squares_of
+
+        found = setup(of, simulators[0], squares_of(grid), best=scene is not None)
+        with output.open(about=about, variant={"--for": simulators[0]}) as out:
+            out.show(found.report())
+        return
     with output.open(about=about) as out:
         if export is not None and not large:
             require_room(of, Lattice(grid), "--grid")

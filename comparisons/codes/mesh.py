@@ -1,0 +1,165 @@
+"""The finite mesh of a scene's sheet that a code of triangles gets: squares cut by diagonals.
+
+Clamps are a second fixed row beyond the edge: a hinge that lies on the edge then holds the slope there.
+Masses are tributary, point loads and probes are shared linearly by the corners of a triangle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from comparisons.codes.springs import five
+from sheetbench.errors import BadInput
+from sheetbench.scenes import EDGES, Clamped, Hinged, PointLoad, Scene
+from sheetbench.scenes.grid import near_square
+
+ONE, ALTERNATE = "one-diagonal", "alternate-diagonals"
+
+
+@dataclass(frozen=True)
+class SheetMesh:
+    """Vertices (n, 3) [m], triangles (m, 3), which vertices are held, masses (n,) [kg], dead forces besides
+    weight (n, 3) [N], gravity (3,) [m/s²]; for each probe vertices around it and their shares."""
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    held: np.ndarray
+    masses: np.ndarray
+    forces: np.ndarray
+    gravity: np.ndarray
+    probes: dict[str, tuple[list[int], list[float]]]
+
+    @cached_property
+    def hinges(self) -> np.ndarray:
+        """Edges that two triangles share: both ends, then the corners opposite (k, 4)."""
+        sides: dict[tuple[int, int], list[int]] = {}
+        for corners in self.triangles.tolist():
+            for a, b in combinations(sorted(corners), 2):
+                sides.setdefault((a, b), []).append(sum(corners) - a - b)
+        return np.array([(*edge, *across) for edge, across in sides.items() if len(across) == 2])
+
+    @cached_property
+    def edges(self) -> np.ndarray:
+        """All sides of triangles (e, 2), each once."""
+        pairs = [pair for t in self.triangles.tolist() for pair in combinations(sorted(t), 2)]
+        return np.array(sorted(set(pairs)))
+
+    def document(self) -> dict[str, Any]:
+        """Plain data, as the scripts read it."""
+        arrays = {name: value for name, value in vars(self).items() if isinstance(value, np.ndarray)}
+        return {
+            **{name: value.tolist() for name, value in arrays.items()},
+            "hinges": self.hinges.tolist(),
+            "edges": self.edges.tolist(),
+            "probes": {n: {"vertices": v, "shares": s} for n, (v, s) in self.probes.items()},
+        }
+
+
+def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE) -> SheetMesh:
+    """Return the mesh of a scene's sheet, `squares` along its shorter side.
+
+    pattern: ONE or ALTERNATE. Raises BadInput for what these codes do not have: supports but clamped and
+    hinged edges that stay, loads but weight and forces at points.
+    """
+    if why := refusal(scene):
+        raise BadInput(f"{scene.name}: {why}")
+    counts = near_square(scene.sheet, squares)
+    spacing = np.array(scene.sheet.lengths) / counts
+    beyond = {edge: 0 for edge in EDGES} | {s.edge: 1 for s in scene.supports if isinstance(s, Clamped)}
+    i, j = np.meshgrid(
+        np.arange(-beyond["x0"], counts[0] + beyond["x1"] + 1),
+        np.arange(-beyond["y0"], counts[1] + beyond["y1"] + 1),
+        indexing="ij",
+    )
+    number = np.arange(i.size).reshape(i.shape)
+    triangles = np.array(list(_triangles(number, (i + j)[:-1, :-1] % 2 == 1, pattern == ALTERNATE)))
+    held, inside, share = np.zeros(i.shape, dtype=bool), np.ones(i.shape, dtype=bool), np.ones(i.shape)
+    for edge, words in EDGES.items():
+        along = (i, j)[words.normal_axis]
+        outwards = along - counts[words.normal_axis] if words.far_end else -along
+        held |= (outwards >= 0) & any(support.edge == edge for support in scene.supports)
+        inside &= outwards <= 0
+        share[outwards == 0] *= 0.5
+    own = inside.ravel()[triangles].all(axis=1)
+    places = np.column_stack([i.ravel() * spacing[0], j.ravel() * spacing[1], np.zeros(i.size)])
+    per_square = scene.material.density * scene.sheet.thickness * float(np.prod(spacing))
+    forces = np.zeros_like(places)
+    for load in scene.loads:
+        assert isinstance(load, PointLoad)
+        corners, shares = _shares(places, triangles[own], np.array(load.at))
+        forces[corners] += load.last_factor * np.outer(shares, load.force)
+    points = {name: _shares(places, triangles[own], np.array(at)) for name, at in scene.probes.items()}
+    return SheetMesh(
+        places,
+        triangles,
+        held.ravel(),
+        np.where(inside, per_square * share, per_square).ravel(),
+        forces,
+        np.zeros(3) if scene.gravity is None else np.array(scene.gravity.last_acceleration),
+        points,
+    )
+
+
+def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> tuple[SheetMesh, np.ndarray]:
+    """Two layers of a flat mesh's vertices, this far apart [m], and the tetrahedra between (m, 4).
+
+    Lower and upper vertices take turns; triangles are the layers' own, probes the mean of both.
+    """
+    counts = near_square(scene.sheet, squares)
+    spacing = np.array(scene.sheet.lengths) / counts
+    places = np.rint(flat.vertices[:, :2] / spacing).astype(int)
+    number = {place: n for n, place in enumerate(map(tuple, places.tolist()))}
+    cells = [
+        [2 * number[i, j] + layer for i, j, layer in corners]
+        for at in number
+        if (at[0] + 1, at[1] + 1) in number
+        for corners in five(*at)
+    ]
+    lift = np.array([[0.0, 0.0, -0.5], [0.0, 0.0, 0.5]]) * height
+    probes = {
+        name: ([2 * v + layer for v in corners for layer in (0, 1)], np.repeat(shares, 2).tolist())
+        for name, (corners, shares) in flat.probes.items()
+    }
+    half = {name: (v, (0.5 * np.array(shares)).tolist()) for name, (v, shares) in probes.items()}
+    return SheetMesh(
+        (flat.vertices[:, None, :] + lift).reshape(-1, 3),
+        np.concatenate([2 * flat.triangles, 2 * flat.triangles + 1]),
+        np.repeat(flat.held, 2),
+        np.repeat(flat.masses, 2) / 2.0,
+        np.repeat(flat.forces, 2, axis=0) / 2.0,
+        flat.gravity,
+        half,
+    ), np.array(cells)
+
+
+def refusal(scene: Scene) -> str:
+    """Why codes of triangles cannot have a scene; nothing where they can."""
+    if scene.actuators or any(not isinstance(s, Clamped | Hinged) for s in scene.supports):
+        return "these codes hold sheets by clamped and hinged edges only"
+    if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
+        return "their clamps stand upright, and supports stay where they are"
+    if any(not isinstance(load, PointLoad) for load in scene.loads):
+        return "weight and forces at points only"
+    return ""
+
+
+def _triangles(number: np.ndarray, odd: np.ndarray, alternate: bool) -> Iterator[tuple[int, int, int]]:
+    for (i, j), second in np.ndenumerate(odd):
+        a, d, b, c = number[i : i + 2, j : j + 2].ravel().tolist()
+        yield from ((a, b, d), (b, c, d)) if alternate and second else ((a, b, c), (a, c, d))
+
+
+def _shares(places: np.ndarray, triangles: np.ndarray, at: np.ndarray) -> tuple[list[int], list[float]]:
+    """The triangle that a point lies in, and the shares of its corners."""
+    plan = places[triangles][:, :, :2]
+    edges = (plan[:, 1:] - plan[:, :1]).transpose(0, 2, 1)
+    second = np.linalg.solve(edges, (at - plan[:, 0])[:, :, None])[:, :, 0]
+    shares = np.column_stack([1.0 - second.sum(axis=1), second])
+    nearest = int(np.argmax(shares.min(axis=1)))
+    return triangles[nearest].tolist(), shares[nearest].tolist()

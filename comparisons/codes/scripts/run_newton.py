@@ -1,0 +1,81 @@
+"""Bring the sheet of sheet.json to rest in Newton's VBD solver and print the probes as JSON.
+
+    pip install newton==1.8.0 warp-lang==1.19.0        # in an environment of its own; it runs on a CPU
+    python run_newton.py [SECONDS]
+
+VBD moves towards each step's equilibrium by blocks, and with steps much longer than a wave takes from one
+vertex to the next it does not arrive: a sheet then "rests" many times too low, whatever its coefficients.
+The step here is 1.5 of those times. Velocities are set to zero whenever the kinetic energy has passed a peak.
+"""
+
+import json
+import sys
+import time
+from pathlib import Path
+
+import newton
+import numpy as np
+import warp as wp
+
+ITERATIONS, CHECK, AT_REST = 20, 50, 1e-4  # steps between checks; of the largest displacement
+
+
+def sheet_model(sheet, keys):
+    builder = newton.ModelBuilder(up_axis=newton.Axis.Z, gravity=wp.vec3(*sheet["gravity"]))
+    for place, held, mass in zip(sheet["vertices"], sheet["held"], sheet["masses"], strict=True):
+        builder.add_particle(wp.vec3(*place), wp.vec3(0.0), 0.0 if held else mass)
+    for corners in sheet["triangles"]:
+        builder.add_triangle(*corners, tri_ke=keys["tri_ke"], tri_ka=keys["tri_ka"], tri_kd=0.0)
+    normal = {}
+    for a, b, c in sheet["triangles"]:
+        normal.update({(a, b): c, (b, c): a, (c, a): b})
+    for a, b, *_ in sheet["hinges"]:
+        builder.add_edge(normal[a, b], normal[b, a], a, b, edge_ke=keys["edge_ke"], edge_kd=0.0)
+    builder.color(include_bending=True)
+    return builder.finalize(device="cpu")
+
+
+def main(seconds=300.0):
+    wp.config.quiet = True
+    sheet = json.loads((Path(__file__).parent / "sheet.json").read_text())
+    keys, rest = sheet["parameters"], np.array(sheet["vertices"])
+    model = sheet_model(sheet, keys)
+    solver = newton.solvers.SolverVBD(model, iterations=ITERATIONS)
+    now, after, control = model.state(), model.state(), model.control()
+    sides = rest[np.array(sheet["edges"])]
+    spacing = np.linalg.norm(sides[:, 1] - sides[:, 0], axis=1).min()
+    areal = max(sheet["masses"]) / spacing**2
+    step = 1.5 * spacing / (max(sheet["stretching"], 1e-9) / areal) ** 0.5
+    forces = wp.array(np.array(sheet["forces"], dtype=np.float32), dtype=wp.vec3, device="cpu")
+    before, earlier, calm, count, status = 0.0, None, 0, 0, "step-limit"
+    started = time.perf_counter()
+    while time.perf_counter() - started < seconds:
+        now.particle_f.assign(forces)
+        solver.step(now, after, control, None, step)
+        now, after = after, now
+        count += 1
+        speed = now.particle_qd.numpy()
+        energy = float((speed**2).sum())
+        if not np.isfinite(energy):
+            status = "non-finite"
+            break
+        if energy < before:
+            now.particle_qd.zero_()
+            energy = 0.0
+        before = energy
+        if count % CHECK == 0:
+            moved = now.particle_q.numpy() - rest
+            size = np.abs(moved).max()
+            calm = calm + 1 if earlier is not None and np.abs(moved - earlier).max() < AT_REST * size else 0
+            earlier = moved
+            if calm == 3:
+                status = "converged"
+                break
+    moved = now.particle_q.numpy() - rest
+    probes = {n: (np.array(p["shares"]) @ moved[p["vertices"]]).tolist() for n, p in sheet["probes"].items()}
+    spent = time.perf_counter() - started
+    print(json.dumps({"status": status, "probes": probes, "solve_seconds": spent, "iterations": count}))
+
+
+if __name__ == "__main__":
+    main(*map(float, sys.argv[1:]))

@@ -1,0 +1,71 @@
+"""Bring the two-layered sheet of sheet.vtk to rest in PyBullet and print the probes as JSON.
+
+    pip install pybullet==3.2.7 numpy
+    python run_pybullet.py [SECONDS]
+
+Steps are explicit: half of what the stiffest spring and the lightest vertex bear. Every vertex has the same
+mass there. Springs are damped, and the sheet is at rest where ten checks in turn find it in one place.
+"""
+
+import json
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pybullet as bullet
+
+CHECK, AT_REST, DRAG = 500, 2e-4, 30.0  # steps between checks; of the largest displacement; 1/s
+
+
+def main(seconds=120.0):
+    folder = Path(__file__).parent
+    sheet = json.loads((folder / "sheet.json").read_text())
+    keys, rest, held = sheet["parameters"], np.array(sheet["vertices"]), np.array(sheet["held"])
+    mass = float(np.mean(np.array(sheet["masses"])[~held]))
+    bullet.connect(bullet.DIRECT)
+    bullet.resetSimulation(bullet.RESET_USE_DEFORMABLE_WORLD)
+    bullet.setGravity(*sheet["gravity"])
+    step = 0.5 / (16.0 * keys["springElasticStiffness"] / mass) ** 0.5
+    bullet.setTimeStep(step)
+    body = bullet.loadSoftBody(
+        str(folder / "sheet.vtk"),
+        mass=mass * len(rest),
+        useMassSpring=1,
+        useNeoHookean=0,
+        useBendingSprings=0,
+        useSelfCollision=0,
+        springElasticStiffness=keys["springElasticStiffness"],
+        springDampingStiffness=DRAG * mass,
+        springDampingAllDirections=1,
+        collisionMargin=1e-4,
+    )
+    for vertex in np.flatnonzero(held).tolist():
+        bullet.createSoftBodyAnchor(body, vertex, -1, -1)
+    status, count, earlier, calm, started = "step-limit", 0, None, 0, time.perf_counter()
+    forced = np.flatnonzero(np.array(sheet["forces"]).any(axis=1))
+    if len(forced):
+        sys.exit("loadSoftBody takes no forces at single vertices")
+    moved = np.zeros_like(rest)
+    while time.perf_counter() - started < seconds:
+        for _ in range(CHECK):
+            bullet.stepSimulation()
+        count += CHECK
+        found = bullet.getMeshData(body, -1, flags=bullet.MESH_DATA_SIMULATION_MESH)[1]
+        moved = np.array(found) - rest
+        if not np.isfinite(moved).all():
+            status = "non-finite"
+            break
+        size = np.abs(moved).max()
+        calm = calm + 1 if earlier is not None and np.abs(moved - earlier).max() < AT_REST * size else 0
+        earlier = moved
+        if calm == 20:
+            status = "converged"
+            break
+    probes = {n: (np.array(p["shares"]) @ moved[p["vertices"]]).tolist() for n, p in sheet["probes"].items()}
+    spent = time.perf_counter() - started
+    print(json.dumps({"status": status, "probes": probes, "solve_seconds": spent, "iterations": count}))
+
+
+if __name__ == "__main__":
+    main(*map(float, sys.argv[1:]))

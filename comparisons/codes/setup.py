@@ -1,0 +1,187 @@
+"""A scene in another code's words: parameters, mesh, and the files that the code reads.
+
+Hinges have the coefficient that is best in the scene, as far as a cell of that mesh can be right there, and
+without a scene's answer at rest the one whose moduli are nearest to the sheet's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from comparisons.cells.cell import Cell
+from comparisons.cells.codes import CODES, Code, Parameter, parameters_of
+from comparisons.cells.coefficients import best_hinge, limit_error, nearest
+from comparisons.cells.homogenise import moduli_of
+from comparisons.cells.meshes import mesh as cell_of_triangles
+from comparisons.codes.files import WRITERS, Problem
+from comparisons.codes.mesh import SheetMesh, refusal, sheet_mesh, with_layers
+from comparisons.codes.springs import hinged_springs, layered_springs, tetrahedral_cell, triangular_cell
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Write
+from sheetbench.answers.table import Table
+from sheetbench.errors import BadInput, require_choice
+from sheetbench.scenes import AnyScene, Scene, SceneError, require_static, scene_of
+from sheetbench.scenes.words import sheet_in_words
+
+SQUARES = 8  # along the shorter side
+LAYERED = "tetrahedra"
+
+
+@dataclass(frozen=True, repr=False)
+class CodeSetup(Answer):
+    """A scene for a code. coefficients: our own, of the cell; limit_error: of however fine a mesh with them,
+    None where the scene has no answer at rest; best: whether they are those that are best in the scene."""
+
+    scene: Scene
+    code: Code
+    cell: Cell
+    squares: int
+    coefficients: Mapping[str, float]
+    limit_error: float | None
+    best: bool
+
+    file_name = "code"
+
+    @property
+    def keys(self) -> list[Parameter]:
+        """The code's parameters."""
+        return parameters_of(self.code, self.coefficients, self.scene)
+
+    @property
+    def problem(self) -> Problem:
+        """Mesh and parameters, for the files. Raises BadInput for what codes of triangles do not have."""
+        keys = {key.parameter: key.value for key in self.keys}
+        material, tetrahedra = self.scene.material, None
+        flat = sheet_mesh(self.scene, self.squares, self.cell.name)
+        if self.code.mesh == LAYERED:
+            flat, tetrahedra = with_layers(self.scene, flat, self.squares, self.coefficients["layers"])
+        stretching = material.young * self.scene.sheet.thickness / (1.0 - material.poisson**2)
+        return Problem(flat, keys, stretching, tetrahedra)
+
+    @property
+    def mesh(self) -> SheetMesh:
+        """The mesh of the files."""
+        return self.problem.mesh
+
+    def heading(self) -> tuple[str, str, str]:
+        where = f"{self.code.mesh}, {self.squares} squares along the shorter side"
+        return (
+            f"{self.scene.name} for {self.code.title}",
+            where,
+            sheet_in_words(self.scene.sheet, self.scene.material),
+        )
+
+    def tables(self) -> tuple[Table, ...]:
+        fields = ("parameter", "value", "unit", "convention")
+        return (
+            Table.of(Parameter, self.keys, f"Parameters of {self.code.title}", "parameters", fields=fields),
+        )
+
+    def notes(self) -> list[str]:
+        chosen = "best in this scene" if self.best else "nearest to the sheet's moduli"
+        told = [f"Hinges and springs have the values that are {chosen}."] if self.elastic else []
+        if self.elastic and self.limit_error is not None:
+            told.append(
+                f"With them a mesh of this cell, however fine, is {100 * self.limit_error:.1f} % of the "
+                "largest displacement off in this scene."
+            )
+        told.append(f"What it cannot be: {self.code.cannot}.")
+        told.append(f"Where that is said: {self.code.source}.")
+        run = "was run here" if self.code.runs else "was not run here: its files were read back and checked"
+        told.append(f"{self.code.title} ({self.code.licence}) {run}.")
+        if why := refusal(self.scene):
+            told.append(f"No files: {why}.")
+        return told
+
+    @property
+    def elastic(self) -> bool:
+        """Whether the code's parameters are of a mesh, not of the sheet alone."""
+        return self.code.name != "openusd"
+
+    def document(self) -> dict[str, Any]:
+        return {
+            "code": self.code.name,
+            "title": self.code.title,
+            "parameters": [
+                {"name": k.parameter, "value": k.value, "unit": k.unit, "convention": k.convention}
+                for k in self.keys
+            ],
+            "mesh": self.code.mesh,
+            "squares": self.squares,
+            "coefficients": dict(self.coefficients),
+            "limit_error": self.limit_error,
+            "cannot": self.code.cannot,
+            "source": self.code.source,
+            "licence": self.code.licence,
+            "run_here": self.code.runs,
+        }
+
+    def files(self) -> dict[str, Write]:
+        if refusal(self.scene):
+            return {}
+        texts = WRITERS[self.code.name](self.problem)
+        return {name: partial(write_text, text=text) for name, text in texts.items()}
+
+
+def setup(
+    scene: AnyScene,
+    code: str,
+    squares: int = SQUARES,
+    *,
+    best: bool = True,
+    mesh: str | None = None,
+    coefficients: Mapping[str, float] | None = None,
+) -> CodeSetup:
+    """Return a scene in a code's words.
+
+    best: whether hinges are those best in the scene. mesh: another than the code's own choice; coefficients:
+    taken in place of those found. Raises BadInput for an unknown code.
+    """
+    scene = scene_of(scene)
+    require_choice("--for", code, WRITERS)
+    row = CODES[code]
+    if squares < 2:
+        raise BadInput(f"{squares} squares along the shorter side: at least 2")
+    spacing = float(min(scene.sheet.lengths)) / squares
+    at_rest = _at_rest(scene)
+    best = best and at_rest
+    name, off = mesh or row.mesh, None
+    if name == LAYERED:
+        found, _, off = layered_springs(scene, spacing, best)
+        cell = tetrahedral_cell(spacing, found["layers"])
+    elif row.elements == "springs":
+        cell = triangular_cell(name, spacing)
+        found = hinged_springs(cell, scene.material, scene.sheet.thickness)
+    else:
+        cell = cell_of_triangles(name, spacing, scene.sheet.thickness, row.hinge)
+        found = nearest(cell, scene.material, scene.sheet.thickness)
+    if best and "hinge" in found and not coefficients and (better := best_hinge(scene, cell, found)):
+        found["hinge"] = better[0]
+    found |= coefficients or {}
+    if at_rest and off is None:
+        springs = found if name != LAYERED else {"k": found["k"]}
+        off = limit_error(scene, moduli_of(cell, springs))
+    return CodeSetup(scene, row, cell, squares, found, off, best and not coefficients)
+
+
+def squares_of(grid: str | None) -> int:
+    """The squares of vertices asked for as a grid is, 9 for 8 squares. Raises BadInput for another form."""
+    if grid is None:
+        return SQUARES
+    if not grid.isdigit():
+        raise BadInput(f"--grid {grid}: with --for, vertices along the shorter side, as 9")
+    return int(grid) - 1
+
+
+def _at_rest(scene: Scene) -> bool:
+    try:
+        require_static(scene)
+    except SceneError:
+        return False
+    return bool(np.any(scene.probe_points()))

@@ -1,0 +1,114 @@
+"""Sheets of springs of one stiffness, as codes have them that know no more: along the sides of triangles, or
+of tetrahedra in one layer, whose height is then free to be chosen.
+
+Squares are cut into five tetrahedra each, neighbours mirrored, so that they share their faces' diagonals.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import combinations
+from math import log
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from comparisons.cells.cell import Cell, Place
+from comparisons.cells.coefficients import COARSE, TURNED, limit_error, nearest
+from comparisons.cells.homogenise import Moduli, moduli_of
+from comparisons.cells.meshes import mesh
+from fem_reference.surface.materials import section_of
+from sheetbench.scenes import Material, Scene
+
+FIVE = (
+    ((0, 0, 0), (1, 1, 0), (1, 0, 1), (0, 1, 1)),
+    ((1, 0, 0), (0, 0, 0), (1, 1, 0), (1, 0, 1)),
+    ((0, 1, 0), (0, 0, 0), (1, 1, 0), (0, 1, 1)),
+    ((0, 0, 1), (0, 0, 0), (1, 0, 1), (0, 1, 1)),
+    ((1, 1, 1), (1, 1, 0), (1, 0, 1), (0, 1, 1)),
+)  # corners of a cube (x, y, layer)
+HEIGHTS = (0.2, 5.0)  # of the layers, over the thickness
+
+
+def five(i: int, j: int) -> list[list[tuple[int, int, int]]]:
+    """The tetrahedra of square (i, j): corners as places along x, along y, and layers."""
+    flip = (i + j) % 2
+    return [[(i + (x ^ flip), j + y, layer) for x, y, layer in cell] for cell in FIVE]
+
+
+def tetrahedral_cell(spacing: float, height: float) -> Cell:
+    """Two layers of nodes, with springs "k" along every side of the tetrahedra between."""
+    sides: dict[tuple[Place, ...], None] = {}
+    for i in range(2):
+        for j in range(2):
+            for corners in five(i, j):
+                for a, b in combinations(corners, 2):
+                    first, second = sorted((_place(*a), _place(*b)))
+                    at = first[1:]
+                    ends = ((first[0], 0, 0), (second[0], second[1] - at[0], second[2] - at[1]))
+                    sides[ends] = None
+    nodes = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (-0.5, 0.5)]
+    places = np.array(nodes) * [spacing, spacing, height]
+    springs = tuple((a, b, "k") for a, b in sides)
+    return Cell("tetrahedra", 2.0 * spacing * np.eye(2), places, springs=springs)
+
+
+def _place(i: int, j: int, layer: int) -> Place:
+    return (i % 2) * 4 + (j % 2) * 2 + layer, i // 2, j // 2
+
+
+def triangular_cell(name: str, spacing: float) -> Cell:
+    """A mesh of triangles without a membrane of its own: springs "k" along its sides, hinges by angle."""
+    cell = mesh(name, spacing, 0.0, "angle")
+    sides: dict[tuple[Place, Place], None] = {}
+    for triangle in cell.triangles:
+        for a, b in combinations(triangle, 2):
+            (n, i, j), second = sorted((a, b))
+            sides[(n, 0, 0), (second[0], second[1] - i, second[2] - j)] = None
+    return replace(cell, springs=tuple((a, b, "k") for a, b in sides))
+
+
+def hinged_springs(cell: Cell, material: Material, thickness: float) -> dict[str, float]:
+    """The nearest springs and hinges of a triangular cell."""
+    return nearest(cell, material, thickness, {"lambda_h": 0.0, "mu_h": 0.0})
+
+
+def layered_springs(
+    scene: Scene, spacing: float, best: bool
+) -> tuple[dict[str, float], Moduli, float | None]:
+    """k [N/m] and the layers' distance [m] of tetrahedra, their moduli, and the error of the limit.
+
+    k has the membrane nearest to the sheet's, the distance then the bending stiffnesses, or what is best in
+    the scene.
+    """
+    own = section_of(scene.material, scene.sheet.thickness)
+
+    def at(height: float) -> tuple[float, Moduli]:
+        unit = moduli_of(tetrahedral_cell(spacing, height), {"k": 1.0})
+        k = _share(unit.membrane, own.membrane)
+        assert unit.shear is not None
+        return k, Moduli(k * unit.membrane, k * unit.coupling, k * unit.bending, k * unit.shear)
+
+    low, high = (share * scene.sheet.thickness for share in HEIGHTS)
+    if best:
+        bounds = (log(low), log(high))
+
+        def off(logarithm: float) -> float:
+            return limit_error(scene, at(float(np.exp(logarithm)))[1], COARSE)
+
+        options = {"xatol": 5e-3}
+        height = float(np.exp(minimize_scalar(off, bounds=bounds, method="bounded", options=options).x))
+    else:
+
+        def miss(height: float) -> float:
+            return _share(at(height)[1].bending, own.bending) - 1.0
+
+        height = float(brentq(miss, low, high))
+    k, moduli = at(height)
+    return {"k": k, "layers": height}, moduli, limit_error(scene, moduli) if best else None
+
+
+def _share(form: np.ndarray, asked: np.ndarray) -> float:
+    """The factor that brings a form nearest to one that is asked for, in Mandel's norm."""
+    weighted = TURNED**2 * form
+    return float(np.sum(weighted * asked) / np.sum(weighted * form))

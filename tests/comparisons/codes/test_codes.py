@@ -1,0 +1,184 @@
+"""Files for other codes, read back: each code's own law of its numbers is our energy of the same mesh."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from commands import run
+
+from comparisons.cells.cell import HINGES, _hinge, _triangle
+from comparisons.cells.homogenise import moduli_of
+from comparisons.codes.files import WRITERS
+from comparisons.codes.setup import CodeSetup, setup
+from sheetbench import scenes
+from sheetbench.errors import BadInput
+from sheetbench.scenes import PointLoad
+
+SCENE = scenes.load("two-edges-clamped").replace(
+    loads=(PointLoad(at=(0.188, 0.188), force=(0.01, 0.0, 0.05)),)
+)
+Law = tuple[float, float, float]  # λ h, μ h, and k of ½ k 3 L²/(A₁ + A₂) θ², as `homogenise --hinge height`
+
+
+def written(code: str, folder: Path) -> CodeSetup:
+    made = setup(SCENE, code, 4, best=False)
+    for name, write in made.files().items():
+        write(folder / name)
+    return made
+
+
+def read_obj(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    lines = [line.split() for line in path.read_text().splitlines()]
+    places = np.array([line[1:] for line in lines if line[0] == "v"], dtype=float)
+    faces = [[int(corner.split("/")[0]) - 1 for corner in line[1:]] for line in lines if line[0] == "f"]
+    return places, np.array(faces)
+
+
+def plane(young: float, nu: float) -> tuple[float, float]:
+    return young * nu / (1 - nu**2), young / 2 / (1 + nu)
+
+
+def solid(young: float, nu: float) -> tuple[float, float]:
+    return young * nu / (1 + nu) / (1 - 2 * nu), young / 2 / (1 + nu)
+
+
+def sofa(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
+    """E/(1 − ν²) times area; λ = ⅔ (ha + hb)/(ha hb)² L k of a vector that is ha hb/(ha + hb) θ long."""
+    root = ElementTree.parse(folder / "sofa.scn").getroot()
+    parts = {one.tag: one.attrib for one in root.iter()}
+    topology, bending = parts["TriangleSetTopologyContainer"], parts["FastTriangularBendingSprings"]
+    places = np.array(topology["position"].split(), dtype=float).reshape(-1, 3)
+    triangles = np.array(topology["triangles"].split(), dtype=int).reshape(-1, 3)
+    young, nu = (float(parts["TriangularFEMForceField"][key]) for key in ("youngModulus", "poissonRatio"))
+    return places, triangles, (*plane(young, nu), float(bending["bendingStiffness"]) / 9)
+
+
+def arcsim(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
+    """Its samples are doubled, shear acts as 2 k₃ G₁₂ twice; ke L²/(2 A) θ²/4."""
+    material = json.loads((folder / "material.json").read_text())
+    k0, k1, _, k3 = 2 * np.array(material["stretching"][0])
+    assert k0 == pytest.approx(k1 + k3)  # isotropic: λ + 2μ, with k3 G₁₂² twice ½ 2μ G₁₂²
+    return *read_obj(folder / "sheet.obj"), (k1, k3 / 2, material["bending"][0][0] / 12)
+
+
+def c_ipc(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
+    text = (folder / "c_ipc_sheet.py").read_text()
+    _, young, nu, h, _ = map(float, re.search(r"initialize\((.*)\)", text)[1].split(","))
+    bent = float(re.search(r"bendingStiffMult = (.*)", text)[1]) * young * h**3 / 24 / (1 - nu**2)
+    lame, mu = plane(young, nu)
+    return *read_obj(folder / "sheet.obj"), (h * lame, h * mu, 2 * bent)
+
+
+def ppf(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
+    sheet = json.loads((folder / "sheet.json").read_text())
+    text = (folder / "ppf_sheet.py").read_text()
+    own = dict(re.findall(r'obj\.param\.set\("([\w-]+)", ([\d.e+-]+)\)', text))
+    density, young, nu, bend = (float(own[key]) for key in ("density", "young-mod", "poiss-rat", "bend"))
+    lame, mu = solid(young, nu)
+    law = density * lame, density * mu, 1.28e-5 * bend * density / 3
+    return np.array(sheet["vertices"]), np.array(sheet["triangles"]), law
+
+
+READERS = {"sofa": sofa, "arcsim": arcsim, "c-ipc": c_ipc, "ppf": ppf}
+
+
+def stiffness(
+    places: np.ndarray, triangles: np.ndarray, hinges: np.ndarray, law: Law, ways: int = 1
+) -> np.ndarray:
+    """Of all triangles and hinges, by the elements of `comparisons.cells`. ways: 3 of bending energies that
+    are quadratic in places, and so see displacements in the plane as they see those out of it."""
+    total = np.zeros((3 * len(places), 3 * len(places)))
+    for corners in triangles.tolist():
+        unit = _triangle(places[corners])
+        _add(total, corners, law[0] * unit["lambda_h"] + law[1] * unit["mu_h"])
+    for corners in hinges.tolist():
+        bent = _hinge(places[corners], HINGES["height"])
+        _add(total, corners, law[2] * (np.kron(bent[2::3, 2::3], np.eye(3)) if ways == 3 else bent))
+    return total
+
+
+def _add(total: np.ndarray, corners: list[int], part: np.ndarray) -> None:
+    rows = np.concatenate([3 * corner + np.arange(3) for corner in corners])
+    total[np.ix_(rows, rows)] += part
+
+
+@pytest.mark.parametrize("code", READERS)
+def test_files_read_back_hold_our_energy_of_the_same_mesh(code, tmp_path):
+    made = written(code, tmp_path)
+    places, triangles, law = READERS[code](tmp_path)
+    ours = [made.coefficients[name] for name in ("lambda_h", "mu_h", "hinge")]
+    expected = stiffness(made.mesh.vertices, made.mesh.triangles, made.mesh.hinges, ours)
+    found = stiffness(places, triangles, made.mesh.hinges, law)
+    assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max())
+
+
+def test_mujocos_forces_are_our_energys_on_the_same_mesh(tmp_path):
+    """In its plane and out of it, at displacements so small that its laws are linear."""
+    mujoco = pytest.importorskip("mujoco")
+    made = written("mujoco", tmp_path)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "mujoco.xml"))
+    data, mesh = mujoco.MjData(model), made.mesh
+    ours = [made.coefficients[name] for name in ("lambda_h", "mu_h", "hinge")]
+    total = stiffness(mesh.vertices, mesh.triangles, mesh.hinges, ours, 3)
+    free = np.flatnonzero(~mesh.held)
+    for axes in ([0, 1], [2]):
+        u = np.zeros_like(mesh.vertices)
+        u[np.ix_(free, axes)] = 1e-8 * np.random.default_rng(1).standard_normal((len(free), len(axes)))
+        data.qpos[:] = u[free].ravel()
+        mujoco.mj_forward(model, data)
+        force = -(total @ u.ravel()).reshape(-1, 3)[free]
+        assert data.qfrc_spring.reshape(-1, 3)[:, axes] == pytest.approx(
+            force[:, axes], rel=1e-4, abs=1e-4 * np.abs(force).max()
+        )
+
+
+def test_openusd_says_the_sheets_own_stiffnesses(tmp_path):
+    written("openusd", tmp_path)
+    text = (tmp_path / "sheet.usda").read_text()
+    own = {name: float(value) for name, value in re.findall(r"float physics:(\w+) = ([\d.e+-]+)", text)}
+    young, nu, h = 54.5e6, 0.48, 0.003
+    assert own["surfaceStretchStiffness"] == pytest.approx(young * h / (1 - nu**2))
+    assert own["surfaceBendStiffness"] == pytest.approx(young * h**3 / 12 / (1 - nu**2))
+    assert own["surfaceShearStiffness"] == pytest.approx(young * h / 2 / (1 + nu))
+
+
+def test_two_layers_of_equal_springs_bend_as_a_sheet_of_a_third(tmp_path):
+    """Springs along sides and both diagonals of squares, in turn: Cauchy's D12 = D66 = D11/3."""
+    made = setup(SCENE, "pybullet", 4, best=False)
+    found = moduli_of(made.cell, {"k": made.coefficients["k"]})
+    expected = found.bending[0, 0] * np.array([[1, 1 / 3, 0], [1 / 3, 1, 0], [0, 0, 1 / 3]])
+    assert found.bending == pytest.approx(expected, rel=1e-9, abs=1e-12)
+    written("pybullet", tmp_path)
+    lines = (tmp_path / "sheet.vtk").read_text().splitlines()
+    assert f"POINTS {len(made.mesh.vertices)} double" in lines
+
+
+@pytest.mark.parametrize("code", WRITERS)
+def test_masses_and_loads_of_every_code_are_the_sheets(code):
+    mesh = setup(SCENE, code, 4, best=False).mesh
+    free = mesh.masses[~mesh.held].sum()
+    assert free == pytest.approx(1678.0 * 0.003 * 0.188**2 * (7 / 8) ** 2, rel=1e-9)
+    assert mesh.forces.sum(axis=0) == pytest.approx([0.01, 0.0, 0.05])
+    assert all(sum(shares) == pytest.approx(1.0) for _, shares in mesh.probes.values())
+
+
+def test_the_verb_writes_a_scene_and_says_where_its_numbers_are_from(tmp_path, capsys):
+    options = ("--for", "newton", "--grid", "5", "--out", str(tmp_path / "n"))
+    assert run("calibrate", "one-edge-clamped", *options) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "particle_vbd_kernels.py" in said and "best in this scene" in said
+    assert (tmp_path / "n" / "run_newton.py").exists()
+    document = json.loads((tmp_path / "n" / "code.json").read_text())
+    assert document["parameters"][1]["unit"] == "N/m" and document["limit_error"] < 0.05
+
+
+def test_what_a_code_does_not_have_is_said():
+    curved = setup(scenes.load("curved-edge"), "newton", 4, best=False)
+    assert not curved.files() and "No files" in " ".join(curved.notes())
+    with pytest.raises(BadInput, match="--for"):
+        setup(SCENE, "unity")

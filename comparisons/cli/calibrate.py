@@ -117,7 +117,7 @@ def command(
 
         found = setup(of, simulators[0], squares_of(grid), best=scene is not None)
         with output.open(about=about, variant={"--for": simulators[0]}) as out:
-            out.show(found.report())
+            out.show(found)
         return
     with output.open(about=about) as out:
         if export is not None and not large:

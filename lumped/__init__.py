@@ -23,6 +23,7 @@ from lumped.footprint import footprint
 from lumped.lattice import Lattice
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
+from lumped.sections import sections_of
 from lumped.sensitivity import Sensitivity, gradient, sensitivity
 from lumped.statics.buckling import buckling_loads
 from lumped.statics.continuation import Path, trace
@@ -82,6 +83,7 @@ __all__ = [
     "moduli",
     "polygons",
     "require_integrator",
+    "sections_of",
     "sensitivity",
     "simulate",
     "solve",

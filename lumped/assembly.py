@@ -54,8 +54,7 @@ class Assembly:
         )
         # the seed's lattice has equal masses; any other one is as inert at its edges as the sheet
         self.cells = calibration.cells
-        plain = weights == "full" or self.cells is not None
-        self.inertia: Distribution = "tributary" if plain else "gregory"
+        self.inertia: Distribution = "tributary" if weights == "full" else "gregory"
         self.coupling = couple(self.lattice) if couple is not None else None
         if self.coupling is None:
             self.pattern = of_grid(self.lattice.grid)

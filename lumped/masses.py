@@ -51,8 +51,9 @@ import scipy.sparse as sp
 
 from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
+from lumped.sections import Section
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Cells, Scene
+from sheetbench.scenes import Scene
 from sheetbench.scenes.springs import Distribution
 from sheetbench.scenes.supports import held_axes
 
@@ -60,7 +61,7 @@ Inertia = Distribution | Literal["higher-order"]
 
 
 def masses(
-    scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: Cells | None = None
+    scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: Section | None = None
 ) -> np.ndarray:
     """Mass of every lumped mass, (n,) [kg]; they add up to the sheet's. cells: what they are made of where
     they differ, of whose masses each corner has a quarter.
@@ -68,11 +69,16 @@ def masses(
     Raises BadInput for an unknown distribution, and for one that is not tributary of cells that differ.
     """
     if cells is not None:
-        if distribution != "tributary":
-            raise BadInput(f"masses = {distribution!r}: of cells that differ masses are tributary")
         quarter = 0.25 * cells.per_area * lattice.cell_areas / lattice.grid[2]
-        plan = sum(np.pad(quarter, ((1 - j, j), (1 - i, i))) for j in range(2) for i in range(2))
-        return np.repeat(np.ravel(plan), lattice.grid[2])
+        plan = np.asarray(sum(np.pad(quarter, ((1 - j, j), (1 - i, i))) for j in range(2) for i in range(2)))
+        for axis, lines in enumerate(lattice.lines) if distribution == "gregory" else ():
+            beside, moved = _moved(lines)
+            by_line = np.moveaxis(plan, 1 - axis, 0)
+            taken = (moved / lines.tributary)[:, None] * by_line
+            by_line += taken
+            np.subtract.at(by_line, beside, taken)
+        if distribution in ("tributary", "gregory"):
+            return np.repeat(plan.ravel(), lattice.grid[2])
     lx, ly, _ = lattice.spacing
     layers = lattice.grid[2]
     per_area = scene.material.density * scene.sheet.thickness / layers
@@ -85,7 +91,7 @@ def masses(
 
 
 def mass_matrix(
-    scene: Scene, lattice: Lattice, distribution: Inertia, cells: Cells | None = None
+    scene: Scene, lattice: Lattice, distribution: Inertia, cells: Section | None = None
 ) -> sp.coo_array:
     """The masses and what neighbours share, (n, n) [kg], alike for motions along x, y and z; its entries add
     up to the sheet's mass. Raises BadInput as `masses`."""
@@ -131,12 +137,17 @@ def _corrected(lines: Lines, axis: str, twisting: frozenset[str], free: frozense
 
 def _gregory(lines: Lines) -> np.ndarray:
     """Gregory's weights of the lines across an axis, (n,) [m]."""
-    left, right, corrections = _corrections(lines)
-    row, wider = np.arange(len(left)), np.where(right >= left, 1, -1)
-    moved = corrections * wider / np.maximum(left, right)
+    beside, moved = _moved(lines)
     weights = lines.tributary + moved
-    np.subtract.at(weights, row + wider, moved)
+    np.subtract.at(weights, beside, moved)
     return weights
+
+
+def _moved(lines: Lines) -> tuple[np.ndarray, np.ndarray]:
+    """The neighbour of every line over the wider of its cells, and the length [m] that it takes from it."""
+    left, right, corrections = _corrections(lines)
+    wider = np.where(right >= left, 1, -1)
+    return np.arange(len(left)) + wider, corrections * wider / np.maximum(left, right)
 
 
 def _corrections(lines: Lines) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -26,10 +26,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.lattice import STEPS
+from lumped.sections import Section
 from lumped.springs import constants
-from sheetbench.scenes import Material, Sheet, SpringSet
-
-SHEAR_CORRECTION = 5.0 / 6.0
+from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 
 
 @dataclass(frozen=True)
@@ -116,17 +115,15 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     )
 
 
+def of_section(section: Section, spacing: tuple[float, float]) -> Moduli:
+    """Moduli of a section, with MacNeal's S* of the in-plane spacing (lx, ly) [m] as the shear stiffness."""
+    shear = [
+        1.0 / (1.0 / section.shear[a] + length**2 / (12.0 * section.bending[a, a]))
+        for a, length in enumerate(spacing)
+    ]
+    return Moduli(section.membrane, section.bending, np.array(shear))
+
+
 def of_sheet(sheet: Sheet, material: Material, spacing: tuple[float, float]) -> Moduli:
-    """Moduli of the sheet, with MacNeal's S* of the in-plane spacing (lx, ly) [m] as the shear stiffness."""
-    nu, h = material.poisson, sheet.thickness
-    unit = np.array([[1.0, nu, 0.0], [nu, 1.0, 0.0], [0.0, 0.0, (1.0 - nu) / 2.0]])
-    stretching = material.young * h / (1.0 - nu**2)
-    rigidity = stretching * h**2 / 12.0
-    shear = SHEAR_CORRECTION * material.young / (2.0 * (1.0 + nu)) * h
-    effective = [1.0 / (1.0 / shear + length**2 / (12.0 * rigidity)) for length in spacing]
-    return Moduli(stretching * unit, rigidity * unit, np.array(effective))
-
-
-def shear_without_grid(sheet: Sheet, material: Material) -> float:
-    """κ G h [N/m], the sheet's own transverse shear stiffness."""
-    return SHEAR_CORRECTION * material.young / (2.0 * (1.0 + material.poisson)) * sheet.thickness
+    """Moduli of the sheet, with MacNeal's S* as `of_section`."""
+    return of_section(Section.of(Constants.of(sheet, material)), spacing)

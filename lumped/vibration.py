@@ -119,8 +119,9 @@ def modes(
 
 def usual_masses(calibration: Calibration) -> Inertia:
     """The distribution that springs vibrate with unless another is asked for."""
-    plain = calibration.masses == "tributary" and calibration.cells is None
-    return "higher-order" if plain else calibration.masses
+    if calibration.masses != "tributary":
+        return calibration.masses
+    return "higher-order" if calibration.cells is None else "gregory"
 
 
 def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, np.ndarray]:

@@ -40,9 +40,10 @@ def planes(scene: Scene) -> tuple[int, ...]:
     """Axes (0 = x, 1 = y) across which the scene is its own mirror image.
 
     A moment on an edge that crosses the plane counts as unsymmetric: a lattice measures such an edge's
-    direction between neighbouring masses, of which the part has one only.
+    direction between neighbouring masses, of which the part has one only. A sheet that is not the same all
+    over is solved whole.
     """
-    if scene.actuators or any(isinstance(s, Symmetric) or s.motion for s in scene.supports):
+    if not scene.uniform or scene.actuators or any(isinstance(s, Symmetric) or s.motion for s in scene.supports):
         return ()
     return tuple(axis for axis in (0, 1) if _mirrors(scene, axis))
 

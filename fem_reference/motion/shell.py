@@ -44,15 +44,14 @@ class MovingShell(MovingElements):
         self.conservative = law == STRAIN_LAW
         self._plan = mesh_of(scene, counts, graded)
         self._structure, self._nodes = discretise(self._plan, self.still, law=law)
-        structure, thickness = self._structure, scene.sheet.thickness
+        structure = self._structure
         self.element, self._on, self.nodes = structure.element, structure.element_nodes, structure.count
         turns = np.concatenate([structure.supports.director, structure.rods.held])
         self._held = np.concatenate([structure.supports.position, np.tile(turns, (3, 1)).T])
         self._upright = np.concatenate([np.tile(UP, (self.nodes, 1)), structure.rods.own])
-        products = inertia.products(structure, scene.material.density * thickness)
-        self.mass = inertia.mass(structure, products, thickness**2 / 12.0)
-        self._on_places = np.einsum("eij,ab->eiajb", products, np.eye(3)).reshape(-1, 27, 27)
-        self._on_turns = thickness**2 / 12.0 * products
+        by_place, self._on_turns = products = inertia.products(structure, scene)
+        self.mass = inertia.mass(structure, products)
+        self._on_places = np.einsum("eij,ab->eiajb", by_place, np.eye(3)).reshape(-1, 27, 27)
         self.unknowns, self._basis = structure.unknowns, inertia.Basis(structure)
         sides = rod.sides(scene, self._plan, self._on, self._nodes)
 

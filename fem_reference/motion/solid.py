@@ -56,8 +56,7 @@ class MovingSolid(MovingElements):
         self._columns, self.element = structure.columns, structure.bricks
         self._shape = self._columns.positions.shape
         self.nodes, self.unknowns = self._shape[0], structure.unknowns
-        products = scene.material.density * self.element.products()
-        self._inertia = structure.stack(np.einsum("eij,cd->eicjd", products, np.eye(3)))
+        self._inertia = structure.stack(np.einsum("eij,cd->eicjd", self.element.products(), np.eye(3)))
         sites = (3 * self._columns.stacks[:, :, None] + np.arange(3)).reshape(len(self._inertia), -1)
         self._cut = self._columns.positions.size
         self.size = size = self._cut + structure.rods.own.size

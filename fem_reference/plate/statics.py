@@ -38,7 +38,7 @@ from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import GAUSS, integrated, shape
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
-from fem_reference.surface.materials import Section, section_of
+from fem_reference.surface.materials import Section, constants_of, section_at
 from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of, require_upright
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
@@ -76,6 +76,11 @@ class Plate:
     def nodes(self) -> np.ndarray:
         """Plan positions (n, 2) [m]."""
         return self.basis.doflocs.T
+
+    @property
+    def corners(self) -> np.ndarray:
+        """Those of the elements' nodes (m, 9, 2) [m]."""
+        return self.nodes[self.elements.nodes]
 
     def strains(self) -> dict[str, np.ndarray]:
         """Strain operators by part: membrane, bending (m, q, 3, 45) and shear (m, q, 2, 45)."""
@@ -151,7 +156,7 @@ def _solved(
     done = now()
     solved = Solved(stiffness, force, u, free)
     if status is Status.CONVERGED:
-        of_plate = section or section_of(scene.material, scene.sheet.thickness)
+        of_plate = section or section_at(scene, plate.corners)
         status, notes = judge(scene, plate.elements, of_plate, u, stiffness, free)
 
     fields, nodal = u[: fields.size].reshape(-1, 5), solved.unbalanced[: fields.size].reshape(-1, 5)
@@ -187,16 +192,16 @@ def _solved(
     )
 
 
-def section_stiffness(scene: Scene, section: Section | None = None) -> dict[str, np.ndarray]:
-    """Stiffness of the section by part: membrane [N/m] and bending [N·m] (3, 3), shear [N/m] (2, 2)."""
-    return dict(zip(PARTS, section or section_of(scene.material, scene.sheet.thickness), strict=True))
+def section_stiffness(scene: Scene, plate: Plate, section: Section | None = None) -> dict[str, np.ndarray]:
+    """Stiffness of the section by part, membrane, bending and shear, as `Section` has it."""
+    return dict(zip(PARTS, section or section_at(scene, plate.corners), strict=True))
 
 
 def stiffness_matrix(
     scene: Scene, plate: Plate, section: Section | None = None, rods: PlateRods | None = None
 ) -> csr_matrix:
     """Stiffness of the free plate, (5 n, 5 n) [N/m, N, N·m], or of the plate and its rods."""
-    sections = section_stiffness(scene, section)
+    sections = section_stiffness(scene, plate, section)
     areas, strains = plate.elements.areas, plate.strains()
     blocks = [integrated(b, sections[part], areas) for part, b in strains.items()]
     total = np.sum(blocks, axis=0)
@@ -208,21 +213,22 @@ def stiffness_matrix(
 
 def mass_matrix(scene: Scene, plate: Plate) -> csr_matrix:
     """Consistent mass with rotary inertia: ρh on the displacements, ρh³/12 on the tilts; (5 n, 5 n)."""
-    per_area = scene.material.density * scene.sheet.thickness
-    inertia = np.diag([per_area] * 3 + [per_area * scene.sheet.thickness**2 / 12.0] * 2)
-    values, _ = shape(*GAUSS)
-    products = np.einsum("mq,qa,qb->mab", plate.elements.areas, values, values)
-    return _assemble(plate, np.einsum("mab,ij->maibj", products, inertia))
+    constants, (values, _) = constants_of(scene, plate.corners), shape(*GAUSS)
+    moved = plate.elements.areas * constants.per_area
+    turned = moved * constants.thickness**2 / 12.0
+    products = np.einsum("imq,qa,qb->imab", np.array([moved] * 3 + [turned] * 2), values, values)
+    return _assemble(plate, np.einsum("imab,ij->maibj", products, np.eye(5)))
 
 
 def energies(scene: Scene, plate: Plate, u: np.ndarray, section: Section | None = None) -> dict[str, float]:
     """Membrane, bending and shear energy [J] of the unknowns u (5 n,)."""
-    sections, areas = section_stiffness(scene, section), plate.elements.areas
+    sections, areas = section_stiffness(scene, plate, section), plate.elements.areas
     nodal = u[plate.elements.unknowns]
     out = {}
     for part, operator in plate.strains().items():
-        strain = np.einsum("mqic,mc->mqi", operator, nodal)
-        out[part] = 0.5 * float(np.einsum("mq,mqi,ij,mqj", areas, strain, sections[part], strain))
+        strain = (operator @ nodal[:, None, :, None])[..., 0]
+        force = (sections[part] @ strain[..., None])[..., 0]
+        out[part] = 0.5 * float(np.einsum("mq,mqi,mqi", areas, strain, force))
     return out
 
 

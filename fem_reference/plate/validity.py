@@ -48,7 +48,7 @@ def judge(
     if (turn := largest_turn(elements, solution)) > TURN_LIMIT:
         ends = f"linear theory ends at {100.0 * TURN_LIMIT / turn:.3g} % of the load or before"
         return Status.STRAIN_OUTSIDE_MODEL, (f"slopes or turns of {turn:.3g}, beyond 1: {ends}",)
-    share = buckling_load(scene, elements, strain @ section.membrane, section, system, free)
+    share = buckling_load(scene, elements, (section.membrane @ strain[..., None])[..., 0], section, system, free)
     if share is not None and share < 1.0:
         return Status.UNSTABLE, (f"its in-plane forces buckle it at {100.0 * share:.3g} % of the load",)
     return Status.CONVERGED, ()
@@ -79,7 +79,7 @@ def buckling_load(
     where they cannot, or nearly not."""
     xx, yy, xy = np.moveaxis(force, 2, 0)
     pressing = -(0.5 * (xx + yy) - np.hypot(0.5 * (xx - yy), xy)).min()
-    if scene.chains() or pressing * max(scene.sheet.lengths) ** 2 < SLIGHT * section.bending[0, 0]:
+    if scene.chains() or pressing * max(scene.sheet.lengths) ** 2 < SLIGHT * section.bending[..., 0, 0].max():
         return None
     gradient, tensor = _gradient(elements), np.stack([xx, xy, xy, yy], axis=2).reshape(*xx.shape, 2, 2)
     blocks = np.zeros((len(elements.nodes), NODES, 5, NODES, 5))

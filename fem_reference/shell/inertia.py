@@ -7,20 +7,26 @@ from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
 
 from fem_reference.shell.structure import ShellStructure
 from fem_reference.surface.biquadratic import AT_GAUSS
+from fem_reference.surface.materials import constants_of
 from sheetbench.numerics.sparsity import Pattern
+from sheetbench.scenes import Scene
 
 
-def products(structure: ShellStructure, per_area: float) -> np.ndarray:
-    """∫ ρh N_i N_j dA (m, 9, 9) [kg] of a mass per area ρh [kg/m²]."""
-    value = AT_GAUSS[0]
-    return np.asarray(np.einsum("eg,gi,gj->eij", per_area * structure.element.areas, value, value))
+def products(structure: ShellStructure, scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """∫ ρh N_i N_j dA [kg] and ∫ ρh³/12 N_i N_j dA [kg m²], (m, 9, 9) each."""
+    value, of = AT_GAUSS[0], constants_of(scene, structure.element.reference[:, :9, :2])
+    moved = of.per_area * structure.element.areas
+    by_place, by_turn = (
+        np.asarray(np.einsum("eg,gi,gj->eij", part, value, value)) for part in (moved, moved * of.thickness**2 / 12.0)
+    )
+    return by_place, by_turn
 
 
-def mass(structure: ShellStructure, products: np.ndarray, rotary: float) -> csr_matrix:
-    """Consistent mass of all vectors' components (3 (2 n + q),); rotary: h²/12 [m²]; rods have none."""
-    by_axis = kron(Pattern(structure.element_nodes, size=structure.count).matrix(products), np.eye(3))
+def mass(structure: ShellStructure, products: tuple[np.ndarray, np.ndarray]) -> csr_matrix:
+    """Consistent mass of all vectors' components (3 (2 n + q),); rods have none."""
+    pattern = Pattern(structure.element_nodes, size=structure.count)
     none = csr_matrix((3 * len(structure.rods.own),) * 2)
-    return block_diag([by_axis, rotary * by_axis, none], format="csr")
+    return block_diag([*(kron(pattern.matrix(part), np.eye(3)) for part in products), none], format="csr")
 
 
 class Basis:

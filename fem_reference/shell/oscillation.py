@@ -38,9 +38,8 @@ def about_equilibrium(
     if status is not Status.CONVERGED:
         raise NoEquilibrium(f"shell: {status}: {'; '.join([*notes, status.advice])}")
     stiffness, _ = structure.system(state, structure.forces(state, 1.0), 1.0, mixed=False)
-    thickness, basis = scene.sheet.thickness, Basis(structure).at(structure.frames(state))
-    per_node = products(structure, scene.material.density * thickness)
-    whole = mass(structure, per_node, thickness**2 / 12.0)
+    basis = Basis(structure).at(structure.frames(state))
+    whole = mass(structure, products(structure, scene))
 
     def sample(shape: np.ndarray, points: np.ndarray) -> np.ndarray:
         number = structure.number[:, :3]

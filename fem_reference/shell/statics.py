@@ -34,14 +34,14 @@ from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import cross
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
-from fem_reference.surface.materials import Section, section_of
+from fem_reference.surface.materials import Section, section_at
 from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of, nodes_of, on_boundary
 from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes import Scene, Solution, Status, require_uniform
 from sheetbench.scenes.rigid_motions import require_static
 
 
@@ -231,7 +231,8 @@ def _elements(nodes: np.ndarray, scene: Scene, section: Section | None, law: str
     material, thickness = scene.material, scene.sheet.thickness
     require_law(law, LAWS, material)
     if law == STRAIN_LAW:
-        return Element.build(nodes, section or section_of(material, thickness))
+        return Element.build(nodes, section or section_at(scene, nodes))
+    require_uniform(scene, f"the shell's law '{law}'")
     if section is not None:
         raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
     return HyperelasticElement.of(nodes, material, thickness, LAWS[law])

@@ -39,7 +39,7 @@ from skfem.refdom import RefHex
 from fem_reference.solid.materials import PAIRS, Law
 from fem_reference.surface.biquadratic import THREE, TYING, lagrange
 from sheetbench.numerics.kept import frozen
-from sheetbench.scenes import Material
+from sheetbench.scenes import Constants, Material
 
 NODES = 27
 RETAINED_SHEAR = (
@@ -100,19 +100,19 @@ def reference() -> Reference:
 
 @dataclass(frozen=True)
 class Bricks:
-    """m elements of one material. positions: X (m, 27, 3) [m].
+    """m elements of one material, or each of its own constants (m, 1). positions: X (m, 27, 3) [m].
 
     to_strain: (m, q, 6, k) Cartesian strain of the samples; volumes: (m, q) [m³].
     """
 
     positions: np.ndarray
     law: Law
-    material: Material
+    material: Material | Constants
     to_strain: np.ndarray
     volumes: np.ndarray
 
     @classmethod
-    def build(cls, positions: np.ndarray, law: Law, material: Material) -> Bricks:
+    def build(cls, positions: np.ndarray, law: Law, material: Material | Constants) -> Bricks:
         """The elements with nodes at positions (m, 27, 3), in scikit-fem's order of `ElementHex2`."""
         ref = reference()
         _, slope = shape(ref.points)
@@ -127,9 +127,9 @@ class Bricks:
         return cls(positions, law, material, to_strain, volumes)
 
     @cached_property
-    def bulk(self) -> float:
-        """Λ [Pa]."""
-        return self.law.bulk(self.material)
+    def bulk(self) -> np.ndarray:
+        """Λ [Pa], (1,) or (m, 1)."""
+        return np.atleast_1d(self.law.bulk(self.material))
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains (m, k) of displacements (m, 27, 3): ½ (x H x − X H X) = ½ u H (2X + u)."""
@@ -150,9 +150,10 @@ class Bricks:
         return np.einsum("ekic,ek->eic", self.gradient(change), stress)
 
     def products(self) -> np.ndarray:
-        """∫ N_i N_j dV (m, 27, 27) [m³]."""
+        """∫ ρ N_i N_j dV (m, 27, 27) [kg]."""
         values, _ = shape(reference().points)
-        return np.einsum("eq,iq,jq->eij", self.volumes, values, values, optimize=True)
+        weighed = self.material.density * self.volumes
+        return np.einsum("eq,iq,jq->eij", weighed, values, values, optimize=True)
 
     def volume_ratio(self, change: np.ndarray) -> np.ndarray:
         """det F at the Gauss points (m, q) of displacements (m, 27, 3)."""
@@ -205,7 +206,7 @@ class Bricks:
         flat = self.to_strain.reshape(m, q * 6, k).swapaxes(1, 2)
         slope = np.einsum("eqi,eqik->eqk", volume.first, self.to_strain)
         projected = self._projector @ slope  # orthonormal modes: (m, 6, k)
-        return flat @ tangent.reshape(m, q * 6, k) + self.bulk * projected.swapaxes(1, 2) @ projected
+        return flat @ tangent.reshape(m, q * 6, k) + self.bulk[..., None] * projected.swapaxes(1, 2) @ projected
 
     def _at_points(self, samples: np.ndarray) -> np.ndarray:
         return np.einsum("eqik,ek->eqi", self.to_strain, samples)

@@ -23,12 +23,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fem_reference.surface.rubber import slopes
-from sheetbench.scenes import Material
+from sheetbench.scenes import Constants, Material
 from sheetbench.scenes.material import WORDS, Energy
 
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
@@ -49,23 +49,24 @@ class Law:
     """distortion: material and E → triad of W₀ [Pa]; volume: E → triad of ϑ; bulk: Λ [Pa] of a material;
     quadratic: whether W is quadratic in E; stands_any_strain: whether the law is meant for large strains."""
 
-    distortion: Callable[[Material, np.ndarray], Triad]
+    distortion: Callable[[Any, np.ndarray], Triad]
     volume: Callable[[np.ndarray], Triad]
-    bulk: Callable[[Material], float]
+    bulk: Callable[[Any], float]
     quadratic: bool = False
     stands_any_strain: bool = False
 
 
-def lame(material: Material) -> tuple[float, float]:
-    """λ, μ [Pa]."""
+def lame(material: Material | Constants) -> tuple[float, float]:
+    """λ, μ [Pa], of each element's constants where they are its own."""
     shear = material.young / (2.0 * (1.0 + material.poisson))
     return 2.0 * shear * material.poisson / (1.0 - 2.0 * material.poisson), shear
 
 
-def _green_distortion(material: Material, strain: np.ndarray) -> Triad:
-    moduli = lame(material)[1] * _DOUBLE
-    stress = strain @ moduli
-    return Triad(0.5 * np.sum(strain * stress, axis=-1), stress, _everywhere(moduli, strain))
+def _green_distortion(material: Material | Constants, strain: np.ndarray) -> Triad:
+    shear = np.asarray(lame(material)[1])[..., None]
+    stress = shear * _DOUBLE.diagonal() * strain
+    tangent = np.broadcast_to(shear[..., None] * _DOUBLE, (*strain.shape, 6))
+    return Triad(0.5 * np.sum(strain * stress, axis=-1), stress, tangent)
 
 
 def _green_volume(strain: np.ndarray) -> Triad:

@@ -19,21 +19,26 @@ from skfem import Basis, ElementHex2, ElementQuad2, MeshQuad
 
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import quarters
-from sheetbench.scenes import FieldMesh
+from sheetbench.scenes import FieldMesh, Sheet
 
 
 @dataclass(frozen=True)
 class Columns:
-    """n plan nodes on a plan basis of `ElementQuad2`, extruded to a thickness [m] in layers."""
+    """n plan nodes on a plan basis of `ElementQuad2`, extruded to a thickness [m] in layers; taper: by how
+    much thicker each column is than that, (n,), or 1."""
 
     plan: Basis
     thickness: float
     layers: int
+    taper: np.ndarray
 
     @classmethod
-    def on(cls, mesh: MeshQuad, thickness: float, layers: int) -> Columns:
-        """The columns over any flat mesh of straight-sided quadrilaterals."""
-        return cls(Basis(mesh, ElementQuad2()), thickness, layers)
+    def on(cls, mesh: MeshQuad, sheet: Sheet, layers: int) -> Columns:
+        """The columns over any flat mesh of straight-sided quadrilaterals, of a sheet's thickness."""
+        plan, taper = Basis(mesh, ElementQuad2()), np.ones(())
+        if sheet.taper_x or sheet.taper_y:
+            taper = sheet.thickness_at(*plan.doflocs) / sheet.thickness
+        return cls(plan, sheet.thickness, layers, taper)
 
     @property
     def levels(self) -> int:
@@ -51,7 +56,7 @@ class Columns:
 
     @cached_property
     def heights(self) -> np.ndarray:
-        """z of the levels, (levels,) [m]."""
+        """z of the levels, (levels,) [m], of columns of the sheet's thickness."""
         return np.linspace(-0.5, 0.5, self.levels) * self.thickness
 
     @cached_property
@@ -59,7 +64,7 @@ class Columns:
         """Nodes by column, (n, levels, 3) [m]."""
         out = np.zeros((len(self.plan_nodes), self.levels, 3))
         out[:, :, :2] = self.plan_nodes[:, None]
-        out[:, :, 2] = self.heights
+        out[:, :, 2] = np.multiply.outer(self.taper, self.heights)
         return out
 
     @cached_property

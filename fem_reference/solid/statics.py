@@ -38,7 +38,16 @@ from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import Scene, Solution, Status, outside_model
+from sheetbench.scenes import (
+    EdgeLoad,
+    Pressure,
+    Scene,
+    Solution,
+    Status,
+    outside_model,
+    require_uniform,
+)
+from sheetbench.scenes.patches import constants_at
 from sheetbench.scenes.rigid_motions import require_static
 
 GRADINGS = ("edges", "uniform")
@@ -142,6 +151,27 @@ def _on_edges(structure: SolidStructure, state: State, forces: Forces, middle: n
     return found
 
 
+def _require_meshable(scene: Scene, law: str) -> None:
+    """Raise BadInput for a sheet with a step in its thickness, or one that is not the same all over and has
+    another law, or loads that follow it."""
+    if scene.uniform:
+        return
+    taper = scene.sheet.taper_x or scene.sheet.taper_y
+    for number, patch in enumerate(scene.patches, start=1):
+        if patch.thickness is not None and (taper or patch.thickness != scene.sheet.thickness):
+            raise BadInput(
+                f"patch {number}.thickness = {patch.thickness:g} m: the solid has no steps in its thickness; "
+                "the shell and the plate have"
+            )
+    if law != STRAIN_LAW:
+        require_uniform(scene, f"the solid's law '{law}'")
+    if taper and (scene.actuators or any(isinstance(load, Pressure | EdgeLoad) for load in scene.loads)):
+        raise BadInput(
+            "sheet.taper_x, sheet.taper_y: the solid has tapered sheets under weight and point loads alone; "
+            "the shell has others too"
+        )
+
+
 def plan_mesh(scene: Scene, elements: tuple[int, int], grading: str) -> MeshQuad:
     """The plan mesh. Raises BadInput for an unknown grading."""
     if grading not in GRADINGS:
@@ -165,10 +195,13 @@ def discretise(
     require_law(law, LAWS, scene.material)
     if layers < 1:
         raise BadInput(f"layers = {layers}: at least one through the thickness")
-    columns = Columns.on(mesh, scene.sheet.thickness, layers)
+    _require_meshable(scene, law)
+    columns = Columns.on(mesh, scene.sheet, layers)
     stacks = columns.positions.reshape(-1, 3)[columns.stacks]
     positions = np.concatenate([stacks[:, place] for place in columns.places])
-    bricks = Bricks.build(positions, LAWS[law], scene.material)
+    corners = columns.plan_nodes[columns.plan_elements]
+    middles = np.tile(corners.mean(axis=1), (layers, 1))[:, None]
+    bricks = Bricks.build(positions, LAWS[law], scene.material if scene.uniform else constants_at(scene, middles))
     sides = rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
     rods = rod.of_scene(scene, columns.plan_nodes, sides)
     supports = column_supports.of_scene(scene, columns, clamp, rods)

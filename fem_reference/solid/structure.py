@@ -179,10 +179,9 @@ class SolidStructure:
             state.displacement + change, state.aside + aside, forces.stress + of_step, pressure, rod_stress
         )
 
-    def mass(self, density: float) -> csr_matrix:
-        """Consistent mass ∫ ρ N N dV of the free unknowns [kg]; density [kg/m³]."""
-        products = density * self.bricks.products()
-        blocks = self.stack(np.einsum("eij,cd->eicjd", products, np.eye(3)))
+    def mass(self) -> csr_matrix:
+        """Consistent mass ∫ ρ N N dV of the free unknowns [kg]."""
+        blocks = self.stack(np.einsum("eij,cd->eicjd", self.bricks.products(), np.eye(3)))
         return self.pattern.matrix(blocks)
 
     def length(self, start: State, end: State) -> float:

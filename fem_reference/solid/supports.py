@@ -49,7 +49,8 @@ class ColumnSupports:
     def target(self, load_factor: float) -> np.ndarray:
         """Prescribed displacement (n, levels, 3) [m]; zero where nothing moves."""
         displacement, turn = self.line.change(load_factor)
-        return displacement[:, None] + self.columns.heights[:, None] * turn[:, None]
+        heights = np.multiply.outer(self.columns.taper, self.columns.heights)
+        return displacement[:, None] + heights[..., None] * turn[:, None]
 
     def bases(self, load_factor: float) -> np.ndarray:
         """Z (n, 3 levels, 3 levels) of every column."""

@@ -25,6 +25,7 @@ from fem_reference.surface.actuator_forces import OnEdge
 from fem_reference.surface.biquadratic import GAUSS, THREE, THREE_WEIGHTS, areas, cross, shape, side_shape
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
+from fem_reference.surface.materials import constants_of
 from sheetbench.scenes import Balance, EdgeLoad, PointLoad, Pressure, Scene, dead_force
 
 _VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
@@ -55,6 +56,10 @@ class Surface:
         """Plan positions of the elements' nodes (m, 9, 2) [m]."""
         return self.plan[self.element_nodes]
 
+    def masses(self, scene: Scene) -> np.ndarray:
+        """w |det J| ρh (m, 9) [kg] at the Gauss points, of a scene's sheet."""
+        return areas(self.corners) * constants_of(scene, self.corners).per_area
+
     def sides(self, facets: np.ndarray) -> np.ndarray:
         """Nodes (k, 3) of the sides that are facets of the mesh, the sheet to their right."""
         line = Line.along(self.mesh, facets, self.corners)
@@ -71,9 +76,8 @@ def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np
     moment = sum((_weight_moment(scene, surface, edge) for edge in edges), np.zeros(3))
     if scene.gravity is not None:
         at = _AT_GAUSS @ surface.position[surface.element_nodes]
-        centre = np.einsum("eg,egc->c", areas(surface.corners), at)
-        per_area = scene.material.density * scene.sheet.thickness * np.array(scene.gravity.last_acceleration)
-        moment = moment + np.cross(centre, per_area)
+        centre = np.einsum("eg,egc->c", surface.masses(scene), at)
+        moment = moment + np.cross(centre, scene.gravity.last_acceleration)
     for load in scene.loads:
         factor = load.last_factor
         match load:
@@ -112,11 +116,12 @@ def left_over(
 
 
 def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
+    mass = float(surface.masses(scene).sum())
     if not surface.own:
-        return dead_force(scene)
+        return dead_force(scene, None if scene.uniform else mass)
     sides = {name: surface.sides(facets) for name, facets in (surface.mesh.boundaries or {}).items()}
     lengths = {name: float(surface.lengths(on).sum()) for name, on in sides.items()}
-    return dead_force(scene, float(areas(surface.corners).sum()), lengths)
+    return dead_force(scene, mass, lengths)
 
 
 def _weight_moment(scene: Scene, surface: Surface, edge: OnEdge) -> np.ndarray:

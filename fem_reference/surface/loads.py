@@ -28,6 +28,7 @@ from fem_reference.surface.biquadratic import (
     side_shape,
 )
 from fem_reference.surface.location import locate
+from fem_reference.surface.materials import constants_of
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, encloses_volume
 
 # Local nodes of the four sides, in scikit-fem's order of facets: corner, mid-side, corner.
@@ -222,8 +223,8 @@ def of_scene(
     count, corners = len(nodes), nodes[element_nodes]
     dead, followers = np.zeros((count, 3)), list[Follower]()
     if scene.gravity is not None:
-        per_area = scene.material.density * scene.sheet.thickness * np.array(scene.gravity.last_acceleration)
-        dead += area_force(areas(corners), element_nodes, count, per_area)
+        weighed = areas(corners) * constants_of(scene, corners).per_area
+        dead += area_force(weighed, element_nodes, count, np.array(scene.gravity.last_acceleration))
     for load in scene.loads:
         factor = load.last_factor
         match load:

@@ -15,51 +15,70 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sheetbench.scenes import Material
+from fem_reference.surface.biquadratic import AT_GAUSS
+from sheetbench.scenes import Constants, Material, Scene
+from sheetbench.scenes.patches import constants_at
 
 SHEAR_CORRECTION = 5.0 / 6.0
 
 
 class Section(NamedTuple):
     """Stiffness of the sheet per unit of its width: membrane (3, 3) [N/m] and bending (3, 3) [N·m] in Voigt
-    order, shear (2, 2) [N/m]."""
+    order, shear (2, 2) [N/m]; where the sheet differs from place to place, at every Gauss point, (m, 9, …)."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
 
 
-def section_of(material: Material, thickness: float) -> Section:
-    """The section of a homogeneous sheet of this material."""
+def constants_of(scene: Scene, corners: np.ndarray) -> Constants:
+    """A scene's constants at the Gauss points of elements with nodes (m, 9, 2) [m]: numbers of a sheet that
+    is the same all over, else (m, 9)."""
+    return constants_at(scene, AT_GAUSS[0] @ corners)
+
+
+def section_at(scene: Scene, corners: np.ndarray) -> Section:
+    """The section of a scene's sheet at those points."""
+    constants = constants_of(scene, corners)
+    return section_of(constants, constants.thickness)
+
+
+def section_of(material: Material | Constants, thickness: float) -> Section:
+    """The section of a sheet of this material, homogeneous through its thickness."""
     laws = (membrane_stiffness, bending_stiffness, transverse_shear_stiffness)
     return Section(*(law(material, thickness) for law in laws))
 
 
-def plane_stress(material: Material) -> np.ndarray:
-    """C (3, 3) [Pa]: stress [xx, yy, xy] of strain [xx, yy, 2xy]."""
-    nu = material.poisson
-    return (
-        material.young
-        / (1.0 - nu**2)
-        * np.array([[1.0, nu, 0.0], [nu, 1.0, 0.0], [0.0, 0.0, (1.0 - nu) / 2.0]])
-    )
+def plane_stress(material: Material | Constants) -> np.ndarray:
+    """C (…, 3, 3) [Pa]: stress [xx, yy, xy] of strain [xx, yy, 2xy]."""
+    nu = np.asarray(material.poisson)
+    form = np.zeros((*nu.shape, 3, 3))
+    form[..., 0, 0] = form[..., 1, 1] = 1.0
+    form[..., 0, 1] = form[..., 1, 0] = nu
+    form[..., 2, 2] = (1.0 - nu) / 2.0
+    return _times(material.young / (1.0 - nu**2), form)
 
 
-def shear_modulus(material: Material) -> float:
+def shear_modulus(material: Material | Constants) -> float:
     """G = E/2(1 + ν) [Pa]."""
     return material.young / (2.0 * (1.0 + material.poisson))
 
 
-def membrane_stiffness(material: Material, thickness: float) -> np.ndarray:
+def membrane_stiffness(material: Material | Constants, thickness: float) -> np.ndarray:
     """h C (3, 3) [N/m]."""
-    return thickness * plane_stress(material)
+    return _times(thickness, plane_stress(material))
 
 
-def bending_stiffness(material: Material, thickness: float) -> np.ndarray:
+def bending_stiffness(material: Material | Constants, thickness: float) -> np.ndarray:
     """h³/12 C (3, 3) [N·m]."""
-    return thickness**3 / 12.0 * plane_stress(material)
+    return _times(thickness**3 / 12.0, plane_stress(material))
 
 
-def transverse_shear_stiffness(material: Material, thickness: float) -> np.ndarray:
+def transverse_shear_stiffness(material: Material | Constants, thickness: float) -> np.ndarray:
     """k h G I (2, 2) [N/m]."""
-    return SHEAR_CORRECTION * thickness * shear_modulus(material) * np.eye(2)
+    return _times(SHEAR_CORRECTION * thickness * shear_modulus(material), np.eye(2))
+
+
+def _times(factor: float, form: np.ndarray) -> np.ndarray:
+    """A form (…, k, k) times numbers (…)."""
+    return np.asarray(factor)[..., None, None] * form

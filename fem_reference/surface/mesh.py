@@ -16,6 +16,7 @@ from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, Symmetric
 from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.patches import sides_of
 
 Elements = int | tuple[int, int]
 
@@ -95,13 +96,33 @@ def on_boundary(mesh: MeshQuad, name: str) -> np.ndarray:
 
 
 def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float = 1.0) -> MeshQuad:
-    """The mesh of a scene's sheet, its planes of symmetry no edges (see `rectangle`)."""
-    return rectangle(scene.sheet, elements, graded, _cuts(scene), reach)
+    """The mesh of a scene's sheet, its planes of symmetry no edges (see `rectangle`). Lines that lie near
+    sides of patches are moved there; where there are fewer lines than sides, the mesh has more."""
+    x, y = lines_of(scene, divisions(scene.sheet, elements), graded, reach)
+    return _tensor(x, y, *scene.sheet.lengths)
 
 
-def lines_of(scene: Scene, counts: tuple[int, int], graded: bool) -> tuple[np.ndarray, np.ndarray]:
+def lines_of(
+    scene: Scene, counts: tuple[int, int], graded: bool, reach: float = 1.0
+) -> tuple[np.ndarray, np.ndarray]:
     """The lines of that mesh: their x and their y [m]."""
-    return _lines(scene.sheet, counts, graded, _cuts(scene))
+    x, y = _lines(scene.sheet, counts, graded, _cuts(scene), reach)
+    if scene.uniform:
+        return x, y
+    along_x, along_y = sides_of(scene)
+    return _through(x, along_x), _through(y, along_y)
+
+
+def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:
+    """The lines with some moved to the sides, and those between in proportion; at least one for each."""
+    count = max(len(lines) - 1, len(sides) + 1)
+    at = np.arange(count + 1)
+    lines = np.interp(at / count, np.linspace(0.0, 1.0, len(lines)), lines)
+    nearest = np.rint(np.interp(sides, lines, at)).astype(int)
+    for n in range(len(sides)):
+        nearest[n] = np.clip(nearest[n], 1 if n == 0 else nearest[n - 1] + 1, count - len(sides) + n)
+    fixed = np.concatenate([[0], nearest, [count]])
+    return np.interp(lines, lines[fixed], np.concatenate([lines[:1], sides, lines[-1:]]))
 
 
 def _cuts(scene: Scene) -> list[str]:

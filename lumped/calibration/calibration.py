@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from lumped.calibration import tables
+from lumped.sections import Section
 from lumped.springs import by_cell, constants
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Table
-from sheetbench.scenes import Cells, PerDirection, Sheet, SpringSet
+from sheetbench.scenes import PerDirection, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded, as_settings
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.springs import Distribution, Either
@@ -25,7 +26,7 @@ class Calibration(Answer):
     (A, S [N/m], D [N·m]; S is asked as MacNeal's S* of the grid), of unequal cells that of the one that
     misses it most; remarks: what the method could not meet; masses: how the sheet's mass is shared out
     (`lumped.masses`) when it vibrates or moves; grading: of the grid's lines (`lumped.grid_lines`); half:
-    the axes along which they end at a plane of symmetry; cells: what they are made of, where they differ.
+    the axes along which they end at a plane of symmetry; cells: their sections, where they differ.
     """
 
     file_name = "calibration"
@@ -38,7 +39,7 @@ class Calibration(Answer):
     masses: Distribution = "tributary"
     grading: Graded = 0.0
     half: tuple[bool, bool] = (False, False)
-    cells: Cells | None = None
+    cells: Section | None = None
 
     @property
     def layer_distance(self) -> float:

@@ -11,34 +11,36 @@ from collections.abc import Callable
 import numpy as np
 
 from lumped.grid_lines import grid_lines
+from lumped.sections import Section
 from lumped.springs.by_cell import gathered
-from sheetbench.scenes import Cells, Material, Sheet, SpringSet
+from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
-# of a cell as a sheet, and its layer distance if that is given
-OfCell = Callable[[Sheet, Material, float | None], SpringSet]
-DIGITS = 12  # to which cells of one size are told
+Sides = tuple[float, float]
+# of a cell of these sides and this section, and its layer distance if that is given
+OfCell = Callable[[Sides, Section, float | None], SpringSet]
+DIGITS = 12  # to which cells are told apart
 
 
 def kinds_of_cells(
-    sheet: Sheet, material: Material, grid: Grid, grading: Graded, cells: Cells | None
-) -> tuple[list[list[int]], list[tuple[Sheet, Material]]]:
-    """Return which kind every cell is, by rows, and the kinds: a sheet of a cell's size, and its material."""
-    across_x, across_y = (_rounded(lines.widths) for lines in grid_lines(sheet, grid, grading))
-    cells = cells or Cells.of(sheet, material)
-    cells.require_grid(grid)
-    tables = [np.broadcast_to(value, (len(across_y), len(across_x))) for value in vars(cells).values()]
+    sheet: Sheet, material: Material, grid: Grid, grading: Graded, cells: Section | None
+) -> tuple[list[list[int]], list[tuple[Sides, Section]]]:
+    """Return which kind every cell is, by rows, and the kinds: sides [m] and section. cells: the sections of
+    all, where they differ."""
+    across_x, across_y = (lines.widths for lines in grid_lines(sheet, grid, grading))
+    plain = Section.of(Constants.of(sheet, material))
     numbers: dict[tuple[float, ...], int] = {}
-    found: list[tuple[Sheet, Material]] = []
+    found: list[tuple[Sides, Section]] = []
     which = []
-    for row, y in enumerate(across_y):
+    for row, y in enumerate(_rounded(across_y)):
         which.append([0] * len(across_x))
-        for column, x in enumerate(across_x):
-            key = (x, y, *(float(table[row, column]) for table in tables))
+        for column, x in enumerate(_rounded(across_x)):
+            own = plain if cells is None else cells.each(lambda part, at=(row, column): part[at])  # type: ignore[misc]
+            key = x, y, *(() if cells is None else _rounded(np.concatenate([part.ravel() for part in vars(own).values()])))
             if key not in numbers:
                 numbers[key] = len(found)
-                found.append(cells.cell(row, column, (x, y), material))
+                found.append(((x, y), own))
             which[-1][column] = numbers[key]
     return which, found
 
@@ -49,12 +51,12 @@ def cell_by_cell(
     material: Material,
     grid: Grid,
     grading: Graded,
-    cells: Cells | None,
+    cells: Section | None,
     layer_distance: float | None = None,
 ) -> SpringSet:
     """The springs of a lattice whose cells have those that `of_cell` finds for each.
 
-    Raises BadInput for a grading outside 0 to 1 and a table of other cells, and what `of_cell` raises.
+    Raises BadInput for a grading outside 0 to 1, and what `of_cell` raises.
     """
     which, kinds = kinds_of_cells(sheet, material, grid, grading, cells)
     if layer_distance is None:
@@ -63,5 +65,5 @@ def cell_by_cell(
     return gathered([[found[number] for number in row] for row in which])
 
 
-def _rounded(widths: np.ndarray) -> list[float]:
-    return [float(f"{width:.{DIGITS}g}") for width in widths]
+def _rounded(values: np.ndarray) -> list[float]:
+    return [float(f"{value:.{DIGITS}g}") for value in values]

@@ -13,8 +13,9 @@ z_k²/lz² and σ' = Σ z_g²/lz² of layers and gaps, a layer's form is
 
     C = (D − σ' lz² (G − δ))/(σ lz²),
 
-of which diagonals take the share f = min(1, 1/(r² − 1)) of C66 (r ≥ 1; more would ask for negative links
-along the cell, see `lumped.springs.laws`), shear springs the rest, area springs C12 − f C66, axial links
+of which diagonals take the share f = min(1, (C11 − C12)/2C66(r² − 1)), of an isotropic one 1/(r² − 1), of C66
+(r ≥ 1; likewise with C22 for r < 1; more would ask for negative links along the cell, see
+`lumped.springs.laws`), shear springs the rest, area springs C12 − f C66, axial links
 what is left of C11 and C22. What the sheet's A has beyond L C + (L − 1)(G − δ) goes to the mid-surface: m to
 A12, the rest to strain springs, with lz the least for which none is negative. On square cells all of those
 vanish if P is G11/3. A cell of a graded grid has its layers as far apart as its neighbours: lz is then given,
@@ -73,7 +74,6 @@ def closed_form(
     bracket = 5.0 + 3.0 * asked.bending[0, 1] / asked.bending[0, 0]
     share = diagonals_for_waves(asked, lx * ly, bracket) if waves else 1.0 / 3.0
     p = share * float(min(gap.max(), *(1.5 * gap / ratios)))
-    by_diagonals = 1.0 if ratios.max() <= 2.0 else 1.0 / (ratios.max() - 1.0)  # the share of a layer's C66
     gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
 
     lz2 = 0.0 if layer_distance is None else layer_distance**2
@@ -87,6 +87,7 @@ def closed_form(
             (lattice[1, 1] - lattice[0, 1]) / (asked.membrane[1, 1] - asked.membrane[0, 1]),
             lattice[2, 2] / asked.membrane[2, 2],
         )
+        by_diagonals = _by_diagonals(layer, ratios)
         axial = np.diag(layer)[:2] - layer[0, 1] + by_diagonals * layer[2, 2] * (1.0 - ratios)
         if gradients:
             on_sides = layers * axial + (layers - 1) * (gap - p * ratios)
@@ -136,6 +137,13 @@ def diagonals_for_waves(asked: Moduli, area: float, bracket: float) -> float:
     linear = 12.0 * stiffening + 9.0
     product = 36.0 * bracket * stiffening
     return float(linear - math.sqrt(linear**2 - product)) / 18.0
+
+
+def _by_diagonals(layer: np.ndarray, ratios: np.ndarray) -> float:
+    """f, the share of a layer's C66 that its diagonals have: half of what axial links leave room for."""
+    room = 0.5 * (np.diag(layer)[:2] - layer[0, 1])
+    asked = layer[2, 2] * (ratios - 1.0)
+    return float(min(1.0, *np.divide(room, asked, out=np.ones(2), where=asked > room)))
 
 
 def _on_sides(form: np.ndarray) -> np.ndarray:

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from lumped import moduli
+from lumped import moduli, sections
 from lumped.calibration.calibration import Calibration, plan_spacing
-from lumped.calibration.cell_by_cell import cell_by_cell
+from lumped.calibration.cell_by_cell import Sides, cell_by_cell
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.edge_twist import with_edges
 from lumped.calibration.least_squares import bounded_least_squares
 from lumped.calibration.report import report
 from lumped.lattice import Grid
+from lumped.sections import Section
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Cells, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
@@ -27,7 +28,7 @@ def consistent(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
-    cells: Cells | None = None,
+    cells: Cells | Section | None = None,
 ) -> Calibration:
     """The moduli of the sheet, and the twist of its edges: of second order in the size of the cells.
 
@@ -43,7 +44,7 @@ def consistent_membrane(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
-    cells: Cells | None = None,
+    cells: Cells | Section | None = None,
 ) -> Calibration:
     """As `consistent`, with layers so far apart that a cell bends in its own plane as the sheet does.
 
@@ -59,7 +60,7 @@ def consistent_oblique(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
-    cells: Cells | None = None,
+    cells: Cells | Section | None = None,
 ) -> Calibration:
     """As `consistent`, with waves oblique to the grid right in l² too.
 
@@ -80,7 +81,7 @@ def consistent_interior(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
-    cells: Cells | None = None,
+    cells: Cells | Section | None = None,
     gradients: bool = False,
     waves: bool = False,
 ) -> Calibration:
@@ -94,6 +95,8 @@ def consistent_interior(
     Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.
     """
+    if isinstance(cells, Cells):
+        cells = sections.of_cells(cells, grid)
     if grading or cells is not None:
         springs: SpringSet | None = _by_cell(
             sheet, material, grid, layer_distance, grading, cells, gradients, waves
@@ -116,17 +119,16 @@ def _by_cell(
     grid: Grid,
     layer_distance: float | None,
     grading: Graded,
-    cells: Cells | None,
+    cells: Section | None,
     gradients: bool,
     waves: bool,
 ) -> SpringSet:
-    def of_cell(cell: Sheet, own: Material, distance: float | None) -> SpringSet:
-        asked = moduli.of_sheet(cell, own, cell.lengths)
-        springs = closed_form(asked, cell.lengths, grid[2], distance, gradients, waves)
+    def of_cell(sides: Sides, own: Section, distance: float | None) -> SpringSet:
+        springs = closed_form(moduli.of_section(own, sides), sides, grid[2], distance, gradients, waves)
         if springs is None:
             given = f"{grid[2]} layers" if distance is None else f"layer_distance = {distance:g} m"
             raise BadInput(
-                f"grading = {grading:g}: with {given} a cell of {cell.length_x:.4g} × {cell.length_y:.4g} m "
+                f"grading = {grading:g}: with {given} a cell of {sides[0]:.4g} × {sides[1]:.4g} m "
                 "has no closed form; take two layers, no layer distance of your own, or grading 0"
             )
         return springs

@@ -34,8 +34,9 @@ from scipy.linalg import LinAlgError, solveh_banded
 from lumped import moduli
 from lumped.calibration.calibration import either
 from lumped.grid_lines import Lines, grid_lines
+from lumped.sections import Section
 from lumped.springs import by_cell, constants
-from sheetbench.scenes import Cells, Sheet, SpringSet
+from sheetbench.scenes import Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
@@ -50,7 +51,7 @@ def layer_width(thickness: float) -> float:
 
 
 def with_edges(
-    sheet: Sheet, grid: Grid, springs: SpringSet, grading: Graded = 0.0, cells: Cells | None = None
+    sheet: Sheet, grid: Grid, springs: SpringSet, grading: Graded = 0.0, cells: Section | None = None
 ) -> tuple[SpringSet, list[str]]:
     """The springs with `edge_shear` and `strip_shear`, and a note for edges where no factor will do.
 
@@ -61,13 +62,13 @@ def with_edges(
     """
     lines = grid_lines(sheet, grid, grading)
     notes: list[str] = []
-    thickness: np.ndarray = np.broadcast_to(
-        cells.thickness if cells else sheet.thickness, (grid[1] - 1, grid[0] - 1)
+    lost = np.broadcast_to(
+        layer_width(sheet.thickness) if cells is None else cells.layer_width, (grid[1] - 1, grid[0] - 1)
     )
     alike = cells is None and all(_alike(side) for side in lines)
-    edges = _of_edges(thickness, lines, springs, grid[2], False, alike, notes)
+    edges = _of_edges(lost, lines, springs, grid[2], False, cells is not None, notes)
     if not alike:
-        far = _of_edges(thickness, lines, springs, grid[2], True, alike, notes)
+        far = _of_edges(lost, lines, springs, grid[2], True, cells is not None, notes)
         edges |= {f"far_{name}": value for name, value in far.items()}
     return springs.model_copy(update=edges), list(dict.fromkeys(notes))
 
@@ -78,16 +79,16 @@ def _alike(lines: Lines) -> bool:
 
 
 def _of_edges(
-    thickness: np.ndarray,
+    lost: np.ndarray,
     lines: tuple[Lines, Lines],
     springs: SpringSet,
     layers: int,
     far: bool,
-    alike: bool,
+    differ: bool,
     notes: list[str],
 ) -> dict[str, Any]:
-    """edge_shear and strip_shear of x0 and y0, or of x1 and y1 (`far`); adds to the notes. thickness: of the
-    cells (rows, columns) [m]; alike: whether the cells are the same from either edge."""
+    """edge_shear and strip_shear of x0 and y0, or of x1 and y1 (`far`); adds to the notes. lost: λ of the
+    cells (rows, columns) [m]; differ: whether cells have sections of their own; each is then taken as if all were like it."""
     square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * springs.layer_distance**2
     unequal = by_cell.varies(springs)
     found: dict[bool, list[Any]] = {False: [], True: []}
@@ -96,15 +97,17 @@ def _of_edges(
         edge = f"{'xy'[axis]}{int(far)}"
         places = range(len(along.widths)) if unequal else range(1)
         strips = [_strip(springs, lines, axis, place, layers, far) for place in places]
+        if differ:
+            strips = [tuple(np.full_like(row, row[0]) for row in strip) for strip in strips]
         widths = across.widths[::-1] if far else across.widths
-        along_edge = np.moveaxis(thickness, 1 - axis, 0)[-int(far)]
+        along_edge = np.moveaxis(lost, 1 - axis, 0)[-int(far)]
         for both, values in found.items():
             taken = []
-            mirrored = both and not (alike or (_alike(across) and np.all(thickness == thickness[0, 0])))
+            mirrored = both and not _alike(across)
             for place, strip in zip(places, strips, strict=True):
                 width, twisting, shear, shares = (_with_image(row, mirrored) for row in (widths, *strip))
                 factor = edge_factor(
-                    len(width), width, twisting, shear, shares, layer_width(along_edge[place]), both
+                    len(width), width, twisting, shear, shares, float(along_edge[place]), both
                 )
                 if factor is None:
                     notes.append(f"no twisting stiffness of the cells along {edge} makes their edge right")

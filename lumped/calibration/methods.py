@@ -18,10 +18,11 @@ from lumped.calibration.report import report
 from lumped.calibration.rubber import hyperelastic, neo_hookean
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
+from lumped.sections import sections_of
 from lumped.springs import by_cell
 from sheetbench import choices
 from sheetbench.errors import Impossible
-from sheetbench.scenes import Scene, SpringTable
+from sheetbench.scenes import Scene, SpringTable, require_uniform
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import MASSES, grid_of
 
@@ -93,7 +94,8 @@ def given(
             f"own, and these are the same for all: sheetbench calibrate --grading {table.graded:g} --toml"
         )
     by_cell.require_cells(springs, asked, f"scene '{scene.name}': ")
-    found = report("scene", scene.sheet, scene.material, asked, springs, table.graded)
+    cells = sections_of(scene, asked, table.graded)
+    found = report("scene", scene.sheet, scene.material, asked, springs, table.graded, cells)
     return replace(found, masses=table.masses)
 
 
@@ -102,6 +104,8 @@ def default(scene: Scene) -> Calibration:
     shorter side."""
     if scene.springs is not None:
         return given(scene)
-    return (consistent if scene.material.law is None else hyperelastic)(
-        scene.sheet, scene.material, grid_of(scene.sheet)
-    )
+    grid = grid_of(scene.sheet)
+    if scene.material.law is not None:
+        require_uniform(scene, "a lattice of rubber")
+        return hyperelastic(scene.sheet, scene.material, grid)
+    return consistent(scene.sheet, scene.material, grid, cells=sections_of(scene, grid))

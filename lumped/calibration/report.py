@@ -8,15 +8,16 @@ import numpy as np
 
 from lumped import moduli
 from lumped.calibration.calibration import Calibration, shown
-from lumped.calibration.cell_by_cell import kinds_of_cells
+from lumped.calibration.cell_by_cell import Sides, kinds_of_cells
 from lumped.grid_lines import grid_lines
+from lumped.sections import Section
 from lumped.springs import by_cell, constants
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Cells, Material, Sheet, SpringSet
+from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
-Cell = tuple[Sheet, Material, SpringSet]  # a sheet of its size
+Cell = tuple[Sides, Section, SpringSet]
 
 
 def report(
@@ -26,7 +27,7 @@ def report(
     grid: Grid,
     springs: SpringSet,
     grading: Graded = 0.0,
-    cells: Cells | None = None,
+    cells: Section | None = None,
 ) -> Calibration:
     """The calibration with its moduli report, and notes on what it misses and why. Of unequal cells each
     modulus is reported of the cell that misses it most.
@@ -34,18 +35,17 @@ def report(
     Raises BadInput where area springs leave a cell without positive energy.
     """
     kinds = _kinds(sheet, material, grid, springs, grading, cells)
-    square = all(abs(cell.length_x - cell.length_y) < 1e-9 * cell.length_x for cell, _, _ in kinds)
+    square = all(abs(x - y) < 1e-9 * x for (x, y), _, _ in kinds)
     worst: dict[str, dict[str, Any]] = {}
-    for cell, made_of, own in kinds:
-        whole = moduli.of_springs(own, (*cell.lengths, own.layer_distance), grid[2])
-        for row in _rows(moduli.of_sheet(cell, made_of, cell.lengths).named(square), whole.named(square)):
+    for sides, section, own in kinds:
+        whole = moduli.of_springs(own, (*sides, own.layer_distance), grid[2])
+        for row in _rows(moduli.of_section(section, sides).named(square), whole.named(square)):
+            if row["name"].startswith("S"):
+                row["kappa_G_h"] = float(section.shear[int(row["name"] == "Sy")])
             if row["name"] not in worst or abs(row["miss"]) > abs(worst[row["name"]]["miss"]):
                 worst[row["name"]] = row
         if constants.value_of(own, "area") < 0.0 or constants.value_of(own, "mid_area") < 0.0:
             _require_positive(own, whole)
-    for name, row in worst.items():
-        if name.startswith("S"):
-            row["kappa_G_h"] = moduli.shear_without_grid(sheet, material)
     missed = [
         f"{row['name']} is missed by {row['miss']:+.1%}"
         for row in worst.values()
@@ -65,12 +65,12 @@ def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
 
 
 def _kinds(
-    sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, grading: Graded, cells: Cells | None
+    sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, grading: Graded, cells: Section | None
 ) -> list[Cell]:
     """The kinds of cells: one where all are alike, else each that differs from the others."""
     if not grading and not by_cell.varies(springs):
         x, y = grid_lines(sheet, grid)
-        return [(sheet.model_copy(update={"length_x": x.mean, "length_y": y.mean}), material, springs)]
+        return [((x.mean, y.mean), Section.of(Constants.of(sheet, material)), springs)]
     which, made_of = kinds_of_cells(sheet, material, grid, grading, cells)
     found: dict[Any, Cell] = {}
     for row, numbers in enumerate(which):

@@ -27,13 +27,14 @@ import numpy as np
 
 from lumped import moduli
 from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
-from lumped.calibration.cell_by_cell import cell_by_cell
+from lumped.calibration.cell_by_cell import Sides, cell_by_cell
 from lumped.calibration.closed_form import diagonals_for_waves, vertical
 from lumped.calibration.edge_twist import with_edges
 from lumped.calibration.report import report
 from lumped.lattice import Grid
+from lumped.sections import Section
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 
 
@@ -75,9 +76,9 @@ def _rubber(
     layers, energy = grid[2], material.energy
     thickness = sheet.thickness / layers
 
-    def of_cell(cell: Sheet, material: Material, distance: float | None = layer_distance) -> SpringSet:
-        lx, ly = cell.lengths
-        asked = moduli.of_sheet(cell, material, cell.lengths)
+    def of_cell(sides: Sides, section: Section, distance: float | None = layer_distance) -> SpringSet:
+        lx, ly = sides
+        asked = moduli.of_section(section, sides)
         side = material.young * thickness / 3.0
         square = sheet.thickness**2 / (layers**2 - 1) if distance is None else distance**2
         gap, squares = asked.shear / moduli.shear_gaps(layers), np.array([lx * lx, ly * ly])
@@ -86,7 +87,7 @@ def _rubber(
         return SpringSet(
             axial=by_direction(side * ly / lx, side * lx / ly),
             diagonal=0.0,
-            vertical=vertical(asked, cell.lengths, square),
+            vertical=vertical(asked, sides, square),
             cross=0.0,
             cross_diagonal=0.0,
             neo_hookean_shear=2.0 * energy.c10 * thickness,
@@ -103,8 +104,7 @@ def _rubber(
     if grading:
         springs = cell_by_cell(of_cell, sheet, material, grid, grading, None, layer_distance)
     else:
-        lx, ly = plan_spacing(sheet, grid)
-        springs = of_cell(sheet.model_copy(update={"length_x": lx, "length_y": ly}), material)
+        springs = of_cell(plan_spacing(sheet, grid), Section.of(Constants.of(sheet, material)))
     springs, notes = with_edges(sheet, grid, springs, grading)
     found = report(method, sheet, material, grid, springs, grading)
     return replace(found, remarks=(*found.remarks, *notes))

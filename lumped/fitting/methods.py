@@ -9,6 +9,7 @@ from lumped.calibration.calibration import Calibration
 from lumped.calibration.methods import MAKERS, described
 from lumped.fitting.fits import fit_modal, fit_static
 from lumped.fitting.targets import Target
+from lumped.sections import Section
 from sheetbench import choices
 from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
@@ -30,7 +31,7 @@ def calibrate(
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
     grading: Graded = 0.0,
-    cells: Cells | None = None,
+    cells: Cells | Section | None = None,
 ) -> Calibration:
     """Springs of a grid for a sheet of this material, by a named method.
 

@@ -31,7 +31,9 @@ def balance(
     places = lattice.positions + at[:n]
     external = problem.external(at, share)
     followers = 0.0 if not problem.loads.follow else problem.loads.followers(at)[:n].sum(axis=0)
-    force = sum(reactions.values(), share * (dead_force(scene) + followers))
+    cells = problem.assembly.cells
+    mass = None if cells is None else float((cells.per_area * lattice.cell_areas).sum())
+    force = sum(reactions.values(), share * (dead_force(scene, mass) + followers))
     held = np.where(problem.constraints.held[:n], exerted[:n], 0.0)
     arms = places.T @ (held + external[:n])  # Σ x f, whose antisymmetric part is Σ x × f
     moment = np.array([arms[1, 2] - arms[2, 1], arms[2, 0] - arms[0, 2], arms[0, 1] - arms[1, 0]])

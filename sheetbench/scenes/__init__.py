@@ -3,11 +3,12 @@
 from sheetbench.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMotion
 from sheetbench.scenes.balance import Balance, dead_force
-from sheetbench.scenes.cells import Cells
+from sheetbench.scenes.cells import Cells, Constants
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
 from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
 from sheetbench.scenes.material import Material, require_no_branches
+from sheetbench.scenes.patches import Patch, require_uniform
 from sheetbench.scenes.relaxation import Branches, Relaxation
 from sheetbench.scenes.rigid_motions import free_rigid_motions, require_static
 from sheetbench.scenes.scene import Scene
@@ -41,6 +42,7 @@ __all__ = [
     "Cells",
     "Chain",
     "Clamped",
+    "Constants",
     "CurvatureTable",
     "Curved",
     "DamperSet",
@@ -58,6 +60,7 @@ __all__ = [
     "Load",
     "Material",
     "Motion",
+    "Patch",
     "PerDirection",
     "PiecewiseLinear",
     "PointLoad",
@@ -84,6 +87,7 @@ __all__ = [
     "outside_model",
     "require_no_branches",
     "require_static",
+    "require_uniform",
     "scene_of",
     "weight_strain",
 ]

@@ -17,6 +17,7 @@ import numpy as np
 
 from sheetbench.scenes.actuators import Chain
 from sheetbench.scenes.loads import EdgeLoad, PointLoad
+from sheetbench.scenes.patches import mass_of
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.sheet import EDGES
 
@@ -86,17 +87,18 @@ class Balance:
 
 
 def dead_force(
-    scene: Scene, area: float | None = None, lengths: dict[str, float] | None = None
+    scene: Scene, mass: float | None = None, lengths: dict[str, float] | None = None
 ) -> np.ndarray:
     """The force (3,) [N] of all dead loads, with the last factors of their histories.
 
-    area [m²] and lengths [m] by edge: the meshed sheet's, where it is not the scene's.
+    mass [kg] of the sheet and lengths [m] by edge: as a model has them, where its outline or what it is made
+    of is not the scene's to the last digit.
     """
     sheet = scene.sheet
     sides = {name: sheet.lengths[edge.along_axis] for name, edge in EDGES.items()} | (lengths or {})
     total = np.zeros(3)
     if scene.gravity is not None:
-        mass = scene.material.density * sheet.thickness * (area or sheet.length_x * sheet.length_y)
+        mass = mass_of(scene) if mass is None else mass
         mass += sum(c.line_density * sides[c.edge] for c in scene.actuators if isinstance(c, Chain))
         total += mass * np.array(scene.gravity.last_acceleration)
     for load in scene.loads:

@@ -20,6 +20,7 @@ from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreemen
 from sheetbench.scenes.anchors import held_twice
 from sheetbench.scenes.loads import Load, PointLoad
 from sheetbench.scenes.material import Material
+from sheetbench.scenes.patches import Patch, misplaced
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
@@ -44,6 +45,10 @@ class Scene(Frozen):
     """The flat, stress-free sheet."""
     material: Material
     """What the sheet is made of."""
+    patches: tuple[Patch, ...] = Field(
+        default=(), validation_alias="patch", serialization_alias="patch", kw_only=True
+    )
+    """Parts of the sheet with a thickness or a material of their own; where they overlap later ones win."""
     gravity: Gravity | None = None
     """The sheet's weight; without this table the sheet is weightless."""
     supports: tuple[Support, ...] = Field(
@@ -99,6 +104,8 @@ class Scene(Frozen):
         for number, load in enumerate(self.loads, start=1):
             if isinstance(load, PointLoad) and not self._on_sheet(load.at):
                 raise ValueError(f"load {number}.at = {list(load.at)} is off the sheet, {self._extent()}")
+        if self.patches and (reason := misplaced(self.patches, self.sheet)):
+            raise ValueError(f"patch {reason}")
         if self.material.law is not None and self.springs is not None:
             raise ValueError(
                 f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"
@@ -168,6 +175,17 @@ class Scene(Frozen):
             if isinstance(actuator, Chain):
                 by_edge.setdefault(str(actuator.edge), {})[name] = actuator
         return by_edge
+
+    @property
+    def uniform(self) -> bool:
+        """Whether the sheet is the same all over."""
+        return not self.drawn_by
+
+    @property
+    def drawn_by(self) -> str:
+        """The words by which the sheet is not the same all over, "" where it is."""
+        tapers = [f"sheet.{name}" for name in ("taper_x", "taper_y") if getattr(self.sheet, name) is not None]
+        return ", ".join([*tapers, *(["patch"] if self.patches else [])])
 
     def twisting_edges(self) -> frozenset[str]:
         """The edges along which nothing holds the director: free, hinged and held ones."""

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, NamedTuple
 
-from pydantic import model_validator
+import numpy as np
+from pydantic import Field, model_validator
 
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Positive, Unit, Vector3
 from sheetbench.scenes.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
 Length = Annotated[Positive, Unit("m")]
+Taper = Annotated[tuple[Positive, Positive], Unit("m")]
 
 
 class Edge(NamedTuple):
@@ -48,6 +50,10 @@ class Sheet(Frozen):
     """Side along y: the sheet lies in 0 ≤ y ≤ length_y."""
     thickness: Length
     """Thickness, half of it above and half below the mid-surface z = 0; at most the shorter side."""
+    taper_x: Taper | None = Field(default=None, kw_only=True)
+    """Thickness at x0 and at x1, linear between, one at least and one at most `thickness`."""
+    taper_y: Taper | None = Field(default=None, kw_only=True)
+    """Thickness at y0 and at y1 likewise; with taper_x the product of both over `thickness`."""
 
     @model_validator(mode="after")
     def _thinner_than_wide(self) -> Sheet:
@@ -56,7 +62,23 @@ class Sheet(Frozen):
                 f"thickness = {self.thickness:g} m is more than the shorter side, {min(self.lengths):g} m; "
                 "lengths are in metres"
             )
+        for name in ("taper_x", "taper_y"):
+            ends = getattr(self, name)
+            if ends is not None and not min(ends) <= self.thickness <= max(ends):
+                raise ValueError(
+                    f"{name} = [{ends[0]:g}, {ends[1]:g}] m: thickness = {self.thickness:g} m must lie between"
+                )
+            if ends is not None and max(ends) > min(self.lengths):
+                raise ValueError(f"{name} = [{ends[0]:g}, {ends[1]:g}] m is more than the shorter side")
         return self
+
+    def thickness_at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Thickness [m] at places x, y [m], without patches."""
+        thickness = np.full(np.broadcast_shapes(np.shape(x), np.shape(y)), self.thickness)
+        for ends, length, at in zip((self.taper_x, self.taper_y), self.lengths, (x, y), strict=True):
+            if ends is not None:
+                thickness *= (ends[0] + (ends[1] - ends[0]) * at / length) / self.thickness
+        return thickness
 
     @property
     def lengths(self) -> tuple[float, float]:

@@ -1,0 +1,129 @@
+"""Stiffness of the sheet's section per width: of its constants, and of cells that several parts share.
+
+    A = E h/(1 − ν²) [[1, ν, 0], [ν, 1, 0], [0, 0, (1 − ν)/2]],    D = A h²/12,    S = κ G h,    κ = 5/6.
+
+A cell is divided FINER × FINER, and where a part has a side along the axes; each division has the mean of
+its parts by area. Across a line between two of them, say at constant x, N_x, M_x and Q_x are the same on both
+sides, and so are the stretch and the curvature along the line and the twist (Kirchhoff's continuity): then of
+divisions in a row along x
+
+    C11 = 1/⟨1/C11⟩,   C12 = C11 ⟨C12/C11⟩,   C22 = ⟨C22 − C12²/C11⟩ + C11 ⟨C12/C11⟩²,   C66 = ⟨C66⟩,
+
+C being A or D, and Sx = 1/⟨1/Sx⟩, Sy = ⟨Sy⟩. (A66 would be 1/⟨1/A66⟩; the mean keeps a lattice's layers
+together.) So a patch whose sides are along the grid may end anywhere in a cell. The cell's section is the mean
+of that of its rows, a column in series, and of that of its columns, a row in series.
+Source: Kohn and Vogelius, Int. J. Solids Struct. 20 (1984), plates whose thickness varies along one axis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from lumped.grid_lines import Lines, grid_lines
+from sheetbench.scenes import Cells, Constants, Scene
+from sheetbench.scenes.grading import Graded
+from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.patches import APART, parts_between, sides_of
+
+SHEAR_CORRECTION = 5.0 / 6.0
+FINER = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m], per_area (…)
+    [kg/m²]; of cells the dots are (rows, columns)."""
+
+    membrane: np.ndarray
+    bending: np.ndarray
+    shear: np.ndarray
+    per_area: np.ndarray
+
+    @classmethod
+    def of(cls, constants: Constants) -> Self:
+        """Of sheets with these constants."""
+        h, young, nu, density = np.broadcast_arrays(*map(np.float64, vars(constants).values()))
+        unit = np.zeros((*nu.shape, 3, 3))
+        unit[..., 0, 0] = unit[..., 1, 1] = 1.0
+        unit[..., 0, 1] = unit[..., 1, 0] = nu
+        unit[..., 2, 2] = (1.0 - nu) / 2.0
+        stretching = young * h / (1.0 - nu**2)
+        rigidity = stretching * h**2 / 12.0
+        shear = SHEAR_CORRECTION * young / (2.0 * (1.0 + nu)) * h
+        membrane, bending = (k[..., None, None] * unit for k in (stretching, rigidity))
+        return cls(membrane, bending, np.stack([shear, shear], axis=-1), density * h)
+
+    def each(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
+        """With every part of it changed."""
+        return type(self)(*map(change, vars(self).values()))
+
+    def __add__(self, other: Section) -> Section:
+        return Section(*(a + b for a, b in zip(vars(self).values(), vars(other).values(), strict=True)))
+
+    @property
+    def layer_width(self) -> np.ndarray:
+        """λ (…) [m], in which twist fades at a free edge: √(D66/S), h/√10 of a homogeneous sheet."""
+        return np.asarray(np.sqrt(self.bending[..., 2, 2] / self.shear.mean(axis=-1)))
+
+
+def of_cells(cells: Cells, grid: Grid) -> Section:
+    """The sections of a table of cells. Raises BadInput for a table that is not one of the grid's."""
+    cells.require_grid(grid)
+    shape = grid[1] - 1, grid[0] - 1
+    return Section.of(Constants(*(np.broadcast_to(value, shape) for value in vars(cells).values())))
+
+
+def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | None:
+    """The sections of the cells of a scene's sheet; None of a sheet that is the same all over."""
+    if scene.uniform:
+        return None
+    lines = grid_lines(scene.sheet, grid, grading)
+    x, y = (_divided(side, at) for side, at in zip(lines, sides_of(scene), strict=True))
+    sections = [_times(Section.of(part.constants), part.share) for part in parts_between(scene, x, y)]
+    total = sum(sections[1:], sections[0])
+    (along_x, over_x), (along_y, over_y) = (_places(fine, side) for fine, side in zip((x, y), lines, strict=True))
+    by_rows = _in_series(_in_series(total, 0, along_x, over_x), 1, along_y, over_y)
+    by_columns = _in_series(_in_series(total, 1, along_y, over_y), 0, along_x, over_x)
+    return _times(by_rows + by_columns, np.array(0.5))
+
+
+def _divided(lines: Lines, sides: np.ndarray) -> np.ndarray:
+    """The lines, those between and those at sides [m] on the sheet."""
+    finer = np.interp(np.arange(FINER * len(lines.widths) + 1) / FINER, np.arange(len(lines.at)), lines.at)
+    on_line = np.isclose(sides[:, None], finer, rtol=0.0, atol=APART * lines.at[-1]).any(axis=1)
+    return np.sort(np.concatenate([finer, sides[~on_line]]))
+
+
+def _places(fine: np.ndarray, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
+    """Where each cell's divisions begin, and what share of it each is."""
+    begin = np.searchsorted(fine, lines.at[:-1])
+    counts = np.diff(np.append(begin, len(fine) - 1))
+    return begin, np.diff(fine) / np.repeat(lines.widths, counts)
+
+
+def _times(section: Section, factor: np.ndarray) -> Section:
+    return section.each(lambda part: part * factor.reshape(*factor.shape, *(1,) * (part.ndim - factor.ndim)))
+
+
+def _in_series(section: Section, axis: int, begin: np.ndarray, share: np.ndarray) -> Section:
+    """Divisions that follow each other along an axis of the plan (0 = x, 1 = y) as one, cell by cell."""
+    along = 1 - axis  # of the arrays
+
+    def mean(part: np.ndarray) -> np.ndarray:
+        weights = share.reshape(-1, *(1,) * (part.ndim - along - 1))
+        return np.asarray(np.add.reduceat(weights * part, begin, axis=along))
+
+    def form(part: np.ndarray) -> np.ndarray:
+        row, own = part[..., axis], part[..., axis, axis]
+        share_of_row = row / own[..., None]
+        mixed, compliance = mean(share_of_row), mean(1.0 / own)
+        rest = mean(part - row[..., :, None] * share_of_row[..., None, :])
+        return rest + mixed[..., :, None] * mixed[..., None, :] / compliance[..., None, None]
+
+    shear = mean(section.shear)
+    shear[..., axis] = 1.0 / mean(1.0 / section.shear[..., axis])
+    return Section(form(section.membrane), form(section.bending), shear, mean(section.per_area))

@@ -1,0 +1,169 @@
+"""What a sheet is made of at a point: tapers of its thickness, and patches, of which later ones win.
+
+    h(x, y) = thickness · (taper_x(x)/thickness) · (taper_y(y)/thickness)
+
+outside patches with a thickness of their own. A plain sheet is the same all over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from sheetbench.errors import Impossible
+from sheetbench.scenes.cells import Constants
+from sheetbench.scenes.quantities import Finite, Frozen, Positive, Unit
+from sheetbench.scenes.shapes import Shape
+from sheetbench.scenes.sheet import Sheet
+
+if TYPE_CHECKING:
+    from sheetbench.scenes.scene import Scene
+
+CONSTANTS = ("thickness", "young", "poisson", "density")
+FINE = 33  # lines between which a taper is taken for its mean
+APART = 1e-9  # of the sheet, within which two sides are one
+LEAST_SHARE = 1e-12  # of a cell's area, below which a part is rounding
+
+
+class Patch(Frozen):
+    """A part of the sheet with a thickness or material constants of its own."""
+
+    shape: Shape
+    """Where: a rectangle, a circle or a polygon."""
+    thickness: Annotated[Positive, Unit("m")] | None = None
+    """Half of it above and half below the mid-surface; the sheet's unless given."""
+    young: Annotated[Positive, Unit("Pa")] | None = None
+    """Young's modulus; the material's unless given."""
+    poisson: Annotated[Finite, Field(gt=-1.0, lt=0.5)] | None = None
+    """Poisson's ratio; the material's unless given."""
+    density: Annotated[Positive, Unit("kg/m³")] | None = None
+    """The material's unless given."""
+
+    @model_validator(mode="after")
+    def _differs(self) -> Patch:
+        if not self.own:
+            raise ValueError(f"needs one of {', '.join(CONSTANTS)}")
+        return self
+
+    @property
+    def own(self) -> dict[str, float]:
+        """The constants that are its own."""
+        given = {name: getattr(self, name) for name in CONSTANTS}
+        return {name: value for name, value in given.items() if value is not None}
+
+
+class Part(NamedTuple):
+    """share: (rows, columns) of each cell's area that a part of the sheet takes; constants: (rows, columns),
+    its own there."""
+
+    share: np.ndarray
+    constants: Constants
+
+
+def constants_at(scene: Scene, points: np.ndarray) -> Constants:
+    """Return the constants at plan points (…, 2) [m], arrays (…); of a sheet that is the same all over its
+    numbers."""
+    sheet = Constants.of(scene.sheet, scene.material)
+    if scene.uniform:
+        return sheet
+    values = {name: np.full(points.shape[:-1], value) for name, value in vars(sheet).items()}
+    values["thickness"] = scene.sheet.thickness_at(points[..., 0], points[..., 1])
+    for patch in scene.patches:
+        inside = patch.shape.contains(points)
+        for name, value in patch.own.items():
+            values[name][inside] = value
+    return Constants(**values)
+
+
+def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
+    """Yield the parts of the sheet that have a share in the cells between lines at x and at y [m]. The shares
+    of a cell sum up to 1; the thickness of a taper is that in the middle of the cell."""
+    import shapely
+
+    low, left = np.meshgrid(y[:-1], x[:-1], indexing="ij")
+    high, right = np.meshgrid(y[1:], x[1:], indexing="ij")
+    boxes = shapely.box(left, low, right, high)
+    of_sheet = {name: np.full(boxes.shape, value) for name, value in vars(Constants.of(scene.sheet, scene.material)).items()}
+    of_sheet["thickness"] = scene.sheet.thickness_at(0.5 * (left + right), 0.5 * (low + high))
+    left_over = np.ones(boxes.shape)
+    for area, own in _disjoint(scene.patches):
+        shapely.prepare(area)
+        touched = shapely.intersects(area, boxes)
+        share = np.zeros(boxes.shape)
+        share[touched] = shapely.area(shapely.intersection(area, boxes[touched])) / shapely.area(boxes[touched])
+        share = _without_rounding(share)
+        left_over -= share
+        yield Part(share, Constants(**{name: np.full_like(share, own[name]) if name in own else value for name, value in of_sheet.items()}))
+    yield Part(_without_rounding(left_over), Constants(**of_sheet))
+
+
+def _disjoint(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float]]]:
+    """The areas in which the same patches lie upon each other, and the constants that are not the sheet's
+    there."""
+    import shapely
+
+    pieces: list[tuple[Any, dict[str, float]]] = []
+    covered = shapely.Polygon()
+    for patch in patches:
+        new = patch.shape.area
+        both = [(area.intersection(new), {**own, **patch.own}) for area, own in pieces]
+        rest = [(area.difference(new), own) for area, own in pieces]
+        pieces = [*both, *rest, (new.difference(covered), patch.own)]
+        pieces = [(area, own) for area, own in pieces if area.area > 0.0]
+        covered = covered.union(new)
+    yield from pieces
+
+
+def _without_rounding(share: np.ndarray) -> np.ndarray:
+    share = np.where(share < LEAST_SHARE, 0.0, share)
+    return np.where(share > 1.0 - LEAST_SHARE, 1.0, share)
+
+
+def mass_of(scene: Scene) -> float:
+    """Mass [kg] of the sheet."""
+    sheet = scene.sheet
+    if scene.uniform:
+        return scene.material.density * sheet.thickness * sheet.length_x * sheet.length_y
+    x, y = (np.linspace(0.0, length, FINE) for length in sheet.lengths)
+    per_area = sum(part.share * part.constants.per_area for part in parts_between(scene, x, y))
+    return float(np.diff(y) @ per_area @ np.diff(x))
+
+
+def sides_of(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """x and y [m], rising, of the patches' sides that lie along the axes, on the sheet and not on its edges."""
+    found = []
+    for axis, length in enumerate(scene.sheet.lengths):
+        sides = np.unique([at for patch in scene.patches for at in patch.shape.sides[axis]])
+        inside = sides[(sides > APART * length) & (sides < (1.0 - APART) * length)]
+        found.append(inside[np.diff(inside, prepend=-length) > APART * length])
+    return found[0], found[1]
+
+
+def misplaced(patches: tuple[Patch, ...], sheet: Sheet) -> str:
+    """Why a patch cannot be where it is or as thick as it is, "" where all can."""
+    import shapely
+
+    plan = shapely.box(0.0, 0.0, *sheet.lengths)
+    for number, patch in enumerate(patches, start=1):
+        if patch.shape.area.intersection(plan).area <= 0.0:
+            return (
+                f"{number}.shape: {patch.shape.in_words()}: no part of it is on the sheet, "
+                f"0 ≤ x ≤ {1e3 * sheet.length_x:.4g}, 0 ≤ y ≤ {1e3 * sheet.length_y:.4g} mm"
+            )
+        if patch.thickness is not None and patch.thickness > min(sheet.lengths):
+            return f"{number}.thickness = {patch.thickness:g} m is more than the sheet's shorter side"
+    return ""
+
+
+def require_uniform(scene: Scene, who: str) -> None:
+    """Raise Impossible for a sheet that is not the same all over, which `who`, a verb, a model or a file,
+    does not know."""
+    if not scene.uniform:
+        raise Impossible(
+            f"scene '{scene.name}': {scene.drawn_by}: {who} is for sheets that are the same all over; "
+            "compare, modes, simulate, calibrate and check know such sheets, with the models lumped, plate "
+            "and shell"
+        )

@@ -10,8 +10,8 @@ divisions in a row along x
     C11 = 1/⟨1/C11⟩,   C12 = C11 ⟨C12/C11⟩,   C22 = ⟨C22 − C12²/C11⟩ + C11 ⟨C12/C11⟩²,   C66 = ⟨C66⟩,
 
 C being A or D, and Sx = 1/⟨1/Sx⟩, Sy = ⟨Sy⟩. (A66 would be 1/⟨1/A66⟩; the mean keeps a lattice's layers
-together.) So a patch whose sides are along the grid may end anywhere in a cell. The cell's section is the mean
-of that of its rows, a column in series, and of that of its columns, a row in series.
+together.) So a patch whose sides are along the grid may end anywhere in a cell. The cell's section is the
+mean of that of its rows, a column in series, and of that of its columns, a row in series.
 Source: Kohn and Vogelius, Int. J. Solids Struct. 20 (1984), plates whose thickness varies along one axis.
 """
 
@@ -85,7 +85,9 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | No
     x, y = (_divided(side, at) for side, at in zip(lines, sides_of(scene), strict=True))
     sections = [_times(Section.of(part.constants), part.share) for part in parts_between(scene, x, y)]
     total = sum(sections[1:], sections[0])
-    (along_x, over_x), (along_y, over_y) = (_places(fine, side) for fine, side in zip((x, y), lines, strict=True))
+    (along_x, over_x), (along_y, over_y) = (
+        _places(fine, side) for fine, side in zip((x, y), lines, strict=True)
+    )
     by_rows = _in_series(_in_series(total, 0, along_x, over_x), 1, along_y, over_y)
     by_columns = _in_series(_in_series(total, 1, along_y, over_y), 0, along_x, over_x)
     return _times(by_rows + by_columns, np.array(0.5))

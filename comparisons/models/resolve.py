@@ -106,9 +106,12 @@ class Resolved(Generic[S]):
                 warn(Implausible(slip), stacklevel=2)
         own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading or 0.0}
         if not self.scene.uniform:
+            named = method_of(spec.calibration, spec.k)
+            if "cells" not in CALIBRATIONS[named].takes:
+                knowing = [name for name, method in CALIBRATIONS.items() if "cells" in method.takes]
+                require_uniform(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
             own["cells"] = lumped.sections_of(self.scene, self.grid, grading or 0.0)
         if _fitted(spec):
-            require_uniform(self.scene, f"calibration '{spec.calibration}'")
             from comparisons.models.training import fitted
 
             return fitted(sheet, material, self.grid, spec.calibration, training=training, **own)

@@ -43,7 +43,11 @@ def planes(scene: Scene) -> tuple[int, ...]:
     direction between neighbouring masses, of which the part has one only. A sheet that is not the same all
     over is solved whole.
     """
-    if not scene.uniform or scene.actuators or any(isinstance(s, Symmetric) or s.motion for s in scene.supports):
+    if (
+        not scene.uniform
+        or scene.actuators
+        or any(isinstance(s, Symmetric) or s.motion for s in scene.supports)
+    ):
         return ()
     return tuple(axis for axis in (0, 1) if _mirrors(scene, axis))
 

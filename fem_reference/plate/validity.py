@@ -48,7 +48,9 @@ def judge(
     if (turn := largest_turn(elements, solution)) > TURN_LIMIT:
         ends = f"linear theory ends at {100.0 * TURN_LIMIT / turn:.3g} % of the load or before"
         return Status.STRAIN_OUTSIDE_MODEL, (f"slopes or turns of {turn:.3g}, beyond 1: {ends}",)
-    share = buckling_load(scene, elements, (section.membrane @ strain[..., None])[..., 0], section, system, free)
+    share = buckling_load(
+        scene, elements, (section.membrane @ strain[..., None])[..., 0], section, system, free
+    )
     if share is not None and share < 1.0:
         return Status.UNSTABLE, (f"its in-plane forces buckle it at {100.0 * share:.3g} % of the load",)
     return Status.CONVERGED, ()

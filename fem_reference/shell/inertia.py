@@ -17,7 +17,8 @@ def products(structure: ShellStructure, scene: Scene) -> tuple[np.ndarray, np.nd
     value, of = AT_GAUSS[0], constants_of(scene, structure.element.reference[:, :9, :2])
     moved = of.per_area * structure.element.areas
     by_place, by_turn = (
-        np.asarray(np.einsum("eg,gi,gj->eij", part, value, value)) for part in (moved, moved * of.thickness**2 / 12.0)
+        np.asarray(np.einsum("eg,gi,gj->eij", part, value, value))
+        for part in (moved, moved * of.thickness**2 / 12.0)
     )
     return by_place, by_turn
 

@@ -206,7 +206,9 @@ class Bricks:
         flat = self.to_strain.reshape(m, q * 6, k).swapaxes(1, 2)
         slope = np.einsum("eqi,eqik->eqk", volume.first, self.to_strain)
         projected = self._projector @ slope  # orthonormal modes: (m, 6, k)
-        return flat @ tangent.reshape(m, q * 6, k) + self.bulk[..., None] * projected.swapaxes(1, 2) @ projected
+        return (
+            flat @ tangent.reshape(m, q * 6, k) + self.bulk[..., None] * projected.swapaxes(1, 2) @ projected
+        )
 
     def _at_points(self, samples: np.ndarray) -> np.ndarray:
         return np.einsum("eqik,ek->eqi", self.to_strain, samples)

@@ -201,7 +201,9 @@ def discretise(
     positions = np.concatenate([stacks[:, place] for place in columns.places])
     corners = columns.plan_nodes[columns.plan_elements]
     middles = np.tile(corners.mean(axis=1), (layers, 1))[:, None]
-    bricks = Bricks.build(positions, LAWS[law], scene.material if scene.uniform else constants_at(scene, middles))
+    bricks = Bricks.build(
+        positions, LAWS[law], scene.material if scene.uniform else constants_at(scene, middles)
+    )
     sides = rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
     rods = rod.of_scene(scene, columns.plan_nodes, sides)
     supports = column_supports.of_scene(scene, columns, clamp, rods)

@@ -24,7 +24,7 @@ SHEAR_CORRECTION = 5.0 / 6.0
 
 class Section(NamedTuple):
     """Stiffness of the sheet per unit of its width: membrane (3, 3) [N/m] and bending (3, 3) [N·m] in Voigt
-    order, shear (2, 2) [N/m]; where the sheet differs from place to place, at every Gauss point, (m, 9, …)."""
+    order, shear (2, 2) [N/m]; of a sheet that is not the same all over at the Gauss points, (m, 9, …)."""
 
     membrane: np.ndarray
     bending: np.ndarray
@@ -79,6 +79,6 @@ def transverse_shear_stiffness(material: Material | Constants, thickness: float)
     return _times(SHEAR_CORRECTION * thickness * shear_modulus(material), np.eye(2))
 
 
-def _times(factor: float, form: np.ndarray) -> np.ndarray:
+def _times(factor: float | np.ndarray, form: np.ndarray) -> np.ndarray:
     """A form (…, k, k) times numbers (…)."""
     return np.asarray(factor)[..., None, None] * form

@@ -21,6 +21,7 @@ from skfem import Basis, Functional, LinearForm
 
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
+from fem_reference.surface.materials import bending_stiffness
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification.rows import THEORY, Row, absolutely
 from sheetbench.numerics.direct import DirectSolver, solve_free
@@ -126,7 +127,7 @@ def tilt_x(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 def pressure(scene: Scene) -> Callable[..., np.ndarray]:
     """p(x, y) [Pa]."""
-    rigidity = plate.section_stiffness(scene)["bending"][0, 0]
+    rigidity = bending_stiffness(scene.material, scene.sheet.thickness)[0, 0]
 
     def half(x: np.ndarray, y: np.ndarray) -> np.ndarray:
         return 12.0 * _bubble(y, 1) * _quadratic(x) * (2.0 * _bubble(y, 2) + _bubble(x, 1) * _quadratic(y))

@@ -37,7 +37,15 @@ def kinds_of_cells(
         which.append([0] * len(across_x))
         for column, x in enumerate(_rounded(across_x)):
             own = plain if cells is None else cells.each(lambda part, at=(row, column): part[at])  # type: ignore[misc]
-            key = x, y, *(() if cells is None else _rounded(np.concatenate([part.ravel() for part in vars(own).values()])))
+            key = (
+                x,
+                y,
+                *(
+                    ()
+                    if cells is None
+                    else _rounded(np.concatenate([part.ravel() for part in vars(own).values()]))
+                ),
+            )
             if key not in numbers:
                 numbers[key] = len(found)
                 found.append(((x, y), own))

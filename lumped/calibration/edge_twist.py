@@ -88,7 +88,8 @@ def _of_edges(
     notes: list[str],
 ) -> dict[str, Any]:
     """edge_shear and strip_shear of x0 and y0, or of x1 and y1 (`far`); adds to the notes. lost: λ of the
-    cells (rows, columns) [m]; differ: whether cells have sections of their own; each is then taken as if all were like it."""
+    cells (rows, columns) [m]; differ: whether they have sections of their own, and each is taken as if all
+    across the sheet were like it."""
     square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * springs.layer_distance**2
     unequal = by_cell.varies(springs)
     found: dict[bool, list[Any]] = {False: [], True: []}
@@ -98,7 +99,9 @@ def _of_edges(
         places = range(len(along.widths)) if unequal else range(1)
         strips = [_strip(springs, lines, axis, place, layers, far) for place in places]
         if differ:
-            strips = [tuple(np.full_like(row, row[0]) for row in strip) for strip in strips]
+            strips = [
+                (np.full_like(d, d[0]), np.full_like(s, s[0]), np.full_like(q, q[0])) for d, s, q in strips
+            ]
         widths = across.widths[::-1] if far else across.widths
         along_edge = np.moveaxis(lost, 1 - axis, 0)[-int(far)]
         for both, values in found.items():

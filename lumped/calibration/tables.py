@@ -40,12 +40,13 @@ def springs(calibration: dict[str, Any]) -> Table:
     """A row per family, and per direction where they differ, of unequal cells the softest and the stiffest;
     `calibration` as its `document` gives it."""
     rows = []
-    for name, value in calibration["springs"].items():
-        directions = value if isinstance(value, dict) else {"": value}
+    by_axis = [value if isinstance(value, dict) else {"": value} for value in calibration["springs"].values()]
+    unequal = any(np.ndim(k) for directions in by_axis for k in directions.values())
+    for name, directions in zip(calibration["springs"], by_axis, strict=True):
         for axis, k in directions.items():
-            ends = [float(np.min(k)), float(np.max(k))] if calibration.get("grading") else [k]
+            ends = [float(np.min(k)), float(np.max(k))] if unequal else [k]
             rows.append((f"{name} {axis}".strip(), _MEANINGS.get(name, ""), *ends))
-    headings = ("least", "largest") if calibration.get("grading") else ("stiffness",)
+    headings = ("least", "largest") if unequal else ("stiffness",)
     columns = (
         Column("spring"),
         Column("what it is", prose=True),

@@ -51,6 +51,7 @@ from sheetbench.scenes import (
     Status,
     outside_model,
     require_static,
+    require_uniform,
     scene_of,
 )
 from sheetbench.scenes.material import limit_note
@@ -140,7 +141,10 @@ def build_problem(
 ) -> Problem:
     """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
     supports and loads serve again where they are on the same lattice. Raises BadInput if no mass is left to
-    move."""
+    move, and for springs of cells that are all alike where the scene's are not."""
+    if calibration.cells is None:
+        instead = "calibrate with cells=lumped.sections_of(scene, grid)"
+        require_uniform(scene, f"the calibration {calibration.method}", instead)
     couple = partial(Coupling, scene) if scene.actuators else None
     assembly = Assembly(scene.sheet, calibration, weights, couple, precision, scene.twisting_edges())
     size = max(scene.sheet.lengths)

@@ -12,6 +12,7 @@ from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.material import Material
 from sheetbench.scenes.sheet import Sheet
 
+
 @dataclass(frozen=True, eq=False)
 class Constants:
     """thickness [m], young [Pa], poisson [-], density [kg/m³]: numbers, or arrays of one shape."""

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
 
 CONSTANTS = ("thickness", "young", "poisson", "density")
+KNOWING = (
+    "check, compare, modes, simulate, calibrate, tradeoff, crosscheck and linearise know others too, with "
+    "the models lumped, plate, shell and solid"
+)
 FINE = 33  # lines between which a taper is taken for its mean
 APART = 1e-9  # of the sheet, within which two sides are one
 LEAST_SHARE = 1e-12  # of a cell's area, below which a part is rounding
@@ -86,17 +90,30 @@ def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
     low, left = np.meshgrid(y[:-1], x[:-1], indexing="ij")
     high, right = np.meshgrid(y[1:], x[1:], indexing="ij")
     boxes = shapely.box(left, low, right, high)
-    of_sheet = {name: np.full(boxes.shape, value) for name, value in vars(Constants.of(scene.sheet, scene.material)).items()}
+    of_sheet = {
+        name: np.full(boxes.shape, value)
+        for name, value in vars(Constants.of(scene.sheet, scene.material)).items()
+    }
     of_sheet["thickness"] = scene.sheet.thickness_at(0.5 * (left + right), 0.5 * (low + high))
     left_over = np.ones(boxes.shape)
     for area, own in _disjoint(scene.patches):
         shapely.prepare(area)
         touched = shapely.intersects(area, boxes)
         share = np.zeros(boxes.shape)
-        share[touched] = shapely.area(shapely.intersection(area, boxes[touched])) / shapely.area(boxes[touched])
+        share[touched] = shapely.area(shapely.intersection(area, boxes[touched])) / shapely.area(
+            boxes[touched]
+        )
         share = _without_rounding(share)
         left_over -= share
-        yield Part(share, Constants(**{name: np.full_like(share, own[name]) if name in own else value for name, value in of_sheet.items()}))
+        yield Part(
+            share,
+            Constants(
+                **{
+                    name: np.full_like(share, own[name]) if name in own else value
+                    for name, value in of_sheet.items()
+                }
+            ),
+        )
     yield Part(_without_rounding(left_over), Constants(**of_sheet))
 
 
@@ -133,7 +150,7 @@ def mass_of(scene: Scene) -> float:
 
 
 def sides_of(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """x and y [m], rising, of the patches' sides that lie along the axes, on the sheet and not on its edges."""
+    """x and y [m], rising, of the patches' sides along the axes, of those within the sheet's edges."""
     found = []
     for axis, length in enumerate(scene.sheet.lengths):
         sides = np.unique([at for patch in scene.patches for at in patch.shape.sides[axis]])
@@ -158,12 +175,11 @@ def misplaced(patches: tuple[Patch, ...], sheet: Sheet) -> str:
     return ""
 
 
-def require_uniform(scene: Scene, who: str) -> None:
-    """Raise Impossible for a sheet that is not the same all over, which `who`, a verb, a model or a file,
-    does not know."""
+def require_uniform(scene: Scene, who: str, instead: str = KNOWING) -> None:
+    """Raise Impossible for a sheet that is not the same all over, which `who` does not know: a verb, a model
+    or a file; instead: what does."""
     if not scene.uniform:
         raise Impossible(
             f"scene '{scene.name}': {scene.drawn_by}: {who} is for sheets that are the same all over; "
-            "compare, modes, simulate, calibrate and check know such sheets, with the models lumped, plate "
-            "and shell"
+            f"{instead}"
         )

@@ -104,8 +104,8 @@ class Scene(Frozen):
         for number, load in enumerate(self.loads, start=1):
             if isinstance(load, PointLoad) and not self._on_sheet(load.at):
                 raise ValueError(f"load {number}.at = {list(load.at)} is off the sheet, {self._extent()}")
-        if self.patches and (reason := misplaced(self.patches, self.sheet)):
-            raise ValueError(f"patch {reason}")
+        if self.patches and (wrong := misplaced(self.patches, self.sheet)):
+            raise ValueError(f"patch {wrong}")
         if self.material.law is not None and self.springs is not None:
             raise ValueError(
                 f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"

@@ -66,7 +66,8 @@ class Sheet(Frozen):
             ends = getattr(self, name)
             if ends is not None and not min(ends) <= self.thickness <= max(ends):
                 raise ValueError(
-                    f"{name} = [{ends[0]:g}, {ends[1]:g}] m: thickness = {self.thickness:g} m must lie between"
+                    f"{name} = [{ends[0]:g}, {ends[1]:g}] m: thickness = {self.thickness:g} m is not "
+                    "between the two"
                 )
             if ends is not None and max(ends) > min(self.lengths):
                 raise ValueError(f"{name} = [{ends[0]:g}, {ends[1]:g}] m is more than the shorter side")

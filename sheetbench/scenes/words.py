@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
 from sheetbench.scenes.loads import EdgeLoad, PointLoad, Pressure
 from sheetbench.scenes.material import CONSTANTS, Material
+from sheetbench.scenes.patches import Patch, mass_of
 from sheetbench.scenes.quantities import PlanPoint
 from sheetbench.scenes.rigid_motions import free_rigid_motions
 from sheetbench.scenes.sheet import EDGES, Sheet
@@ -25,12 +26,12 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
     """What each part of the scene means: pairs of a part's name and a sentence."""
     sheet, material = scene.sheet, scene.material
     shorter = min(sheet.lengths)
-    mass = material.density * sheet.length_x * sheet.length_y * sheet.thickness
+    mass = mass_of(scene)
     sentences = [
         (
             "sheet",
             f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm, {_mm(sheet.thickness)} mm thick "
-            f"(1/{shorter / sheet.thickness:.3g} of the shorter side), {1e3 * mass:.3g} g",
+            f"(1/{shorter / sheet.thickness:.3g} of the shorter side){_tapers(sheet)}, {1e3 * mass:.3g} g",
         ),
         (
             "material",
@@ -44,6 +45,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
             + (f", dampers of {1e3 * material.dashpot_time:.4g} ms · k" if material.dashpot_time else "")
             + (f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""),
         ),
+        *((f"patch {n}", _patch(patch)) for n, patch in enumerate(scene.patches, start=1)),
         ("weight", _weight(scene, mass)),
     ]
     sentences += [(f"edge {support.edge}", _support(support, sheet)) for support in scene.supports]
@@ -60,6 +62,25 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         ("at rest", f"not solved: nothing stops {', '.join(free)}" if free else "held: it has an answer")
     )
     return sentences
+
+
+def _tapers(sheet: Sheet) -> str:
+    """From how thick to how thick along which axis."""
+    tapers = {"x": sheet.taper_x, "y": sheet.taper_y}
+    return "".join(
+        f", from {_mm(ends[0])} to {_mm(ends[1])} mm along {axis}" for axis, ends in tapers.items() if ends
+    )
+
+
+def _patch(patch: Patch) -> str:
+    """Where it is, and what is its own."""
+    words = {
+        "thickness": lambda value: f"{_mm(value)} mm thick",
+        "young": lambda value: f"E = {_pascals(value)}",
+        "poisson": lambda value: f"ν = {value:g}",
+        "density": lambda value: f"ρ = {value:g} kg/m³",
+    }
+    return f"{patch.shape.in_words()}: {', '.join(words[name](value) for name, value in patch.own.items())}"
 
 
 def _constants(material: Material) -> str:

@@ -95,7 +95,8 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | No
 
 def _divided(lines: Lines, sides: np.ndarray) -> np.ndarray:
     """The lines, those between and those at sides [m] on the sheet."""
-    finer = np.interp(np.arange(FINER * len(lines.widths) + 1) / FINER, np.arange(len(lines.at)), lines.at)
+    within = lines.at[:-1, None] + np.outer(lines.widths, np.arange(FINER) / FINER)
+    finer = np.append(within, lines.at[-1])
     on_line = np.isclose(sides[:, None], finer, rtol=0.0, atol=APART * lines.at[-1]).any(axis=1)
     return np.sort(np.concatenate([finer, sides[~on_line]]))
 

@@ -195,7 +195,7 @@ SLOW = (
     "xarray",
 )
 SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "comparisons.models.training")
-SLOW += ("ezc3d",)
+SLOW += ("ezc3d", "shapely")
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
 DRAWS = (
     "figure",

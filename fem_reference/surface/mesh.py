@@ -14,7 +14,7 @@ from skfem import Dofs, ElementQuad2, MeshQuad
 
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, Symmetric
+from sheetbench.scenes import EDGES, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric
 from sheetbench.scenes.grid import near_square
 from sheetbench.scenes.patches import sides_of
 
@@ -117,12 +117,13 @@ def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:
     """The lines with some moved to the sides, and those between in proportion; at least one for each."""
     count = max(len(lines) - 1, len(sides) + 1)
     at = np.arange(count + 1)
-    lines = np.interp(at / count, np.linspace(0.0, 1.0, len(lines)), lines)
-    nearest = np.rint(np.interp(sides, lines, at)).astype(int)
+    lines = PiecewiseLinear(np.linspace(0.0, count, len(lines)).tolist(), lines.tolist()).at(at)
+    nearest = np.rint(PiecewiseLinear(lines.tolist(), at.tolist()).at(sides)).astype(int)
     for n in range(len(sides)):
         nearest[n] = np.clip(nearest[n], 1 if n == 0 else nearest[n - 1] + 1, count - len(sides) + n)
     fixed = np.concatenate([[0], nearest, [count]])
-    return np.interp(lines, lines[fixed], np.concatenate([lines[:1], sides, lines[-1:]]))
+    places = [lines[0], *sides, lines[-1]]
+    return PiecewiseLinear(lines[fixed].tolist(), places).at(lines)
 
 
 def _cuts(scene: Scene) -> list[str]:

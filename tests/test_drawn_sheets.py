@@ -1,0 +1,150 @@
+"""Sheets that are not the same all over, in every model and verb: cut up, in closed form, refused."""
+
+import numpy as np
+import pytest
+from commands import one_line, run
+
+import fem_reference
+import lumped
+from sheetbench.scenes import Scene, Sheet, Status, load
+
+LENGTH, WIDTH, THICK, YOUNG, FORCE = 0.2, 0.02, 3e-3, 5e6, 1e-6
+TIP = [[LENGTH, WIDTH / 2.0]]
+CUT = [  # of the sheet's own material, aligned, oblique and round, over each other
+    {"shape": {"rectangle": {"x": (0.02, 0.1), "y": (0.0, 0.188)}}, "young": 54.5e6},
+    {"shape": {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}, "thickness": 0.003},
+    {"shape": {"polygon": [(0.05, 0.0), (0.188, 0.188), (0.0, 0.188)]}, "poisson": 0.48, "density": 1678.0},
+]
+
+
+def answer(scene, model):
+    """Of 9 × 9 masses, or a mesh with the lines that the patches ask for."""
+    return lumped.solve(scene) if model == "lumped" else fem_reference.solve(scene, model, elements=4)
+
+
+@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
+def test_a_uniform_sheet_cut_into_patches_of_its_own_material_is_the_same(model):
+    plain = load("two-edges-clamped")
+    lines = plain.replace(patches=[{"shape": CUT[0]["shape"], "young": 54.5e6}])  # the same mesh
+    moved, cut = (
+        answer(scene, model) for scene in (plain if model == "lumped" else lines, plain.replace(patches=CUT))
+    )
+    assert cut.status is Status.CONVERGED and cut.balance.holds
+    fields = [each.mesh.point_data["displacement"] for each in (moved, cut)]
+    assert np.allclose(*fields, rtol=0.0, atol=1e-8 * np.abs(fields[0]).max())
+
+
+def strip(**drawn):
+    kept = {
+        "sheet": Sheet(LENGTH, WIDTH, THICK),
+        "name": "strip",
+        "supports": [{"edge": "x0", "kind": "clamped"}],
+    }
+    pull = {"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, FORCE / WIDTH)}
+    return Scene(
+        **{**kept, "material": {"young": YOUNG, "poisson": 0.0, "density": 1e3}, "loads": [pull], **drawn}
+    )
+
+
+def deflection(thickness, young):
+    """Of its end by bending, F ∫ (L − x)² 12/(E b h³) dx, and by shear, ∫ F/(κ G b h) dx, at midpoints."""
+    x = (np.arange(200_000) + 0.5) / 200_000 * LENGTH
+    h, e = thickness(x), young(x)
+    return FORCE * LENGTH * np.mean(12.0 * (LENGTH - x) ** 2 / (e * WIDTH * h**3) + 2.4 / (e * WIDTH * h))
+
+
+ROOT = {"shape": {"rectangle": {"x": (0.0, 0.073), "y": (0.0, WIDTH)}}}  # ends within a cell
+STRIPS = {
+    "tapered": (
+        strip(sheet=Sheet(LENGTH, WIDTH, THICK, taper_x=(THICK, 1e-3))),
+        deflection(lambda x: THICK - 2e-3 * x / LENGTH, lambda x: YOUNG),
+    ),
+    "of two materials": (
+        strip(patches=[{**ROOT, "young": 10.0 * YOUNG}]),
+        deflection(lambda x: THICK, lambda x: np.where(x < 0.073, 10.0 * YOUNG, YOUNG)),
+    ),
+    "with a step": (
+        strip(patches=[{**ROOT, "thickness": 2.0 * THICK}]),
+        deflection(lambda x: np.where(x < 0.073, 2.0 * THICK, THICK), lambda x: YOUNG),
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", STRIPS)
+@pytest.mark.parametrize(
+    ("model", "off"), [("lumped", 0.005), ("plate", 1e-5), ("shell", 1e-5), ("solid", 5e-4)]
+)
+def test_strips_bend_as_their_closed_forms(kind, model, off):
+    """The lattice's error is of second order in its cells; quadratic elements see the integrals."""
+    scene, expected = STRIPS[kind]
+    if model == "solid":
+        if kind == "with a step":
+            pytest.skip("the solid refuses steps in its thickness")
+        point = {"kind": "point", "at": TIP[0], "force": (0.0, 0.0, FORCE)}
+        scene = scene.replace(loads=[point])  # no followers on a taper
+    if model == "lumped":
+        springs = lumped.calibrate(
+            scene.sheet, scene.material, (17, 3), cells=lumped.sections_of(scene, (17, 3, 2))
+        )
+        solution = lumped.solve(scene, springs)
+    else:
+        solution = fem_reference.solve(scene, model, elements=3)
+    assert solution.status is Status.CONVERGED and solution.balance.holds
+    assert solution.displacement(TIP)[0, 2] == pytest.approx(expected, rel=off)
+
+
+def test_springs_of_a_uniform_sheet_are_refused():
+    scene, _ = STRIPS["tapered"]
+    springs = lumped.calibrate(scene.sheet, scene.material, (9, 3))
+    with pytest.raises(
+        ValueError, match=r"sheet.taper_x: the calibration consistent .* cells=lumped.sections_of"
+    ):
+        lumped.solve(scene, springs)
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    path = tmp_path_factory.mktemp("drawn") / "drawn.toml"
+    scene = load("one-edge-clamped").replace(
+        patches=[{"shape": {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}, "young": 1e9}]
+    )
+    scene.save(path)
+    path.with_name("measured.csv").write_text("x,y,ux,uy,uz\n0.188,0.094,,,-0.05\n")
+    return str(path)
+
+
+SMALL = ["--lumped", "5", "--elements", "4", "--no-pictures"]
+
+
+@pytest.mark.parametrize(
+    ("verb", "options"),
+    [
+        ("check", []),
+        ("compare", SMALL),
+        ("modes", [*SMALL, "--count", "2"]),
+        ("simulate", ["--lumped", "5", "--duration", "0.01", "--no-pictures"]),
+        ("calibrate", ["--grid", "5"]),
+        ("tradeoff", ["--lumped", "5", "--shell", "2", "--plate", "2", "--solid", "1", "--repeats", "1"]),
+        ("linearise", ["--lumped", "5"]),
+    ],
+)
+def test_verbs_that_know_such_sheets(drawn, verb, options, capsys):
+    assert run(verb, drawn, *options) == 0, capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("verb", "options", "who"),
+    [
+        ("advise", [], "advise"),
+        ("stability", [], "stability"),
+        ("live", ["--no-browser"], "live"),
+        ("identify", ["--measured", "measured.csv", "--unknown", "young"], "identify"),
+        ("calibrate", ["--grid", "5", "--export", "lattice"], "an export"),
+        ("calibrate", ["--method", "uniform"], "calibration 'uniform'"),
+        ("compare", ["--calibration", "fit-static"], "calibration 'fit-static'"),
+    ],
+)
+def test_verbs_that_do_not_say_so(drawn, verb, options, who, monkeypatch, capsys):
+    monkeypatch.chdir(drawn.removesuffix("drawn.toml"))
+    assert run(verb, drawn, *options) == 2
+    assert f"patch: {who} is for sheets that are the same all over; " in one_line(capsys)

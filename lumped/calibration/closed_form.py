@@ -141,7 +141,7 @@ def diagonals_for_waves(asked: Moduli, area: float, bracket: float) -> float:
 
 def _by_diagonals(layer: np.ndarray, ratios: np.ndarray) -> float:
     """f, the share of a layer's C66 that its diagonals have: half of what axial links leave room for."""
-    room = 0.5 * (np.diag(layer)[:2] - layer[0, 1])
+    room = 0.5 * np.maximum(np.diag(layer)[:2] - layer[0, 1], 0.0)
     asked = layer[2, 2] * (ratios - 1.0)
     return float(min(1.0, *np.divide(room, asked, out=np.ones(2), where=asked > room)))
 

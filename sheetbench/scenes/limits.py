@@ -9,8 +9,8 @@ from __future__ import annotations
 PAGE = "docs/limits.md"
 
 _FULL = "a sheet is a full rectangle: holes and cut-outs are not modelled"
-_UNIFORM = "a sheet has one material and one thickness all over: patches and inclusions are not modelled"
-_RECTANGLE = "a sheet is a flat rectangle of one thickness: other outlines are not modelled"
+_UNIFORM = "a part with a thickness or a material of its own is a [[patch]]: one layer, not magnetic"
+_RECTANGLE = "a sheet is a flat rectangle: other outlines are not modelled"
 _ISOTROPIC = "a material is isotropic, with one young and one poisson: orthotropy is not modelled"
 _RUBBER = (
     "of rubber there are the laws neo-hookean, mooney-rivlin, yeoh and gent: `law` in [material], each with "
@@ -33,9 +33,9 @@ _PLASTIC = "plasticity, damage and fracture are not modelled"
 
 _WORDS = {
     _FULL: "hole holes cutout cutouts cut cuts slit slits notch notches",
-    _UNIFORM: "patch patches region regions inclusion inclusions stiffener stiffeners magnet magnets layer "
+    _UNIFORM: "patches region regions inclusion inclusions stiffener stiffeners magnet magnets layer "
     "layers laminate ply plies",
-    _RECTANGLE: "shape outline polygon contour mesh diameter taper taper_x taper_y",
+    _RECTANGLE: "outline contour mesh diameter",
     _ISOTROPIC: "young_x young_y young_z young_1 young_2 young_3 poisson_xy poisson_yx poisson_12 poisson_21 "
     "shear_xy shear_12 shear_13 shear_23 orthotropic orthotropy anisotropic fibre fibres fiber fibers "
     "fibre_angle fiber_angle angle",

@@ -84,6 +84,7 @@ def test_a_scene_s_document_is_the_scene():
         "sheet",
         "material",
         "gravity",
+        "patch",
         "support",
         "actuator",
         "probes",

@@ -15,12 +15,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from comparisons.models.layers import layers
-from comparisons.models.spec import Grading, Lattice, LatticePair
+from comparisons.models.spec import GradingLike, Lattice, LatticePair
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, Scene
-from sheetbench.scenes.grading import Graded, of_settings, towards
-from sheetbench.scenes.grading import Grading as EdgeGrading
+from sheetbench.scenes.grading import Graded, Grading, of_settings, towards
 from sheetbench.scenes.grid import LAYERS
 from sheetbench.scenes.summary import few
 
@@ -30,10 +29,10 @@ NARROW = 0.6
 RESOLVED = 24.0
 
 
-def parse_grading(grading: Grading) -> Graded | str | None:
+def parse_grading(grading: GradingLike) -> Graded | str | None:
     """Return a number or a grading towards some edges, or "auto", from what is asked, text too (0.5,
     0.5:x0,y0); None where nothing is. Raises BadInput."""
-    if grading is None or grading == AUTO or isinstance(grading, EdgeGrading):
+    if grading is None or grading == AUTO or isinstance(grading, Grading):
         return grading
     by, _, edges = str(grading).partition(":")
     try:
@@ -48,7 +47,7 @@ def parse_grading(grading: Grading) -> Graded | str | None:
     return towards(value, edges.split(",") if edges else None)
 
 
-def fixed(grading: Grading) -> Graded | None:
+def fixed(grading: GradingLike) -> Graded | None:
     """Return the grading that is asked for; None for "auto" too. Raises BadInput."""
     chosen = parse_grading(grading)
     return None if isinstance(chosen, str) else chosen

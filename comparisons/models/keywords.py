@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TypedDict
 
 from comparisons.models.grids import GridLike
-from comparisons.models.spec import Grading
+from comparisons.models.spec import GradingLike
 
 
 class SpringKeywords(TypedDict, total=False):
@@ -13,7 +13,7 @@ class SpringKeywords(TypedDict, total=False):
 
     k: float | None
     layer_distance: float | None
-    grading: Grading
+    grading: GradingLike
 
 
 class LatticeKeywords(SpringKeywords, total=False):

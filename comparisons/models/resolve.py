@@ -18,7 +18,7 @@ from comparisons.models.grading import fixed, grading_of, one_size
 from comparisons.models.grids import GridLike, scene_grid
 from comparisons.models.method import resolve_calibration
 from comparisons.models.sizes import require_room, size
-from comparisons.models.spec import Elements, External, Grading, Lattice, LatticePair, Spec, counted
+from comparisons.models.spec import Elements, External, GradingLike, Lattice, LatticePair, Spec, counted
 from comparisons.models.symmetry import cut_axes
 from sheetbench.choices import (
     AUTO,
@@ -160,7 +160,7 @@ def resolve(
 
 
 def resolve_each(
-    scene: Scene, specs: Sequence[Spec], grading: Grading = None
+    scene: Scene, specs: Sequence[Spec], grading: GradingLike = None
 ) -> tuple[list[Spec], tuple[str, ...]]:
     """Return lattices and pairs of grids with every choice made, and the reasons.
 

@@ -24,12 +24,11 @@ from comparisons.models.grids import GridLike, parse_elements, scene_grid
 from sheetbench.choices import AUTO, ELEMENTS, EXTRAPOLATED, REFERENCES
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grading import Grading as EdgeGrading
+from sheetbench.scenes.grading import Graded, Grading
 from sheetbench.scenes.grid import LAYERS
 from sheetbench.scenes.quantities import LARGEST
 
-Grading = Graded | str | None
+GradingLike = Graded | str | None
 SIZES = ("grid", "coarser", "elements")
 _PROGRAM = re.compile(rf"(?P<file>{PREFIX}[^:]+)(:(?P<rest>.*))?")
 _FROM_FILE = re.compile(r"(?P<file>.+\.py)(:(?P<object>\w+)(?![\w=]))?(:(?P<rest>.*=.*))?")
@@ -102,7 +101,7 @@ class Lattice(Spec):
     calibration: str | None = None
     k: float | None = None
     layer_distance: float | None = None
-    grading: Grading = None
+    grading: GradingLike = None
     linear: bool = False
     symmetry: bool = False
     branch: str = "path"
@@ -128,7 +127,7 @@ class LatticePair(Spec):
     coarser: GridLike = None
     calibration: str | None = None
     layer_distance: float | None = None
-    grading: Grading = None
+    grading: GradingLike = None
     linear: bool = False
     symmetry: bool = False
 
@@ -320,7 +319,7 @@ def _written(value: Any) -> str:
 
 def _data(value: Any) -> Any:
     """Return a field's value as JSON has it."""
-    if isinstance(value, EdgeGrading):
+    if isinstance(value, Grading):
         return str(value)
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()

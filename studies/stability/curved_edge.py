@@ -16,7 +16,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.models.spec import Grading
+from comparisons.models.spec import GradingLike
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row, percent
 from sheetbench.answers.table import Column
@@ -35,7 +35,7 @@ def cells(full: bool) -> list[Cell]:
     return [{"turn": turn + 0.0, "load_number": L} for turn in both for L in loads if turn or L]
 
 
-def measure(turn: float, load_number: float, grading: Grading = None) -> Row:
+def measure(turn: float, load_number: float, grading: GradingLike = None) -> Row:
     """The row of a cell: a rod bent to `turn` of a full circle."""
     curvature = 2.0 * np.pi * turn / SIDE
     supports = (Curved(edge="x0", curvature=float(curvature)),)

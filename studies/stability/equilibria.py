@@ -19,7 +19,7 @@ import numpy as np
 
 from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.resolve import resolve
-from comparisons.models.spec import Grading, Lattice
+from comparisons.models.spec import GradingLike, Lattice
 from comparisons.stability.rows import LARGE, Row, percent
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Clamped, Gravity, Load, Material, Scene, Sheet, Solution, Status
@@ -61,7 +61,7 @@ def lattice(scene: Scene, grid: tuple[int, int], **options: Any) -> Solution:
     return lumped.solve(scene, springs or _consistent(scene, grid, grading), **options)
 
 
-def _consistent(scene: Scene, grid: tuple[int, int], grading: Grading) -> Any:
+def _consistent(scene: Scene, grid: tuple[int, int], grading: GradingLike) -> Any:
     return resolve(scene, Lattice(grid, CALIBRATION, grading=grading), "springs").springs
 
 
@@ -78,7 +78,7 @@ def compare(
     *,
     elements: int = ELEMENTS,
     springs: Any = None,
-    grading: Grading = None,
+    grading: GradingLike = None,
     single: bool = False,
     explain: bool = True,
 ) -> Row:
@@ -124,7 +124,7 @@ def mechanism(
     ours: Solution,
     truth: Solution,
     springs: Any = None,
-    grading: Grading = None,
+    grading: GradingLike = None,
 ) -> Row:
     """What makes a converged lattice differ, by the tests that the module names, and what they gave."""
     off = distance(scene, ours, truth) or 0.0

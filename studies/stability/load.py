@@ -20,7 +20,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.models.spec import Grading
+from comparisons.models.spec import GradingLike
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row, percent
 from sheetbench.answers.table import Column
@@ -46,7 +46,7 @@ def cells(full: bool) -> list[Cell]:
     return every
 
 
-def measure(kind: str, size: float, grading: Grading = None) -> Row:
+def measure(kind: str, size: float, grading: GradingLike = None) -> Row:
     """The row of a cell."""
     on: dict[str, Any] = {"grid": GRID, "grading": grading}
     if kind == "weight":

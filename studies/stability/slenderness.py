@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.models.spec import Grading
+from comparisons.models.spec import GradingLike
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row
 from sheetbench.answers.table import Column
@@ -48,7 +48,7 @@ def cells(full: bool) -> list[Cell]:
 
 
 def measure(
-    clamped: int, slenderness: float, load_number: float, poisson: float = 0.48, grading: Grading = None
+    clamped: int, slenderness: float, load_number: float, poisson: float = 0.48, grading: GradingLike = None
 ) -> Row:
     """The row of a cell; the springs' area stiffness with it, in units of the axial one."""
     import lumped

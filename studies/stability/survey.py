@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from comparisons.models.grading import parse_grading
 from comparisons.models.sizes import require_room
-from comparisons.models.spec import Grading, Lattice
+from comparisons.models.spec import GradingLike, Lattice
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
@@ -21,7 +21,7 @@ def survey(
     store: Store,
     *,
     full: bool = False,
-    grading: Grading = None,
+    grading: GradingLike = None,
     workers: int = 1,
     pool: Pool = processes,
     retry: bool = False,

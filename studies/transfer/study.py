@@ -24,7 +24,7 @@ import numpy as np
 from comparisons.comparison.comparison import error
 from comparisons.models.resolve import resolve, resolve_each
 from comparisons.models.sizes import require_room
-from comparisons.models.spec import Elements, Grading, Lattice, lattices
+from comparisons.models.spec import Elements, GradingLike, Lattice, lattices
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
@@ -92,7 +92,7 @@ def transfer(
     *,
     methods: Sequence[str] = METHODS,
     grids: Sequence[int] = GRIDS,
-    grading: Grading = None,
+    grading: GradingLike = None,
     scenes: Sequence[str] | None = None,
     parts: Sequence[str] = PARTS,
     elements: int = 24,
@@ -134,7 +134,7 @@ class _Study:
         methods: tuple[str, ...],
         grids: tuple[int, ...],
         elements: int,
-        grading: Grading = None,
+        grading: GradingLike = None,
     ) -> None:
         self.grading = grading
         self.scenes, self.methods, self.grids, self.elements = scenes, methods, grids, elements

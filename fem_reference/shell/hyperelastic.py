@@ -20,7 +20,7 @@ import numpy as np
 
 from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, STRAINS, Element, cartesian
 from fem_reference.shell.laws import Law, Response
-from fem_reference.shell.slant import Slant, slant
+from fem_reference.shell.slant import Slant, linear, slant
 from fem_reference.surface.biquadratic import integrated
 from fem_reference.surface.materials import section_of, transverse_shear_stiffness
 from sheetbench.scenes import Material
@@ -68,17 +68,12 @@ class HyperelasticElement(Element):
         found = self._response(stretch, t[..., None] * curvature).stress * self._volumes[..., None]
         force, moment = found.sum(axis=2), np.einsum("egza,z->ega", found, self.heights)
         force += np.sum(moment * curvature, axis=-1)[..., None] * slope
-        leaning = self._slant(stretch, strain)
-        if leaning is not None:
-            force += self._shear[..., None] * leaning.by_strain
+        shear, leaning = self._shear[..., None], self._slant(stretch, strain)
+        force += shear * leaning.by_strain
         out = self.drag * (self.stiffness @ (strain - self.past)[:, :, None])[:, :, 0]
         out[:, MEMBRANE] += np.einsum("egak,ega->ek", self.membrane, force, optimize=True)
         out[:, BENDING] += np.einsum("egak,ega->ek", self.bending, t[..., None] * moment, optimize=True)
-        if leaning is None:
-            out[:, SHEAR] += (self.stiffness[:, SHEAR, SHEAR] @ strain[:, SHEAR, None])[:, :, 0]
-        else:
-            pull = self._shear[..., None] * leaning.by_slant
-            out[:, SHEAR] += np.einsum("egak,ega->ek", self.slanted, pull, optimize=True)
+        out[:, SHEAR] += np.einsum("egak,ega->ek", self.slanted, shear * leaning.by_slant, optimize=True)
         return out
 
     @property
@@ -111,9 +106,7 @@ class HyperelasticElement(Element):
         out[:, MEMBRANE, BENDING] += coupled
         out[:, BENDING, MEMBRANE] += coupled.swapaxes(1, 2)
         out[:, BENDING, BENDING] += integrated(self.bending, t * t * turn, areas)
-        if (leaning := self._slant(stretch, strain)) is None:
-            out[:, SHEAR, SHEAR] += self.stiffness[:, SHEAR, SHEAR]
-            return out
+        leaning = self._slant(stretch, strain)
         out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, leaning.strains, self._shear)
         out[:, SHEAR, SHEAR] += integrated(self.slanted, leaning.slants, self._shear)
         coupled = integrated(self.membrane, leaning.mixed, self._shear, self.slanted)
@@ -128,11 +121,7 @@ class HyperelasticElement(Element):
         total, membrane = (
             float(np.sum(self._volumes * self._response(stretch, part).energy)) for part in (bent, 0.0 * bent)
         )
-        if (leaning := self._slant(stretch, strain)) is None:
-            sampled = strain[:, SHEAR, None]
-            shear = 0.5 * np.sum(sampled * (self.stiffness[:, SHEAR, SHEAR] @ sampled))
-        else:
-            shear = np.sum(self._shear * leaning.energy)
+        shear = np.sum(self._shear * self._slant(stretch, strain).energy)
         return {"membrane": membrane, "bending": total - membrane, "shear": float(shear)}
 
     def dragged(self, strain: np.ndarray, drag: float) -> Element:
@@ -152,11 +141,11 @@ class HyperelasticElement(Element):
             self.material, stretch[:, :, None] + self.heights[:, None] * bent[:, :, None]
         )
 
-    def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Slant | None:
-        """Return transverse shear at every element's points; None of a law with which it is linear."""
-        if not self.law.stands_any_strain:
-            return None
+    def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Slant:
+        """Return transverse shear at every element's points, linear unless the law is for large strains."""
         leaning = np.einsum("egak,ek->ega", self.slanted, strain[:, SHEAR])
+        if not self.law.stands_any_strain:
+            return linear(leaning)
         return slant(self.law.shear(self.material, stretch), stretch, leaning)
 
     @property

@@ -50,3 +50,17 @@ def slant(share: Response, strain: np.ndarray, leaning: np.ndarray) -> Slant:
         first[..., :, None] * pulled[..., None, :] + p[..., None] * of_strain,
         p[..., None] * matrix,
     )
+
+
+def linear(leaning: np.ndarray) -> Slant:
+    """Return ½ γ² and its derivatives."""
+    none, one = np.zeros((*leaning.shape[:-1], 3)), np.eye(2)
+    energy = 0.5 * np.sum(leaning**2, axis=-1)
+    return Slant(
+        energy,
+        none,
+        leaning,
+        none[..., None] * np.ones(3),
+        none[..., None] * np.ones(2),
+        none[..., :1, None] + one,
+    )

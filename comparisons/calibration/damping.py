@@ -20,7 +20,8 @@ import numpy as np
 
 import lumped
 from comparisons.measured.columns import Columns, read_columns
-from sheetbench.answers.table import HERTZ, MILLISECONDS, NUMBER, PERCENT, Table
+from comparisons.modes.damping import ModeDamping, mode_damping
+from sheetbench.answers.table import MILLISECONDS, NUMBER, Table
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Relaxation, Scene
 from sheetbench.scenes.relaxation import A_DECADE
@@ -29,21 +30,6 @@ MODES = 10
 LEAST_SHARE = 1e-4  # of a branch that is kept
 FEWEST = 4  # rows of measured moduli
 RELATION = "loss factor η = 2ζ = tan δ = 1/Q; a decay's logarithmic decrement is πη where η is small"
-
-
-@dataclass(frozen=True)
-class ModeDamping:
-    """A mode's frequency [Hz] as it swings, damping ratio asked for (None: nothing) and got."""
-
-    number: Annotated[int, NUMBER("d", "mode")]
-    frequency_hz: Annotated[float, HERTZ(".4g", "frequency")]
-    asked: Annotated[float | None, PERCENT(".2f", "ζ asked")]
-    got: Annotated[float, PERCENT(".2f", "ζ got")]
-
-    @property
-    def miss(self) -> Annotated[float | None, PERCENT("z.1f", "off by")]:
-        """Relative difference of what is got."""
-        return self.got / self.asked - 1.0 if self.asked else None
 
 
 @dataclass(frozen=True)
@@ -119,17 +105,7 @@ def ratios(scene: Scene, springs: lumped.Calibration) -> tuple[ModeDamping, ...]
         return ()
     at_rest = scene.replace(material=Material.model_validate({**material.model_dump(), **UNDAMPED}))
     count = min(MODES, prod(springs.grid) // 2)
-    found = []
-    for number, frequency in enumerate(lumped.modes(at_rest, springs, count=count).frequencies, start=1):
-        omega = 2.0 * pi * float(frequency)
-        swings, got = float(frequency), 0.5 * material.dashpot_time * omega
-        if material.branches.times:
-            s = material.branches.pole(omega)
-            swings, got = s.imag / (2.0 * pi), -s.real / abs(s)
-        low, high = material.band or (0.0, float("inf"))
-        asked = 0.5 * material.loss_factor if material.loss_factor and low <= swings <= high else None
-        found.append(ModeDamping(number, swings, asked, got))
-    return tuple(found)
+    return mode_damping(material, lumped.modes(at_rest, springs, count=count).frequencies)
 
 
 SERIES = {"frequency": "Hz", "storage": "Pa", "loss": "Pa", "tan_delta": "", "time": "s", "modulus": "Pa"}

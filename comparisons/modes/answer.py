@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, overload
@@ -11,6 +11,7 @@ from typing import Annotated, Any, overload
 import numpy as np
 
 from comparisons.models.grading import choice_notes
+from comparisons.modes.damping import ModeDamping, mode_damping
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
 from comparisons.report.vtk import plan_mesh, write_mesh
@@ -125,18 +126,33 @@ class Spectra(Answer, Sequence[Spectrum]):
                 )
         return tuple(found)
 
+    @cached_property
+    def damping(self) -> tuple[tuple[ModeDamping, ...], ...]:
+        """Damping of every model's modes about the flat sheet; none of a material that does not damp, and of
+        a scene with dampers of its own."""
+        material = self.scene.material
+        damps = material.dashpot_time or material.damping_rate or material.branches.times
+        if self.about == "deformed" or self.scene.dampers is not None or not damps:
+            return ()
+        return tuple(mode_damping(material, spectrum.frequencies) for spectrum in self)
+
     def against(self, model: str) -> tuple[Pair, ...]:
         """Return the pairs with one reference, in the order of the lattice's modes."""
         return tuple(pair for pair in self.pairs if pair.against == model)
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document of `sheetbench modes`."""
+        damping = {
+            spectrum.model: [asdict(mode) for mode in modes]
+            for spectrum, modes in zip(self, self.damping, strict=False)
+        }
         return {
             "scene": self.scene.document(),
             "about": self.about,
             "sag": self.sag,
             "solutions": [spectrum.as_dict() for spectrum in self],
             "pairs": [pair.as_dict() for pair in self.pairs],
+            **({"damping": damping} if damping else {}),
         }
 
     def tables(self) -> tuple[Table, ...]:
@@ -155,7 +171,18 @@ class Spectra(Answer, Sequence[Spectrum]):
         empty |= dict.fromkeys(("relative", "mac"), not references)
         without = [field for field, left_out in empty.items() if left_out]
         caption = f"Natural frequencies about the {self.about} sheet"
-        return (Table.of(ModeRow, rows, caption, "modes", without=without),)
+        found = Table.of(ModeRow, rows, caption, "modes", without=without)
+        fields = ("number", "frequency_hz", "asked", "got", "miss")
+        return found, *(
+            Table.of(
+                ModeDamping,
+                modes,
+                f"Damping of the modes: {spectrum.model}",
+                f"damping-{spectrum.model}",
+                fields=fields,
+            )
+            for spectrum, modes in zip(self, self.damping, strict=False)
+        )
 
     def figures(self) -> tuple[Picture, ...]:
         """Shapes on the plan."""

@@ -28,7 +28,6 @@ HELD_WITHIN = 0.1  # of the loss factor, over the band
 WIDEST = 6  # decades
 BEYOND = np.linspace(0.2, 1.2, 6)  # how far times reach beyond the band, in ln τ; the best is taken
 SAMPLES, SWEEPS = 100, 6
-FIXED_POINT_STEPS = 60  # each gains about a factor η
 
 
 class Relaxation(Frozen):
@@ -58,12 +57,22 @@ class Branches(NamedTuple):
         k = np.array(self.stiffness)
         return 1.0 + (x * x / (1.0 + x * x)) @ k, (x / (1.0 + x * x)) @ k
 
-    def pole(self, omega: float) -> complex:
-        """s [1/s] of a mode of the long-time stiffness at ω [rad/s]: s² + ω² E(s)/E∞ = 0."""
-        s, k, times = 1j * omega, np.array(self.stiffness), np.array(self.times)
-        for _ in range(FIXED_POINT_STEPS):
-            s = 1j * omega * complex(np.sqrt(1.0 + (s * times / (1.0 + s * times)) @ k))
-        return s
+    def pole(self, omega: float, damping_time: float = 0.0, damping_rate: float = 0.0) -> complex:
+        """Return s [1/s] of a mode of the long-time stiffness at ω [rad/s], beside one damper:
+
+            s² + damping_rate s + ω² (E(s)/E∞ + damping_time s) = 0,
+
+        an eigenvalue of ω q, q̇ and ω times the strains of the branches' springs; the slowest of a mode that
+        does not swing.
+        """
+        size = 2 + len(self.times)
+        rates = np.zeros((size, size))
+        rates[1, 0], rates[1, 1] = -omega, -damping_rate - omega**2 * damping_time
+        rates[1, 2:] = -omega * np.array(self.stiffness)
+        rates[0, 1] = rates[2:, 1] = omega
+        rates[range(2, size), range(2, size)] = -1.0 / np.array(self.times)
+        roots = np.linalg.eigvals(rates)
+        return complex(roots[np.lexsort((roots.real, roots.imag))[-1]])
 
     def modulus(self, time: np.ndarray) -> np.ndarray:
         """E(t)/E∞ at times [s] after a strain is imposed and held."""

@@ -126,3 +126,19 @@ def test_kinds_of_known_deflections() -> None:
     assert kinds(STRIP, np.stack(shapes), CELLS) == expected
     adjacent = STRIP.model_copy(update={"supports": (Clamped(edge="x0"), Clamped(edge="y0"))})
     assert kinds(adjacent, np.stack(shapes[:2]), CELLS) == ["bending 1", "bending 2"]
+
+
+@pytest.mark.parametrize("damped, within", [({"frequency": 6.0}, np.inf), ({"band": (1.0, 200.0)}, 0.1)])
+def test_damping_of_modes_is_told_as_asked_and_got(damped: dict[str, object], within: float) -> None:
+    """Branches keep it over the band; one damper has it at its frequency: ζ goes with the frequency."""
+    scene = scenes.load("one-edge-clamped").replace(loss_factor=0.12, **damped)
+    found = spectra(scene, grid=5, elements=4, count=6)
+    damping = found.document()["damping"]
+    assert list(damping) == ["lumped", "shell"] and len(found.tables()) == 3
+    for mode in damping["lumped"] + damping["shell"]:
+        assert mode["asked"] == 0.06 and abs(mode["got"] / 0.06 - 1.0) < within
+    if "frequency" in damped:
+        first = damping["lumped"][0]
+        undamped = found.frequencies[0]
+        assert first["got"] == pytest.approx(0.06 * undamped / 6.0, rel=1e-9)
+        assert first["frequency_hz"] == pytest.approx(undamped * np.sqrt(1.0 - first["got"] ** 2), rel=1e-9)

@@ -17,5 +17,6 @@ STUDIES = {
     "rubber": "laws and constants of measured rubbers, and the stretch from which a linear lattice is off",
     "simulators": "other simulators with what is exported for them",
     "stability": "where each solver holds, degrades, refuses or breaks: eight published maps",
+    "trials": "other codes with the numbers people use and with ours: error and time",
     "transfer": "every calibration on scenes that it was not made on, as the grid is refined",
 }

@@ -183,13 +183,22 @@ class Score(ShownAnswer):
             "score: geometric mean of the cases' errors, none below the reference's bar, none above 100 %"
         ]
         if len(self.standing) > 1:
-            at = [one.model for one in self.standing].index(OWN)
             made = document()["made_with"]["machine"].get("processor", "another machine")
-            notes.append(
-                f"place {at + 1} of {len(self.standing)} by score; times of the others are geometric means, "
-                f"measured on {made}"
-            )
+            notes.append(f"times of the others are geometric means, measured on {made}")
+            notes.append(self.place)
         return notes + ([f"not answered yet: {', '.join(self.unanswered)}"] if self.unanswered else [])
+
+    @property
+    def place(self) -> str:
+        """The place among other models by score, and the model of the nearest score."""
+        ranked = self.standing
+        at = [one.model for one in ranked].index(OWN)
+        others = [one for one in ranked if one.model != OWN]
+        nearest = min(others, key=lambda one: abs(np.log(max(one.score, 1e-12) / max(self.score, 1e-12))))
+        return (
+            f"you rank {at + 1} of {len(ranked)}; nearest neighbour {nearest.model}, "
+            f"{number(100 * nearest.score, '.3g')} %"
+        )
 
     def complaints(self) -> list[str]:
         return self.faults

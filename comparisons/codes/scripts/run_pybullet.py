@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pybullet as bullet
 
-CHECK, AT_REST, DRAG = 500, 2e-4, 30.0  # steps between checks; of the largest displacement; 1/s
+CHECK, AT_REST, DRAG = 500, 1e-3, 8.0  # steps between checks; of the largest displacement; 1/s
 
 
 def main(seconds=120.0):

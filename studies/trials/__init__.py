@@ -1,0 +1,1 @@
+"""Other people's codes with the numbers people use and with ours."""

@@ -1,0 +1,139 @@
+"""Other codes with the numbers that people use and with ours: error and time of a scene, each in a process.
+
+A recipe is a mesh and coefficients. `sheetbench study trials CODE=PYTHON` runs the recipes of a code with a
+Python that has it, and writes studies/results/CODE.json. What crashes or takes too long costs its own row.
+"""
+
+from __future__ import annotations
+
+import json
+import platform
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+import fem_reference
+from comparisons.cells.codes import CODES
+from comparisons.codes.setup import CodeSetup, setup
+from comparisons.comparison.differences import error
+from comparisons.external.process import ONE_THREAD, run
+from sheetbench.errors import BadInput, require_choice
+from sheetbench.scenes import Scene, load
+
+RESULTS = Path(__file__).parent.parent / "results"
+SCENES = ("two-edges-clamped", "one-edge-clamped")
+SQUARES = 8
+MEAN_EDGE = (2.0 + 2.0**0.5) / 3.0  # of squares with diagonals, over their side
+Coefficients = Callable[[Scene, float], Mapping[str, float]]
+
+
+def _rigidity(scene: Scene) -> float:
+    material = scene.material
+    return material.young * scene.sheet.thickness**3 / 12.0 / (1.0 - material.poisson**2)
+
+
+def _uniform(scene: Scene, _: float) -> dict[str, float]:
+    return {"k": scene.material.young * scene.sheet.thickness, "layers": scene.sheet.thickness}
+
+
+ONE = "one-diagonal"
+RECIPES: Mapping[str, Mapping[str, tuple[str | None, Coefficients | None]]] = {
+    "newton": {
+        "textbook: D/l": (ONE, lambda scene, side: {"hinge": _rigidity(scene) / side}),
+        "GAUGE: D/mean edge": (ONE, lambda scene, side: {"hinge": _rigidity(scene) / side / MEAN_EDGE}),
+        "ours": (None, None),
+    },
+    "mujoco": {
+        "textbook: E, ν, h": (ONE, lambda scene, _: {"hinge": _rigidity(scene) / 3.0}),
+        "ours, one diagonal": (ONE, None),
+        "ours": (None, None),
+    },
+    "pybullet": {"textbook: k = E h": (None, _uniform), "ours": (None, None)},
+}
+OURS = "ours"
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A scene by a recipe; error and seconds are None where there is no answer."""
+
+    scene: str
+    recipe: str
+    mesh: str
+    status: str
+    error: float | None
+    seconds: float | None
+    why: str = ""
+
+
+def trials(code: str, python: str, seconds: float, say: Callable[[str], None]) -> list[Trial]:
+    """Run every recipe of a code in every scene, with a Python that has it."""
+    require_choice("code", code, RECIPES)
+    found = []
+    for name in SCENES:
+        scene = load(name)
+        truth = fem_reference.solve(scene, model="shell", elements=16).displacement(scene.probe_points())
+        for recipe, (mesh, of) in RECIPES[code].items():
+            side = min(scene.sheet.lengths) / SQUARES
+            given = None if of is None else of(scene, side)
+            made = setup(scene, code, SQUARES, mesh=mesh, coefficients=given)
+            found.append(_trial(made, recipe, python, seconds, truth))
+            say(f"{code}, {name}, {recipe}: {found[-1].status}, {found[-1].error}")
+    return found
+
+
+def _trial(made: CodeSetup, recipe: str, python: str, seconds: float, truth: np.ndarray) -> Trial:
+    with TemporaryDirectory() as folder:
+        for name, write in made.files().items():
+            write(Path(folder) / name)
+        script = str(Path(folder) / f"run_{made.code.name}.py")
+        ended = run([python, script, str(seconds)], b"", 2.0 * seconds + 60.0, variables=ONE_THREAD)
+    about = made.scene.name, recipe, made.cell.name
+    lines = [line for line in ended.answer.decode().splitlines() if line.startswith("{")]
+    if ended.fault or not lines:
+        return Trial(*about, "failed", None, None, ended.fault or "no answer")
+    answer: dict[str, Any] = json.loads(lines[-1])
+    moved = np.array([answer["probes"][probe] for probe in made.scene.probes])
+    return Trial(*about, answer["status"], error(moved, truth), answer["solve_seconds"])
+
+
+def write_results(code: str, found: list[Trial]) -> Path:
+    """Write a code's file of results; where it is."""
+    row = CODES[code]
+    document = {
+        "code": code,
+        "title": row.title,
+        "licence": row.licence,
+        "date": datetime.now(UTC).date().isoformat(),
+        "machine": f"{platform.machine()}, Python {platform.python_version()}, one thread",
+        "command": f"sheetbench study trials {code}=PYTHON",
+        "rows": [asdict(one) for one in found],
+    }
+    path = RESULTS / f"{code}.json"
+    path.write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    return path
+
+
+def read_results(path: Path) -> dict[str, Any]:
+    """A file of results. Raises BadInput that says what is wrong with it: so is a pull request's checked."""
+    try:
+        document: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        texts = [document[key] for key in ("code", "title", "licence", "date", "machine", "command")]
+        rows = [Trial(**row) for row in document["rows"]]
+        datetime.fromisoformat(document["date"])
+    except (OSError, ValueError, KeyError, TypeError) as wrong:
+        raise BadInput(f"{path}: no file of results: {wrong!r}") from None
+    if not rows or not all(isinstance(text, str) and text for text in texts):
+        raise BadInput(f"{path}: texts and rows are not to be empty")
+    for row in rows:
+        numbers = [value for value in (row.error, row.seconds) if value is not None]
+        if row.scene not in SCENES or not all(0.0 <= value < np.inf for value in numbers):
+            raise BadInput(f"{path}: {row.scene}, {row.recipe}: a scene of {', '.join(SCENES)}, numbers ≥ 0")
+        if row.status == "converged" and len(numbers) < 2:
+            raise BadInput(f"{path}: {row.scene}, {row.recipe}: converged without an error or a time")
+    return document

@@ -23,12 +23,14 @@ OBJ, JSON = "sheet.obj", "sheet.json"
 
 @dataclass(frozen=True)
 class Problem:
-    """A mesh, the code's parameters by name, and the membrane's C11 [N/m], which bounds the steps."""
+    """A mesh, the code's parameters by name, and the membrane's C11 [N/m], which bounds the steps.
+    clamp: factor of hinges that lie on a clamp."""
 
     mesh: SheetMesh
     keys: Keys
     stretching: float
     tetrahedra: np.ndarray | None = None
+    clamp: float = 1.0
 
 
 def _script(code: str) -> str:
@@ -45,7 +47,12 @@ def _numbers(values: Any) -> str:
 
 def python_files(code: str, of: Problem) -> dict[str, str]:
     """sheet.json and the code's script."""
-    document = {**of.mesh.document(), "parameters": dict(of.keys), "stretching": of.stretching}
+    document = {
+        **of.mesh.document(),
+        "parameters": dict(of.keys),
+        "stretching": of.stretching,
+        "clamp": of.clamp,
+    }
     return {JSON: _json(document), f"run_{code}.py": _script(code)}
 
 

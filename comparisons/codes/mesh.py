@@ -61,10 +61,11 @@ class SheetMesh:
         }
 
 
-def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE) -> SheetMesh:
+def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_share: float = 1.0) -> SheetMesh:
     """Return the mesh of a scene's sheet, `squares` along its shorter side.
 
-    pattern: ONE or ALTERNATE. Raises BadInput for what these codes do not have: supports but clamped and
+    pattern: ONE or ALTERNATE; beyond_share: how far beyond an edge its second row is, over a square's side.
+    Raises BadInput for what these codes do not have: supports but clamped and
     hinged edges that stay, loads but weight and forces at points.
     """
     if why := refusal(scene):
@@ -87,7 +88,11 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE) -> SheetMes
         inside &= outwards <= 0
         share[outwards == 0] *= 0.5
     own = inside.ravel()[triangles].all(axis=1)
-    places = np.column_stack([i.ravel() * spacing[0], j.ravel() * spacing[1], np.zeros(i.size)])
+    plan = [
+        (n.ravel() - (1.0 - beyond_share) * (n.ravel() - np.clip(n.ravel(), 0, count))) * side
+        for n, count, side in zip((i, j), counts, spacing, strict=True)
+    ]
+    places = np.column_stack([*plan, np.zeros(i.size)])
     per_square = scene.material.density * scene.sheet.thickness * float(np.prod(spacing))
     forces = np.zeros_like(places)
     for load in scene.loads:

@@ -1,7 +1,10 @@
 """A scene in another code's words: parameters, mesh, and the files that the code reads.
 
 Hinges have the coefficient that is best in the scene, as far as a cell of that mesh can be right there, and
-without a scene's answer at rest the one whose moduli are nearest to the sheet's.
+without a scene's answer at rest the one whose moduli are nearest to the sheet's. A hinge on a clamp bends
+half a square only, and is to be twice as stiff: hinges with weight "height" are where the row beyond the
+clamp is next to it, others are given twice the coefficient. Without that a cantilever of n squares is 2/n too
+soft.
 """
 
 from __future__ import annotations
@@ -31,6 +34,7 @@ from sheetbench.scenes.words import sheet_in_words
 
 SQUARES = 8  # along the shorter side
 LAYERED = "tetrahedra"
+NEAR = 0.02  # of a square's side, from a clamp to the row beyond it
 
 
 @dataclass(frozen=True, repr=False)
@@ -58,11 +62,13 @@ class CodeSetup(Answer):
         """Mesh and parameters, for the files. Raises BadInput for what codes of triangles do not have."""
         keys = {key.parameter: key.value for key in self.keys}
         material, tetrahedra = self.scene.material, None
-        flat = sheet_mesh(self.scene, self.squares, self.cell.name)
+        near = NEAR if self.best and self.code.hinge == "height" else 1.0
+        flat = sheet_mesh(self.scene, self.squares, self.cell.name, near)
         if self.code.mesh == LAYERED:
             flat, tetrahedra = with_layers(self.scene, flat, self.squares, self.coefficients["layers"])
         stretching = material.young * self.scene.sheet.thickness / (1.0 - material.poisson**2)
-        return Problem(flat, keys, stretching, tetrahedra)
+        clamp = 2.0 if self.best and self.code.hinge == "length" else 1.0
+        return Problem(flat, keys, stretching, tetrahedra, clamp)
 
     @property
     def mesh(self) -> SheetMesh:

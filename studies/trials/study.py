@@ -99,7 +99,8 @@ def _trial(made: CodeSetup, recipe: str, python: str, seconds: float, truth: np.
         return Trial(*about, "failed", None, None, ended.fault or "no answer")
     answer: dict[str, Any] = json.loads(lines[-1])
     moved = np.array([answer["probes"][probe] for probe in made.scene.probes])
-    return Trial(*about, answer["status"], error(moved, truth), answer["solve_seconds"])
+    off = error(moved, truth) if answer["status"] == "converged" else None
+    return Trial(*about, answer["status"], off, answer["solve_seconds"])
 
 
 def write_results(code: str, found: list[Trial]) -> Path:

@@ -30,7 +30,8 @@ def sheet_model(sheet, keys):
     for a, b, c in sheet["triangles"]:
         normal.update({(a, b): c, (b, c): a, (c, a): b})
     for a, b, *_ in sheet["hinges"]:
-        builder.add_edge(normal[a, b], normal[b, a], a, b, edge_ke=keys["edge_ke"], edge_kd=0.0)
+        factor = sheet["clamp"] if sheet["held"][a] and sheet["held"][b] else 1.0
+        builder.add_edge(normal[a, b], normal[b, a], a, b, edge_ke=factor * keys["edge_ke"], edge_kd=0.0)
     builder.color(include_bending=True)
     return builder.finalize(device="cpu")
 
@@ -42,7 +43,7 @@ def main(seconds=300.0):
     model = sheet_model(sheet, keys)
     solver = newton.solvers.SolverVBD(model, iterations=ITERATIONS)
     now, after, control = model.state(), model.state(), model.control()
-    sides = rest[np.array(sheet["edges"])]
+    sides = rest[np.array([e for e in sheet["edges"] if not (sheet["held"][e[0]] and sheet["held"][e[1]])])]
     spacing = np.linalg.norm(sides[:, 1] - sides[:, 0], axis=1).min()
     areal = max(sheet["masses"]) / spacing**2
     step = 1.5 * spacing / (max(sheet["stretching"], 1e-9) / areal) ** 0.5

@@ -1,5 +1,6 @@
 """Sheets that are not the same all over, in every model and verb: cut up, in closed form, refused."""
 
+import meshio
 import numpy as np
 import pytest
 from commands import one_line, run
@@ -93,6 +94,27 @@ def test_strips_bend_as_their_closed_forms(kind, model, off):
     assert solution.displacement(TIP)[0, 2] == pytest.approx(expected, rel=off)
 
 
+@pytest.mark.parametrize(
+    ("shape", "off"),
+    [
+        ({"rectangle": {"x": (0.037, 0.081), "y": (0.021, 0.057)}}, 0.02),
+        ({"circle": {"centre": (0.06, 0.04), "radius": 0.02}}, 0.04),
+        ({"polygon": [(0.0, 0.0), (0.06, 0.0), (0.03, 0.08), (0.0, 0.08)]}, 0.04),
+    ],
+)
+def test_lattice_and_shell_agree_on_stiff_parts(shape, off):
+    """With 17 masses on the shorter side, none of the sides on a line of the grid."""
+    scene = strip(sheet=Sheet(0.12, 0.08, THICK), patches=[{"shape": shape, "young": 10.0 * YOUNG}])
+    scene = scene.replace(material=scene.material.replace(poisson=0.4), probes={})
+    grid = (25, 17, 2)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid, cells=lumped.sections_of(scene, grid))
+    found, shell = (
+        each.displacement(scene.probe_points())
+        for each in (lumped.solve(scene, springs), fem_reference.solve(scene, "shell", elements=16))
+    )
+    assert np.abs(found - shell).max() < off * np.abs(shell).max()
+
+
 def test_springs_of_a_uniform_sheet_are_refused():
     scene, _ = STRIPS["tapered"]
     springs = lumped.calibrate(scene.sheet, scene.material, (9, 3))
@@ -130,6 +152,14 @@ SMALL = ["--lumped", "5", "--elements", "4", "--no-pictures"]
 )
 def test_verbs_that_know_such_sheets(drawn, verb, options, capsys):
     assert run(verb, drawn, *options) == 0, capsys.readouterr().err
+
+
+def test_files_say_what_each_cell_is_made_of(drawn, tmp_path):
+    assert run("compare", drawn, *SMALL, "--out", str(tmp_path / "out")) == 0
+    for model in ("lumped", "shell"):
+        (file,) = (tmp_path / "out").rglob(f"{model}*.vtu")
+        young = np.concatenate(meshio.read(file).cell_data["young"])
+        assert set(young) == {54.5e6, 1e9}
 
 
 @pytest.mark.parametrize(

@@ -21,8 +21,9 @@ from comparisons.models.spec import Elements, Lattice, LatticePair, spec_of
 from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.report.work import Work
 from sheetbench.clock import now
-from sheetbench.scenes import History, Iteration, Scene, Solution, load
+from sheetbench.scenes import FieldMesh, History, Iteration, Scene, Solution, load
 from sheetbench.scenes.grading import mirrored
+from sheetbench.scenes.patches import constants_at
 
 Watch = Callable[[Iteration], None]  # called once an iteration
 
@@ -50,7 +51,17 @@ def solve(model: Resolved[Any], name: str = "") -> Solution:
     preparing = now() - began
     solution = _solve(model, watch)
     spent = solution.setup_seconds + preparing
-    return replace(solution, model=name or solution.model, setup_seconds=spent, points=dict(scene.probes))
+    drawn = solution.mesh if scene.uniform else _with_constants(solution.mesh, scene)
+    named = name or solution.model
+    return replace(solution, model=named, setup_seconds=spent, points=dict(scene.probes), mesh=drawn)
+
+
+def _with_constants(mesh: FieldMesh, scene: Scene) -> FieldMesh:
+    """Return the mesh with what each of its cells is made of, as its middle is."""
+    middles = [mesh.points[nodes, :2].mean(axis=1) for _, nodes in mesh.cells]
+    found = [vars(constants_at(scene, at)) for at in middles]
+    of_cells = {name: [one[name] for one in found] for name in found[0]}
+    return FieldMesh(mesh.points, mesh.cells, mesh.point_data, {**mesh.cell_data, **of_cells})
 
 
 def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from sheetbench.answers.report import NoPicture, Picture, Report, Write
+from sheetbench.answers.report import ROWS, NoPicture, Picture, Report, Write
 from sheetbench.answers.table import Table
 from sheetbench.errors import BadInput
 
@@ -109,7 +109,7 @@ class Answer(ABC):
         return self.report().save(folder, figure)
 
     def __repr__(self) -> str:
-        return repr(self.report())
+        return self.report().text(ROWS)
 
     def _repr_html_(self) -> str:
         return self.report()._repr_html_()

@@ -148,10 +148,14 @@ class Report:
         return replace(self, pictures=tuple(picture.with_style(style) for picture in self.pictures))
 
     def __repr__(self) -> str:
+        return self.text()
+
+    def text(self, most: int | None = None) -> str:
+        """Return title, tables and complaints; most: rows of a table."""
         from sheetbench.answers.layout import text
 
         title = terminal("  ".join(filter(None, [self.title, self.subtitle])))
-        tables = (text(table, ROWS) for table in self.shown)
+        tables = (text(table, most) for table in self.shown)
         return "\n".join([title, "", *tables, *map(terminal, self.complaints)]).rstrip()
 
     def _repr_html_(self) -> str:

@@ -42,11 +42,11 @@ PEAK = """
 import json, sys
 import sheetbench as sb
 from comparisons.models.solve import warm
-from comparisons.tradeoff.timing import _with_peak_memory
+from comparisons.runs.peak_memory import with_peak_memory
 
 model, settings = sys.argv[1], json.loads(sys.argv[2])
 warm(model)
-print(_with_peak_memory(lambda: sb.solve("two-edges-clamped", model, **settings))[1])
+print(with_peak_memory(lambda: sb.solve("two-edges-clamped", model, **settings))[1])
 """
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -11,6 +11,15 @@ from comparisons.cli.options import Calibration, Large, option
 from comparisons.cli.verb import CampaignOptions, OutputOptions
 from sheetbench.choices import REFERENCES
 
+RESTING = {"lumped": "9,13,17", "plate": "8,12,16", "shell": "8,12,16", "solid": "6,8,12"}
+MOVING = {"lumped": "9,17", "plate": "4,8", "shell": "4,8", "solid": "2,4", "": "4,8"}  # "": external codes
+
+
+def _sizes(what: str, name: str, *names: str) -> Any:
+    """The option of a model's sizes."""
+    usual = f"{RESTING[name]} unless given, {MOVING[name]} with --duration"
+    return option(f"Along the shorter side, rising: {what}; {usual}.", "N,N,N", *names)
+
 
 def command(
     scenes: Annotated[
@@ -18,13 +27,11 @@ def command(
         typer.Argument(metavar="SCENES", help="Catalogue names or paths to TOML files; all: the catalogue."),
     ],
     lattice: SpringOptions,
-    grid: Annotated[
-        str, option("Masses of the lattice along the shorter side, rising.", "N,N,N", "--lumped", "--grid")
-    ] = "9,13,17",
+    grid: Annotated[str | None, _sizes("masses of the lattice", "lumped", "--lumped", "--grid")] = None,
     calibration: Calibration = None,
-    plate: Annotated[str, option("Elements of the linear plate, rising.", "N,N,N")] = "8,12,16",
-    shell: Annotated[str, option("Elements of the nonlinear shell.", "N,N,N")] = "8,12,16",
-    solid: Annotated[str, option("Elements of the nonlinear solid.", "N,N,N")] = "6,8,12",
+    plate: Annotated[str | None, _sizes("elements of the linear plate", "plate")] = None,
+    shell: Annotated[str | None, _sizes("elements of the nonlinear shell", "shell")] = None,
+    solid: Annotated[str | None, _sizes("elements of the nonlinear solid", "solid")] = None,
     judges: Annotated[
         str | None,
         option(
@@ -32,7 +39,18 @@ def command(
         ),
     ] = None,
     meshes: Annotated[
-        str | None, option("Elements of external codes; each one's own unless given.", "N,N,N")
+        str | None,
+        option(
+            f"Elements of external codes; each one's own unless given, {MOVING['']} with --duration.", "N,N,N"
+        ),
+    ] = None,
+    duration: Annotated[
+        float | None,
+        option(
+            "Compare the motion of one scene over so long instead, each model on the finest of its meshes.",
+            "S",
+            unit="s",
+        ),
     ] = None,
     large: Large = False,
     *,
@@ -45,15 +63,29 @@ def command(
     """
     from comparisons.crosscheck.candidates import candidates, load_scenes
     from comparisons.crosscheck.crosscheck import crosscheck
+    from comparisons.crosscheck.motion import crosscheck_motion
     from comparisons.external.installed import find_codes
     from comparisons.models.spec import items
+    from sheetbench.answers.answer import Answer
+    from sheetbench.errors import BadInput
+    from sheetbench.scenes import load
 
-    chosen = load_scenes(scenes)
     codes = find_codes(None if judges is None else items(judges))
-    references = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
-    models = candidates(grid, lattice.spec.but(calibration=calibration), references, codes, meshes)
-    about = {"scenes": [scene.document() for scene in chosen]}
+    usual = RESTING if duration is None else MOVING
+    given = dict(zip(("lumped", *REFERENCES), (grid, plate, shell, solid), strict=True))
+    sizes = {name: usual[name] if text is None else text for name, text in given.items()}
+    meshes = usual.get("") if meshes is None else meshes
+    models = candidates(sizes.pop("lumped"), lattice.spec.but(calibration=calibration), sizes, codes, meshes)
+    if duration is not None and len(scenes) > 1:
+        raise BadInput(f"--duration: one scene, not {len(scenes)}")
+    chosen = load_scenes(scenes) if duration is None else [load(*scenes)]
+    about: dict[str, Any] = {"scenes": [scene.document() for scene in chosen]}
+    about |= {} if duration is None else {"duration": duration}
     with output.open(about=about) as out:
         with out.campaign(campaign) as run:
-            checked = crosscheck(chosen, **run, models=models, codes=codes)
+            checked: Answer
+            if duration is None:
+                checked = crosscheck(chosen, **run, models=models, codes=codes)
+            else:
+                checked = crosscheck_motion(chosen[0], duration, **run, models=models, codes=codes)
         out.show(checked)

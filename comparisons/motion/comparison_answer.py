@@ -22,7 +22,8 @@ from sheetbench.scenes.measured_history import COMPONENTS
 
 @dataclass(frozen=True, repr=False)
 class MotionComparison(Answer):
-    """Histories by model, the lattice's first, the reference's last; uncertainty: how far the reference may
+    """Histories by model, the lattice's first, the reference's last; codes: of which program's version some
+    are; left_out: why models have none, a sentence each; uncertainty: how far the reference may
     be off by its mesh and by its steps, as `largest` and `rms` are measured; None where it was not asked;
     animate: draw the sheets moving, side by side."""
 
@@ -31,6 +32,8 @@ class MotionComparison(Answer):
     histories: dict[str, History]
     uncertainty: dict[str, float | None] = field(default_factory=dict)
     animate: bool = False
+    codes: dict[str, str] = field(default_factory=dict)
+    left_out: tuple[str, ...] = ()
 
     @property
     def reference(self) -> str:
@@ -99,7 +102,8 @@ class MotionComparison(Answer):
 
     def notes(self) -> list[str]:
         own = (f"{name}: {note}" for name, history in self.histories.items() for note in history.notes())
-        return [*_bars(self), *own]
+        versions = (f"{name} {version}" for name, version in self.codes.items())
+        return [*_bars(self), *versions, *self.left_out, *own]
 
     def complaints(self) -> list[str]:
         return [f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints()]
@@ -109,7 +113,7 @@ class MotionComparison(Answer):
         found: dict[str, Write] = {
             f"{name}.csv": partial(_write_samples, found=self, name=name) for name in self.histories
         }
-        if all(len(history.extra["frames"]) for history in self.histories.values()):
+        if all(len(history.extra.get("frames", ())) for history in self.histories.values()):
             found |= {f"{n}.pvd": partial(_write_frames, found=self, name=n) for n in self.histories}
             found["difference.pvd"] = partial(_write_difference, found=self)
         return found
@@ -190,10 +194,14 @@ def _bars(found: MotionComparison) -> list[str]:
     known = {name: bar for name, bar in found.uncertainty.items() if bar is not None}
     if not known:
         return []
-    how = {"mesh": "elements twice as large", "step": "steps twice as long"}
-    parts = (f"{how[name]} move it by up to {number(100 * bar, '.2g')} %" for name, bar in known.items())
-    said = " and ".join(parts)
-    notes = [f"error of the {found.reference} itself: {said} of its largest displacement"]
+    how = {
+        "mesh": "with elements twice as large",
+        "step": "with steps twice as long",
+        "finer": "on the mesh before its finest",
+    }
+    parts = (f"{number(100 * bar, '.2g')} % {how[name]}" for name, bar in known.items())
+    changes = " and ".join(parts)
+    notes = [f"error of the {found.reference} itself: it changes by up to {changes}"]
     largest, mesh = found.differences[0]["largest"], known.get("mesh")
     if largest is not None and mesh is not None and largest < mesh:
         notes.append(

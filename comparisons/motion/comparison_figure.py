@@ -12,12 +12,13 @@ from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, SERIES, plain
 
 MOST = 3  # probes
+COLOURS = (SERIES[0], SERIES[5], *SERIES[1:5], *SERIES[6:])  # the reference's first
 ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
 
 
 def compose(found: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
     """A panel a probe, of its component that moves farthest, a panel of differences, one of energies."""
-    truth = found.histories[found.reference]
+    truth, others = found.histories[found.reference], [n for n in found.histories if n != found.reference]
     farthest = {name: float(np.abs(u).max()) for name, u in truth.probes.items()}
     kept = set(sorted(farthest, key=lambda name: farthest[name], reverse=True)[:MOST])
     shown = [name for name in truth.probes if name in kept]
@@ -26,14 +27,15 @@ def compose(found: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
     scale = max(farthest.values()) or 1.0
     for number, (axis, probe) in enumerate(zip(panels, shown, strict=False)):
         component = int(np.abs(truth.probes[probe]).max(axis=0).argmax())
-        for (name, history), colour in zip(found.histories.items(), (SERIES[5], SERIES[0]), strict=True):
+        colours = dict(zip((found.reference, *others), COLOURS, strict=False))
+        for name, history in found.histories.items():
             values = 1e3 * history.probes[probe][:, component]
             dashed = "-" if name == found.reference else (0, (4, 2))
             axis.plot(
                 history.time,
                 values,
                 ls=dashed,
-                color=colour,
+                color=colours[name],
                 lw=1.0,
                 zorder=2 + (name != found.reference),
                 label=plain(history.label, longest=40),
@@ -42,7 +44,7 @@ def compose(found: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
         axis.set_ylabel("displacement [mm]")
         if number == 0:
             axis.legend(ncols=2, **ABOVE)
-        ours = next(history for name, history in found.histories.items() if name != found.reference)
+        ours = found.histories[others[0]]
         count = min(len(ours.time), len(truth.time))
         apart = ours.probes[probe][:count] - truth.probes[probe][:count]
         panels[-2].plot(
@@ -54,7 +56,7 @@ def compose(found: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
     panels[-2].set_ylabel("difference\n[% of the peak]")
     panels[-2].legend(ncols=MOST, **ABOVE)
     for i, name in enumerate(("kinetic", "elastic", "potential", "dissipated")):
-        for model, history in found.histories.items():
+        for model, history in ((m, h) for m, h in found.histories.items() if h.energies):
             dashed = "-" if model == found.reference else (0, (4, 2))
             label = name if model == found.reference else None
             panels[-1].plot(

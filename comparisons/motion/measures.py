@@ -104,7 +104,7 @@ def difference(one: History, other: History) -> dict[str, Any]:
     scale = float(np.abs(theirs).max()) or np.nan
     apart = ours - theirs
     mine, truth = measured_alike(one, other)
-    energy = max(float(np.abs(e[:count]).max()) for e in other.energies.values()) or np.nan
+    energy = max((float(np.abs(e[:count]).max()) for e in other.energies.values()), default=0.0) or np.nan
 
     def relative(a: float | None, b: float | None) -> float | None:
         return None if a is None or not b else (a - b) / abs(b)
@@ -120,5 +120,6 @@ def difference(one: History, other: History) -> dict[str, Any]:
         "energies": {
             name: float(np.abs(e[:count] - other.energies[name][:count]).max() / energy)
             for name, e in one.energies.items()
+            if name in other.energies
         },
     }

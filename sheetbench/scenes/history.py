@@ -45,8 +45,8 @@ class History(Answer):
 
     time: (n,) [s]; probes: name → displacement (n, 3) [m]; energies: kinetic, elastic, potential,
     dissipated and work, (n,) [J] each (potential: of constant dead loads; work: done by all other loads,
-    and by supports and commands that move); reactions: as those of a `scenes.Solution`, (n, 3) [N]
-    each; actuators: name → force and moment about the
+    and by supports and commands that move), none of a program that does not tell them; reactions: as those
+    of a `scenes.Solution`, (n, 3) [N] each; actuators: name → force and moment about the
     segment's middle that each segment exerts on the sheet, (n, segments, 6) [N, N·m]; steps: taken by the
     integrator; status `converged` means that the run reached its end; resumed_from: what lies
     before is an earlier run's, which this one took up [s].
@@ -71,8 +71,9 @@ class History(Answer):
 
     @property
     def balance(self) -> np.ndarray:
-        """kinetic + elastic + potential + dissipated − work, (n,) [J]: constant in an exact run."""
-        e = self.energies
+        """kinetic + elastic + potential + dissipated − work, (n,) [J]: constant in an exact run; nan where
+        energies are not known."""
+        e = self.energies or dict.fromkeys(ENERGIES, np.full(len(self.time), np.nan))
         total: np.ndarray = e["kinetic"] + e["elastic"] + e["potential"] + e["dissipated"] - e["work"]
         return total
 
@@ -132,9 +133,11 @@ class History(Answer):
             notes.append(f"steps of {taken} ms; the largest stable one is {number(1e3 * limit, '.4g')} ms")
         if failed := self.settings.get("failed_steps"):
             notes.append(f"{failed} steps failed and were made again, shorter")
+        if not self.energies or not len(self.time):
+            return notes
         if self.energies["kinetic"].any() and not self.energies["dissipated"].any():
             notes.append(UNDAMPED)
-        return [*notes, self.balance_note] if len(self.time) else notes
+        return [*notes, self.balance_note]
 
     @property
     def balance_note(self) -> str:
@@ -163,7 +166,8 @@ class History(Answer):
         for name, u in self.probes.items():
             columns += [Column(f"{name}.{component}", "m") for component in COMPONENTS]
             values += list(u.T)
-        for name, energy in [*self.energies.items(), ("balance", self.balance)]:
+        known = {**self.energies, "balance": self.balance} if self.energies else {}
+        for name, energy in known.items():
             columns.append(Column(name, "J"))
             values.append(energy)
         for name, force in self.reactions.items():

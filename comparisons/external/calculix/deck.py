@@ -1,18 +1,20 @@
-"""The input deck: 20-node bricks with reduced integration (C3D20R), one static step under the whole load.
+"""The input deck: 20-node bricks with reduced integration (C3D20R), one step under the whole load, static or
+from rest in time.
 
 NLGEOM makes the step geometrically nonlinear: total Lagrangian, the linear-elastic law between Green strain
 and second Piola–Kirchhoff stress (St Venant–Kirchhoff's), or *HYPERELASTIC of a rubber. Its usual
 tolerances (residual 5e-3 of the mean force, correction 1e-2 of the displacement) are far coarser than the
 differences looked for, so the deck tightens them. Pressure acts half on the lower and half on the upper face
-and follows both.
+and follows both. In time: Hilber, Hughes and Taylor's method with its α of −0.05, in steps of one length.
 
-Source: CalculiX CrunchiX user's manual 2.20, sections on *HYPERELASTIC, *STATIC, *CONTROLS, *DLOAD,
+Source: CalculiX CrunchiX user's manual 2.20, sections on *HYPERELASTIC, *STATIC, *DYNAMIC, *CONTROLS, *DLOAD,
 *TRANSFORM, *NODE PRINT.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,8 +35,18 @@ NONE = 1e30  # compliance to higher powers of J − 1: none of them
 BELOW, ABOVE = "P1", "P2"  # faces of a brick
 
 
-def deck(scene: Scene, bricks: Bricks, linear: bool) -> str:
-    """Return the text of the deck; linear: without NLGEOM."""
+class Steps(NamedTuple):
+    """Of a motion: their length [s], how long it lasts [s], how many of them there are in a sample, and the
+    nodes that are printed."""
+
+    length: float
+    duration: float
+    sample: int
+    nodes: np.ndarray
+
+
+def deck(scene: Scene, bricks: Bricks, linear: bool, motion: Steps | None = None) -> str:
+    """Return the text of the deck; linear: without NLGEOM; motion: from rest under the load, not at rest."""
     material, supports = scene.material, held(scene, bricks, linear)
     pull = np.einsum("nrc,nc->nr", supports.axes, forces(scene, bricks))
     lines = ["*NODE, NSET=NALL", *_rows(bricks.positions, 1)]
@@ -49,17 +61,24 @@ def deck(scene: Scene, bricks: Bricks, linear: bool) -> str:
         terms = zip(tie.nodes + 1, tie.weights, strict=True)
         lines += ["*EQUATION", f"{len(tie.nodes)}"]
         lines += [f"{node}, {tie.axis + 1}, {weight:.12e}" for node, weight in terms]
-    if linear:
-        lines += ["*STEP", "*STATIC"]
+    printed, every = "NALL", 1000
+    if motion is not None:
+        printed, every = "PRINTED", motion.sample
+        lines += ["*NSET, NSET=PRINTED", *(f"{node + 1}" for node in motion.nodes)]
+    count = 1000 if motion is None else 2 * round(motion.duration / motion.length)
+    lines += ["*STEP" if linear else f"*STEP, NLGEOM, INC={count}, AMPLITUDE={'STEP' if motion else 'RAMP'}"]
+    if motion is not None:
+        lines += ["*DYNAMIC, DIRECT", f"{motion.length!r}, {motion.duration!r}"]
     else:
-        lines += ["*STEP, NLGEOM, INC=1000", "*STATIC", f"{FIRST}, 1.0, {LEAST}, {LARGEST}"]
+        lines += ["*STATIC", *([] if linear else [f"{FIRST}, 1.0, {LEAST}, {LARGEST}"])]
+    if not linear:
         lines += ["*CONTROLS, PARAMETERS=FIELD", f"{RESIDUAL}, {CORRECTION}, , , {RESIDUAL}, 1e-9, 1e-9"]
         lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", "8, 12, 9, 40, 20, 8"]
     lines += ["*BOUNDARY"]
     for node, axis in zip(*np.nonzero(supports.fixed), strict=True):
         lines.append(f"{node + 1}, {axis + 1}, {axis + 1}, {supports.value[node, axis]:.12e}")
     lines += _loads(scene, pull, len(bricks.elements), bricks)
-    lines += ["*NODE PRINT, NSET=NALL, GLOBAL=YES, FREQUENCY=1000", "U", "*END STEP", ""]
+    lines += [f"*NODE PRINT, NSET={printed}, GLOBAL=YES, FREQUENCY={every}", "U", "*END STEP", ""]
     return "\n".join(lines)
 
 

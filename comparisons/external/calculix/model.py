@@ -21,12 +21,14 @@ import numpy as np
 from comparisons.external.answer import BRICK_MOMENTS, refusal, require, solution_on_bricks
 from comparisons.external.bricks import GRADINGS, Bricks
 from comparisons.external.calculix import results
-from comparisons.external.calculix.deck import INCOMPRESSIBLE, LAWS, deck
+from comparisons.external.calculix.deck import INCOMPRESSIBLE, LAWS, Steps, deck
 from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes import History, Scene, Solution, Status
+from sheetbench.scenes.kinematics import bent_or_tilted
 
 PROGRAM, JOB = "ccx", "sheet"
+STEPS = 8  # of a motion between two samples
 SAYS_ITS_VERSION = 201  # its exit status after `ccx -v`
 
 CHAINS = "actuators are not supported: it has no joint with a rest angle between rigid bodies"
@@ -69,24 +71,91 @@ class CalculiX:
         displacement, load_factor, iterations = np.zeros_like(bricks.positions), 0.0, 0
         ready, status = began, Status.REFUSED
         if not note:
-            with TemporaryDirectory(prefix="sheetbench-ccx-") as kept:
-                folder = Path(kept)
-                text = deck(scene, bricks, settings["linear"])
-                (folder / f"{JOB}.inp").write_text(text, encoding="ascii")
-                ready = perf_counter()
-                try:
-                    output_of([program, JOB], folder, settings["time_limit"])
-                    load_factor, displacement = results.displacements(_read(folder, "dat"), len(displacement))
-                    status = Status.CONVERGED if load_factor == 1.0 else Status.DIVERGED
-                    if not np.isfinite(displacement).all():
-                        status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
-                except Failed as error:
-                    status, note = Status.DIVERGED, f"CalculiX: {error}"
-                iterations = results.iterations(_read(folder, "sta"))
+            text = deck(scene, bricks, settings["linear"])
+            ready = perf_counter()
+            times, found, iterations, note = _carried_out(program, text, settings["time_limit"], bricks)
+            status = Status.CONVERGED if not note and times[-1] == 1.0 else Status.DIVERGED
+            if len(found):
+                load_factor, displacement = float(times[-1]), found[-1]
+            if not np.isfinite(displacement).all():
+                status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
         seconds = (ready - began, perf_counter() - ready)
         return solution_on_bricks(
             self, scene, settings, bricks, displacement, status, load_factor, note, iterations, seconds
         )
+
+    def simulate(
+        self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
+    ) -> History:
+        """Return the motion over `duration` [s] from rest, sampled every so often [s], without energies.
+
+        Raises BadInput without the program, and for scenes and settings that it does not take.
+        """
+        require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
+        program = shutil.which(PROGRAM)
+        if program is None:
+            raise BadInput(f"model = 'calculix': needs {self.needs}")
+        note = refusal(scene, CHAINS, BRICK_MOMENTS, LAWS) or _of_volume(scene, settings["linear"])
+        if note := note or _of_motion(scene, settings["linear"]):
+            raise BadInput(f"calculix: {note}")
+        began = perf_counter()
+        bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
+        nodes, _ = bricks.weights(scene.probe_points())
+        count = max(1, round(duration / every))
+        steps = Steps(duration / count / STEPS, duration, STEPS, np.unique(nodes))
+        text = deck(scene, bricks, False, steps)
+        ready = perf_counter()
+        times, found, _, note = _carried_out(program, text, settings["time_limit"], bricks)
+        ended = perf_counter()
+        still = np.zeros((1, *bricks.positions.shape))
+        moved = np.array([bricks.sample(u, scene.probe_points()) for u in (*still, *found)])
+        return History(
+            label=f"{self.called} {' × '.join(map(str, bricks.shape))} bricks",
+            integrator="HHT",
+            settings={**settings, "elements": list(bricks.shape[:2]), "every": duration / count},
+            status=Status.CONVERGED if not note and len(found) == count else Status.DIVERGED,
+            message=note,
+            time=np.concatenate([[0.0], times]),
+            probes=dict(zip(scene.probes, np.swapaxes(moved, 0, 1), strict=True)),
+            energies={},
+            reactions={},
+            actuators={},
+            steps=STEPS * len(found),
+            setup_seconds=ready - began,
+            solve_seconds=ended - ready,
+            extra={"unknowns": bricks.positions.size},
+        )
+
+
+def _carried_out(
+    program: str, deck: str, seconds: float, bricks: Bricks
+) -> tuple[np.ndarray, np.ndarray, int, str]:
+    """Return times and displacements as `results.displacements` has them, none where the run failed before
+    any, its iterations, and why it failed, "" if it did not."""
+    times, found, why = np.zeros(0), np.zeros((0, *bricks.positions.shape)), ""
+    with TemporaryDirectory(prefix="sheetbench-ccx-") as kept:
+        folder = Path(kept)
+        (folder / f"{JOB}.inp").write_text(deck, encoding="ascii")
+        try:
+            output_of([program, JOB], folder, seconds)
+            times, found = results.displacements(_read(folder, "dat"), len(bricks.positions))
+        except Failed as error:
+            why = f"CalculiX: {error}"
+        return times, found, results.iterations(_read(folder, "sta")), why
+
+
+def _of_motion(scene: Scene, linear: bool) -> str:
+    """Return why a scene's motion is not handed over, "" if it is."""
+    material, loads = scene.material, [*filter(None, [scene.gravity]), *scene.loads]
+    if linear:
+        return "linear = true: is for statics"
+    if material.dashpot_time or material.damping_rate or material.branches.times:
+        return "its steps in time have no dampers: leave damping_time, damping_rate and relaxation out"
+    if any(load.history is not None for load in loads):
+        return "loads with a history are not handed over"
+    if bent_or_tilted(scene.supports, scene.sheet):
+        return "edges that are bent or turned before it moves are not handed over"
+    return ""
 
 
 def _of_volume(scene: Scene, linear: bool) -> str:

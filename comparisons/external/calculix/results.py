@@ -1,4 +1,4 @@
-"""Results of `ccx`: displacements in the .dat file, load factors in the .sta file."""
+"""Results of `ccx`: displacements in the .dat file, iterations in the .sta file."""
 
 from __future__ import annotations
 
@@ -11,24 +11,25 @@ from comparisons.external.process import Failed
 _HEADING = re.compile(r"^ *displacements .* and time +(\S+) *$", re.MULTILINE)
 
 
-def displacements(dat: str, nodes: int) -> tuple[float, np.ndarray]:
-    """Return the load factor of the last increment that was kept, and its displacement (nodes, 3) [m].
+def displacements(dat: str, nodes: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the times (s,) of the increments that were printed, of statics the load factors, and their
+    displacements (s, nodes, 3) [m], nan of nodes that were not.
 
-    Raises Failed for a file that does not have it.
+    Raises Failed for a file that does not have them.
     """
     headings = list(_HEADING.finditer(dat))
     if not headings:
         raise Failed("its .dat file has no displacements")
-    last = headings[-1]
-    out = np.full((nodes, 3), np.nan)
+    out = np.full((len(headings), nodes, 3), np.nan)
     try:
-        for line in dat[last.end() :].split("\n\n")[1].splitlines():
-            number, *components = line.split()
-            out[int(number) - 1] = [float(c) for c in components]
-        time = float(last.group(1))
+        for sample, heading in zip(out, headings, strict=True):
+            for line in dat[heading.end() :].split("\n\n", 2)[1].splitlines():
+                number, *components = line.split()
+                sample[int(number) - 1] = [float(c) for c in components]
+        times = [float(heading.group(1)) for heading in headings]
     except (ValueError, IndexError):
         raise Failed("its .dat file cannot be read") from None
-    return time, out
+    return np.array(times), out
 
 
 def iterations(sta: str) -> int:

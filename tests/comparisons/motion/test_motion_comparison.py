@@ -87,7 +87,7 @@ def test_the_reference_has_a_bar_by_mesh_and_by_step():
     both = sb.compare("two-edges-settling", duration=0.05, **SMALL)
     assert 0.0 < both.uncertainty["step"] < both.uncertainty["mesh"] < 0.2
     notes = both.report().notes
-    assert "elements twice as large move it by up to" in notes[0] and "steps twice as long move" in notes[0]
+    assert "% with elements twice as large" in notes[0] and "% with steps twice as long" in notes[0]
     nearer = both.differences[0]["largest"] < both.uncertainty["mesh"]
     assert any("more --elements" in note for note in notes) == nearer
     good = replace(both, uncertainty={"mesh": 1e-6, "step": 1e-6})

@@ -135,7 +135,6 @@ def test_field_points_integrate_over_the_sheet(scene: Scene) -> None:
     assert weights @ (points[:, 0] ** 3 * points[:, 1]) == pytest.approx(lx**3 * ly / 8)
 
 
-@pytest.mark.nightly  # six seconds; of campaigns: test_campaign.py
 def test_killed_and_resumed_tradeoff_has_all_its_rows(finished: Path) -> None:
     document = json.loads((finished / "tradeoff.json").read_text(encoding="utf-8"))
     rows = document["rows"]

@@ -15,7 +15,6 @@ from comparisons.models.symmetry import half, planes
 from lumped.dynamics import INTEGRATORS
 from lumped.loads import Loads
 from sheetbench import scenes
-from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT
 from sheetbench.scenes import Clamped, EdgeLoad, FactorTable, Pressure, Scene, Status
 
 TIP = (0.188, 0.094)
@@ -298,34 +297,3 @@ def test_orders_are_as_declared_under_a_smooth_load(name):
     changes = [largest(a - b) for a, b in pairwise(ends)]
     assert np.log2(changes[0] / changes[1]) == pytest.approx(INTEGRATORS[name].order, abs=0.15)
     assert changes[1] < 2e-3 * largest(ends[-1])
-
-
-class Stopped(Exception):
-    """What ends a run in the middle."""
-
-
-@pytest.mark.parametrize("name", INTEGRATORS)
-def test_a_stopped_run_resumes_to_the_last_digit(tmp_path, name):
-    asked, every = shaken(), 5e-5
-    duration = 1.6 * SAMPLES_PER_CHECKPOINT * every
-
-    def to(folder, progress=None):
-        return lumped.simulate(
-            asked, springs(asked, 3), duration, integrator=name, every=every,
-            store=tmp_path / folder, progress=progress,
-        )  # fmt: skip
-
-    def stop(time):
-        if time > 1.3 * SAMPLES_PER_CHECKPOINT * every:
-            raise Stopped
-
-    whole = to("whole")
-    with pytest.raises(Stopped):
-        to("stopped", stop)
-    resumed = to("stopped")
-    assert whole.status is resumed.status is Status.CONVERGED
-    samples = [(tmp_path / folder / "samples.bin").read_bytes() for folder in ("whole", "stopped")]
-    assert samples[0] == samples[1] and len(samples[0]) > 0
-    other = asked.model_copy(update={"loads": asked.loads[:1]})
-    with pytest.raises(ValueError, match="holds another run"):
-        lumped.simulate(other, springs(asked, 3), duration, store=tmp_path / "whole", integrator=name)

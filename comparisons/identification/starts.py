@@ -29,6 +29,7 @@ SPREAD = log(3.0)  # of x about the scene's own value
 PARTS = (0.125, 0.25, 0.5)  # of a record, before the whole
 FEWEST = 6  # measured numbers per unknown that a part must have
 ROUGH, ROUGH_EVALUATIONS, ROUGH_PULL = 1e-3, 12, 1e-2  # of the search over a part
+ENOUGH = 1e-6  # of the search over the whole of a motion, whose slopes are differences
 ALIKE = 0.02  # of x: the same minimum
 
 
@@ -130,7 +131,9 @@ def _from(
             if any(np.abs(start - x).max() < ALIKE for x in reached):
                 return None
             reached.append(start)
-    return fit.search(start, first=_anything if parts else partial(first, fit.measured))
+    if parts:
+        return fit.search(start, smallest=ENOUGH)
+    return fit.search(start, first=partial(first, fit.measured))
 
 
 def _anything(predicted: Prediction) -> None:

@@ -1,15 +1,16 @@
-"""A clamped silicone block let go, with three loads: what one damper does, and what branches do.
+"""A clamped silicone block let go, with three loads: what one damper does, what branches do, and what each
+run alone says of E and the loss factor.
 
 Data: Dubied et al. 2022 (arXiv 2201.12560), srl-ethz/diffPD_sim2real, MIT: C3D files of 100 Hz. The tip is
 the mean of the first three markers, the base that of the others. A damped cosine through 2.5 s of a run has
 its frequency, damping ratio and drop. The shell (2 × 1 elements) has E and loss factor set once, at the
-lightest load; the load is a rigid rod on the tip's edge.
+lightest load, or by `identify` from the first PERIODS of each run; the load is a rigid rod on the tip's edge.
 """
 
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -18,15 +19,19 @@ from matplotlib.figure import Figure
 from scipy.optimize import curve_fit
 
 import fem_reference
+from comparisons.identification.answer import Identification
+from comparisons.identification.identification import identify
+from comparisons.identification.measurements import Displacements
 from comparisons.measured.c3d import read_markers
 from sheetbench.answers.table import Column, Table
 from sheetbench.errors import Implausible
-from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet
+from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet, Status
 
 RUNS = {"no load": ("gravity", 0.0, 7.7), "52 g": ("load52", 0.052, 4.0), "101 g": ("load101", 0.101, 3.3)}
-RATE, THROUGH, PERIODS = 100.0, 250, 4.0  # 1/s; samples of a fit, periods of a picture
+RATE, THROUGH, PERIODS = 100.0, 250, 4.0  # 1/s; samples of a cosine, periods of a picture and of identify
 YOUNG, LOSS, SET_AT, BAND = 296e3, 0.100, 7.75, (3.0, 8.0)  # Pa, –, Hz, Hz
 POISSON, DENSITY, STEPS = 0.49, 1070.0, 60.0  # –, kg/m³, of a period of SET_AT
+ELEMENTS, TIP = (2, 1), (0.1, 0.015)
 COLOURS = {"one damper": "#c44e52", "branches": "#4c72b0"}
 
 
@@ -39,6 +44,23 @@ class Swing:
     frequency: Annotated[float, Column("frequency", "Hz", "Hz", 1.0, ".2f")]
     damping: Annotated[float, Column("damping ratio", form=".3f")]
     drop: Annotated[float, Column("drop", "m", "mm", 1e3, ".1f")]
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """E and loss factor of a run; what is left of its tip by them, and by what the lightest load has set."""
+
+    load: str
+    run: str
+    young: Annotated[float, Column("E", "Pa", "kPa", 1e-3, ".1f")]
+    young_from: Annotated[float, Column("from", "Pa", "kPa", 1e-3, ".1f")]
+    young_to: Annotated[float, Column("to", "Pa", "kPa", 1e-3, ".1f")]
+    loss: Annotated[float, Column("loss factor", form=".3f")]
+    loss_from: Annotated[float, Column("from", form=".3f")]
+    loss_to: Annotated[float, Column("to", form=".3f")]
+    left: Annotated[float, Column("rms: fitted", "m", "mm", 1e3, ".2f")]
+    one_damper: Annotated[float, Column("one damper", "m", "mm", 1e3, ".2f")]
+    branches: Annotated[float, Column("branches", "m", "mm", 1e3, ".2f")]
 
 
 def cosine(
@@ -74,6 +96,32 @@ def measured(file: Path, first: float) -> tuple[Swing, np.ndarray, np.ndarray]:
     return swing, time[shown] - let_go, (tip[shown] - held) * np.sign(held - end)
 
 
+def block(mass: float, material: Material) -> Scene:
+    """The block under its weight and that of the load [kg]."""
+    line = mass / 0.03
+    rods = [Chain("x1", segments=1, bending_stiffness=1.0, line_density=line, radius=1e-3)] if mass else []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Implausible)
+        return Scene(
+            "beam",
+            Sheet(0.1, 0.03, 0.03),
+            material,
+            Gravity((0, 0, -9.81)),
+            (Clamped("x0"),),
+            actuators=tuple(rods),
+            probes={"tip": TIP},
+        )
+
+
+def identified(mass: float, swing: Swing, time: np.ndarray, tip: np.ndarray) -> Identification:
+    """E and loss factor, of one damper at the run's frequency, with which the shell comes nearest to it."""
+    own = Material(YOUNG, POISSON, DENSITY, loss_factor=2.0 * swing.damping, frequency=swing.frequency)
+    moved = np.full((len(time), 3), np.nan)
+    moved[:, 2] = tip
+    run = Displacements(np.tile(TIP, (len(time), 1)), moved, time)
+    return identify(block(mass, own), run, ["young", "loss_factor"], model="shell", elements=ELEMENTS)
+
+
 def computed(mass: float, what: str, end: float) -> tuple[Swing, np.ndarray, np.ndarray]:
     """The shell's swing under this load [kg], its times and tip's displacements."""
     material = Material(YOUNG, POISSON, DENSITY, loss_factor=LOSS, frequency=SET_AT)
@@ -81,22 +129,12 @@ def computed(mass: float, what: str, end: float) -> tuple[Swing, np.ndarray, np.
         branches = Material(YOUNG, POISSON, DENSITY, loss_factor=LOSS, band=BAND).branches
         young = YOUNG / float(branches.storage_and_loss(SET_AT)[0])  # both as stiff where they are set
         material = Material(young, POISSON, DENSITY, loss_factor=LOSS, band=BAND)
-    rods: list[Chain] = []
-    if mass:
-        rods.append(Chain("x1", segments=1, bending_stiffness=1.0, line_density=mass / 0.03, radius=1e-3))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", Implausible)
-        scene = Scene(
-            "beam",
-            Sheet(0.1, 0.03, 0.03),
-            material,
-            Gravity((0, 0, -9.81)),
-            (Clamped("x0"),),
-            actuators=tuple(rods),
-            probes={"tip": (0.1, 0.015)},
-        )
     step = 1.0 / (STEPS * SET_AT)
-    history = fem_reference.simulate(scene, "shell", end, elements=(2, 1), step=step, every=step)
+    history = fem_reference.simulate(
+        block(mass, material), "shell", end, elements=ELEMENTS, step=step, every=step
+    )
+    if history.status is not Status.CONVERGED:
+        raise ArithmeticError(f"{what}, {mass:g} kg: {history.status}: {history.message}")
     tip = history.probes["tip"][:, 2]
     rest = float(tip[-50:].mean())
     guess = (rest, -rest, 0.05, 2 * np.pi * SET_AT / (1.0 + 12.0 * mass), 0.0)
@@ -104,22 +142,41 @@ def computed(mass: float, what: str, end: float) -> tuple[Swing, np.ndarray, np.
     return Swing("", what, found[3] / (2 * np.pi), abs(found[2]), -found[0]), history.time, tip
 
 
-def beam(data: Path) -> tuple[Table, Figure]:
-    """The table of all runs, and a picture of the first of each load. Raises BadInput for a missing file."""
+def beam(data: Path) -> tuple[Table, Table, Figure]:
+    """The tables of all runs and of their fits, and a picture of the first of each load.
+
+    Raises BadInput for a missing file."""
     rows: list[Swing] = []
+    fits: list[Fitted] = []
     figure = Figure(figsize=(10.2, 2.6), layout="constrained")
     for axis, (load, (name, mass, first)) in zip(figure.subplots(1, 3), RUNS.items(), strict=True):
-        for run in "ab":
-            swing, time, tip = measured(data / "silicone-beam" / f"beam_{name}_V2_{run}.c3d", first)
-            rows.append(Swing(load, f"measured {run}", swing.frequency, swing.damping, swing.drop))
+        runs = {run: measured(data / "silicone-beam" / f"beam_{name}_V2_{run}.c3d", first) for run in "ab"}
+        end = max(float(time[-1]) for _, time, _ in runs.values())
+        shells = {what: computed(mass, what, end) for what in COLOURS}
+        for run, (swing, time, tip) in runs.items():
+            rows.append(replace(swing, load=load, what=f"measured {run}"))
+            found = identified(mass, swing, time, tip)
+            values = [(u.value, *u.interval) for u in found.unknowns.values()]
+            off = [rms(np.interp(time, at, there) - tip) for _, at, there in shells.values()]
+            left = found.residuals[:, 2]
+            fits.append(Fitted(load, run, *values[0], *values[1], rms(left), *off))
             if run == "a":
                 axis.plot(time, 1e3 * tip, "k.", ms=3, label="measured")
-                end = float(time[-1])
-        for what, colour in COLOURS.items():
-            swing, time, tip = computed(mass, what, end)
-            rows.append(Swing(load, what, swing.frequency, swing.damping, swing.drop))
-            axis.plot(time, 1e3 * tip, color=colour, lw=1, label=what)
+                axis.plot(time, 1e3 * (tip + left), color="0.6", lw=1, label="fitted to it")
+        for what, (swing, time, tip) in shells.items():
+            rows.append(replace(swing, load=load))
+            axis.plot(time, 1e3 * tip, color=COLOURS[what], lw=1, label=what)
         axis.set(title=load, xlabel="time [s]")
     figure.axes[0].set_ylabel("tip [mm]")
     figure.axes[0].legend(frameon=False, fontsize=7)
-    return Table.of(Swing, rows, "A silicone block let go", "beam", grouped=True), figure
+    swings = Table.of(Swing, rows, "A silicone block let go", "beam", grouped=True)
+    return (
+        swings,
+        Table.of(Fitted, fits, "E and loss factor of each run alone", "fitted", grouped=True),
+        figure,
+    )
+
+
+def rms(of: np.ndarray) -> float:
+    """Root of the mean square."""
+    return float(np.sqrt(np.mean(of**2)))

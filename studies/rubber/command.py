@@ -32,6 +32,7 @@ def command(
     console.show(squares := blown(first))
     if pictures is not None:
         figure(strips, squares).savefig(pictures / "linear-lattices.png", dpi=130)
-        table, swings = beam(data)
-        console.show(table)
+        *tables, swings = beam(data)
+        for table in tables:
+            console.show(table)
         swings.savefig(pictures / "silicone-beam.png", dpi=130)

@@ -104,8 +104,18 @@ def command(
 
     if toml and output.json:
         raise BadInput("--toml and --json: choose one")
-    if simulators and export is None and len(simulators) > 1:
-        raise BadInput("--for: one code at a time, but with --export")
+    if simulators and export is None:
+        if len(simulators) > 1:
+            raise BadInput("--for: one code at a time, but with --export")
+        springs_only = {
+            "--method": method,
+            "--k": k,
+            "--layer-distance": layer_distance,
+            "--grading": grading,
+            "--toml": toml or None,
+        }
+        if given := [name for name, value in springs_only.items() if value is not None]:
+            raise BadInput(f"{given[0]}: of the lattice's springs, which --for has with --export alone")
     values = {"young": young, "poisson": poisson, "thickness": thickness, "density": density, **sides(side)}
     damped = damping.keys(loss_factor, damping_ratio, log_decrement, quality, at, band, prony)
     if young is not None and "young" in damped:

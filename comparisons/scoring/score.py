@@ -182,11 +182,13 @@ class Score(ShownAnswer):
         notes = [
             "score: geometric mean of the cases' errors, none below the reference's bar, none above 100 %"
         ]
+        if self.unanswered:
+            notes.append(f"not answered yet: {', '.join(self.unanswered)}")
         if len(self.standing) > 1:
             made = document()["made_with"]["machine"].get("processor", "another machine")
             notes.append(f"times of the others are geometric means, measured on {made}")
             notes.append(self.place)
-        return notes + ([f"not answered yet: {', '.join(self.unanswered)}"] if self.unanswered else [])
+        return notes
 
     @property
     def place(self) -> str:

@@ -27,6 +27,8 @@ ROWS = {
     f"calibrate {TWO} --method fit-modal --poisson 0.6": "poisson",
     f"calibrate {TWO} --toml --json": "--toml|--json",
     f"calibrate {TWO} --grid 3 --method central --for mujoco": "--export",
+    f"calibrate {TWO} --toml --for newton": "--toml|--export",
+    f"calibrate {TWO} --grid 3 --for mujoco --for sofa": "--for|--export",
     f"calibrate {TWO} --grid 3 --method central --for bullet --export a": "mujoco",
     f"calibrate {TWO} --grid 3x3x{HUGE}": "grid",
     "calibrate --young 1e6 --poisson 0.3 --thickness 0.002 --side 0.1 --method auto": "method = auto",

@@ -78,6 +78,11 @@ def test_an_error_is_that_of_the_design(write: Write) -> None:
     others = dict.fromkeys(["mujoco", "kratos", "calculix"], "other program")
     assert whose == {"answers": "yours", **ours, **others}
     assert found.standing[between].seconds is None and "answers" not in found.front
+    others = [one for one in found.standing if one.model != "answers"]
+    near = min(others, key=lambda one: abs(np.log(one.score / 0.02)))
+    place = f"you rank {between + 1} of {len(models)}"
+    said = f"{place}; nearest neighbour {near.model}, {100 * near.score:.3g} %"
+    assert found.notes()[-1] == said
 
 
 @pytest.mark.parametrize(
@@ -183,6 +188,7 @@ def test_a_form_is_filled_in_in_stages(
     assert len(found.unanswered) == 18 and "soft-one-edge" in found.unanswered
     report = found.report()
     assert "on 2 of 20 cases" in report.subtitle and any("not answered yet" in said for said in report.notes)
+    assert report.notes[-1].startswith("you rank ")
     assert run("score", str(path), "--case", "thick", "--case", "thin", "--json") == 0
     document = json.loads(capsys.readouterr().out)
     assert [case["case"] for case in document["cases"]] == ["thick", "thin"] and document["unanswered"] == []

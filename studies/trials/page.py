@@ -62,14 +62,15 @@ def _answered(documents: list[dict[str, Any]], scene: str) -> list[tuple[str, di
 
 def _table(document: dict[str, Any]) -> str:
     rows = "\n".join(
-        f"| {row['scene']} | {row['recipe']} | {row['mesh']} | {row['status']} | {_percent(row['error'])} "
+        f"| {row['scene']} | {row['recipe']}; {row['mesh']} "
+        f"| {row['status'] if row['error'] is None else _percent(row['error'])} "
         f"| {'–' if row['seconds'] is None else format(row['seconds'], '.3g')} |"
         for row in document["rows"]
     )
     return (
         f"## {document['title']}\n\n{document['licence']}; {document['date']}, {document['machine']}; "
-        f"`{document['command']}`\n\n| scene | numbers | mesh | status | error | s |\n"
-        f"|---|---|---|---|---:|---:|\n{rows}\n"
+        f"`{document['command']}`\n\n| scene | numbers; mesh | error | s |\n"
+        f"|---|---|---:|---:|\n{rows}\n"
     )
 
 

@@ -59,12 +59,26 @@ def markdown() -> str:
                     inside = resolved(schema, entries)
                     parts += [f"### [[{key}.{inner}]]\n", f"{inside['description']}\n"]
                     parts.append(_keys_table(inside, schema))
+            if "shape" in table["properties"]:
+                parts += _shapes(table["properties"]["shape"], schema)
     parts.append(OVER_TIME)
     for name, table in sorted(schema["$defs"].items()):
         if table["properties"].get("time", {}).get("type") == "array" and kind(table) is None:
             users = ", ".join(f"`{user}`" for user in _users(name, schema))
             parts += [f"### For {users}\n", _keys_table(table, schema)]
     return "\n".join(parts)
+
+
+def _shapes(node: dict[str, Any], schema: dict[str, Any]) -> Iterator[str]:
+    """The keys of a shape, and of each of its kinds that is a table."""
+    shape = resolved(schema, node)
+    yield f"### shape\n\n{shape['description']}\n"
+    yield _keys_table(shape, schema)
+    for name, each in shape["properties"].items():
+        for table in branches(schema, each):
+            if table.get("type") == "object":
+                yield f"### shape.{name}\n\n{table['description']}\n"
+                yield _keys_table(table, schema)
 
 
 def _heading(key: str, node: dict[str, Any], schema: dict[str, Any]) -> str | None:

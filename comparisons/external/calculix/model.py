@@ -102,7 +102,7 @@ class CalculiX:
         bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
         nodes, _ = bricks.weights(scene.probe_points())
         count = max(1, round(duration / every))
-        steps = Steps(duration / count / STEPS, duration, STEPS, np.unique(nodes))
+        steps = Steps(float(duration) / count / STEPS, float(duration), STEPS, np.unique(nodes))
         text = deck(scene, bricks, False, steps)
         ready = perf_counter()
         times, found, _, note = _carried_out(program, text, settings["time_limit"], bricks)

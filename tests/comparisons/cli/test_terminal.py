@@ -102,8 +102,9 @@ def test_a_command_to_copy_is_one_line(screens: Screens, verb: str) -> None:
 
 
 def numbers(text: str) -> list[str]:
-    """The numbers of a text as they are printed."""
-    return re.findall(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", text.replace("−", "-"))
+    """The numbers of a text as they are printed, but for powers and halves, which are one sign elsewhere."""
+    plain = text.replace("−", "-").replace("1/2", "½")
+    return re.findall(r"(?<!\^)-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", plain)
 
 
 def test_every_verb_is_tried() -> None:

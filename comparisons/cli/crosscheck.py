@@ -67,7 +67,7 @@ def command(
     from comparisons.external.installed import find_codes
     from comparisons.models.spec import items
     from sheetbench.answers.answer import Answer
-    from sheetbench.errors import BadInput
+    from sheetbench.errors import BadInput, NoEquilibrium
     from sheetbench.scenes import load
 
     codes = find_codes(None if judges is None else items(judges))
@@ -87,5 +87,8 @@ def command(
             if duration is None:
                 checked = crosscheck(chosen, **run, models=models, codes=codes)
             else:
-                checked = crosscheck_motion(chosen[0], duration, **run, models=models, codes=codes)
+                try:
+                    checked = crosscheck_motion(chosen[0], duration, **run, models=models, codes=codes)
+                except NoEquilibrium as error:
+                    out.stop(f"no motion to compare: {error}")
         out.show(checked)

@@ -58,3 +58,16 @@ def test_what_is_asked_of_a_motion_is_one_scene_and_a_shell(capsys: pytest.Captu
     assert "--duration: one scene, not 2" in one_line(capsys)
     assert run("crosscheck", "one-edge-clamped", "--duration", "0.1", "--shell", "") == 2
     assert "--shell: with --duration" in one_line(capsys)
+
+
+def test_without_a_motion_beside_the_shell_it_says_why_and_is_three(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "ccx"
+    file.write_text("#!/bin/sh\necho This is Version 2.20\nexit 201\n", encoding="utf-8")
+    file.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
+    none = ("--lumped", "", "--plate", "", "--solid", "", "--shell", "1,2", "--meshes", "1,2")
+    asked = ("--duration", "0.004", *none, "--judges", "calculix", "--workers", "1")
+    assert run("crosscheck", "one-edge-clamped", *asked) == 3
+    assert "no motion to compare: calculix is left out" in capsys.readouterr().err

@@ -16,8 +16,8 @@ from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
-from lumped.springs.all_families import NO_INERTIA, NO_STRESSES, AllFamilies, Stresses
-from lumped.springs.families import Cells, Links, families
+from lumped.springs.all_families import NO_INERTIA, NO_STRESSES, AllFamilies, Stresses, families
+from lumped.springs.families import Cells, Links
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.springs import Distribution
@@ -28,10 +28,10 @@ Precision = Literal["double", "single"]
 class Assembly:
     """Energy, force and tangent of a calibrated lattice. Displacements and forces are (n, 3) [m], [N].
 
-    springs: the families (`lumped.springs.family`), the central `links` first. inertia: how masses that move
-    are shared out. couple: makes the actuators
-    bound to the lattice; their rows follow those of the masses in every array. precision: of the internal
-    force. twisting: edges along which nothing holds the director (`Scene.twisting_edges`).
+    springs: the families (`lumped.springs.families`), the central `links` first. inertia: how masses that
+    move are shared out. couple: makes the actuators bound to the lattice; their rows follow those of the
+    masses in every array. precision: of the internal force. twisting: edges along which nothing holds the
+    director (`Scene.twisting_edges`).
     """
 
     def __init__(

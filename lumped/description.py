@@ -16,8 +16,9 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice
 from lumped.loads import Loads
 from lumped.masses import masses
+from lumped.springs.all_families import table_dampers
 from lumped.springs.cell_laws import AREA_AND_STRAINS, ENERGIES
-from lumped.springs.families import Cells, Links, table_dampers
+from lumped.springs.families import Cells, Links
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve
 from sheetbench.errors import BadInput

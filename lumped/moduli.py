@@ -25,9 +25,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lumped import spring_constants as constants
 from lumped.lattice import STEPS
 from lumped.sections import Section
-from lumped.springs import constants
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 
 

@@ -22,9 +22,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lumped import spring_constants as constants
 from lumped.calibration import CLOSED, Calibration
 from lumped.mid_surface import MidSurface
-from lumped.springs import constants
 from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve_path

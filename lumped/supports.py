@@ -23,7 +23,7 @@ from lumped.actuators import Coupling
 from lumped.actuators.corners import Tie
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, Pattern
-from lumped.springs.rest import Itself
+from lumped.rest import Itself
 from sheetbench.numerics.kept import frozen
 from sheetbench.numerics.maps import Rows, csr_arrays
 from sheetbench.numerics.reduced import ReducedSystem, reduced

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from lumped import spring_constants as constants
 from lumped.calibration import Calibration, default
 from lumped.lattice import Lattice
 from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
-from lumped.springs import constants
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve_path
 from sheetbench.errors import BadInput, NoEquilibrium

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from lumped import spring_constants as constants
 from lumped.calibration import tables
 from lumped.sections import Section
-from lumped.springs import by_cell, constants
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Table
 from sheetbench.scenes import PerDirection, Sheet, SpringSet
@@ -63,12 +63,12 @@ class Calibration(Answer):
         edge, strip = (_both(value) for value in (self.springs.edge_shear, self.springs.strip_shear))
         edge[axis] = strip[axis]
         springs = self.springs.model_copy(update={"edge_shear": either(*edge)})
-        springs = by_cell.cut(springs, grid[1] - 1, grid[0] - 1)
+        springs = constants.cut(springs, grid[1] - 1, grid[0] - 1)
         half = (self.half[0] or axis == 0, self.half[1] or axis == 1)
         return replace(self, grid=grid, springs=springs, half=half)
 
     def with_constant(self, name: str, value: float) -> Calibration:
-        """The same with one spring constant changed, by its name (`lumped.springs.constants`)."""
+        """The same with one spring constant changed, by its name (`lumped.spring_constants`)."""
         return replace(self, springs=constants.changed(self.springs, name, value))
 
     def document(self) -> dict[str, Any]:

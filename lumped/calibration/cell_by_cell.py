@@ -12,7 +12,7 @@ import numpy as np
 
 from lumped.grid_lines import grid_lines
 from lumped.sections import Section
-from lumped.springs.by_cell import gathered
+from lumped.spring_constants import gathered
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid

@@ -32,10 +32,10 @@ import numpy as np
 from scipy.linalg import LinAlgError, solveh_banded
 
 from lumped import moduli
+from lumped import spring_constants as constants
 from lumped.calibration.calibration import either
 from lumped.grid_lines import Lines, grid_lines
 from lumped.sections import Section
-from lumped.springs import by_cell, constants
 from sheetbench.scenes import Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
@@ -91,7 +91,7 @@ def _of_edges(
     cells (rows, columns) [m]; differ: whether they have sections of their own, and each is taken as if all
     across the sheet were like it."""
     square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * springs.layer_distance**2
-    unequal = by_cell.varies(springs)
+    unequal = constants.varies(springs)
     found: dict[bool, list[Any]] = {False: [], True: []}
     for axis in range(2):
         across, along = lines[axis], lines[1 - axis]
@@ -134,10 +134,10 @@ def _strip(
     [N/m] and the share of it in the furthest diagonals, (n,) each, from its far end on if `far`; (1,) where
     all cells are alike."""
     rows = []
-    unequal = by_cell.varies(springs)
+    unequal = constants.varies(springs)
     for cell in range(len(lines[axis].widths)) if unequal else range(1):
         column, row = (cell, place) if axis == 0 else (place, cell)
-        own = by_cell.of_cell(springs, row, column) if unequal else springs
+        own = constants.of_cell(springs, row, column) if unequal else springs
         sides = (float(lines[0].widths[column]), float(lines[1].widths[row]), springs.layer_distance)
         twisting, shear, shares = _of_cell(own, sides, layers)
         rows.append((twisting, shear[1 - axis], shares[1 - axis]))

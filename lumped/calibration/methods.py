@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.central import central
 from lumped.calibration.consistent import (
@@ -19,7 +20,6 @@ from lumped.calibration.rubber import hyperelastic, neo_hookean
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
 from lumped.sections import sections_of
-from lumped.springs import by_cell
 from sheetbench import choices
 from sheetbench.errors import Impossible
 from sheetbench.scenes import Scene, SpringTable, require_uniform
@@ -88,12 +88,12 @@ def given(
             f"sheetbench calibrate --grading {grading:g} --toml"
         )
     springs = table.constants
-    if table.grading and not by_cell.varies(springs):
+    if table.grading and not constants.varies(springs):
         raise Impossible(
             f"scene '{scene.name}': springs.grading = {table.graded:g}: unequal cells have springs of their "
             f"own, and these are the same for all: sheetbench calibrate --grading {table.graded:g} --toml"
         )
-    by_cell.require_cells(springs, asked, f"scene '{scene.name}': ")
+    constants.require_cells(springs, asked, f"scene '{scene.name}': ")
     cells = sections_of(scene, asked, table.graded)
     found = report("scene", scene.sheet, scene.material, asked, springs, table.graded, cells)
     return replace(found, masses=table.masses)

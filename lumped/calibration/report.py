@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from lumped import moduli
+from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration, shown
 from lumped.calibration.cell_by_cell import Sides, kinds_of_cells
 from lumped.grid_lines import grid_lines
 from lumped.sections import Section
-from lumped.springs import by_cell, constants
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
@@ -68,14 +68,14 @@ def _kinds(
     sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, grading: Graded, cells: Section | None
 ) -> list[Cell]:
     """The kinds of cells: one where all are alike, else each that differs from the others."""
-    if not grading and not by_cell.varies(springs):
+    if not grading and not constants.varies(springs):
         x, y = grid_lines(sheet, grid)
         return [((x.mean, y.mean), Section.of(Constants.of(sheet, material)), springs)]
     which, made_of = kinds_of_cells(sheet, material, grid, grading, cells)
     found: dict[Any, Cell] = {}
     for row, numbers in enumerate(which):
         for column, number in enumerate(numbers):
-            own = by_cell.of_cell(springs, row, column)
+            own = constants.of_cell(springs, row, column)
             found.setdefault((number, own), (*made_of[number], own))
     return list(found.values())
 

@@ -2,7 +2,7 @@
 
 Each of L layers is a membrane of thickness h/L with the energy of the material's law
 (`sheetbench.scenes.material`), of its cells' mean sides and with the thickness at which nothing pulls
-(`lumped.springs.rubber`); `neo-hookean` has neo-Hooke's whatever linear material it is given. Layers are
+(`lumped.springs.laws`); `neo-hookean` has neo-Hooke's whatever linear material it is given. Layers are
 h/√(L² − 1) apart, so that Σ z_k² h/L = h³/12 and bending is D exactly. Transverse shear is the upright
 faces', with S* of the grid, MacNeal's; a share d of it has the faces over the cells' diagonals. Against a
 bending wave of wave number q at the angle θ to the grid the stiffness of square cells is too small by (q l)²

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.assembly import Assembly
-from lumped.springs.families import table_dampers
+from lumped.springs.all_families import table_dampers
 from sheetbench.scenes import Scene
 
 

@@ -23,7 +23,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from lumped.springs.family import Family
+from lumped.springs.families import Family
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Branches
 

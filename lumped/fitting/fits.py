@@ -21,6 +21,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.consistent import consistent
 from lumped.calibration.report import report
@@ -28,8 +29,7 @@ from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.fitting.targets import ModalTarget, StaticTarget, Target
 from lumped.lattice import Grid
 from lumped.sensitivity import sensitivity
-from lumped.springs import constants
-from lumped.springs.by_cell import EDGES_OWN
+from lumped.spring_constants import EDGES_OWN
 from lumped.vibration import frequency_slopes
 from sheetbench.answers.table import PERCENT, Table
 from sheetbench.errors import BadInput

@@ -1,4 +1,4 @@
-"""All families of springs at once: energy and force, stresses, tangent.
+"""The springs of a lattice: made of a spring set by the table `FAMILIES`, and called all at once.
 
 A call from Python costs microseconds, as much as a small lattice's springs do; so those with an energy have
 one compiled call, not one a family. Its arrays always are of the same kinds, empty where a lattice has no
@@ -8,21 +8,26 @@ family's own; here they release the interpreter's lock. Springs without an energ
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
 
+from lumped import spring_constants as constants
+from lumped.lattice import Lattice
 from lumped.pattern import Pattern
+from lumped.rest import Rest, rest_of
 from lumped.springs import cells, links
-from lumped.springs.cell_laws import AreaAndStrains
+from lumped.springs.cell_laws import FACE, RUBBER, AreaAndStrains
 from lumped.springs.cells import CellArrays
-from lumped.springs.families import Cells
-from lumped.springs.family import Family
+from lumped.springs.families import Cells, Dampers, DirectionalLinks, Family, Links
 from lumped.springs.links import LinkArrays
 from lumped.springs.tiles import NUMBA_TRUE
+from sheetbench.errors import BadInput
+from sheetbench.scenes import SpringSet
+from sheetbench.scenes.springs import DamperSet
 
 
 class Springs(NamedTuple):
@@ -194,3 +199,89 @@ def tangent(
             for r in range(3):
                 above[q, r] = below[r, q]
     return blocks
+
+
+def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSet) -> Iterator[Links]:
+    """Central links, first and even where there are none; then those of a per-direction law."""
+    rest, names = rest_of(lattice, pattern), lattice.link_names
+    numbers = [constants.number(table, family.name, family.direction) for family in lattice.links]
+    if None not in numbers:
+        central = rest.weight * np.repeat(np.array(numbers, dtype=float), rest.counts)
+        yield _links(Links, rest, central > 0.0, central, names)
+        return
+    stiffness = []
+    for family in lattice.links:
+        k = constants.along(table, family.name, family.direction)
+        if k.ndim == 2:  # every cell its own
+            of_links = np.repeat((family.shares * k[family.cells, 0]).sum(axis=1)[:, None], 3, axis=1)
+        else:
+            of_links = family.weight[:, None] * k
+        stiffness.append(of_links)
+    k = np.concatenate(stiffness)
+    unequal = (k != k[:, :1]).any(axis=1)
+    yield _links(Links, rest, ~unequal & (k[:, 0] > 0.0), k[:, 0], names)
+    if unequal.any():
+        yield _links(DirectionalLinks, rest, unequal, k, names)
+
+
+def _links(kind: type[Links], rest: Rest, which: np.ndarray, k: np.ndarray, names: tuple[str, ...]) -> Links:
+    nodes, slots, offset, rest_length, number = rest.links(which)
+    return kind(nodes, k[which], slots, offset, rest_length, number, names)
+
+
+def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
+    """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
+    twist = constants.of_edge_cells(springs, lattice.grid, lattice.twisting)
+    layers, rest = lattice.grid[2], rest_of(lattice, pattern)
+    for family in lattice.cells:
+        nodes, slots, sides, area = rest.cells(family.name)
+        every = len(family.nodes) // len(twist)
+        if family.name == "area" and springs.rubber:
+            found = constants.of_rubber(springs, sides[: len(twist)], area[: len(twist)], twist)
+            stiffness, others = (np.concatenate([each] * every) for each in found)
+            yield Cells(nodes, stiffness, slots, sides, area, ("rubber", ""), False, RUBBER, others)
+            continue
+        name, strains = constants.of_strains(springs, family.name, len(twist))
+        of_area = constants.of_cells(getattr(springs, family.name), len(twist))
+        strains[:, 2] += twist if family.name == "area" else -layers * twist
+        stiffness = np.column_stack([of_area, strains])
+        if stiffness.any():
+            stiffness = np.concatenate([stiffness] * every)
+            yield Cells(nodes, stiffness, slots, sides, area, (family.name, name))
+
+
+def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
+    """On the upright faces between the layers, against their shear."""
+    if springs.face_shear or springs.face_diagonal_shear:
+        rest = rest_of(lattice, pattern)
+        faces, (nodes, slots, sides, area) = rest.faces, rest.cells("faces")
+        count = lattice.cell_areas.size
+        diagonal = constants.of_cells(springs.face_diagonal_shear, count)
+        per_area = np.vstack([constants.along_each(springs.face_shear, count), diagonal])
+        per_area = per_area[faces.axis[:, None], faces.cells]
+        stored = per_area * lattice.cell_areas.ravel()[faces.cells]
+        stiffness = np.zeros((len(nodes), 4))
+        stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
+        others = stiffness[:, 3:] / area[:, None]
+        yield Cells(nodes, stiffness, slots, sides, area, ("face_shear", ""), True, FACE, others)
+
+
+FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (
+    link_springs,
+    cell_springs,
+    face_springs,
+)
+
+
+def families(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> tuple[Family, ...]:
+    """The springs of a spring set on a lattice, the central links first."""
+    return tuple(family for make in FAMILIES for family in make(lattice, pattern, springs))
+
+
+def table_dampers(lattice: Lattice, pattern: Pattern, table: DamperSet) -> Dampers:
+    """The dampers of a scene's [dampers] table, along the links. Raises BadInput for x, y and z apart."""
+    along_links, *others = link_springs(lattice, pattern, table)
+    if others:
+        name = others[0].names[others[0].kind[0]]
+        raise BadInput(f"dampers.{name}: a damper acts along its link; give one number, or x and y")
+    return Dampers(along_links)

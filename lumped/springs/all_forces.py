@@ -1,8 +1,8 @@
 """The forces of all springs and dampers of a lattice in one compiled pass, arrays in and arrays out.
 
 `add_forces` takes displacements and velocities (n, 3) as everyone has them; `add_at_places` is for whoever
-keeps them in the order of a `Packing`, flat. The forces are those of the families (`lumped.springs.family`),
-to rounding.
+keeps them in the order of a `Packing`, flat. The forces are those of the families
+(`lumped.springs.families`), to rounding.
 """
 
 from __future__ import annotations
@@ -12,21 +12,28 @@ from numba import njit
 
 from lumped.springs import packing as kinds
 from lumped.springs.cell_laws import AreaAndStrains
-from lumped.springs.cell_tiles import (
+from lumped.springs.packing import Packing, Scratch
+from lumped.springs.tiles import (
     HALF,
+    LANES,
+    NUMBA_FALSE,
+    NUMBA_TRUE,
+    OPTIONS,
+    R6,
+    R11,
     gather_sides,
+    pull_ends,
     push_corner,
     push_warp,
     resist_cells,
+    resist_links,
     stretch_cells,
+    stretch_directional,
+    stretch_links,
 )
-from lumped.springs.link_tiles import pull_ends, resist_links, stretch_directional, stretch_links
-from lumped.springs.packing import Packing, Scratch
-from lumped.springs.tiles import LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, ROWS
 
 DIRECTIONAL, CELLS, FACES = np.uint64(kinds.DIRECTIONAL), np.uint64(kinds.CELLS), np.uint64(kinds.FACES)
 UINT_ONE = np.uint64(1)
-R6, R11 = ROWS[6], ROWS[11]
 
 
 @njit(**OPTIONS)

@@ -10,8 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.laws import Four, Three
-from lumped.springs.vectors import Vector, less, plus, times
+from lumped.springs.laws import Four, Three, Vector, less, plus, times
 
 Pair = tuple[Vector, Vector]
 Rows = tuple[Pair, Pair, Pair]

@@ -26,8 +26,17 @@ from numba import njit
 
 from lumped.springs.cell_blocks import add_blocks, add_warped_blocks, both, by_sides, by_warp, to_diagonals
 from lumped.springs.cell_laws import Tag, constants, mean_stress, measures, respond, stiffness
-from lumped.springs.laws import Four, Six, Three, stiffness_of_area_and_strains
-from lumped.springs.vectors import Vector, dot, less, plus, times
+from lumped.springs.laws import (
+    Four,
+    Six,
+    Three,
+    Vector,
+    dot,
+    less,
+    plus,
+    stiffness_of_area_and_strains,
+    times,
+)
 
 HALF = 0.5
 NO_CHANGE = (0.0, 0.0, 0.0, 0.0)

@@ -1,29 +1,110 @@
-"""The families of springs, and the table that makes them of a lattice and a spring set: `FAMILIES`.
+"""Families of springs: what assembly, descent and the integrators ask of each, and of the dampers beside it.
 
-Only what has stiffness is made. A new family is a module of compiled loops, a class here that says what its
-arrays are, and a row of the table.
+A family is data (masses, rest geometry, the constants of every spring's law) and a module of compiled loops
+over it, `lumped.springs.links` or `lumped.springs.cells`, whose functions take the displacement, then the
+family's arrays. Stresses S, stiffness D and its material part M are those of `lumped.springs.laws`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
-from lumped.lattice import Lattice
-from lumped.pattern import Pattern
-from lumped.springs import by_cell, cells, constants, directional, laws, links
-from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, Law
+from lumped.springs import cells, laws, links
+from lumped.springs.cell_laws import AREA_AND_STRAINS, Law
 from lumped.springs.cells import CellArrays
-from lumped.springs.family import Dampers, Family
 from lumped.springs.links import LinkArrays
-from lumped.springs.rest import Rest, rest_of
-from sheetbench.errors import BadInput
-from sheetbench.scenes import SpringSet
-from sheetbench.scenes.springs import DamperSet
+
+
+@dataclass(frozen=True, eq=False)
+class Family(ABC):
+    """nodes: (m, …) masses of each spring; stiffness: (m,) or (m, 4) [N/m]; slots: (m, …) block numbers of
+    each spring's pairs of masses. Displacements and forces are (n, 3) [m], [N]."""
+
+    nodes: np.ndarray
+    stiffness: np.ndarray
+    slots: np.ndarray
+
+    loops: ClassVar[Any]
+    measures: ClassVar[int] = 4  # that a spring's memory holds room for
+    conservative: ClassVar[bool] = True  # whether there is an energy, and so a symmetric tangent
+    no_stress: ClassVar[np.ndarray]  # for which the tangent takes its own
+
+    def __len__(self) -> int:
+        return len(self.nodes)
+
+    @property
+    @abstractmethod
+    def arrays(self) -> Any:
+        """Return what the loops take after the displacement, `LinkArrays` or `CellArrays`."""
+
+    def add_force(self, u: np.ndarray, force: np.ndarray) -> float:
+        """Add the internal force; return the energy [J]."""
+        energy: float = self.loops.add_forces(u, self.arrays, force)
+        return energy
+
+    def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
+        """Add the force over a step whose work is the energy stored in it."""
+        self.loops.add_average_forces(start, end, self.arrays, force)
+
+    def stresses(self, u: np.ndarray) -> np.ndarray:
+        """Return the stress of every spring, (m,) of links, (m, 3) of cells [N/m]."""
+        return self.extrapolated(u, np.zeros_like(u))
+
+    def extrapolated(self, u: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Return the stresses that the linearisation at u predicts after `step`."""
+        predicted: np.ndarray = self.loops.extrapolated(u, step, self.arrays)
+        return predicted
+
+    @abstractmethod
+    def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
+        """Return stresses with which, and with the material part M, the tangent is a sum of squares; with
+        negative area springs (ν < 1/3) only while strains are small."""
+
+    def add_tangent(
+        self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray, share: float = 1.0, lower: bool = False
+    ) -> None:
+        """Add the tangent with this stress, and M + share (D − M), to the 3×3 blocks [N/m], or to those on
+        and below the diagonal."""
+        self.loops.add_tangent(u, self.arrays, stress, share, lower, blocks)
+
+    @abstractmethod
+    def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
+        """Return the energy of every spring, (m,), or of both kinds of springs on every cell, (m, 2) [J], or
+        what is quadratic in u of it."""
+
+    @abstractmethod
+    def by_name(self, energies: np.ndarray) -> dict[str, float]:
+        """Return energies summed under the names that the springs have in a spring set [J]."""
+
+    def rounded(self) -> Family:
+        """Return the springs whose force is computed in single precision: these, with their rest data."""
+        return self
+
+    def damped(self, time: float) -> Dampers:
+        """Return dampers of coefficient time [s] × stiffness."""
+        return Dampers(replace(self, stiffness=time * self.stiffness))
+
+
+@dataclass(frozen=True)
+class Dampers:
+    """Dampers that resist the rates of a family's measures, their coefficients [N·s/m] in place of its
+    stiffness: stress M ġ, power taken ġ·M ġ. Velocities are (n, 3) [m/s]."""
+
+    family: Family
+
+    def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
+        """Add scale × the derivative of the force by the velocity to the 3×3 blocks."""
+        scaled = replace(self.family, stiffness=scale * self.family.stiffness)
+        scaled.add_tangent(u, scaled.no_stress, blocks, 0.0)
+
+    def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
+        """Add the derivative of the force by the displacement to the 3×3 blocks, unsymmetric."""
+        self.family.loops.add_damping_tangent(u, v, self.family.arrays, blocks)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +160,18 @@ class Links(Family):
 class DirectionalLinks(Links):
     """Links of the per-direction law of Habibi et al., stiffness (m, 3); neither energy nor stress."""
 
-    loops: ClassVar[Any] = directional
     conservative: ClassVar[bool] = False
+
+    def add_force(self, u: np.ndarray, force: np.ndarray) -> float:
+        """Add the force; return no energy, 0 [J]."""
+        links.add_directional_forces(u, self.arrays, force)
+        return 0.0
+
+    def add_tangent(
+        self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray, share: float = 1.0, lower: bool = False
+    ) -> None:
+        """Add the tangent, whatever the stress; it is unsymmetric, all of it is added."""
+        links.add_directional_tangent(u, self.arrays, blocks)
 
     def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
         """Add the force in the middle of the step, for want of an energy."""
@@ -181,89 +272,3 @@ class Cells(Family):
 
 
 _NO_STRESS = {count: np.empty((0, count)) for count in (3, 4)}
-
-
-def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSet) -> Iterator[Links]:
-    """Central links, first and even where there are none; then those of a per-direction law."""
-    rest, names = rest_of(lattice, pattern), lattice.link_names
-    numbers = [constants.number(table, family.name, family.direction) for family in lattice.links]
-    if None not in numbers:
-        central = rest.weight * np.repeat(np.array(numbers, dtype=float), rest.counts)
-        yield _links(Links, rest, central > 0.0, central, names)
-        return
-    stiffness = []
-    for family in lattice.links:
-        k = constants.along(table, family.name, family.direction)
-        if k.ndim == 2:  # every cell its own
-            of_links = np.repeat((family.shares * k[family.cells, 0]).sum(axis=1)[:, None], 3, axis=1)
-        else:
-            of_links = family.weight[:, None] * k
-        stiffness.append(of_links)
-    k = np.concatenate(stiffness)
-    unequal = (k != k[:, :1]).any(axis=1)
-    yield _links(Links, rest, ~unequal & (k[:, 0] > 0.0), k[:, 0], names)
-    if unequal.any():
-        yield _links(DirectionalLinks, rest, unequal, k, names)
-
-
-def _links(kind: type[Links], rest: Rest, which: np.ndarray, k: np.ndarray, names: tuple[str, ...]) -> Links:
-    nodes, slots, offset, rest_length, number = rest.links(which)
-    return kind(nodes, k[which], slots, offset, rest_length, number, names)
-
-
-def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
-    """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
-    twist = constants.of_edge_cells(springs, lattice.grid, lattice.twisting)
-    layers, rest = lattice.grid[2], rest_of(lattice, pattern)
-    for family in lattice.cells:
-        nodes, slots, sides, area = rest.cells(family.name)
-        every = len(family.nodes) // len(twist)
-        if family.name == "area" and springs.rubber:
-            found = constants.of_rubber(springs, sides[: len(twist)], area[: len(twist)], twist)
-            stiffness, others = (np.concatenate([each] * every) for each in found)
-            yield Cells(nodes, stiffness, slots, sides, area, ("rubber", ""), False, RUBBER, others)
-            continue
-        name, strains = constants.of_strains(springs, family.name, len(twist))
-        of_area = by_cell.of_cells(getattr(springs, family.name), len(twist))
-        strains[:, 2] += twist if family.name == "area" else -layers * twist
-        stiffness = np.column_stack([of_area, strains])
-        if stiffness.any():
-            stiffness = np.concatenate([stiffness] * every)
-            yield Cells(nodes, stiffness, slots, sides, area, (family.name, name))
-
-
-def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
-    """On the upright faces between the layers, against their shear."""
-    if springs.face_shear or springs.face_diagonal_shear:
-        rest = rest_of(lattice, pattern)
-        faces, (nodes, slots, sides, area) = rest.faces, rest.cells("faces")
-        count = lattice.cell_areas.size
-        diagonal = by_cell.of_cells(springs.face_diagonal_shear, count)
-        per_area = np.vstack([constants.along_each(springs.face_shear, count), diagonal])
-        per_area = per_area[faces.axis[:, None], faces.cells]
-        stored = per_area * lattice.cell_areas.ravel()[faces.cells]
-        stiffness = np.zeros((len(nodes), 4))
-        stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
-        others = stiffness[:, 3:] / area[:, None]
-        yield Cells(nodes, stiffness, slots, sides, area, ("face_shear", ""), True, FACE, others)
-
-
-FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (
-    link_springs,
-    cell_springs,
-    face_springs,
-)
-
-
-def families(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> tuple[Family, ...]:
-    """The springs of a spring set on a lattice, the central links first."""
-    return tuple(family for make in FAMILIES for family in make(lattice, pattern, springs))
-
-
-def table_dampers(lattice: Lattice, pattern: Pattern, table: DamperSet) -> Dampers:
-    """The dampers of a scene's [dampers] table, along the links. Raises BadInput for x, y and z apart."""
-    along_links, *others = link_springs(lattice, pattern, table)
-    if others:
-        name = others[0].names[others[0].kind[0]]
-        raise BadInput(f"dampers.{name}: a damper acts along its link; give one number, or x and y")
-    return Dampers(along_links)

@@ -7,6 +7,9 @@ tangent takes S as an argument of its own: that at u, an extrapolated one S + D 
 Garcea 2017), its positive part, none. Dampers have the stress M ġ, ġ = 2 r·dv; of it the derivative by the
 displacement, 2 M ġ I + 4 M r (dv − ġ r/g)ᵀ, is unsymmetric.
 
+The per-direction law of Habibi et al., F_q = k_q Δ_q (1 − L/r), has unequal stiffness along x, y and z; no
+energy, hence no stress to extrapolate, and an unsymmetric tangent.
+
 Arrays: stress (m,) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
 """
 
@@ -17,8 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.springs.laws import elongation, mean_elongation
-from lumped.springs.vectors import Vector, dot, less, times
+from lumped.springs.laws import Vector, dot, elongation, less, mean_elongation, times
 
 HALF = 0.5
 
@@ -178,3 +180,38 @@ def _add_blocks(
         block[6] += sign * zx
         block[7] += sign * zy
         block[8] += sign * zz
+
+
+@njit(cache=True)
+def add_directional_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) -> None:
+    """Add the per-direction law's force on the links' ends to `force` (n, 3) [N]."""
+    for m in range(len(links.nodes)):
+        a, b = links.nodes[m, 0], links.nodes[m, 1]
+        change, square, r = measure(u, links.nodes, links.offset, m)
+        length = np.sqrt(square)
+        e = change / (length + links.rest_length[m])
+        for q in range(3):
+            value = links.constants[m, q] * e * r[q] / length
+            force[a, q] -= value
+            force[b, q] += value
+
+
+@njit(cache=True)
+def add_directional_tangent(u: np.ndarray, links: LinkArrays, blocks: np.ndarray) -> None:
+    """Add the tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)], to the 3×3 blocks."""
+    n = np.empty(3)
+    for m in range(len(links.nodes)):
+        change, square, r = measure(u, links.nodes, links.offset, m)
+        length = np.sqrt(square)
+        n[0], n[1], n[2] = r[0] / length, r[1] / length, r[2] / length
+        across = change / (length + links.rest_length[m]) / length
+        for p in range(3):
+            for q in range(3):
+                value = (1.0 - across) * n[p] * n[q]
+                if p == q:
+                    value += across
+                value *= links.constants[m, p]
+                blocks[links.slots[m, 0], p, q] += value
+                blocks[links.slots[m, 3], p, q] += value
+                blocks[links.slots[m, 1], p, q] -= value
+                blocks[links.slots[m, 2], p, q] -= value

@@ -16,20 +16,18 @@ import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.pattern import ASKED, SHARED_UP_TO
-from lumped.springs import cell_tiles, link_tiles
 from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
-from lumped.springs.families import Cells, DirectionalLinks, Links
-from lumped.springs.family import Dampers, Family
-from lumped.springs.tiles import LANES, STRIDE, WIDTH
+from lumped.springs.families import Cells, Dampers, DirectionalLinks, Family, Links
+from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
 from sheetbench.scenes.grid import Grid
 
 LINKS, DIRECTIONAL, CELLS, RUBBER_CELLS, FACES = range(5)
 BLOCK = int(LANES)
 CACHE_LIMIT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than anew
 BRIDGED = 4  # places at most from one spring of a run to the next
-ROWS = {LINKS: link_tiles.DATA, DIRECTIONAL: link_tiles.DATA}
+ROWS = {LINKS: LINK_DATA, DIRECTIONAL: LINK_DATA}
 OF_LAWS = {CELLS: AREA_AND_STRAINS, RUBBER_CELLS: RUBBER, FACES: FACE}
-ROWS |= {kind: cell_tiles.DATA[law.tag] for kind, law in OF_LAWS.items()}
+ROWS |= {kind: CELL_DATA[law.tag] for kind, law in OF_LAWS.items()}
 ABSENT_SPRING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
     LINKS: (1.0, 0.0, 0.0, 1.0),
     DIRECTIONAL: (1.0, 0.0, 0.0, 1.0),
@@ -148,11 +146,11 @@ def _in_blocks(count: int) -> int:
 def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
     """Set where the shapes of each run (r, 8) are kept, all in one place where none are asked for again, or
     there are too many; whether each has its own, and a tile's length."""
-    rows = np.where(runs[:, 0] >= CELLS, cell_tiles.SHAPE, link_tiles.SHAPE)
+    rows = np.where(runs[:, 0] >= CELLS, CELL_SHAPE, LINK_SHAPE)
     before = np.append(0, np.cumsum(rows)).astype(int)
     keeping = damped and STRIDE * int(before[-1]) <= CACHE_LIMIT
-    runs[:, 7] = STRIDE * (cell_tiles.USED + before[:-1] * keeping)
-    return keeping, STRIDE * (cell_tiles.USED + int(before[-1] if keeping else rows.max(initial=0)))
+    runs[:, 7] = STRIDE * (USED + before[:-1] * keeping)
+    return keeping, STRIDE * (USED + int(before[-1] if keeping else rows.max(initial=0)))
 
 
 def _kind(family: Family) -> int:

@@ -13,7 +13,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models.grading import ONE_SIDED, grading_of, parse_grading
 from comparisons.models.spec import Lattice
 from lumped.grid_lines import grid_lines
-from lumped.springs.constants import of_edge_cells
+from lumped.spring_constants import of_edge_cells
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, load
 from sheetbench.scenes.grading import Grading, as_settings, of_settings, towards

@@ -5,7 +5,7 @@ import pytest
 from cases import with_material
 
 import lumped
-from lumped.springs import constants
+from lumped import spring_constants as constants
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, EdgeLoad, PointLoad
 from sheetbench.scenes.parameters import put

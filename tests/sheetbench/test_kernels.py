@@ -37,7 +37,7 @@ def test_a_kernel_is_made_of_the_files_whose_kernels_it_calls():
     found = {str(path.relative_to(ROOT)) for path in made_of(ROOT / "lumped/springs/all_families.py")}
     assert {"lumped/springs/cells.py", "lumped/springs/links.py", "lumped/springs/laws.py"} <= found
     tuples = {path.name for path in made_of(ROOT / "lumped/springs/all_forces.py")}
-    assert {"packing.py", "tiles.py", "cell_tiles.py"} <= tuples  # a tuple's fields count too
+    assert {"packing.py", "tiles.py", "cell_laws.py"} <= tuples  # a tuple's fields count too
     assert "assembly.py" not in {
         path.name for path in made_of(ROOT / "lumped/dynamics/implicit/compiled_newton.py")
     }

@@ -9,7 +9,7 @@ from cases import POINTS
 import fem_reference
 import lumped
 from lumped import ModalTarget, StaticTarget, identifiability
-from lumped.springs import constants
+from lumped import spring_constants as constants
 from lumped.vibration import frequency_slopes
 from sheetbench import scenes
 

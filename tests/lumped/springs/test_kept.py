@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import lumped
-from lumped import supports
-from lumped.springs import rest
+from lumped import rest, supports
 from sheetbench.scenes import Clamped, Pressure, load
 
 

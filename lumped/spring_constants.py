@@ -1,7 +1,8 @@
 """The constants of a spring or damper set by family and direction, and by name.
 
 A constant that every cell has its own of goes by its mean over the cells. Given another mean, all its values
-scale; those that may have either sign shift.
+scale; those that may have either sign shift. Tables of cells are rows from y0 to y1, each from x0 to x1;
+edge_shear, strip_shear and those of the far edges have lists along the edges. One number is every cell's.
 """
 
 from __future__ import annotations
@@ -11,11 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from lumped.springs.by_cell import EDGES_OWN, of_cells
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
+from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.springs import DamperSet, Either
 
+EDGES_OWN = ("edge_shear", "strip_shear", "far_edge_shear", "far_strip_shear")
 RUBBER_CONSTANTS = (
     "neo_hookean_shear",
     "neo_hookean_volume",
@@ -85,7 +87,7 @@ def of_rubber(
     springs: SpringSet, sides: np.ndarray, area: np.ndarray, twist: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (c, 4) [N/m] of the small strains of a layer's plan cells that are rubber membranes, less
-    that of their axial links, and what else `lumped.springs.rubber` takes of them (c, 9). sides (c, 2, 3)
+    that of their axial links, and what else `lumped.springs.laws` takes of them (c, 9). sides (c, 2, 3)
     [m], area (c,) [m²]; twist: (c,) [N/m] that edges add to the shear."""
     count = len(area)
     shear, volume, c01, c20, c30, limit = (
@@ -102,7 +104,7 @@ def of_rubber(
     return stiffness, np.column_stack([energy, limit, *axial, twist / area])
 
 
-def of_edge_cells(springs: SpringSet, grid: tuple[int, int, int], twisting: frozenset[str]) -> np.ndarray:
+def of_edge_cells(springs: SpringSet, grid: Grid, twisting: frozenset[str]) -> np.ndarray:
     """Stiffness [N/m] against shear that the edges along which nothing holds the director (`twisting`) add to
     every cell of a layer, (cells,); to a cell at two of them the sum."""
     cells = np.zeros((grid[1] - 1, grid[0] - 1))
@@ -159,3 +161,104 @@ def _with_mean(name: str, old: Any, value: float) -> Any:
     mean = was.mean()
     cells = was + (value - mean) if name in SIGNED else was * (value / mean)
     return tuple(map(tuple, cells.tolist())) if cells.ndim == 2 else tuple(cells.tolist())
+
+
+def varies(springs: SpringSet) -> bool:
+    """Whether any constant is given cell by cell."""
+    return any(isinstance(value, tuple) for _, _, value in _numbers(springs))
+
+
+def of_cells(value: Any, count: int) -> np.ndarray:
+    """The value of each of `count` cells, (count,)."""
+    return np.array(value, dtype=float).ravel() if isinstance(value, tuple) else np.full(count, float(value))
+
+
+def of_cell(springs: SpringSet, row: int, column: int) -> SpringSet:
+    """One cell's springs, all of them numbers; without those of edges."""
+    return _mapped(
+        springs.model_copy(update=dict.fromkeys(EDGES_OWN, 0.0)),
+        lambda value, _: value[row][column] if isinstance(value, tuple) else value,
+    )
+
+
+def gathered(cells: Sequence[Sequence[SpringSet]]) -> SpringSet:
+    """The springs of a lattice from those of its cells, rows from y0 to y1; one layer distance for all."""
+    first = cells[0][0]
+    found: dict[str, Any] = {"layer_distance": first.layer_distance}
+    for name in SpringSet.model_fields:
+        values = [[getattr(cell, name) for cell in row] for row in cells]
+        if name in (*found, *EDGES_OWN):
+            continue
+        if any(isinstance(value, PerDirection) for row in values for value in row):
+            x, y = (_table([[_along(value, axis) for value in row] for row in values]) for axis in "xy")
+            found[name] = x if x == y else PerDirection(x=x, y=y)
+        else:
+            found[name] = _table(values)
+    return SpringSet(**found)
+
+
+def _along(value: Any, axis: str) -> Any:
+    return getattr(value, axis) if isinstance(value, PerDirection) else value
+
+
+def _table(values: list[list[float]]) -> float | tuple[tuple[float, ...], ...]:
+    """Zero where all are zero."""
+    return tuple(map(tuple, values)) if np.any(values) else 0.0
+
+
+def cut(springs: SpringSet, rows: int, columns: int) -> SpringSet:
+    """The springs of the first rows and columns of cells."""
+
+    def part(value: Any, axis: str) -> Any:
+        if not isinstance(value, tuple):
+            return value
+        if isinstance(value[0], tuple):
+            return tuple(row[:columns] for row in value[:rows])
+        return value[: rows if axis == "x" else columns]
+
+    return _mapped(springs, part)
+
+
+def require_cells(springs: SpringSet, grid: Grid, whose: str) -> None:
+    """Raise BadInput for a table that is not one of the grid's cells. whose: how the message begins."""
+    rows, columns = grid[1] - 1, grid[0] - 1
+    along = {"x": (rows,), "y": (columns,)}
+    for name, axis, value in _numbers(springs):
+        if not isinstance(value, tuple):
+            continue
+        wanted = along[axis] if name in EDGES_OWN else (rows, columns)
+        if _shape(value) != wanted:
+            key = f"{name}.{axis}" if axis else name
+            cells = " rows of ".join(map(str, wanted))
+            raise BadInput(f"{whose}springs.{key}: {cells} cells are wanted on {grid[0]}x{grid[1]} masses")
+
+
+def _shape(value: tuple[Any, ...]) -> tuple[int, ...] | None:
+    """Rows and columns of a table, or the length of a list; None where rows differ in length."""
+    if not value or not isinstance(value[0], tuple):
+        return (len(value),)
+    lengths = {len(row) for row in value}
+    return (len(value), lengths.pop()) if len(lengths) == 1 else None
+
+
+def _numbers(springs: SpringSet) -> list[tuple[str, str, Any]]:
+    """(name, direction, value) of every constant; the direction is empty where there is one for all."""
+    found = []
+    for name, value in springs:
+        if isinstance(value, PerDirection | Either):
+            found += [(name, axis, getattr(value, axis)) for axis in "xy"]
+        else:
+            found.append((name, "", value))
+    return found
+
+
+def _mapped(springs: SpringSet, change: Any) -> SpringSet:
+    """The springs with change(value, direction) for every constant."""
+    changed: dict[str, Any] = {}
+    for name, value in springs:
+        if isinstance(value, PerDirection | Either):
+            pair = {axis: change(getattr(value, axis), axis) for axis in "xy"}
+            changed[name] = value.model_copy(update=pair)
+        else:
+            changed[name] = change(value, "")
+    return springs.model_copy(update=changed)

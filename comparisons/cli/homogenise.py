@@ -63,6 +63,6 @@ def command(
             given[name] = float(value)
         except ValueError:
             raise BadInput(f"--coefficient {text}: NAME=VALUE, the value a number") from None
-    moduli = homogenise(of, cell_of(cell, length, of.sheet.thickness, hinge), given)
-    with output.open(scene=of) as out:
-        out.show(moduli)
+    named = cell_of(cell, length, of.sheet.thickness, hinge)
+    with output.open(scene=of, variant={"CELL": cell, "--spacing": length, "--hinge": hinge}) as out:
+        out.show(homogenise(of, named, given))

@@ -15,7 +15,7 @@ moduli on a grid is to be held against the error there; 33 masses a side may be 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -149,10 +149,9 @@ class _Study:
     def plan(self, parts: Sequence[str]) -> None:
         """Note every run that the parts ask for."""
         for part in parts:
-            getattr(self, part.replace("-", "_"))()
+            list(getattr(self, part.replace("-", "_"))())
 
-    def static(self) -> list[dict[str, Any]]:
-        rows = []
+    def static(self) -> Iterator[dict[str, Any]]:
         for name in self.scenes:
             truth = self._reference(name)
             gradings, reasons = self.gradings(name)
@@ -161,18 +160,15 @@ class _Study:
                 fields = [self._lattice(name, method, (n, n), grading=g) for n, g in grids]
                 chosen = {"gradings": gradings[method], "reasons": list(reasons)}
                 taken = {"calibration": self._method(name, method)} if method == AUTO else {}
-                rows.append(
-                    {
-                        "scene": name,
-                        "method": method,
-                        **({} if self.grading is None else chosen),
-                        **taken,
-                        "trained_on": method in FITTED and name in TRAINING,
-                        "errors": [_error(u, truth) for u in fields],
-                        "extrapolated": _error(_richardson(fields), truth),
-                    }
-                )
-        return rows
+                yield {
+                    "scene": name,
+                    "method": method,
+                    **({} if self.grading is None else chosen),
+                    **taken,
+                    "trained_on": method in FITTED and name in TRAINING,
+                    "errors": [_error(u, truth) for u in fields],
+                    "extrapolated": _error(_richardson(fields), truth),
+                }
 
     def gradings(self, name: str) -> tuple[dict[str, list[float | str]], tuple[str, ...]]:
         """Of the scene's lattices by method, one a grid, and the reasons where they were chosen."""
@@ -182,84 +178,65 @@ class _Study:
         count = len(self.grids)
         return {m: values[i * count : (i + 1) * count] for i, m in enumerate(self.methods)}, reasons
 
-    def limits(self) -> list[dict[str, Any]]:
-        rows = []
+    def limits(self) -> Iterator[dict[str, Any]]:
         for name in (name for name in self.scenes if name in LIMITS):
             truth = self._reference(name)
             for method in (m for m in self.methods if m not in FITTED):
                 fields = [self._lattice(name, method, (n, n)) for n in self.grids]
                 finest = self._homogenised(name, method, self.grids[-1])
                 limit = self._homogenised(name, method, FINE)
-                rows.append(
-                    {
-                        "scene": name,
-                        "method": method,
-                        "finest": _error(fields[-1], truth),
-                        "predicted_finest": _error(finest, truth),
-                        "extrapolated": _error(_richardson(fields), truth),
-                        "predicted_limit": _error(limit, truth),
-                        "lattice_less_plate": _error(fields[-1], finest),
-                    }
-                )
-        return rows
+                yield {
+                    "scene": name,
+                    "method": method,
+                    "finest": _error(fields[-1], truth),
+                    "predicted_finest": _error(finest, truth),
+                    "extrapolated": _error(_richardson(fields), truth),
+                    "predicted_limit": _error(limit, truth),
+                    "lattice_less_plate": _error(fields[-1], finest),
+                }
 
-    def modal(self) -> list[dict[str, Any]]:
-        rows = []
+    def modal(self) -> Iterator[dict[str, Any]]:
         for name in (name for name in self.scenes if name in MODAL):
             truth = self._reference_frequencies(name)
             for method in self.methods:
                 for masses in MASSES:
                     frequencies = [self._frequencies(name, method, (n, n), masses) for n in self.grids]
-                    rows.append(
-                        {
-                            "scene": name,
-                            "method": method,
-                            "masses": masses,
-                            "misses": [
-                                None if f is None or truth is None else f / truth - 1.0 for f in frequencies
-                            ],
-                        }
-                    )
-        return rows
+                    yield {
+                        "scene": name,
+                        "method": method,
+                        "masses": masses,
+                        "misses": [_misses(f, truth) for f in frequencies],
+                    }
 
-    def aspect(self) -> list[dict[str, Any]]:
-        rows = []
+    def aspect(self) -> Iterator[dict[str, Any]]:
         for name in self.scenes:
             for grid in (*(LONG if name in TRAINING else ()), *LONG_EVERYWHERE):
                 u = self._lattice(name, "moduli", grid)
                 ratio = (max(grid) - 1) / (min(grid) - 1)
-                rows.append(
-                    {
-                        "scene": name,
-                        "grid": list(grid),
-                        "aspect": ratio,
-                        "error": _error(u, self._reference(name)),
-                    }
-                )
-        return rows
+                yield {
+                    "scene": name,
+                    "grid": list(grid),
+                    "aspect": ratio,
+                    "error": _error(u, self._reference(name)),
+                }
 
-    def left_out(self) -> list[dict[str, Any]]:
-        rows = []
+    def left_out(self) -> Iterator[dict[str, Any]]:
         n = self.grids[0]
         held_out = [name for name in self.scenes if name in HELD_OUT]
         for method in (m for m in self.methods if m in FITTED):
             for name in held_out:
-                training = [other for other in held_out if other != name]
-                if not training:
+                if not (training := [other for other in held_out if other != name]):
                     continue
                 u = self._lattice(name, method, (n, n), training)
                 f = self._frequencies(name, method, (n, n), _own_masses(method), training)
                 truth = self._reference_frequencies(name)
-                rows.append(
-                    {
-                        "method": method,
-                        "left_out": name,
-                        "grid": n,
-                        "error": _error(u, self._reference(name)),
-                        "misses": None if f is None or truth is None else f / truth - 1.0,
-                    }
-                )
-        return rows
+                yield {
+                    "method": method,
+                    "left_out": name,
+                    "grid": n,
+                    "error": _error(u, self._reference(name)),
+                    "misses": _misses(f, truth),
+                }
 
     def failures(self) -> list[str]:
         """Runs that ended without an answer."""
@@ -342,6 +319,10 @@ def _own_masses(method: str) -> str:
 
 def _error(u: np.ndarray | None, truth: np.ndarray | None) -> float | None:
     return None if u is None or truth is None else error(u, truth)
+
+
+def _misses(f: np.ndarray | None, truth: np.ndarray | None) -> np.ndarray | None:
+    return None if f is None or truth is None else f / truth - 1.0
 
 
 def _richardson(fields: Sequence[np.ndarray | None]) -> np.ndarray | None:

@@ -161,6 +161,18 @@ def test_the_verb_shows_and_writes_a_cell_of_a_file(tmp_path, capsys):
     assert "These coefficients miss D11" in capsys.readouterr().out
 
 
+def test_a_folder_is_of_one_cell(tmp_path, capsys):
+    options = ("--coefficient", "hinge=2", "--quiet", "--out", str(tmp_path / "out"))
+    assert run("homogenise", "equilateral", *options) == 0
+    before = (tmp_path / "out" / "cell.json").read_text()
+    capsys.readouterr()
+    for other in ("one-diagonal", "equilateral --spacing 5mm", "equilateral --hinge angle"):
+        assert run("homogenise", *other.split(), *options) == 2
+        assert "--overwrite" in one_line(capsys)
+    assert (tmp_path / "out" / "cell.json").read_text() == before
+    assert run("homogenise", "one-diagonal", *options, "--overwrite") == 0
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [

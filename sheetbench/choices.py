@@ -31,20 +31,20 @@ AUTO = "auto"  # a calibration or a grading by what the scene is
 GRADED: tuple[Option, ...] = ("layer_distance", "grading")
 CELL_BY_CELL: tuple[Option, ...] = (*GRADED, "cells")
 CALIBRATIONS: dict[str, Method] = {
-    "consistent": Method("every modulus met, and the twist that free edges let go", CELL_BY_CELL),
-    "consistent-interior": Method("the moduli alone, edges like the interior", CELL_BY_CELL),
-    "consistent-membrane": Method("consistent, and cells bend in their plane as the sheet", CELL_BY_CELL),
-    "consistent-oblique": Method(
-        "consistent, and waves oblique to the grid right in second order", CELL_BY_CELL
+    "consistent": Method("matches every modulus, and corrects the twist at free edges", CELL_BY_CELL),
+    "consistent-interior": Method("matches every modulus, edges not corrected", CELL_BY_CELL),
+    "consistent-membrane": Method(
+        "consistent, and matches the bending of cells in their plane", CELL_BY_CELL
     ),
+    "consistent-oblique": Method("consistent, and waves oblique to the grid are second order", CELL_BY_CELL),
     "neo-hookean": Method("layers as neo-Hookean membranes, for rubbers at any strain", GRADED),
-    "hyperelastic": Method("the same of the law of the scene's material", GRADED),
+    "hyperelastic": Method("layers as membranes of the material's own law", GRADED),
     "moduli": Method("bounded least squares on the moduli"),
     "fit-static": Method("fitted to displacements", (*GRADED, "targets")),
     "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),
-    "uniform": Method("one k for all links, matched to D11 unless given", ("k", "layer_distance")),
+    "uniform": Method("one k for all links, given or matched to D11", ("k", "layer_distance")),
     "cauchy": Method("the isotropic central-force lattice, ν = 1/3; square cells", ()),
-    "central": Method("links alone, for simulators without area springs: the least wrong at this ν", ()),
+    "central": Method("links only, for simulators without area springs: least error at this ν", ()),
     "axial": Method("every link a bar, k = E A/L"),
     "van-gelder": Method("Van Gelder's areas over squared lengths, in each layer"),
     "lloyd": Method("off-diagonal stiffness of the bilinear element at ν = 1/3, in each layer"),
@@ -60,21 +60,21 @@ EXTRAPOLATED = (
 )
 
 MASSES = {
-    "higher-order": "the inertia of edges corrected, shared by neighbours",
-    "tributary": "the sheet around each mass, as its weight is",
-    "gregory": "end-corrected weights along each side, as in motion",
+    "higher-order": "inertia of edges corrected, coupled between neighbours",
+    "tributary": "the area around each node, as for its weight",
+    "gregory": "Gregory's end-corrected weights, as in motion",
 }
 
 BRANCHES = {
     "path": "the equilibrium on the load path, stable or not",
-    "buckled": "where that is unstable, the stable one begun along its buckling mode",
+    "buckled": "where that is unstable, the stable one found along its buckling mode",
 }
 
 INTEGRATOR = AUTO  # esdirk, or generalised-alpha where the sheet has chains
 INTEGRATORS = {
-    "generalised-alpha": "implicit, steps by their error",
-    "esdirk": "implicit, fifth order, long steps by their error, no chains",
-    "verlet": "explicit, steps below the limit of stability",
+    "generalised-alpha": "implicit, second order, steps chosen by error",
+    "esdirk": "implicit, fifth order, long steps chosen by error, no chains",
+    "verlet": "explicit, steps below the stability limit",
     "midpoint": "implicit, conserves energy",
 }
 REMOVED_INTEGRATORS = ("projective", "reduced", "verlet-implicit-damping")  # esdirk is quicker, and nearer

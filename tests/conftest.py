@@ -8,6 +8,7 @@ from typing import Any
 import fake_solutions
 import pytest
 from campaigns import Here
+from hypothesis import HealthCheck, settings
 from matplotlib.figure import Figure
 from matrix_options import scene_files
 from matrix_rows import Tally, check, tally
@@ -23,8 +24,10 @@ from sheetbench.scenes import Solution
 
 
 def pytest_configure() -> None:
-    """Ctrl-C is heard in the background too, where a shell ignores it; what the tests start inherits it."""
+    """Ctrl-C is heard in the background too, and by processes of tests; no drawn example has a time limit."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+    settings.load_profile("any machine")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -26,9 +26,9 @@ def command(
 ) -> None:
     """Name the cheapest model that meets a tolerance, or the most accurate one within a budget.
 
-    A few quick solves measure this machine and this scene. Lattices with the springs of --calibration, --k
-    and --layer-distance may be chosen beside the usual ones, and graded by --grading. Exit status 3 where no
-    model meets it.
+    A few quick solves measure this machine and this scene. Lattices with the springs of --calibration,
+    --k, --layer-distance and --grading are candidates beside the usual ones. Exit status 3 where no model
+    meets the tolerance.
     """
     from comparisons.advice.advisor import advise, checked_tolerance
     from comparisons.comparison.comparison import load_static

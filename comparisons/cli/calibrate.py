@@ -27,7 +27,7 @@ from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
 def command(
     scene: Annotated[
-        str | None, typer.Argument(metavar="[SCENE]", help="Take sheet and material from here.")
+        str | None, typer.Argument(metavar="[SCENE]", help="Scene with the sheet and its material.")
     ] = None,
     young: Young = None,
     poisson: Poisson = None,
@@ -40,7 +40,7 @@ def command(
         str | None,
         option(
             "; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items())
-            + f"; auto: by the SCENE, as with --grading auto. {CALIBRATION} unless given.",
+            + f"; auto: by the SCENE, as with --grading auto. Default: {CALIBRATION}.",
             "NAME",
         ),
     ] = None,
@@ -51,9 +51,9 @@ def command(
     simulators: Annotated[
         list[str] | None,
         option(
-            "Parameters, mesh and scene in this code's words: newton, mujoco, pybullet, genesis, sofa, "
-            "arcsim, c-ipc, ppf, openusd; files with --out, --grid vertices. With --export instead the "
-            "lattice's springs, of a calibration without cells (--method central): mujoco, sofa.",
+            "Parameters, mesh and scene for another code: newton, mujoco, pybullet, genesis, sofa, arcsim, "
+            "c-ipc, ppf, openusd; as files with --out. Together with --export: the lattice's springs for "
+            "mujoco or sofa, of a calibration without area springs (--method central).",
             "NAME",
             "--for",
         ),
@@ -92,7 +92,8 @@ def command(
 
     Give a SCENE, or --young --poisson --thickness --side; with both, the options change the scene's values.
     The fitted methods train on the SCENE; without one, on the sheet under its own weight with one edge and
-    with two adjacent edges clamped. --export is of the SCENE, or of the sheet with one edge clamped.
+    with two adjacent edges clamped. --export writes the lattice of the SCENE, or of the sheet with one edge
+    clamped.
     """
     from comparisons.calibration import damping
     from comparisons.calibration.answer import SheetCalibration, to_toml

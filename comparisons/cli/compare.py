@@ -21,7 +21,7 @@ def command(
         str | None,
         option(
             "The reference's elements along the shorter side, or 8x4 along x and y; "
-            f"{ELEMENTS} unless given, 8 with --duration.",
+            f"default: {ELEMENTS}; 8 with --duration.",
             "N",
             "--elements",
         ),
@@ -44,7 +44,7 @@ def command(
         ),
     ] = "path",
     duration: Annotated[
-        float | None, option("Compare the sheet's motion over so long, from rest.", "S", unit="s")
+        float | None, option("Compare the motion over this time, from rest.", "S", unit="s")
     ] = None,
     animate: Annotated[
         bool, option("With --duration and --out: draw both sheets moving, side by side.", None, "--animate")
@@ -56,8 +56,8 @@ def command(
 ) -> None:
     """Solve a scene with the lattice and with a reference, and show what differs and what it cost.
 
-    Where no calibration is named, uniform springs are shown alongside. With --duration and --out runs stream
-    to the folder, and the same command resumes them.
+    Where no calibration is named, uniform springs are shown alongside. With --duration and --out, runs are
+    written to the folder as they go, and the same command resumes them.
     """
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.context import running

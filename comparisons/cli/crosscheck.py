@@ -17,8 +17,8 @@ MOVING = {"lumped": "9,17", "plate": "4,8", "shell": "4,8", "solid": "2,4", "": 
 
 def _sizes(what: str, name: str, *names: str) -> Any:
     """The option of a model's sizes."""
-    usual = f"{RESTING[name]} unless given, {MOVING[name]} with --duration"
-    return option(f"Along the shorter side, rising: {what}; {usual}.", "N,N,N", *names)
+    usual = f"{RESTING[name]}; {MOVING[name]} with --duration"
+    return option(f"{what} along the shorter side, in rising order. Default: {usual}.", "N,N,N", *names)
 
 
 def command(
@@ -27,27 +27,25 @@ def command(
         typer.Argument(metavar="SCENES", help="Catalogue names or paths to TOML files; all: the catalogue."),
     ],
     lattice: SpringOptions,
-    grid: Annotated[str | None, _sizes("masses of the lattice", "lumped", "--lumped", "--grid")] = None,
+    grid: Annotated[str | None, _sizes("Masses of the lattice", "lumped", "--lumped", "--grid")] = None,
     calibration: Calibration = None,
-    plate: Annotated[str | None, _sizes("elements of the linear plate", "plate")] = None,
-    shell: Annotated[str | None, _sizes("elements of the nonlinear shell", "shell")] = None,
-    solid: Annotated[str | None, _sizes("elements of the nonlinear solid", "solid")] = None,
+    plate: Annotated[str | None, _sizes("Elements of the linear plate", "plate")] = None,
+    shell: Annotated[str | None, _sizes("Elements of the nonlinear shell", "shell")] = None,
+    solid: Annotated[str | None, _sizes("Elements of the nonlinear solid", "solid")] = None,
     judges: Annotated[
         str | None,
-        option(
-            "External codes, with commas, or FILE.py:OBJECT; all that are installed unless given.", "NAMES"
-        ),
+        option("External codes, with commas, or FILE.py:OBJECT; default: all that are installed.", "NAMES"),
     ] = None,
     meshes: Annotated[
         str | None,
         option(
-            f"Elements of external codes; each one's own unless given, {MOVING['']} with --duration.", "N,N,N"
+            f"Elements of external codes. Default: each code's own; {MOVING['']} with --duration.", "N,N,N"
         ),
     ] = None,
     duration: Annotated[
         float | None,
         option(
-            "Compare the motion of one scene over so long instead, each model on the finest of its meshes.",
+            "Compare the motion of one scene over this time instead, each model on the finest of its meshes.",
             "S",
             unit="s",
         ),
@@ -59,7 +57,7 @@ def command(
 ) -> None:
     """Compare models with external finite-element codes, each with its mesh convergence.
 
-    Give an empty list to leave a model or all external codes out (--solid ""). Interrupted runs resume.
+    An empty list leaves a model, or all external codes, out: --solid "". An interrupted run is resumed.
     """
     from comparisons.crosscheck.candidates import candidates, load_scenes
     from comparisons.crosscheck.crosscheck import crosscheck

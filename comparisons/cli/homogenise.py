@@ -21,13 +21,13 @@ def command(
             "bricks: one through the thickness; or a TOML file with periods, nodes and elements.",
         ),
     ],
-    scene: Annotated[str, typer.Argument(metavar="[SCENE]", help="Whose sheet, and whose load.")] = (
+    scene: Annotated[str, typer.Argument(metavar="[SCENE]", help="Scene with the sheet and its load.")] = (
         "two-edges-clamped"
     ),
     spacing: Annotated[
         float | None,
         option(
-            "Between nodes, in m or as 5mm; an eighth of the shorter side unless given.", "LENGTH", unit="m"
+            "Distance of nodes, in m or as 5mm. Default: an eighth of the shorter side.", "LENGTH", unit="m"
         ),
     ] = None,
     hinge: Annotated[
@@ -45,9 +45,9 @@ def command(
     *,
     output: OutputOptions,
 ) -> None:
-    """Find the moduli of a discrete sheet, the coefficients nearest to a material, and the error that stays.
+    """Compute the moduli of a discrete sheet, its best coefficients for a material and the error left.
 
-    That error is of the mesh's limit: no finer mesh of the same cell is nearer to the sheet.
+    That error is the limit of the mesh: a finer mesh of the same cell does not reduce it.
     """
     from comparisons.cells.answer import homogenise
     from comparisons.cells.meshes import cell_of

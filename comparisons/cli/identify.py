@@ -65,12 +65,12 @@ def command(
     large: Large = False,
     output: PictureOptions,
 ) -> None:
-    """Find the values with which a model comes nearest to what was measured, with 95 % intervals.
+    """Fit material and support values to measurements of a sheet, with 95 % intervals.
 
-    The search starts from the scene's own values, and from others where these lead to no fit. Unless --lumped
-    is given, the fit makes the lattice's cells smaller until they move the values less than the noise does.
+    The search starts from the scene's own values, else from others. Without --lumped
+    the lattice is refined until the error of its grid is below the noise.
     Lengths are in metres unless a column's header says otherwise (uz \\[mm]), in the scene's axes.
-    --tensile finds the law of rubber and its constants instead.
+    --tensile fits a rubber's law and its constants instead.
     """
     if tensile:
         if measured is not None or scene is not None:

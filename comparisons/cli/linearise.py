@@ -30,9 +30,9 @@ def command(
     *,
     output: PictureOptions,
 ) -> None:
-    """Make the lattice linear about its equilibrium: poles, what commands do, matrices for control.
+    """Linearise the lattice about its equilibrium: poles, static gains, matrices for control.
 
-    Inputs are the loads, forces at the probes, the commands of chains and the places of held edges; outputs
+    Inputs are the loads, forces at the probes, commands of chains and positions of held edges; outputs
     the probes' displacements. --out writes M, C, K and the state space for NumPy and MATLAB.
     """
     from comparisons.linearisation.linearisation import linearise

@@ -21,7 +21,7 @@ def command(
         bool, option("Open the page in a browser, or only print its address.", None, "--browser/--no-browser")
     ] = True,
 ) -> None:
-    """Open a page where one drags E, ν, h, load and grid, and lattice and shell answer beside their error.
+    """Open a page with sliders for E, ν, h, load and grid, where lattice and shell are solved side by side.
 
     With --k it has a slider for k too.
 

@@ -17,14 +17,14 @@ def command(
     masses: Annotated[
         str | None,
         option(
-            f"How the lattice shares out its mass: {listed(MASSES)}. higher-order unless given, or what "
-            "fitted springs go with.",
+            f"How the lattice's mass is lumped: {listed(MASSES)}. Default: higher-order, or the masses "
+            "that springs were fitted with.",
             "NAME",
         ),
     ] = None,
     reference: Annotated[
         list[str] | None,
-        option(f"{listed(REFERENCES)}; may be repeated. The {REFERENCE} unless given.", "MODEL"),
+        option(f"{listed(REFERENCES)}; may be repeated. Default: {REFERENCE}.", "MODEL"),
     ] = None,
     elements: Elements = str(ELEMENTS),
     about: Annotated[
@@ -38,7 +38,7 @@ def command(
     *,
     output: PictureOptions,
 ) -> None:
-    """List the natural frequencies of the lattice and a reference, about the flat sheet or the deformed."""
+    """List the natural frequencies of lattice and reference, of the flat sheet or about its equilibrium."""
     from comparisons.models.grids import parse_elements
     from comparisons.modes.spectra import spectra
     from sheetbench.errors import NoEquilibrium

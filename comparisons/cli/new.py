@@ -37,13 +37,14 @@ def command(
     poisson: Poisson = None,
     density: Density = None,
     clamped: Annotated[
-        str | None, option("x0, x1, y0, y1; several with commas. x0 unless given.", "EDGES")
+        str | None, option("x0, x1, y0, y1; several with commas. Default: x0.", "EDGES")
     ] = None,
     overwrite: Annotated[bool, option("Replace the file where there is one.", None, "--overwrite")] = False,
 ) -> None:
-    """Write a commented scene to start from: a sheet under its own weight, and what else there may be.
+    """Write a commented scene to start from: a sheet under its own weight, and what can be added.
 
-    On a terminal, without options, it asks. Beside the file it leaves the JSON Schema, for editors.
+    On a terminal, without options, it asks for each value. The JSON Schema is written beside the file, for
+    editors.
     """
     from comparisons.cli import console
     from comparisons.models.quantities import sides

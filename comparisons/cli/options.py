@@ -50,7 +50,7 @@ Grid = Annotated[
     str | None,
     option(
         "Masses of the lattice: 9, along the shorter side with near-square cells; 9x13, along x and y; "
-        "9x13x3, with layers, else 2. 9 unless given.",
+        "9x13x3, with layers, else 2. Default: 9.",
         "GRID",
         "--lumped",
         "--grid",
@@ -60,7 +60,7 @@ Grading = Annotated[
     str | None,
     option(
         "How much finer the lattice is at its edges, 0 (cells of one size) to 1; 0.5:x0 or 0.5:x0,x1: "
-        "at these edges alone; auto: as the scene's layers need. 0 unless given.",
+        "at these edges only; auto: by the scene's boundary layers. Default: 0.",
         "G",
         "--grading",
     ),
@@ -114,19 +114,19 @@ Large = Annotated[
 ]
 Workers = Annotated[
     int | None,
-    option("Processes for runs that are not timed; one per core unless given.", "N", "--workers", min=1),
+    option("Processes for runs that are not timed; default: one per core.", "N", "--workers", min=1),
 ]
 Retry = Annotated[bool, option("Run again what failed in an earlier run.", None, "--retry")]
 Calibration = Annotated[
     str | None,
     option(
-        f"How k is found from E, ν and h: {listed(CALIBRATIONS)}; auto: consistent ones by the scene. "
-        f"{CALIBRATION} unless given, with --grading auto as auto has it.",
+        f"How k is found from E, ν and h: {listed(CALIBRATIONS)}; auto: the consistent one that suits "
+        f"the scene. Default: {CALIBRATION}; auto with --grading auto.",
         "NAME",
         "--calibration",
     ),
 ]
-K = Annotated[float | None, option("Stiffness of every spring; means uniform.", "N/M", "--k", unit="N/m")]
+K = Annotated[float | None, option("Stiffness of every spring; implies uniform.", "N/M", "--k", unit="N/m")]
 LayerDistance = Annotated[
     float | None, option("Distance of the lattice's layers.", "M", "--layer-distance", unit="m")
 ]
@@ -135,7 +135,7 @@ Thickness = Annotated[float | None, option("Thickness: 0.002 or 2mm.", "M", "--t
 Young = Annotated[float | None, option("Young's modulus E: 6e5 or 0.6MPa.", "PA", "--young", unit="Pa")]
 Poisson = Annotated[float | None, option("Poisson's ratio ν.", "NU", "--poisson", unit="")]
 Density = Annotated[
-    float | None, option("Density: 1100 or 1.1g/cm3; 1000 kg/m³ unless given.", "KG/M3", unit="kg/m³")
+    float | None, option("Density: 1100 or 1.1g/cm3; default: 1000 kg/m³.", "KG/M3", unit="kg/m³")
 ]
 Elements = Annotated[
     str, option("The reference's elements along the shorter side, or 8x4 along x and y.", "N", "--elements")
@@ -143,8 +143,8 @@ Elements = Annotated[
 Law = Annotated[
     str | None,
     option(
-        f"Law of strain of a shell or solid: {listed(STRAIN_LAWS)}. The material's own unless given, "
-        f"{STRAIN_LAW} where it has none.",
+        f"Law of strain of a shell or solid: {listed(STRAIN_LAWS)}. Default: the material's own, "
+        f"else {STRAIN_LAW}.",
         "NAME",
         "--law",
     ),
@@ -152,7 +152,7 @@ Law = Annotated[
 Symmetry = Annotated[
     bool,
     option(
-        "Solve a half or a quarter where scene and grid mirror themselves; solids are solved whole.",
+        "Solve a half or a quarter where scene and grid are symmetric; solids are solved whole.",
         None,
         "--symmetry",
     ),

@@ -13,7 +13,7 @@ from comparisons.cli.options import Json, option
 def command(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that verbs wrote to with --out.")],
     out: Annotated[
-        Path | None, option("The page to write. DIR/report.html unless given.", "FILE", "--out")
+        Path | None, option("The page to write. Default: DIR/report.html.", "FILE", "--out")
     ] = None,
     show: Annotated[bool, option("Open the page in the browser.", None, "--open")] = False,
     json: Json = False,
@@ -22,7 +22,7 @@ def command(
 
     A study is what a verb wrote with --out, as its manifest says.
 
-    Sheets to turn, tables to sort, figures, notes and manifests; it needs no network.
+    The page has sheets to turn, tables to sort, figures, notes and manifests, and needs no network.
     """
     from webbrowser import open as browse
 

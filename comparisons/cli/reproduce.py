@@ -12,7 +12,7 @@ from sheetbench.choices import ELEMENTS
 def command(
     part: Annotated[
         list[str] | None,
-        option("Only tables or settling; may be repeated. Both unless given.", "NAME", "--part"),
+        option("Only tables or settling; may be repeated. Default: both.", "NAME", "--part"),
     ] = None,
     elements: Elements = str(ELEMENTS),
     *,

@@ -19,9 +19,7 @@ def command(
     duration: Annotated[float, option("How long to simulate.", "S", unit="s")] = 1.0,
     step: Annotated[
         float | None,
-        option(
-            "Time step, never exceeded; from the stability limit or the error unless given.", "S", unit="s"
-        ),
+        option("Largest time step. Default: from the stability limit or the error.", "S", unit="s"),
     ] = None,
     integrator: Annotated[
         str,
@@ -32,7 +30,7 @@ def command(
         ),
     ] = INTEGRATOR,
     every: Annotated[
-        float | None, option("Time between samples; 1/100 of the lowest period unless given.", "S", unit="s")
+        float | None, option("Time between samples. Default: 1/100 of the lowest period.", "S", unit="s")
     ] = None,
     measured: Annotated[
         Path | None, option("Measured histories, CSV: time,probe,ux,uy,uz in s and m.", "FILE")

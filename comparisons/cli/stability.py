@@ -16,7 +16,7 @@ def command(
     vary: Annotated[
         list[str] | None,
         option(
-            "Only load, slenderness, young, grid, damping or time-step; may be repeated. All unless given.",
+            "Only load, slenderness, young, grid, damping or time-step; may be repeated. Default: all.",
             "NAME",
             "--vary",
         ),

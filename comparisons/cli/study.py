@@ -19,11 +19,11 @@ HELP = ("-h", "--help")
 def command(
     context: typer.Context,
     name: Annotated[
-        str | None, typer.Argument(metavar="NAME", help="The study; all are listed unless given.")
+        str | None, typer.Argument(metavar="NAME", help="Name of the study; without it, all are listed.")
     ] = None,
     options: Annotated[
         list[str] | None,
-        typer.Argument(metavar="ARGUMENTS", help="Those of the study: sheetbench study NAME --help."),
+        typer.Argument(metavar="ARGUMENTS", help="Arguments of the study: sheetbench study NAME --help."),
     ] = None,
     no_pictures: NoPictures = False,
 ) -> None:

@@ -23,7 +23,7 @@ USUAL = f"{CALIBRATION},uniform"
 
 def _elements(name: str, what: str) -> Any:
     """The option of a reference's meshes."""
-    usual = f"{MESHES[name]} unless given, {MOVING[name]} with --duration"
+    usual = f"default: {MESHES[name]}; {MOVING[name]} with --duration"
     return option(f"Elements of the {what} along the shorter side, or NxM; {usual}.", "ELEMENTS")
 
 
@@ -34,7 +34,7 @@ def command(
         str | None,
         option(
             "Masses of lattices: along the shorter side with near-square cells, or NxM, NxMxL. "
-            f"{GRIDS} unless given, 9 with --duration.",
+            f"Default: {GRIDS}; 9 with --duration.",
             "GRIDS",
             "--lumped",
             "--grid",
@@ -43,8 +43,8 @@ def command(
     lumped_pair: Annotated[
         str | None,
         option(
-            "Pairs of grids, the coarser first, and one answer extrapolated from both, with its bar. "
-            f"{PAIRS} unless grids or other springs are listed.",
+            "Pairs of grids, the coarser first, and one answer extrapolated from both, with its error "
+            f"bar. Default: {PAIRS}, none where grids or other springs are listed.",
             "PAIRS",
             "--lumped-pair",
         ),
@@ -52,8 +52,8 @@ def command(
     calibration: Annotated[
         str | None,
         option(
-            f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. {USUAL} unless "
-            "given; with --duration that of `simulate`.",
+            f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. Default: {USUAL}; "
+            "with --duration that of `simulate`.",
             "NAMES",
         ),
     ] = None,
@@ -65,17 +65,17 @@ def command(
     elements: Annotated[
         str | None,
         option(
-            "Elements of the reference shell along the shorter side, or 8x4 along x and y; twice the "
-            "finest one's, 32 at least, unless given, 16 with --duration.",
+            "Elements of the reference shell along the shorter side, or 8x4 along x and y; default: "
+            "twice the finest one's, at least 32; 16 with --duration.",
             "N",
         ),
     ] = None,
-    repeats: Annotated[int, option("Timed solves of every row, at least.", "N", min=1)] = 5,
+    repeats: Annotated[int, option("Least number of timed solves of every row.", "N", min=1)] = 5,
     duration: Annotated[
         float | None,
         option(
-            "Trade-off of the motion over so many seconds instead: integrators and steps of lattices, and "
-            "the other models in steps of an error.",
+            "Trade-off of the motion over this time instead: lattices by integrator and step, the other "
+            "models by their error per step.",
             "S",
             unit="s",
         ),
@@ -90,7 +90,7 @@ def command(
 ) -> None:
     """Measure what each model of a scene gets wrong and what it costs; an interrupted run can be resumed.
 
-    Give an empty list to leave a model out (--solid "").
+    An empty list leaves a model out: --solid "".
     """
     from comparisons.comparison.comparison import load_static
     from comparisons.models.spec import items

@@ -128,6 +128,8 @@ def as_verb(name: str, command: Callable[..., None]) -> Callable[..., None]:
                 raise SceneError(f"{values['scene']}: {error}") from None
             raise
 
+    paragraphs = (command.__doc__ or "").split("\n\n")  # whose lines a help page breaks itself
+    run.__doc__ = "\n\n".join(" ".join(one.split()) for one in paragraphs)
     run.__signature__ = own.replace(parameters=parameters)  # type: ignore[attr-defined]
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return run

@@ -10,7 +10,7 @@ from comparisons.cli.verb import PictureOptions
 
 def command(
     case: Annotated[
-        list[str] | None, option("Only this case; may be repeated. All unless given.", "NAME", "--case")
+        list[str] | None, option("Only this case; may be repeated. Default: all.", "NAME", "--case")
     ] = None,
     locking: Annotated[
         bool, option("Only the locking sweeps; with --out, their picture.", None, "--locking")

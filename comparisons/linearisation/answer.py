@@ -189,7 +189,7 @@ class Linearisation(Answer):
             if unit != "N":
                 moved = zip(self.matrices.outputs, values, strict=True)
                 rows.append(HeightRow(name, shown, {at: u for at, u in moved if at.endswith(" uz")}))
-        return Table.of(HeightRow, rows, "Static height per unit of input")
+        return Table.of(HeightRow, rows, "Static uz per unit of input")
 
     def figures(self) -> tuple[Picture, ...]:
         """Frequency responses."""

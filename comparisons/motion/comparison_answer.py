@@ -166,8 +166,8 @@ def _differences(found: MotionComparison) -> Table:
         Column("decay", form="z.4f"),
     )
     caption = (
-        f"Off the {found.reference}: largest and rms of its largest displacement, phase of a period; decay: "
-        "difference of the decrements"
+        f"Difference from the {found.reference}: largest and rms of its largest displacement, phase of "
+        "a period; decay: difference of the logarithmic decrements"
     )
     return Table(caption, columns, tuple(rows), "differences")
 

@@ -39,7 +39,7 @@ def resolve_integrator(name: str, system: System, options: Collection[str] = ())
         unlike = [one for one in options if one not in Esdirk.options]
         takes_unlike = bool(unlike) and set(options) <= set(GeneralisedAlpha.options)
         name = GeneralisedAlpha.name if chains or takes_unlike else Esdirk.name
-        why = "the quickest at its error"
+        why = "least time at equal error"
         why += ", with chains" if chains else f", that takes {', '.join(unlike)}" if takes_unlike else ""
     foreign = [one for one in options if one not in INTEGRATORS[name].options]
     if foreign:

@@ -41,7 +41,7 @@ def test_damper_force_and_tangents_are_derivatives(grid):
     assert np.allclose(dense(assembly, by_displacement), numeric, atol=1e-6 * np.abs(numeric).max())
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(seed=st.integers(0, 10**6), size=st.floats(1e-9, 0.1))
 def test_average_forces_give_back_the_energy_and_conserve_momentum(seed, size):
     assembly = assembly_of(**ALL)
@@ -64,7 +64,7 @@ def test_average_force_of_equal_states_is_the_force(grid):
     assert np.allclose(assembly.average_force(u, u), assembly.force(u)[1], atol=1e-11)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(seed=st.integers(0, 10**6), turn=st.tuples(*[st.floats(-3.0, 3.0)] * 3))
 def test_dampers_only_take_energy_and_spare_rigid_motions(seed, turn):
     assembly = assembly_of(**ALL)

@@ -82,7 +82,7 @@ def test_absent_families_are_not_assembled():
     assert len(assembly.links) == 2 * 2 * 3 * 2 and assembly.springs == (assembly.links,)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(turn=st.tuples(*[st.floats(-3.0, 3.0)] * 3), shift=st.tuples(*[st.floats(-1.0, 1.0)] * 3))
 def test_rigid_motions_cost_nothing(turn, shift):
     assembly = assembly_of(**ALL)
@@ -93,7 +93,7 @@ def test_rigid_motions_cost_nothing(turn, shift):
     assert np.abs(force).max() < 1e-11 * 100.0
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(seed=st.integers(0, 10**6), turn=st.tuples(*[st.floats(-3.0, 3.0)] * 3))
 def test_energy_and_force_turn_with_the_sheet(seed, turn):
     assembly = assembly_of(**ALL)

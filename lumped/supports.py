@@ -27,7 +27,7 @@ from lumped.rest import Itself
 from sheetbench.numerics.kept import frozen
 from sheetbench.numerics.maps import Rows, csr_arrays
 from sheetbench.numerics.reduced import ReducedSystem, reduced
-from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
+from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt, require_rectangle
 from sheetbench.scenes.kinematics import bent_or_tilted, shifts
 
 
@@ -126,6 +126,7 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     """The constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a linear
     map of the actuator's rows. Columns of edges moved rigidly are the motion's, not the supports'. Of the
     same supports without actuators on the same small lattice they are the same every time."""
+    require_rectangle(scene, "the lattice")
     if coupling is not None or lattice.mass_count > SHARED_UP_TO:
         return _constrain(scene.supports, scene.sheet, lattice, coupling)
     return _kept(tuple(scene.supports), scene.sheet, Itself(lattice))
@@ -188,7 +189,7 @@ def _constrain(
 
     shift = np.zeros((n, 3))
     for moved_support in shifts(supports):
-        masses = holders[moved_support.edge][0]
+        masses = holders[moved_support.support][0]
         for axis, distance in zip(moved_support.axes, moved_support.displacement, strict=True):
             shift[masses, axis] = distance
     frozen(fixed)

@@ -7,7 +7,7 @@ from commands import one_line, run
 
 import fem_reference
 import lumped
-from sheetbench.scenes import Scene, Sheet, Status, load
+from sheetbench.scenes import BadInput, Scene, Sheet, Status, load
 
 LENGTH, WIDTH, THICK, YOUNG, FORCE = 0.2, 0.02, 3e-3, 5e6, 1e-6
 TIP = [[LENGTH, WIDTH / 2.0]]
@@ -160,6 +160,27 @@ def test_files_say_what_each_cell_is_made_of(drawn, tmp_path):
         (file,) = (tmp_path / "out").rglob(f"{model}*.vtu")
         young = np.concatenate(meshio.read(file).cell_data["young"])
         assert set(young) == {54.5e6, 1e9}
+
+
+SHAPED = {
+    "sheet.outline": {"sheet": {"outline": [(0, 0), (0.188, 0), (0.1, 0.188), (0, 0.188)]}},
+    "cutout": {"cutouts": [{"shape": CUT[1]["shape"]}]},
+    "support.where": {"supports": [{"kind": "clamped", "where": CUT[0]["shape"]}]},
+    "load.where": {"loads": [{"kind": "pressure", "value": 1.0, "where": CUT[0]["shape"]}]},
+    'load.kind = "area"': {"loads": [{"kind": "area", "force_per_area": (0.0, 0.0, 1.0)}]},
+}
+UNKNOWN = {  # what each model does not know of shapes
+    **dict.fromkeys(["lumped", "plate", "shell", "solid"], SHAPED)
+}
+
+
+@pytest.mark.parametrize(("model", "word"), [(model, word) for model in UNKNOWN for word in UNKNOWN[model]])
+def test_models_refuse_shapes_that_they_do_not_know(model, word):
+    scene = load("one-edge-clamped").replace(probes={})
+    keys = dict(SHAPED[word])
+    scene = scene.replace(**keys.pop("sheet", {}), **keys)
+    with pytest.raises(BadInput, match=f"{word}.* is for whole rectangles held at their edges"):
+        answer(scene, model)
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from fem_reference.surface.materials import section_of
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Column, Table, number
 from sheetbench.errors import BadInput
-from sheetbench.scenes import AnyScene, Scene, require_uniform, scene_of
+from sheetbench.scenes import AnyScene, Scene, require_plain, scene_of
 from sheetbench.scenes.words import sheet_in_words
 
 UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
@@ -123,7 +123,7 @@ def homogenise(scene: AnyScene, cell: Cell, given: Mapping[str, float] | None = 
     scene without an answer at rest.
     """
     scene, given = scene_of(scene), dict(given or {})
-    require_uniform(scene, "homogenise")
+    require_plain(scene, "homogenise")
     if unknown := set(given) - set(cell.units()):
         raise BadInput(f"coefficient {', '.join(sorted(unknown))}: {cell.name} has {', '.join(cell.units())}")
     coefficients = nearest(cell, scene.material, scene.sheet.thickness) | given

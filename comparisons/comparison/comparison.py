@@ -75,7 +75,7 @@ def compare(
     first = resolve(scene, spec)
     models: dict[str, Resolved[Any]] = {first.spec.model: first, against.spec.model: against}
     left_open = spec.calibration is None and spec.k is None and first.spec.calibration is not None
-    if companion and left_open and scene.uniform:
+    if companion and left_open and not scene.drawn_by:
         models[COMPANION] = resolve(scene, spec.but(calibration="uniform", grading=None))
     for other in others:
         beside = resolve(scene, parse(other) if isinstance(other, str) else other)

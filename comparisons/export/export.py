@@ -19,7 +19,7 @@ from comparisons.runs.folder import Folder
 from sheetbench.answers.files import write_text
 from sheetbench.errors import require_choice
 from sheetbench.files import whole
-from sheetbench.scenes import Scene, require_uniform
+from sheetbench.scenes import Scene, require_plain
 
 if TYPE_CHECKING:
     from lumped import Calibration, Description
@@ -59,7 +59,7 @@ def export(
 
     for name in simulators:
         require_choice("--for", name, SIMULATORS)
-    require_uniform(scene, "an export")
+    require_plain(scene, "an export")
     lattice = lumped.describe(scene, calibration)
     own = {SIMULATORS[name].file: SIMULATORS[name].write(lattice, scene) for name in simulators}
     target = Folder(

@@ -54,8 +54,8 @@ def refusal(scene: Scene, chains: str, moments: str, laws: Collection[str] = ())
     chains, moments: the reasons of this code against actuator chains and edge moments; laws: the laws of
     rubber that it is given.
     """
-    if not scene.uniform:
-        return f"{scene.drawn_by}: it is given sheets that are the same all over"
+    if scene.drawn_by:
+        return f"{scene.drawn_by}: it is given whole rectangles that are the same all over"
     law = scene.material.law
     if law is not None and law not in laws:
         known = (

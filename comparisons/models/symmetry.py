@@ -23,7 +23,6 @@ from sheetbench.scenes import (
     FieldMesh,
     Load,
     PointLoad,
-    Pressure,
     Scene,
     Solution,
     Symmetric,
@@ -40,14 +39,10 @@ def planes(scene: Scene) -> tuple[int, ...]:
     """Axes (0 = x, 1 = y) across which the scene is its own mirror image.
 
     A moment on an edge that crosses the plane counts as unsymmetric: a lattice measures such an edge's
-    direction between neighbouring masses, of which the part has one only. A sheet that is not the same all
-    over is solved whole.
+    direction between neighbouring masses, of which the part has one only. A sheet that is no plain
+    one is solved whole.
     """
-    if (
-        not scene.uniform
-        or scene.actuators
-        or any(isinstance(s, Symmetric) or s.motion for s in scene.supports)
-    ):
+    if scene.drawn_by or scene.actuators or any(isinstance(s, Symmetric) or s.motion for s in scene.supports):
         return ()
     return tuple(axis for axis in (0, 1) if _mirrors(scene, axis))
 
@@ -174,10 +169,10 @@ def _image_of(load: Load, scene: Scene, axis: int) -> Load:
 
 def _half_load(load: Load, scene: Scene, axis: int) -> Load | None:
     """Return what of a load acts on the lower half: half of a point load on the plane, nothing beyond it."""
-    if isinstance(load, Pressure):
-        return load
     if isinstance(load, EdgeLoad):
         return None if load.edge == CUT[axis] else load
+    if not isinstance(load, PointLoad):
+        return load
     middle = scene.sheet.lengths[axis] / 2.0
     if isclose(load.at[axis], middle, rel_tol=1e-12):
         on_plane = list(load.at)

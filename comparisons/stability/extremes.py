@@ -35,7 +35,7 @@ from comparisons.stability.rows import Row
 from comparisons.tradeoff.motion import explicit_limit, shortest_period
 from sheetbench.choices import INTEGRATORS, REFERENCE
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Scene, Status, require_uniform
+from sheetbench.scenes import Scene, Status, require_plain
 from sheetbench.scenes.parameters import put
 from sheetbench.scenes.tables import FactorTable, Loading
 
@@ -90,7 +90,7 @@ def stability(
     """
     for name in varied:
         require_choice("vary", name, VARIED)
-    require_uniform(scene, "stability")
+    require_plain(scene, "stability")
     resolve(scene, lattice, "motion")
     resolve(scene, Elements(reference, elements))
     maker = _Maker(scene, lattice, reference, elements)

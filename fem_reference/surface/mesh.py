@@ -14,7 +14,7 @@ from skfem import Dofs, ElementQuad2, MeshQuad
 
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes import EDGES, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric
+from sheetbench.scenes import EDGES, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric, require_rectangle
 from sheetbench.scenes.grid import near_square
 from sheetbench.scenes.patches import sides_of
 
@@ -106,6 +106,7 @@ def lines_of(
     scene: Scene, counts: tuple[int, int], graded: bool, reach: float = 1.0
 ) -> tuple[np.ndarray, np.ndarray]:
     """The lines of that mesh: their x and their y [m]."""
+    require_rectangle(scene, "a mesh of rows and columns")
     x, y = _lines(scene.sheet, counts, graded, _cuts(scene), reach)
     if scene.uniform:
         return x, y

@@ -106,5 +106,5 @@ def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) ->
     director |= tilt.all(axis=1)
     shift = np.zeros((len(nodes), 3))
     for end in shifts(scene.supports):
-        shift[np.ix_(edges[end.edge][0], np.array(end.axes))] = end.displacement
+        shift[np.ix_(edges[end.support][0], np.array(end.axes))] = end.displacement
     return Supports(position, director, tilt, edges, turning, moved, shift)

@@ -6,9 +6,10 @@ from sheetbench.scenes.balance import Balance, dead_force
 from sheetbench.scenes.cells import Cells, Constants
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
-from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
+from sheetbench.scenes.loads import AreaLoad, EdgeLoad, Load, PointLoad, Pressure
 from sheetbench.scenes.material import Material, require_no_branches
-from sheetbench.scenes.patches import Patch, require_uniform
+from sheetbench.scenes.patches import Patch, require_plain, require_uniform
+from sheetbench.scenes.region import Cutout, require_rectangle
 from sheetbench.scenes.relaxation import Branches, Relaxation
 from sheetbench.scenes.rigid_motions import free_rigid_motions, require_static
 from sheetbench.scenes.scene import Scene
@@ -36,6 +37,7 @@ __all__ = [
     "About",
     "Actuator",
     "AnyScene",
+    "AreaLoad",
     "BadInput",
     "Balance",
     "Branches",
@@ -45,6 +47,7 @@ __all__ = [
     "Constants",
     "CurvatureTable",
     "Curved",
+    "Cutout",
     "DamperSet",
     "Edge",
     "EdgeLoad",
@@ -86,6 +89,8 @@ __all__ = [
     "load",
     "outside_model",
     "require_no_branches",
+    "require_plain",
+    "require_rectangle",
     "require_static",
     "require_uniform",
     "scene_of",

@@ -16,13 +16,13 @@ from collections.abc import Mapping, Sequence
 
 from sheetbench.scenes.actuators import Chain, EdgeMotion
 from sheetbench.scenes.sheet import EDGES
-from sheetbench.scenes.supports import AnySupport, held_axes
+from sheetbench.scenes.supports import AnySupport, held_axes, named
 
 
 def held_twice(actuators: Sequence[Chain | EdgeMotion], supports: Sequence[AnySupport]) -> str | None:
     """A sentence saying which chain is held along itself at two places, and what to change; or None."""
     chains = {str(chain.edge): chain for chain in actuators if isinstance(chain, Chain)}
-    fixed = {str(support.edge): support for support in supports if support.motion is None}
+    fixed = {name: support for name, support in named(supports).items() if support.motion is None}
     for number, chain in enumerate(actuators, start=1):
         if not isinstance(chain, Chain):
             continue

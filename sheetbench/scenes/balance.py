@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 
 from sheetbench.scenes.actuators import Chain
-from sheetbench.scenes.loads import EdgeLoad, PointLoad
+from sheetbench.scenes.loads import AreaLoad, EdgeLoad, PointLoad
 from sheetbench.scenes.patches import mass_of
+from sheetbench.scenes.region import area_in, edge_length
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.sheet import EDGES
 
@@ -94,8 +95,7 @@ def dead_force(
     mass [kg] of the sheet and lengths [m] by edge: as a model has them, where its outline or what it is made
     of is not the scene's to the last digit.
     """
-    sheet = scene.sheet
-    sides = {name: sheet.lengths[edge.along_axis] for name, edge in EDGES.items()} | (lengths or {})
+    sides = {name: edge_length(scene, name) for name in EDGES} | (lengths or {})
     total = np.zeros(3)
     if scene.gravity is not None:
         mass = mass_of(scene) if mass is None else mass
@@ -106,4 +106,6 @@ def dead_force(
             total += load.last_factor * np.array(load.force)
         elif isinstance(load, EdgeLoad):
             total += load.last_factor * sides[load.edge] * np.array(load.force_per_length)
+        elif isinstance(load, AreaLoad):
+            total += load.last_factor * area_in(scene, load.where) * np.array(load.force_per_area)
     return total

@@ -16,7 +16,15 @@ import numpy as np
 from sheetbench.scenes.actuators import Chain, EdgeMotion
 from sheetbench.scenes.kinematics import UP, MovedEdge, TiltedEdge
 from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, holds_director
+from sheetbench.scenes.supports import (
+    AnySupport,
+    Clamped,
+    Curved,
+    Symmetric,
+    held_axes,
+    holds_director,
+    place,
+)
 from sheetbench.scenes.tables import PiecewiseLinear
 
 EXACT = 1e-6  # m per metre of the longer side, and in a director: what numbers written in decimals leave
@@ -33,7 +41,8 @@ def conflict(
         if not isinstance(motion, EdgeMotion):
             continue
         earlier = [other for other in actuators[:i] if isinstance(other, Chain)]
-        for other in (*supports, *earlier, *actuators[i + 1 :]):
+        on_edges = [support for support in supports if place(support) is None]
+        for other in (*on_edges, *earlier, *actuators[i + 1 :]):
             if EDGES[other.edge].normal_axis != EDGES[motion.edge].normal_axis:
                 reason = _between(motion, other, sheet)
                 if reason is not None:

@@ -24,7 +24,7 @@ import numpy as np
 
 from sheetbench.scenes.actuators import EdgeMotion
 from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Symmetric, held_axes
+from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, named
 from sheetbench.scenes.tables import PiecewiseLinear
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -138,9 +138,10 @@ def bent_or_tilted(supports: tuple[AnySupport, ...], sheet: Sheet) -> list[BentE
 
 @dataclass(frozen=True)
 class Shift:
-    """Where a support that moves ends: the axes that it holds and its displacement along them [m]."""
+    """Where a support that moves ends, by its name in answers: the axes that it holds and its displacement
+    along them [m]."""
 
-    edge: str
+    support: str
     axes: tuple[int, ...]
     displacement: np.ndarray
 
@@ -148,11 +149,11 @@ class Shift:
 def shifts(supports: tuple[AnySupport, ...]) -> list[Shift]:
     """The supports' displacements at the last sample of their motion, as statics take it."""
     moves = []
-    for support in supports:
+    for name, support in named(supports).items():
         if support.motion is not None:
             axes = held_axes(support)
             last = np.array(support.motion.displacement[-1])[list(axes)]
-            moves.append(Shift(support.edge, axes, last))
+            moves.append(Shift(name, axes, last))
     return moves
 
 

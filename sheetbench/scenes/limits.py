@@ -8,9 +8,9 @@ from __future__ import annotations
 
 PAGE = "docs/limits.md"
 
-_FULL = "a sheet is a full rectangle: holes and cut-outs are not modelled"
+_HOLE = "a hole, a slit or a notch is a [[cutout]] with a shape"
 _UNIFORM = "a part with a thickness or a material of its own is a [[patch]]: one layer, not magnetic"
-_RECTANGLE = "a sheet is a flat rectangle: other outlines are not modelled"
+_OUTLINE = "a sheet that is no rectangle has an `outline` in [sheet], the corners of a polygon"
 _ISOTROPIC = "a material is isotropic, with one young and one poisson: orthotropy is not modelled"
 _RUBBER = (
     "of rubber there are the laws neo-hookean, mooney-rivlin, yeoh and gent: `law` in [material], each with "
@@ -32,10 +32,10 @@ _RIGID = "supports are rigid: elastic ones are not modelled"
 _PLASTIC = "plasticity, damage and fracture are not modelled"
 
 _WORDS = {
-    _FULL: "hole holes cutout cutouts cut cuts slit slits notch notches",
+    _HOLE: "hole holes cutouts cut cuts slit slits notch notches",
     _UNIFORM: "patches region regions inclusion inclusions stiffener stiffeners magnet magnets layer "
     "layers laminate ply plies",
-    _RECTANGLE: "outline contour mesh diameter",
+    _OUTLINE: "contour mesh diameter",
     _ISOTROPIC: "young_x young_y young_z young_1 young_2 young_3 poisson_xy poisson_yx poisson_12 poisson_21 "
     "shear_xy shear_12 shear_13 shear_23 orthotropic orthotropy anisotropic fibre fibres fiber fibers "
     "fibre_angle fiber_angle angle",

@@ -1,10 +1,11 @@
-"""The three kinds of load.
+"""The kinds of load.
 
 point     a dead force [N] at a plan point of the mid-surface
 edge      per undeformed length of an edge: a dead force [N/m] and a moment [N·m/m] about the current
           edge tangent; moment > 0 turns the edge so that material just outside it would move towards +z
-pressure  a follower pressure [Pa] on the whole sheet, along the current normal (initially +z), per
-          current area
+area      a dead force [N/m²] per undeformed area, on the whole sheet or `where` a shape says
+pressure  a follower pressure [Pa] on the whole sheet or `where` a shape says, along the current normal
+          (initially +z), per current area
 
 Each may have a `history = {time = [s], factor = [-]}` that scales it over time: linear between samples, the
 first factor before and the last one after; without it a load acts in full from t = 0 on. Statics take the
@@ -18,6 +19,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from sheetbench.scenes.quantities import Number, PlanPoint, Unit, Vector3
+from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.sheet import EdgeName
 from sheetbench.scenes.tables import Loading
 
@@ -52,13 +54,26 @@ class EdgeLoad(Loading):
         return self
 
 
+class AreaLoad(Loading):
+    """A dead force [N/m²] on a part of the sheet."""
+
+    kind: Literal["area"] = Field(default="area", kw_only=True)
+    """A dead force on the whole sheet, or on a part of it."""
+    force_per_area: Annotated[Vector3, Unit("N/m²")]
+    """Along x, y and z, per undeformed area; it keeps its direction."""
+    where: Shape | None = None
+    """The part that is loaded; the whole sheet unless given."""
+
+
 class Pressure(Loading):
     """A follower pressure [Pa]."""
 
     kind: Literal["pressure"] = Field(default="pressure", kw_only=True)
-    """A follower pressure on the whole sheet."""
+    """A follower pressure on the whole sheet, or on a part of it."""
     value: Annotated[Number, Unit("Pa")]
     """> 0 pushes along the sheet's current normal, at first +z; per current area."""
+    where: Shape | None = None
+    """The part that is loaded; the whole sheet unless given."""
 
 
-Load = Annotated[PointLoad | EdgeLoad | Pressure, Field(discriminator="kind")]
+Load = Annotated[PointLoad | EdgeLoad | AreaLoad | Pressure, Field(discriminator="kind")]

@@ -16,7 +16,8 @@ from pydantic import Field, model_validator
 from sheetbench.errors import Impossible
 from sheetbench.scenes.cells import Constants
 from sheetbench.scenes.quantities import Finite, Frozen, Positive, Unit
-from sheetbench.scenes.shapes import Shape
+from sheetbench.scenes.region import area_in, require_rectangle
+from sheetbench.scenes.shapes import APART, Shape
 from sheetbench.scenes.sheet import Sheet
 
 if TYPE_CHECKING:
@@ -28,7 +29,6 @@ KNOWING = (
     "the models lumped, plate, shell and solid"
 )
 FINE = 33  # lines between which a taper is taken for its mean
-APART = 1e-9  # of the sheet, within which two sides are one
 LEAST_SHARE = 1e-12  # of a cell's area, below which a part is rounding
 
 
@@ -84,7 +84,7 @@ def constants_at(scene: Scene, points: np.ndarray) -> Constants:
 
 def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
     """Yield the parts of the sheet that have a share in the cells between lines at x and at y [m]. The shares
-    of a cell sum up to 1; the thickness of a taper is that in the middle of the cell."""
+    of a cell sum up to its part on the sheet; the thickness of a taper is that in the middle of the cell."""
     import shapely
 
     low, left = np.meshgrid(y[:-1], x[:-1], indexing="ij")
@@ -95,16 +95,10 @@ def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
         for name, value in vars(Constants.of(scene.sheet, scene.material)).items()
     }
     of_sheet["thickness"] = scene.sheet.thickness_at(0.5 * (left + right), 0.5 * (low + high))
-    left_over = np.ones(boxes.shape)
+    left_over = _shares(scene.region, boxes) if scene.pierced else np.ones(boxes.shape)
     for area, own in _disjoint(scene.patches):
-        shapely.prepare(area)
-        touched = shapely.intersects(area, boxes)
-        share = np.zeros(boxes.shape)
-        share[touched] = shapely.area(shapely.intersection(area, boxes[touched])) / shapely.area(
-            boxes[touched]
-        )
-        share = _without_rounding(share)
-        left_over -= share
+        share = _shares(area.intersection(scene.region) if scene.pierced else area, boxes)
+        left_over = left_over - share
         yield Part(
             share,
             Constants(
@@ -115,6 +109,17 @@ def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
             ),
         )
     yield Part(_without_rounding(left_over), Constants(**of_sheet))
+
+
+def _shares(area: Any, boxes: np.ndarray) -> np.ndarray:
+    """What share of each box (…) an area takes."""
+    import shapely
+
+    shapely.prepare(area)
+    touched = shapely.intersects(area, boxes)
+    share = np.zeros(boxes.shape)
+    share[touched] = shapely.area(shapely.intersection(area, boxes[touched])) / shapely.area(boxes[touched])
+    return _without_rounding(share)
 
 
 def _disjoint(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float]]]:
@@ -143,7 +148,7 @@ def mass_of(scene: Scene) -> float:
     """Mass [kg] of the sheet."""
     sheet = scene.sheet
     if scene.uniform:
-        return scene.material.density * sheet.thickness * sheet.length_x * sheet.length_y
+        return scene.material.density * sheet.thickness * area_in(scene, None)
     x, y = (np.linspace(0.0, length, FINE) for length in sheet.lengths)
     per_area = sum(part.share * part.constants.per_area for part in parts_between(scene, x, y))
     return float(np.diff(y) @ per_area @ np.diff(x))
@@ -176,10 +181,17 @@ def misplaced(patches: tuple[Patch, ...], sheet: Sheet) -> str:
 
 
 def require_uniform(scene: Scene, who: str, instead: str = KNOWING) -> None:
-    """Raise Impossible for a sheet that is not the same all over, which `who` does not know: a verb, a model
-    or a file; instead: what does."""
+    """Raise Impossible for a sheet that is not the same all over, which `who` does not know: a model or a
+    file; instead: what does."""
     if not scene.uniform:
         raise Impossible(
-            f"scene '{scene.name}': {scene.drawn_by}: {who} is for sheets that are the same all over; "
+            f"scene '{scene.name}': {scene.varied_by}: {who} is for sheets that are the same all over; "
             f"{instead}"
         )
+
+
+def require_plain(scene: Scene, who: str) -> None:
+    """Raise Impossible for a sheet that is no plain one (`Scene.drawn_by`), which a verb or a file does not
+    know."""
+    require_uniform(scene, who)
+    require_rectangle(scene, who, KNOWING)

@@ -12,9 +12,10 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
-from sheetbench.scenes.loads import EdgeLoad, PointLoad, Pressure
+from sheetbench.scenes.loads import AreaLoad, EdgeLoad, PointLoad, Pressure
 from sheetbench.scenes.material import Material
-from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
+from sheetbench.scenes.region import area_in, edge_length
+from sheetbench.scenes.sheet import Gravity, Sheet
 from sheetbench.scenes.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
 from sheetbench.scenes.summary import few
 
@@ -104,7 +105,7 @@ def _strains(scene: Scene) -> list[str]:
             f"the weight alone stretches the sheet: ρ g a/E = {_three_digits(weight)}, and above "
             f"{heaviest:g} {'no linear model means anything' if law is None else 'rubber tears'}"
         )
-    pull = sum(_size(load, sheet) for load in scene.loads) / (young * sheet.thickness * min(sheet.lengths))
+    pull = sum(_size(load, scene) for load in scene.loads) / (young * sheet.thickness * min(sheet.lengths))
     if pull > strongest:
         warnings.append(
             f"the loads are {_three_digits(pull)} times E · thickness · shorter side and would tear the "
@@ -113,14 +114,16 @@ def _strains(scene: Scene) -> list[str]:
     return warnings
 
 
-def _size(load: PointLoad | EdgeLoad | Pressure, sheet: Sheet) -> float:
+def _size(load: PointLoad | EdgeLoad | AreaLoad | Pressure, scene: Scene) -> float:
     """The force of a load [N], in the end."""
     if isinstance(load, PointLoad):
         force = hypot(*load.force)
     elif isinstance(load, EdgeLoad):
-        force = hypot(*load.force_per_length) * sheet.lengths[EDGES[load.edge].along_axis]
+        force = hypot(*load.force_per_length) * edge_length(scene, load.edge)
+    elif isinstance(load, AreaLoad):
+        force = hypot(*load.force_per_area) * area_in(scene, load.where)
     else:
-        force = abs(load.value) * sheet.length_x * sheet.length_y
+        force = abs(load.value) * area_in(scene, load.where)
     return force * abs(load.last_factor)
 
 

@@ -150,12 +150,14 @@ class Frozen(BaseModel, frozen=True):
 
 def _signature(fields: dict[str, FieldInfo]) -> Signature:
     """The keys of an object as `help` shows them: those that may go without a name first."""
-    parameters = []
-    for name, field in sorted(fields.items(), key=lambda item: bool(item[1].kw_only)):
+    parameters: list[Parameter] = []
+    needed = False  # by place, here or farther on
+    for name, field in sorted(fields.items(), key=lambda item: bool(item[1].kw_only))[::-1]:
         kind = Parameter.KEYWORD_ONLY if field.kw_only else Parameter.POSITIONAL_OR_KEYWORD
-        usual = Parameter.empty if field.is_required() else field.get_default(call_default_factory=True)
+        needed = field.is_required() or (needed and not field.kw_only)
+        usual = Parameter.empty if needed else field.get_default(call_default_factory=True)
         parameters.append(Parameter(name, kind, default=usual, annotation=_plain(field.annotation)))
-    return Signature(parameters)
+    return Signature(parameters[::-1])
 
 
 def _plain(annotation: Any) -> Any:

@@ -9,8 +9,9 @@ import numpy as np
 
 from sheetbench.errors import SceneError
 from sheetbench.scenes.actuators import Chain
+from sheetbench.scenes.region import Cutout, region
 from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import Support, held_axes, holds_tilt
+from sheetbench.scenes.supports import Support, held_axes, holds_tilt, place
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
@@ -29,17 +30,22 @@ def free_rigid_motions(scene: Scene) -> list[str]:
     """
     if any(not isinstance(actuator, Chain) or actuator.base != "free" for actuator in scene.actuators):
         return []
-    return list(_left_free(scene.sheet, scene.supports))
+    return list(_left_free(scene.sheet, scene.supports, scene.cutouts))
 
 
 @lru_cache(maxsize=64)
-def _left_free(sheet: Sheet, supports: tuple[Support, ...]) -> tuple[str, ...]:
+def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutout, ...]) -> tuple[str, ...]:
     """Names of the rigid motions that supports leave free: asked again at every solve of a scene."""
     centre = np.array([sheet.length_x / 2, sheet.length_y / 2, 0.0])
     scale = max(sheet.lengths)
     rows = [np.zeros(6)]
     for support in supports:
-        for end in sheet.edge_ends(support.edge):
+        shape = place(support)
+        if shape is None:
+            ends = sheet.edge_ends(support.edge)
+        else:
+            ends = region(sheet, cutouts).intersection(shape.area).convex_hull.exterior.coords
+        for end in ends:
             arm = (np.array([*end, 0.0]) - centre) / scale
             velocity = np.hstack([np.eye(3), -_cross_matrix(arm)])
             rows.extend(velocity[axis] for axis in held_axes(support))

@@ -7,26 +7,31 @@ once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads`
 from __future__ import annotations
 
 import sys
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 from warnings import warn
 
 import numpy as np
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
 from sheetbench.errors import Implausible
-from sheetbench.scenes import corners, summary
+from sheetbench.scenes import corners, region, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreement
 from sheetbench.scenes.anchors import held_twice
-from sheetbench.scenes.loads import Load, PointLoad
+from sheetbench.scenes.loads import AreaLoad, Load, PointLoad
 from sheetbench.scenes.material import Material
 from sheetbench.scenes.patches import Patch, misplaced
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
+from sheetbench.scenes.region import Cutout
 from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringTable
-from sheetbench.scenes.supports import Support, contradiction, lets_twist_go
+from sheetbench.scenes.supports import Support, contradiction, lets_twist_go, place
 from sheetbench.scenes.words import in_words
+
+if TYPE_CHECKING:
+    from shapely import Polygon
 
 OURS = {"sheetbench", "lumped", "fem_reference", "comparisons", "studies"}
 
@@ -49,12 +54,16 @@ class Scene(Frozen):
         default=(), validation_alias="patch", serialization_alias="patch", kw_only=True
     )
     """Parts of the sheet with a thickness or a material of their own; where they overlap later ones win."""
+    cutouts: tuple[Cutout, ...] = Field(
+        default=(), validation_alias="cutout", serialization_alias="cutout", kw_only=True
+    )
+    """Holes and notches: parts of the plan where there is no sheet."""
     gravity: Gravity | None = None
     """The sheet's weight; without this table the sheet is weightless."""
     supports: tuple[Support, ...] = Field(
         default=(), validation_alias="support", serialization_alias="support"
     )
-    """How edges are held, at most one support an edge."""
+    """How edges are held, at most one support an edge, and parts of the sheet."""
     loads: tuple[Load, ...] = Field(default=(), validation_alias="load", serialization_alias="load")
     """Forces, moments and pressures, which add up."""
     actuators: tuple[Actuator, ...] = Field(
@@ -71,7 +80,8 @@ class Scene(Frozen):
     probes: Annotated[dict[str, PlanPoint], Unit("m")] = Field(default_factory=dict)
     """Named plan points [x, y] of the undeformed sheet where displacements are told; without this table P1 is
     the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4,
-    each a quarter of the sheet inside where it would lie on an edge that is held."""
+    each a quarter of the sheet inside where it would lie on an edge that is held; where there is no sheet,
+    the nearest point of it."""
 
     if not TYPE_CHECKING:  # type checkers read the signature off the fields
 
@@ -87,13 +97,18 @@ class Scene(Frozen):
         if isinstance(data, dict) and not data.get("probes") and isinstance(data.get("sheet"), dict | Sheet):
             try:
                 sheet = Sheet.model_validate(data["sheet"])
-            except ValidationError:
+                cutouts = [Cutout.model_validate(c) for c in data.get("cutout") or data.get("cutouts") or ()]
+                plan = region.region(sheet, tuple(cutouts)) if cutouts or sheet.outline else None
+            except ValueError:
                 return data  # the sheet's own fault is the one to report
             supports = _edges(data.get("support") or data.get("supports") or ())
             moved = _edges(data.get("actuator") or data.get("actuators") or ())
             held = [edge for edge, part in supports if _holds_height(part)]
             held += [edge for edge, part in moved if _value_of(part, "kind") == "motion"]
-            data = {**data, "probes": default_probes(sheet, [edge for edge, _ in supports], held)}
+            probes = default_probes(sheet, [edge for edge, _ in supports], held)
+            if plan is not None:
+                probes = {name: region.nearest(plan, point) for name, point in probes.items()}
+            data = {**data, "probes": probes}
         return data
 
     @model_validator(mode="after")
@@ -106,6 +121,8 @@ class Scene(Frozen):
                 raise ValueError(f"load {number}.at = {list(load.at)} is off the sheet, {self._extent()}")
         if self.patches and (wrong := misplaced(self.patches, self.sheet)):
             raise ValueError(f"patch {wrong}")
+        if self.shaped_by and (wrong := region.misplaced(self)):
+            raise ValueError(wrong)
         if self.material.law is not None and self.springs is not None:
             raise ValueError(
                 f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"
@@ -178,14 +195,41 @@ class Scene(Frozen):
 
     @property
     def uniform(self) -> bool:
-        """Whether the sheet is the same all over."""
-        return not self.drawn_by
+        """Whether the sheet is as thick and of the same material all over."""
+        return not self.varied_by
+
+    @property
+    def varied_by(self) -> str:
+        """The words by which it is not, "" where it is."""
+        tapers = [f"sheet.{name}" for name in ("taper_x", "taper_y") if getattr(self.sheet, name) is not None]
+        return ", ".join([*tapers, *(["patch"] if self.patches else [])])
+
+    @property
+    def pierced(self) -> bool:
+        """Whether the sheet is no whole rectangle."""
+        return bool(self.cutouts) or self.sheet.outline is not None
+
+    @cached_property
+    def region(self) -> Polygon:
+        """The sheet's plan [m], with its holes, as shapely has it."""
+        return region.region(self.sheet, self.cutouts)
+
+    @property
+    def shaped_by(self) -> str:
+        """The words by which it is no whole rectangle held and loaded at edges, at points or all over."""
+        words = {
+            "sheet.outline": self.sheet.outline is not None,
+            "cutout": bool(self.cutouts),
+            "support.where": any(place(support) is not None for support in self.supports),
+            "load.where": any(getattr(load, "where", None) is not None for load in self.loads),
+            'load.kind = "area"': any(isinstance(load, AreaLoad) for load in self.loads),
+        }
+        return ", ".join(word for word, given in words.items() if given)
 
     @property
     def drawn_by(self) -> str:
-        """The words by which the sheet is not the same all over, "" where it is."""
-        tapers = [f"sheet.{name}" for name in ("taper_x", "taper_y") if getattr(self.sheet, name) is not None]
-        return ", ".join([*tapers, *(["patch"] if self.patches else [])])
+        """The words of both, by which the sheet is no plain one."""
+        return ", ".join(filter(None, [self.varied_by, self.shaped_by]))
 
     def twisting_edges(self) -> frozenset[str]:
         """The edges along which nothing holds the director: free, hinged and held ones."""

@@ -1,4 +1,4 @@
-"""Shapes in the plan of a sheet: a rectangle, a circle or a polygon, for patches.
+"""Shapes in the plan of a sheet: rectangles, circles, polygons, for patches, cutouts, supports and loads.
 
 shape = { rectangle = { x = [0.0, 0.05], y = [0.0, 0.188] } }
 shape = { circle = { centre = [0.1, 0.1], radius = 0.02 } }
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from shapely import Polygon as Area
 
 CIRCLE_SIDES = 256
+APART = 1e-9  # of the sheet, within which two places are one
 Span = Annotated[tuple[Number, Number], Unit("m")]
 
 
@@ -66,8 +67,8 @@ class Shape(Frozen):
         given = [name for name in type(self).model_fields if getattr(self, name) is not None]
         if len(given) != 1:
             raise ValueError(f"{' and '.join(given) or 'empty'}: give one of rectangle, circle, polygon")
-        if self.polygon is not None and not (self.area.is_valid and self.area.area > 0.0):
-            raise ValueError("polygon: its sides cross or it has no area")
+        if self.polygon is not None and (wrong := crossing(self.polygon)):
+            raise ValueError(f"polygon: {wrong}")
         return self
 
     @cached_property
@@ -120,3 +121,13 @@ class Shape(Frozen):
             "rectangle" if self.rectangle is not None else f"polygon of {len(self.polygon or ())} corners in"
         )
         return f"{what} {left} ≤ x ≤ {right}, {low} ≤ y ≤ {high} mm"
+
+
+def crossing(corners: tuple[PlanPoint, ...]) -> str:
+    """Why corners [m] in turn are no polygon, "" where they are one."""
+    import shapely
+
+    polygon = shapely.Polygon(corners)
+    if polygon.is_valid and polygon.area > 0.0:
+        return ""
+    return f"its sides cross or it has no area ({shapely.is_valid_reason(polygon)} m)"

@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Positive, Unit, Vector3
+from sheetbench.scenes.shapes import APART, crossing
 from sheetbench.scenes.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
@@ -42,7 +43,7 @@ EDGES: dict[str, Edge] = {
 
 
 class Sheet(Frozen):
-    """A flat rectangular sheet: sides and thickness [m]."""
+    """A flat sheet: sides of the rectangle that it is or that lies around its outline, thickness [m]."""
 
     length_x: Length
     """Side along x: the sheet lies in 0 ≤ x ≤ length_x."""
@@ -54,6 +55,12 @@ class Sheet(Frozen):
     """Thickness at x0 and at x1, linear between, one at least and one at most `thickness`."""
     taper_y: Taper | None = Field(default=None, kw_only=True)
     """Thickness at y0 and at y1 likewise; with taper_x the product of both over `thickness`."""
+
+    outline: Annotated[tuple[PlanPoint, ...], Unit("m"), Field(min_length=3)] | None = Field(
+        default=None, kw_only=True
+    )
+    """Corners [x, y] in turn of a sheet that is no rectangle: length_x and length_y are the sides of the
+    rectangle around it, which begins at x = 0 and y = 0."""
 
     @model_validator(mode="after")
     def _thinner_than_wide(self) -> Sheet:
@@ -71,6 +78,15 @@ class Sheet(Frozen):
                 )
             if ends is not None and max(ends) > min(self.lengths):
                 raise ValueError(f"{name} = [{ends[0]:g}, {ends[1]:g}] m is more than the shorter side")
+        if self.outline is not None:
+            for name, length, places in zip("xy", self.lengths, zip(*self.outline, strict=True), strict=True):
+                if max(abs(min(places)), abs(max(places) - length)) > APART * length:
+                    raise ValueError(
+                        f"outline: its corners are at {min(places):g} ≤ {name} ≤ {max(places):g} m; they "
+                        f"have to reach from 0 to length_{name} = {length:g} m"
+                    )
+            if wrong := crossing(self.outline):
+                raise ValueError(f"outline: {wrong}")
         return self
 
     def thickness_at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:

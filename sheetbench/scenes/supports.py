@@ -1,4 +1,4 @@
-"""The kinds of edge support.
+"""The kinds of support, of an edge or, in place of `edge`, of the part of the sheet `where` a shape says.
 
 clamped  mid-surface and its normal (the director) held; `tilt` τ [rad] turns the clamp about the edge's
          mid-line, which stays where it is in the flat sheet. With n pointing out of the sheet the director is
@@ -18,11 +18,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import pi
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from sheetbench.scenes.quantities import Frozen, Number, Unit, Vector3
+from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.sheet import EDGES, EdgeName
 from sheetbench.scenes.tables import OverTime, PiecewiseLinear
 
@@ -47,7 +48,21 @@ class _EdgeSupport(Frozen):
     """How the support moves over time, in the components that it holds; statics take the last sample."""
 
 
-class Clamped(_EdgeSupport):
+class _Support(_EdgeSupport):
+    # None beside `where` alone, which `require_rectangle` keeps from models that read edges
+    edge: Annotated[EdgeName, Field(default=None)]
+    """The edge that is supported."""
+    where: Shape | None = Field(default=None, kw_only=True)
+    """In place of `edge`: the part of the sheet that is supported."""
+
+    @model_validator(mode="after")
+    def _somewhere(self) -> Self:
+        if (self.edge is None) == (self.where is None):
+            raise ValueError("needs one of edge and where")
+        return self
+
+
+class Clamped(_Support):
     """Mid-surface and director held, the director turned about the edge by `tilt` [rad]."""
 
     kind: Literal["clamped"] = Field(default="clamped", kw_only=True)
@@ -62,15 +77,21 @@ class Clamped(_EdgeSupport):
             raise ValueError(f"{tilt:g} rad is more than π/2 either way, the most a clamp may be turned")
         return tilt
 
+    @model_validator(mode="after")
+    def _about_an_edge(self) -> Self:
+        if self.tilt and self.where is not None:
+            raise ValueError(f"tilt = {self.tilt:g} rad turns the clamp of an edge; leave tilt or where out")
+        return self
 
-class Hinged(_EdgeSupport):
+
+class Hinged(_Support):
     """Mid-surface held, director free."""
 
     kind: Literal["hinged"] = Field(default="hinged", kw_only=True)
     """Mid-surface held, free to turn."""
 
 
-class Held(_EdgeSupport):
+class Held(_Support):
     """Named components of the mid-surface's displacement held."""
 
     kind: Literal["held"] = Field(default="held", kw_only=True)
@@ -110,6 +131,16 @@ AnySupport = Clamped | Hinged | Held | Curved | Symmetric
 Support = Annotated[AnySupport, Field(discriminator="kind")]
 
 
+def place(support: AnySupport) -> Shape | None:
+    """Return the shape in which the sheet is supported, None of an edge."""
+    return getattr(support, "where", None)
+
+
+def named(supports: Iterable[AnySupport]) -> dict[str, AnySupport]:
+    """Return supports by the names that answers give them: their edge, or "support 2" by their number."""
+    return {s.edge if place(s) is None else f"support {n}": s for n, s in enumerate(supports, start=1)}
+
+
 def held_axes(support: AnySupport) -> tuple[int, ...]:
     """Axes (0, 1, 2) in which the support holds the mid-surface."""
     if isinstance(support, Symmetric):
@@ -122,7 +153,8 @@ def held_axes(support: AnySupport) -> tuple[int, ...]:
 def encloses_volume(supports: Iterable[AnySupport]) -> bool:
     """Whether the volume between the sheet and its plan is the sheet's alone to change: every edge is held
     across itself, so that none sweeps an area. A pressure then has a potential, − p × that volume."""
-    held = {support.edge for support in supports if EDGES[support.edge].normal_axis in held_axes(support)}
+    on_edges = [support for support in supports if place(support) is None]
+    held = {support.edge for support in on_edges if EDGES[support.edge].normal_axis in held_axes(support)}
     return held == set(EDGES)
 
 
@@ -150,6 +182,7 @@ def contradiction(supports: tuple[AnySupport, ...]) -> str | None:
     holds it along the edge only. Supports that move must move their corner alike in what both hold. And one
     edge can be held in one way only.
     """
+    supports = tuple(support for support in supports if place(support) is None)
     cuts = [support for support in supports if isinstance(support, Symmetric)]
     for i, first in enumerate(supports):
         for second in supports[i + 1 :]:

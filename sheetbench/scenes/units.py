@@ -49,6 +49,7 @@ NAMES: dict[str, tuple[str, str]] = {  # by the SI unit: the quantity, and how o
     "m/s²": ("acceleration", "9.81 m/s²"),
     "N": ("force", "20 mN"),
     "N/m": ("stiffness or force per length", "5 N/m"),
+    "N/m²": ("force per area", "20 N/m²"),
     "N·m/m": ("moment per length", "2 mN·m/m"),
     "N·m²": ("bending stiffness", "20 N·cm²"),
     "N·s/m": ("damping", "3 mN·s/m"),

@@ -7,19 +7,21 @@ from math import degrees, hypot
 from typing import TYPE_CHECKING
 
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
-from sheetbench.scenes.loads import EdgeLoad, PointLoad, Pressure
+from sheetbench.scenes.loads import AreaLoad, EdgeLoad, PointLoad, Pressure
 from sheetbench.scenes.material import CONSTANTS, Material
 from sheetbench.scenes.patches import Patch, mass_of
 from sheetbench.scenes.quantities import PlanPoint
+from sheetbench.scenes.region import area_in, edge_length
 from sheetbench.scenes.rigid_motions import free_rigid_motions
+from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Held, Hinged
+from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Held, Hinged, named, place
 from sheetbench.scenes.tables import FactorTable
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
 
-Load = PointLoad | EdgeLoad | Pressure
+Load = PointLoad | EdgeLoad | AreaLoad | Pressure
 
 
 def in_words(scene: Scene) -> list[tuple[str, str]]:
@@ -30,8 +32,9 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
     sentences = [
         (
             "sheet",
-            f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm, {_mm(sheet.thickness)} mm thick "
-            f"(1/{shorter / sheet.thickness:.3g} of the shorter side){_tapers(sheet)}, {1e3 * mass:.3g} g",
+            f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm{_outline(scene)}, "
+            f"{_mm(sheet.thickness)} mm thick (1/{shorter / sheet.thickness:.3g} of the shorter side)"
+            f"{_tapers(sheet)}, {1e3 * mass:.3g} g",
         ),
         (
             "material",
@@ -46,10 +49,15 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
             + (f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""),
         ),
         *((f"patch {n}", _patch(patch)) for n, patch in enumerate(scene.patches, start=1)),
+        *((f"cutout {n}", cutout.shape.in_words()) for n, cutout in enumerate(scene.cutouts, start=1)),
         ("weight", _weight(scene, mass)),
     ]
-    sentences += [(f"edge {support.edge}", _support(support, sheet)) for support in scene.supports]
-    sentences += [(f"load {n}", _load(load, sheet)) for n, load in enumerate(scene.loads, start=1)]
+    for name, support in named(scene.supports).items():
+        shape = place(support)
+        inside = f", everywhere in the {shape.in_words()}" if shape is not None else ""
+        where = name if shape is not None else f"edge {name}"
+        sentences.append((where, f"{_support(support, sheet)}{inside}"))
+    sentences += [(f"load {n}", _load(load, scene)) for n, load in enumerate(scene.loads, start=1)]
     sentences += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
     if scene.springs is not None:
         sentences.append(
@@ -62,6 +70,15 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         ("at rest", f"not solved: nothing stops {', '.join(free)}" if free else "held: it has an answer")
     )
     return sentences
+
+
+def _outline(scene: Scene) -> str:
+    """What of the rectangle there is."""
+    if not scene.pierced:
+        return ""
+    outline = scene.sheet.outline
+    corners = "" if outline is None else f", a polygon of {len(outline)} corners in it"
+    return f"{corners}, {1e4 * area_in(scene, None):.4g} cm² in all"
 
 
 def _tapers(sheet: Sheet) -> str:
@@ -145,23 +162,31 @@ def _bent(curvature: float, sheet: Sheet, edge: str) -> str:
     return f"bent to a radius of {_mm(1.0 / abs(curvature))} mm, {turned:.3g}° in all, its ends {way}"
 
 
-def _load(load: Load, sheet: Sheet) -> str:
+def _load(load: Load, scene: Scene) -> str:
+    sheet = scene.sheet
     history = _over_time(load.history)
     if isinstance(load, PointLoad):
         return f"{_vector(load.force, 'N')} at {_point(load.at)} mm{_on_edges(load.at, sheet)}{history}"
     if isinstance(load, Pressure):
         way = "along the normal, at first +z" if load.value > 0.0 else "against the normal, at first −z"
-        whole = abs(load.value) * sheet.length_x * sheet.length_y
-        return f"pressure of {abs(load.value):g} Pa {way}; {whole:.3g} N on the flat sheet{history}"
+        whole = abs(load.value) * area_in(scene, load.where)
+        where = _in(load.where)
+        return f"pressure of {abs(load.value):g} Pa {way}{where}; {whole:.3g} N on the flat sheet{history}"
+    if isinstance(load, AreaLoad):
+        whole = area_in(scene, load.where) * hypot(*load.force_per_area)
+        return f"{_vector(load.force_per_area, 'N/m²')}, {whole:.3g} N in all{_in(load.where)}{history}"
     parts = []
     if any(load.force_per_length):
-        length = sheet.lengths[EDGES[load.edge].along_axis]
-        in_all = length * hypot(*load.force_per_length)
+        in_all = edge_length(scene, load.edge) * hypot(*load.force_per_length)
         parts.append(f"{_vector(load.force_per_length, 'N/m')} ({in_all:.3g} N in all)")
     if load.moment_per_length:
         way = "up" if load.moment_per_length > 0.0 else "down"
         parts.append(f"a moment of {abs(load.moment_per_length):g} N·m/m that turns what is outside it {way}")
     return f"on edge {load.edge}: {' and '.join(parts) or 'nothing'}{history}"
+
+
+def _in(where: Shape | None) -> str:
+    return "" if where is None else f", in the {where.in_words()}"
 
 
 def _actuator(actuator: Actuator, sheet: Sheet) -> str:

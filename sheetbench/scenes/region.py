@@ -1,0 +1,143 @@
+"""The part of the plan in which there is a sheet: its outline without its cutouts; and where it is held.
+
+What lies on a shape's boundary belongs to it. A region is one piece that hangs together by more than points.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from sheetbench.errors import Impossible
+from sheetbench.scenes.loads import EdgeLoad, PointLoad
+from sheetbench.scenes.quantities import Frozen, PlanPoint
+from sheetbench.scenes.shapes import APART, Shape
+from sheetbench.scenes.sheet import EDGES, Sheet
+from sheetbench.scenes.supports import named, place
+
+if TYPE_CHECKING:
+    from shapely import Geometry, Polygon
+
+    from sheetbench.scenes.scene import Scene
+
+NECK = 1e-6  # of the shorter side, that holds a sheet together: less is a point
+
+
+class Cutout(Frozen):
+    """A part of the rectangle or the outline where there is no sheet."""
+
+    shape: Shape
+    """Where: a rectangle, a circle or a polygon; it may reach over the rim."""
+
+
+def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
+    """The sheet's plan [m]: a polygon with holes. Raises ValueError for a sheet without area or in pieces."""
+    import shapely
+
+    plan: Any = shapely.box(0.0, 0.0, *sheet.lengths)
+    if sheet.outline is not None:
+        plan = shapely.Polygon(sheet.outline)
+    neck = NECK * min(sheet.lengths)
+    for number, cutout in enumerate(cutouts, start=1):
+        left = plan.difference(cutout.shape.area)
+        said = f"cutout {number}.shape: {cutout.shape.in_words()}"
+        if left.area >= plan.area * (1.0 - APART):
+            raise ValueError(f"{said}: no part of it is on what is left of the sheet")
+        plan = left
+    inner = plan.buffer(-0.5 * neck)
+    if (count := 0 if inner.is_empty else shapely.get_num_geometries(inner)) != 1:
+        what = "cutout: they leave" if cutouts else "sheet.outline: it encloses"
+        parts = f"{count} parts that hang together at points at most" if count else "no part"
+        raise ValueError(f"{what} {parts}; a sheet is one piece")
+    if plan.geom_type != "Polygon":  # slivers beside it
+        plan = max(plan.geoms, key=lambda part: part.area)
+    return plan
+
+
+def nearest(plan: Polygon, point: PlanPoint) -> PlanPoint:
+    """The point of a plan that is nearest to one [m]: itself where it lies there."""
+    import shapely
+
+    x, y = (float(c) for c in shapely.shortest_line(plan, shapely.Point(point)).coords[0])
+    return x, y
+
+
+def edge_part(scene: Scene, edge: str) -> Geometry:
+    """The part of an edge that the sheet reaches."""
+    import shapely
+
+    near = shapely.LineString(scene.sheet.edge_ends(edge)).buffer(
+        APART * max(scene.sheet.lengths), cap_style="square"
+    )
+    return scene.region.boundary.intersection(near)
+
+
+def edge_length(scene: Scene, edge: str) -> float:
+    """Length [m] of the part of an edge that the sheet reaches."""
+    whole = scene.sheet.lengths[EDGES[edge].along_axis]
+    return float(edge_part(scene, edge).length) if scene.pierced else whole
+
+
+def area_in(scene: Scene, shape: Shape | None) -> float:
+    """Area [m²] of the sheet in a shape, or of all of it."""
+    if not scene.pierced and shape is None:
+        return scene.sheet.length_x * scene.sheet.length_y
+    return float((scene.region if shape is None else scene.region.intersection(shape.area)).area)
+
+
+def misplaced(scene: Scene) -> str:
+    """Why something is held, loaded or probed where there is no sheet; "" where nothing is."""
+    import shapely
+
+    for key, point in {
+        **{f"probes.{name}": point for name, point in scene.probes.items()},
+        **{f"load {n}.at": each.at for n, each in enumerate(scene.loads, 1) if isinstance(each, PointLoad)},
+    }.items():
+        if scene.region.distance(shapely.Point(point)) > APART * max(scene.sheet.lengths):
+            return f"{key} = {list(point)} m: there is no sheet, by its outline or a cutout"
+    shapes = {name: place(support) for name, support in named(scene.supports).items()}
+    shapes |= {f"load {n}": getattr(load, "where", None) for n, load in enumerate(scene.loads, start=1)}
+    least = (NECK * min(scene.sheet.lengths)) ** 2
+    for name, shape in shapes.items():
+        if shape is not None and area_in(scene, shape) <= least:
+            return f"{name}.where: {shape.in_words()}: no part of it is on the sheet"
+    edges = {f"support on edge {s.edge}": s.edge for s in scene.supports if place(s) is None}
+    edges |= {
+        f"load {n} on edge {each.edge}": each.edge
+        for n, each in enumerate(scene.loads, start=1)
+        if isinstance(each, EdgeLoad)
+    }
+    for name, edge in edges.items():
+        if edge_length(scene, edge) <= NECK * min(scene.sheet.lengths):
+            return f"{name}: the sheet touches that edge at points at most; say where by a shape"
+    for number, actuator in enumerate(scene.actuators, start=1):
+        whole = scene.sheet.lengths[EDGES[actuator.edge].along_axis]
+        if edge_length(scene, actuator.edge) < (1.0 - APART) * whole:
+            return f"actuator {number}: the sheet does not reach all of edge {actuator.edge}, which it moves"
+    return _apart(scene)
+
+
+def _apart(scene: Scene) -> str:
+    """Why supports that hold the same part of the sheet cannot both be obeyed; "" where all can."""
+    named_supports = list(named(scene.supports).items())
+    for i, (name, one) in enumerate(named_supports):
+        shape = place(one)
+        if shape is None:
+            continue
+        for j, (other_name, other) in enumerate(named_supports):
+            beside = place(other)
+            if j == i or (beside is not None and j < i) or one.motion == other.motion:
+                continue
+            area = edge_part(scene, other.edge) if beside is None else beside.area
+            if area.intersects(shape.area):
+                return f"{name} and {other_name} move the same part of the sheet differently"
+    return ""
+
+
+def require_rectangle(scene: Scene, who: str, instead: str = "") -> None:
+    """Raise Impossible for a sheet that is no whole rectangle, held and loaded at edges, points and all over,
+    if `who` knows no other: a verb, a model or a file; instead: what does."""
+    if words := scene.shaped_by:
+        raise Impossible(
+            f"scene '{scene.name}': {words}: {who} is for whole rectangles held at their edges"
+            f"{instead and '; '}{instead}"
+        )

@@ -146,15 +146,17 @@ class Scene(Frozen):
     def replace(self, **values: Any) -> Scene:
         """Return a copy with other values for some keys, those of its sheet and material too.
 
-        Probes that nobody chose go with the sheet's sides. Raises SceneError for what makes no sense.
+        Probes that nobody chose go with the sheet's outline. Raises SceneError for what makes no sense.
         """
         for part in ("sheet", "material"):
             kind = type(getattr(self, part))
             own = {key: values.pop(key) for key in list(values) if key in kind.model_fields}
             if own:
                 values[part] = kind.model_validate(values.get(part, getattr(self, part))).replace(**own)
-        resized = values.get("sheet", self.sheet) != self.sheet and "probes" not in values
-        if resized and self.probes == super().replace(probes={}).probes:
+        redrawn = any(
+            values.get(key, getattr(self, key)) != getattr(self, key) for key in ("sheet", "cutouts")
+        )
+        if redrawn and "probes" not in values and self.probes == super().replace(probes={}).probes:
             values["probes"] = {}
         changed = super().replace(**values)
         _warn_author(changed, known=self)

@@ -1,6 +1,8 @@
 """Stiffness of the sheet's section per width: of its constants, and of cells that several parts share.
 
-    A = E h/(1 − ν²) [[1, ν, 0], [ν, 1, 0], [0, 0, (1 − ν)/2]],    D = A h²/12,    S = κ G h,    κ = 5/6.
+    A = E h/(1 − ν²) [[1, ν, 0], [ν, 1, 0], [0, 0, (1 − ν)/2]],    D = A h²/12,    S = κ G h,    κ = 5/6,
+
+and of fibres what `lumped.plies` has.
 
 A cell is divided FINER × FINER, and where a part has a side along the axes; each division has the mean of
 its parts by area. Across a line between two of them, say at constant x, N_x, M_x and Q_x are the same on both
@@ -23,8 +25,11 @@ from typing import Self
 
 import numpy as np
 
+from lumped import plies
 from lumped.grid_lines import Lines, grid_lines
+from sheetbench.errors import Impossible
 from sheetbench.scenes import Cells, Constants, Scene
+from sheetbench.scenes.cells import NUMBERS
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.patches import APART, parts_between, sides_of
@@ -46,7 +51,12 @@ class Section:
     @classmethod
     def of(cls, constants: Constants) -> Self:
         """Of sheets with these constants."""
-        h, young, nu, density = np.broadcast_arrays(*map(np.float64, vars(constants).values()))
+        if constants.plies:
+            parts = plies.section(constants.plies, constants.thickness)
+            return cls(*parts, np.asarray(constants.per_area))
+        h, young, nu, density = np.broadcast_arrays(
+            *(np.float64(getattr(constants, name)) for name in NUMBERS)
+        )
         unit = np.zeros((*nu.shape, 3, 3))
         unit[..., 0, 0] = unit[..., 1, 1] = 1.0
         unit[..., 0, 1] = unit[..., 1, 0] = nu
@@ -74,13 +84,21 @@ def of_cells(cells: Cells, grid: Grid) -> Section:
     """The sections of a table of cells. Raises BadInput for a table that is not one of the grid's."""
     cells.require_grid(grid)
     shape = grid[1] - 1, grid[0] - 1
-    return Section.of(Constants(*(np.broadcast_to(value, shape) for value in vars(cells).values())))
+    return Section.of(cells.arrays(shape))
 
 
 def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | None:
-    """The sections of the cells of a scene's sheet; None of a sheet that is the same all over."""
+    """The sections of the cells of a scene's sheet; None of a sheet that is the same all over and in all
+    directions."""
     if scene.uniform:
         return None
+    if scene.material.kind == "orthotropic":
+        raise Impossible(
+            f"scene '{scene.name}': material.kind = 'orthotropic': the lattice has no fibres yet; plate, "
+            "shell and solid have"
+        )
+    if scene.homogeneous:
+        return of_cells(Cells.of(scene.sheet, scene.material), grid)
     lines = grid_lines(scene.sheet, grid, grading)
     x, y = (_divided(side, at) for side, at in zip(lines, sides_of(scene), strict=True))
     sections = [_times(Section.of(part.constants), part.share) for part in parts_between(scene, x, y)]

@@ -198,4 +198,4 @@ def test_models_refuse_shapes_that_they_do_not_know(model, word):
 def test_verbs_that_do_not_say_so(drawn, verb, options, who, monkeypatch, capsys):
     monkeypatch.chdir(drawn.removesuffix("drawn.toml"))
     assert run(verb, drawn, *options) == 2
-    assert f"patch: {who} is for sheets that are the same all over; " in one_line(capsys)
+    assert f"patch: {who} is for isotropic sheets that are the same all over; " in one_line(capsys)

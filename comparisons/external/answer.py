@@ -55,7 +55,7 @@ def refusal(scene: Scene, chains: str, moments: str, laws: Collection[str] = ())
     rubber that it is given.
     """
     if scene.drawn_by:
-        return f"{scene.drawn_by}: it is given whole rectangles that are the same all over"
+        return f"{scene.drawn_by}: it is given isotropic whole rectangles that are the same all over"
     law = scene.material.law
     if law is not None and law not in laws:
         known = (

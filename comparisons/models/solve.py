@@ -59,7 +59,7 @@ def solve(model: Resolved[Any], name: str = "") -> Solution:
 def _with_constants(mesh: FieldMesh, scene: Scene) -> FieldMesh:
     """Return the mesh with what each of its cells is made of, as its middle is."""
     middles = [mesh.points[nodes, :2].mean(axis=1) for _, nodes in mesh.cells]
-    found = [vars(constants_at(scene, at)) for at in middles]
+    found = [constants_at(scene, at).arrays(at.shape[:1]).by_name() for at in middles]
     of_cells = {name: [one[name] for one in found] for name in found[0]}
     return FieldMesh(mesh.points, mesh.cells, mesh.point_data, {**mesh.cell_data, **of_cells})
 

@@ -214,8 +214,7 @@ def stiffness_matrix(
 def mass_matrix(scene: Scene, plate: Plate) -> csr_matrix:
     """Consistent mass with rotary inertia: ρh on the displacements, ρh³/12 on the tilts; (5 n, 5 n)."""
     constants, (values, _) = constants_of(scene, plate.corners), shape(*GAUSS)
-    moved = plate.elements.areas * constants.per_area
-    turned = moved * constants.thickness**2 / 12.0
+    moved, turned = (plate.elements.areas * m for m in (constants.per_area, constants.rotary_per_area))
     products = np.einsum("imq,qa,qb->imab", np.array([moved] * 3 + [turned] * 2), values, values)
     return _assemble(plate, np.einsum("imab,ij->maibj", products, np.eye(5)))
 

@@ -15,10 +15,9 @@ from sheetbench.scenes import Scene
 def products(structure: ShellStructure, scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     """∫ ρh N_i N_j dA [kg] and ∫ ρh³/12 N_i N_j dA [kg m²], (m, 9, 9) each."""
     value, of = AT_GAUSS[0], constants_of(scene, structure.element.reference[:, :9, :2])
-    moved = of.per_area * structure.element.areas
     by_place, by_turn = (
-        np.asarray(np.einsum("eg,gi,gj->eij", part, value, value))
-        for part in (moved, moved * of.thickness**2 / 12.0)
+        np.asarray(np.einsum("eg,gi,gj->eij", part * structure.element.areas, value, value))
+        for part in (of.per_area, of.rotary_per_area)
     )
     return by_place, by_turn
 

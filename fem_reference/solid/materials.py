@@ -5,6 +5,7 @@
 λ, μ are Lamé's constants; ϑ measures the change of volume and alone grows stiff as ν → ½:
 
     St Venant–Kirchhoff   W₀ = μ E : E                        ϑ = tr E,         Λ = λ
+    of fibres             W₀ = ½ E : (C − Λ 1 ⊗ 1) : E        ϑ = tr E          (`_green_bulk`)
     Biot                  W₀ = μ (U − 1) : (U − 1)            ϑ = tr (U − 1),   Λ = λ,   U² = C
     rubbers               W₀ = f(x) + c₀₁ (I₂ − 3) − m ln J   ϑ = ln J,   C = 2E + 1,   J² = det C
 
@@ -27,6 +28,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from fem_reference.surface.plies import in_space
 from fem_reference.surface.rubber import slopes
 from sheetbench.scenes import Constants, Material
 from sheetbench.scenes.material import WORDS, Energy
@@ -62,7 +64,25 @@ def lame(material: Material | Constants) -> tuple[float, float]:
     return 2.0 * shear * material.poisson / (1.0 - 2.0 * material.poisson), shear
 
 
+def _green_bulk(material: Material | Constants) -> float:
+    """λ; of fibres K less two thirds of the mean shear modulus, 1/K the sum of all compliances of stretch:
+    what is left is positive."""
+    if isinstance(material, Material) or not material.plies:
+        return lame(material)[0]
+    (ply,) = material.plies
+    bulk = 1.0 / np.linalg.inv(in_space(ply))[..., :3, :3].sum(axis=(-2, -1))
+    shear = (ply.shear_12 + ply.shear_13 + ply.shear_23) / 3.0
+    return np.maximum(bulk - 2.0 / 3.0 * shear, 0.0)
+
+
 def _green_distortion(material: Material | Constants, strain: np.ndarray) -> Triad:
+    if isinstance(material, Constants) and material.plies:
+        stiffness = in_space(material.plies[0]) - np.asarray(_green_bulk(material))[
+            ..., None, None
+        ] * np.outer(_TRACE, _TRACE)
+        tangent = np.broadcast_to(stiffness, (*strain.shape, 6))
+        stress = (tangent @ strain[..., None])[..., 0]
+        return Triad(0.5 * np.sum(strain * stress, axis=-1), stress, tangent)
     shear = np.asarray(lame(material)[1])[..., None]
     stress = shear * _DOUBLE.diagonal() * strain
     tangent = np.broadcast_to(shear[..., None] * _DOUBLE, (*strain.shape, 6))
@@ -159,7 +179,7 @@ def _rubber(energy: Callable[[Material], Energy]) -> Law:
 
 
 LAWS = {
-    "st-venant-kirchhoff": Law(_green_distortion, _green_volume, lambda of: lame(of)[0], quadratic=True),
+    "st-venant-kirchhoff": Law(_green_distortion, _green_volume, _green_bulk, quadratic=True),
     "biot": Law(_stretch_distortion, _stretch_volume, lambda of: lame(of)[0]),
     "neo-hookean": _rubber(lambda of: Energy(0.5 * lame(of)[1])),
 } | dict.fromkeys(WORDS, _rubber(lambda of: of.energy))

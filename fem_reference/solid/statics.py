@@ -47,6 +47,7 @@ from sheetbench.scenes import (
     outside_model,
     require_uniform,
 )
+from sheetbench.scenes.orthotropy import Ply, impossible_in_space
 from sheetbench.scenes.patches import constants_at
 from sheetbench.scenes.rigid_motions import require_static
 
@@ -156,6 +157,8 @@ def _require_meshable(scene: Scene, law: str) -> None:
     another law, or loads that follow it."""
     if scene.uniform:
         return
+    if scene.material.kind == "orthotropic" and (wrong := impossible_in_space(Ply.of(scene.material))):
+        raise BadInput(f"material.{wrong}")
     taper = scene.sheet.taper_x or scene.sheet.taper_y
     for number, patch in enumerate(scene.patches, start=1):
         if patch.thickness is not None and (taper or patch.thickness != scene.sheet.thickness):

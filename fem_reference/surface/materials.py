@@ -1,4 +1,4 @@
-"""Linear isotropic elasticity of a thin sheet: plane-stress St Venant–Kirchhoff, σ_zz = 0.
+"""Linear elasticity of a thin sheet: plane-stress St Venant–Kirchhoff, σ_zz = 0; isotropic
 
 Voigt order [xx, yy, 2xy]; per unit of mid-surface area, with thickness h:
 
@@ -6,7 +6,8 @@ Voigt order [xx, yy, 2xy]; per unit of mid-surface area, with thickness h:
     bending   M = h³/12 C κ
     shear     Q = k h G γ,         G = E/2(1 + ν),   k = 5/6 (Reissner)
 
-A `Section` given in their place makes the sheet any other plate, a lattice's homogenised one for instance.
+A sheet with fibres has the section of its plies (`fem_reference.surface.plies`). A `Section` given in their
+place makes the sheet any other plate, a lattice's homogenised one for instance.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fem_reference.surface import plies
 from fem_reference.surface.biquadratic import AT_GAUSS
 from sheetbench.scenes import Constants, Material, Scene
 from sheetbench.scenes.patches import constants_at
@@ -44,7 +46,9 @@ def section_at(scene: Scene, corners: np.ndarray) -> Section:
 
 
 def section_of(material: Material | Constants, thickness: float) -> Section:
-    """The section of a sheet of this material, homogeneous through its thickness."""
+    """The section of a sheet of this material, homogeneous through its thickness, or of its plies."""
+    if isinstance(material, Constants) and material.plies:
+        return Section(*plies.section(material.plies, thickness))
     laws = (membrane_stiffness, bending_stiffness, transverse_shear_stiffness)
     return Section(*(law(material, thickness) for law in laws))
 

@@ -11,7 +11,10 @@ PAGE = "docs/limits.md"
 _HOLE = "a hole, a slit or a notch is a [[cutout]] with a shape"
 _UNIFORM = "a part with a thickness or a material of its own is a [[patch]]: one layer, not magnetic"
 _OUTLINE = "a sheet that is no rectangle has an `outline` in [sheet], the corners of a polygon"
-_ISOTROPIC = "a material is isotropic, with one young and one poisson: orthotropy is not modelled"
+_FIBRES = (
+    "fibres are [material] kind = 'orthotropic' with young_1, young_2, poisson_12, shear_12 and an angle; no "
+    "other anisotropy is modelled"
+)
 _RUBBER = (
     "of rubber there are the laws neo-hookean, mooney-rivlin, yeoh and gent: `law` in [material], each with "
     "its own constants"
@@ -36,9 +39,8 @@ _WORDS = {
     _UNIFORM: "patches region regions inclusion inclusions stiffener stiffeners magnet magnets layer "
     "layers laminate ply plies",
     _OUTLINE: "contour mesh diameter",
-    _ISOTROPIC: "young_x young_y young_z young_1 young_2 young_3 poisson_xy poisson_yx poisson_12 poisson_21 "
-    "shear_xy shear_12 shear_13 shear_23 orthotropic orthotropy anisotropic fibre fibres fiber fibers "
-    "fibre_angle fiber_angle angle",
+    _FIBRES: "young_x young_y young_z poisson_xy poisson_yx poisson_21 shear_xy orthotropic orthotropy "
+    "anisotropic fibre fibres fiber fibers fibre_angle fiber_angle",
     _RUBBER: "laws hyperelastic neo_hookean ogden yeoh gent c10 c01 c20 c30",
     _VISCOUS: "prony viscoelastic viscoelasticity viscosity creep tan_delta damping_ratio quality",
     _CONTACT: "contact contacts friction obstacle obstacles floor ground table wall",

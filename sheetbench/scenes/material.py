@@ -31,6 +31,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 from pydantic import Field, model_validator
 
 from sheetbench.errors import BadInput
+from sheetbench.scenes import orthotropy
 from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, Number, Positive, Unit
 from sheetbench.scenes.relaxation import Branches, Relaxation, constant_loss
 from sheetbench.scenes.units import converted
@@ -77,11 +78,13 @@ WORDS: Mapping[str, Words] = {
 }
 STRESSES = ("c1", "c2", "c3", "shear")
 CONSTANTS = (*STRESSES, "limit")
+Modulus = Annotated[Positive, Unit("Pa")]
 LARGEST_LOSS = 2.0  # of a loss factor: rubber in its transition
 
 
 class Material(Frozen):
-    """Isotropic elasticity, density, viscous damping and relaxation; of rubber a law with its constants.
+    """Elasticity, density, viscous damping and relaxation; of rubber a law with its constants, of a sheet
+    with fibres those along and across them (`sheetbench.scenes.orthotropy`).
 
     young [Pa], poisson [-], density [kg/m³]; damping_time [s] gives every spring a damper
     c = damping_time · k; damping_rate [1/s] gives every mass a damping force rate · m · velocity.
@@ -111,6 +114,30 @@ class Material(Frozen):
     """Shear modulus at small strains: gent."""
     limit: Positive | None = Field(default=None, kw_only=True)
     """I1 - 3 that no load reaches: gent."""
+    kind: Literal["isotropic", "orthotropic"] = Field(default="isotropic", kw_only=True)
+    """Of an orthotropic sheet, one with fibres, the constants along axis 1 and across it are given; young and
+    poisson are left out."""
+    young_1: Modulus | None = Field(default=None, kw_only=True)
+    """Young's modulus along axis 1, that of the fibres: orthotropic."""
+    young_2: Modulus | None = Field(default=None, kw_only=True)
+    """Young's modulus across them, in the plane: orthotropic."""
+    poisson_12: Number | None = Field(default=None, kw_only=True)
+    """How much it contracts along 2 where it is pulled along 1; its square is below young_1/young_2."""
+    shear_12: Modulus | None = Field(default=None, kw_only=True)
+    """Shear modulus in the plane: orthotropic."""
+    shear_13: Modulus | None = Field(default=None, kw_only=True)
+    """Transverse shear modulus along 1; shear_12 unless given."""
+    shear_23: Modulus | None = Field(default=None, kw_only=True)
+    """Transverse shear modulus along 2; shear_12 unless given."""
+    young_3: Modulus | None = Field(default=None, kw_only=True)
+    """Young's modulus through the thickness, which solids alone ask for; young_2 unless given."""
+    poisson_13: Number | None = Field(default=None, kw_only=True)
+    """How much it contracts through the thickness where it is pulled along 1, likewise; poisson_12 unless
+    given."""
+    poisson_23: Number | None = Field(default=None, kw_only=True)
+    """The same where it is pulled along 2; poisson_12 unless given."""
+    angle: Annotated[Number, Unit("rad")] | None = Field(default=None, kw_only=True)
+    """Of axis 1 from x towards y: 30 degrees are 0.5236 or "30 deg"; 0 unless given."""
 
     loss_factor: Annotated[Finite, Field(gt=0, le=LARGEST_LOSS)] | None = Field(default=None, kw_only=True)
     """η = 2ζ = tan δ = 1/Q, in place of damping_time: with `frequency` one damper a spring, right at that
@@ -125,7 +152,10 @@ class Material(Frozen):
     @model_validator(mode="before")
     @classmethod
     def _young_of_constants(cls, data: Any) -> Any:
-        """Young's modulus of small strains from a law's constants, where it is not given."""
+        """Young's modulus of small strains from a law's constants, where it is not given; of fibres it and
+        Poisson's ratio, as measures of the material's size."""
+        if isinstance(data, dict) and data.get("kind") == "orthotropic":
+            return orthotropy.with_likeness(data)
         words = WORDS.get(data.get("law", "")) if isinstance(data, dict) else None
         if words is None or "young" in data:
             return data
@@ -182,6 +212,12 @@ class Material(Frozen):
         _require_pull(energy, given, self.law)
 
     @model_validator(mode="after")
+    def _fibres_with_their_constants(self) -> Self:
+        if reason := orthotropy.fault({key: getattr(self, key) for key in type(self).model_fields}):
+            raise ValueError(reason)
+        return self
+
+    @model_validator(mode="after")
     def _damped_in_one_way(self) -> Self:
         if self.loss_factor is None:
             for key in ("frequency", "band"):
@@ -235,8 +271,12 @@ class Material(Frozen):
         return words.energy(*(getattr(self, key) for key in words.keys))
 
     def replace(self, **values: Any) -> Self:
-        """Return a copy with other values for some keys; of a law with constants these follow another young,
-        and young follows other constants. Raises SceneError for what makes no sense."""
+        """Return a copy with other values for some keys; of a law with constants, and of fibres, these follow
+        another young, and young follows other constants. Raises SceneError for what makes no sense."""
+        if self.kind == "orthotropic" and values.get("kind", self.kind) == self.kind:
+            scale = values.pop("young", self.young) / self.young
+            moduli = {k: scale * v for k in orthotropy.MODULI if (v := getattr(self, k)) is not None}
+            return self._with({**moduli, **values}, {"young", "poisson"})
         if WORDS.get(self.law or "") is None or ("law" in values and values["law"] != self.law):
             dropped = {} if "law" not in values else {key: None for key in CONSTANTS if key not in values}
             return super().replace(**dropped, **values)
@@ -245,7 +285,11 @@ class Material(Frozen):
             scale = young / (2.0 * (1.0 + values.get("poisson", self.poisson)) * self.energy.shear)
             of_young = {k: scale * v for k in STRESSES if (v := getattr(self, k)) is not None}
             values = {**of_young, **values}
-        kept = {name: getattr(self, name) for name in type(self).model_fields if name != "young"}
+        return self._with(values, {"young"})
+
+    def _with(self, values: dict[str, Any], derived: set[str]) -> Self:
+        """Return a copy with other values for some keys, without those that are derived."""
+        kept = {name: getattr(self, name) for name in type(self).model_fields if name not in derived}
         return type(self)(**{**kept, **values})
 
 

@@ -14,8 +14,10 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from sheetbench.errors import Impossible
-from sheetbench.scenes.cells import Constants
-from sheetbench.scenes.quantities import Finite, Frozen, Positive, Unit
+from sheetbench.scenes.cells import NUMBERS, Constants
+from sheetbench.scenes.material import Material
+from sheetbench.scenes.orthotropy import in_own_axes
+from sheetbench.scenes.quantities import Finite, Frozen, Number, Positive, Unit
 from sheetbench.scenes.region import area_in, require_rectangle
 from sheetbench.scenes.shapes import APART, Shape
 from sheetbench.scenes.sheet import Sheet
@@ -23,7 +25,7 @@ from sheetbench.scenes.sheet import Sheet
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
 
-CONSTANTS = ("thickness", "young", "poisson", "density")
+CONSTANTS = ("thickness", "young", "poisson", "density", "angle")
 KNOWING = (
     "check, compare, modes, simulate, calibrate, tradeoff, crosscheck and linearise know others too, with "
     "the models lumped, plate, shell and solid"
@@ -45,6 +47,8 @@ class Patch(Frozen):
     """Poisson's ratio; the material's unless given."""
     density: Annotated[Positive, Unit("kg/m³")] | None = None
     """The material's unless given."""
+    angle: Annotated[Number, Unit("rad")] | None = Field(default=None, kw_only=True)
+    """Of an orthotropic material's axis 1 from x towards y; the material's unless given."""
 
     @model_validator(mode="after")
     def _differs(self) -> Patch:
@@ -71,15 +75,23 @@ def constants_at(scene: Scene, points: np.ndarray) -> Constants:
     """Return the constants at plan points (…, 2) [m], arrays (…); of a sheet that is the same all over its
     numbers."""
     sheet = Constants.of(scene.sheet, scene.material)
-    if scene.uniform:
+    if scene.homogeneous:
         return sheet
-    values = {name: np.full(points.shape[:-1], value) for name, value in vars(sheet).items()}
-    values["thickness"] = scene.sheet.thickness_at(points[..., 0], points[..., 1])
+    found = sheet.arrays(points.shape[:-1])
+    found.thickness[...] = scene.sheet.thickness_at(points[..., 0], points[..., 1])
     for patch in scene.patches:
-        inside = patch.shape.contains(points)
-        for name, value in patch.own.items():
-            values[name][inside] = value
-    return Constants(**values)
+        _put(found, patch.own, patch.shape.contains(points))
+    return found
+
+
+def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
+    """Write a patch's own constants into arrays."""
+    for name, value in own.items():
+        if name in NUMBERS:
+            getattr(constants, name)[where] = value
+    for ply in constants.plies:
+        for name, value in in_own_axes(own).items():
+            getattr(ply, name)[where] = value
 
 
 def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
@@ -90,25 +102,17 @@ def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
     low, left = np.meshgrid(y[:-1], x[:-1], indexing="ij")
     high, right = np.meshgrid(y[1:], x[1:], indexing="ij")
     boxes = shapely.box(left, low, right, high)
-    of_sheet = {
-        name: np.full(boxes.shape, value)
-        for name, value in vars(Constants.of(scene.sheet, scene.material)).items()
-    }
-    of_sheet["thickness"] = scene.sheet.thickness_at(0.5 * (left + right), 0.5 * (low + high))
+    of_sheet = Constants.of(scene.sheet, scene.material).replace(
+        thickness=scene.sheet.thickness_at(0.5 * (left + right), 0.5 * (low + high))
+    )
     left_over = _shares(scene.region, boxes) if scene.pierced else np.ones(boxes.shape)
     for area, own in _disjoint(scene.patches):
         share = _shares(area.intersection(scene.region) if scene.pierced else area, boxes)
         left_over = left_over - share
-        yield Part(
-            share,
-            Constants(
-                **{
-                    name: np.full_like(share, own[name]) if name in own else value
-                    for name, value in of_sheet.items()
-                }
-            ),
-        )
-    yield Part(_without_rounding(left_over), Constants(**of_sheet))
+        constants = of_sheet.arrays(boxes.shape)
+        _put(constants, own)
+        yield Part(share, constants)
+    yield Part(_without_rounding(left_over), of_sheet.arrays(boxes.shape))
 
 
 def _shares(area: Any, boxes: np.ndarray) -> np.ndarray:
@@ -147,7 +151,7 @@ def _without_rounding(share: np.ndarray) -> np.ndarray:
 def mass_of(scene: Scene) -> float:
     """Mass [kg] of the sheet."""
     sheet = scene.sheet
-    if scene.uniform:
+    if scene.homogeneous:
         return scene.material.density * sheet.thickness * area_in(scene, None)
     x, y = (np.linspace(0.0, length, FINE) for length in sheet.lengths)
     per_area = sum(part.share * part.constants.per_area for part in parts_between(scene, x, y))
@@ -180,13 +184,27 @@ def misplaced(patches: tuple[Patch, ...], sheet: Sheet) -> str:
     return ""
 
 
+def mismatched(patches: tuple[Patch, ...], material: Material) -> str:
+    """Why a patch's constants are not of the sheet's kind of material, "" where all are."""
+    for number, patch in enumerate(patches, start=1):
+        if material.kind == "isotropic" and patch.angle is not None:
+            return f"{number}.angle = {patch.angle:g}: is of a material of kind = 'orthotropic'"
+        if material.kind == "orthotropic" and (patch.young is None) != (patch.poisson is None):
+            given = "poisson" if patch.young is None else "young"
+            return (
+                f"{number}.{given} = {getattr(patch, given):g}: young and poisson together make a part of an "
+                "orthotropic sheet isotropic; give both, or neither"
+            )
+    return ""
+
+
 def require_uniform(scene: Scene, who: str, instead: str = KNOWING) -> None:
     """Raise Impossible for a sheet that is not the same all over, which `who` does not know: a model or a
     file; instead: what does."""
     if not scene.uniform:
         raise Impossible(
-            f"scene '{scene.name}': {scene.varied_by}: {who} is for sheets that are the same all over; "
-            f"{instead}"
+            f"scene '{scene.name}': {scene.varied_by}: {who} is for isotropic sheets that are the same all "
+            f"over; {instead}"
         )
 
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
 
 SOFTEST, STIFFEST = 1e3, 1e10  # Pa: agar, and the stiffest polymers
+STIFFEST_FIBRE = 1e12  # Pa: of a ply of carbon fibres 3e11
 LIGHTEST, HEAVIEST = 100.0, 20_000.0  # kg/m³: foam, gold
 LARGEST = 10.0  # m, of a side
 THICKEST = 0.25  # of the shorter side
@@ -66,16 +67,18 @@ def sheet_slips(sheet: Sheet) -> list[str]:
 def material_slips(material: Material) -> list[str]:
     """A modulus that is not in pascals, a density that is not in kilograms a cubic metre."""
     warnings = []
-    young, density = material.young, material.density
-    if young < SOFTEST:
-        warnings.append(
-            f"young = {young:g} Pa is softer than any solid sheet; "
-            f'it is in pascals: {young:g} MPa is written {young:g}e6 or "{young:g} MPa"'
-        )
-    elif young > STIFFEST:
-        warnings.append(
-            f"young = {young:g} Pa is {young / 1e9:g} GPa, stiffer than any soft sheet; it is in pascals"
-        )
+    density = material.density
+    for key in ("young",) if material.kind == "isotropic" else ("young_1", "young_2"):
+        young = getattr(material, key)
+        if young < SOFTEST:
+            warnings.append(
+                f"{key} = {young:g} Pa is softer than any solid sheet; "
+                f'it is in pascals: {young:g} MPa is written {young:g}e6 or "{young:g} MPa"'
+            )
+        elif young > (STIFFEST if key == "young" else STIFFEST_FIBRE):
+            warnings.append(
+                f"{key} = {young:g} Pa is {young / 1e9:g} GPa, stiffer than any soft sheet; it is in pascals"
+            )
     if density < LIGHTEST:
         warnings.append(
             f"density = {density:g} kg/m³ is lighter than foam; "

@@ -21,7 +21,7 @@ from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreemen
 from sheetbench.scenes.anchors import held_twice
 from sheetbench.scenes.loads import AreaLoad, Load, PointLoad
 from sheetbench.scenes.material import Material
-from sheetbench.scenes.patches import Patch, misplaced
+from sheetbench.scenes.patches import Patch, mismatched, misplaced
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.region import Cutout
@@ -123,6 +123,8 @@ class Scene(Frozen):
             raise ValueError(f"patch {wrong}")
         if self.shaped_by and (wrong := region.misplaced(self)):
             raise ValueError(wrong)
+        if wrong := mismatched(self.patches, self.material):
+            raise ValueError(f"patch {wrong}")
         if self.material.law is not None and self.springs is not None:
             raise ValueError(
                 f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"
@@ -196,15 +198,21 @@ class Scene(Frozen):
         return by_edge
 
     @property
-    def uniform(self) -> bool:
+    def homogeneous(self) -> bool:
         """Whether the sheet is as thick and of the same material all over."""
+        return not (self.patches or self.sheet.taper_x or self.sheet.taper_y)
+
+    @property
+    def uniform(self) -> bool:
+        """Whether it is so, and isotropic."""
         return not self.varied_by
 
     @property
     def varied_by(self) -> str:
         """The words by which it is not, "" where it is."""
+        fibres = ["material.kind = 'orthotropic'"] if self.material.kind == "orthotropic" else []
         tapers = [f"sheet.{name}" for name in ("taper_x", "taper_y") if getattr(self.sheet, name) is not None]
-        return ", ".join([*tapers, *(["patch"] if self.patches else [])])
+        return ", ".join([*fibres, *tapers, *(["patch"] if self.patches else [])])
 
     @property
     def pierced(self) -> bool:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
 from sheetbench.scenes.loads import AreaLoad, EdgeLoad, PointLoad, Pressure
 from sheetbench.scenes.material import CONSTANTS, Material
+from sheetbench.scenes.orthotropy import Ply
 from sheetbench.scenes.patches import Patch, mass_of
 from sheetbench.scenes.quantities import PlanPoint
 from sheetbench.scenes.region import area_in, edge_length
@@ -38,7 +39,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         ),
         (
             "material",
-            f"E = {_pascals(material.young)}, ν = {material.poisson:g}, ρ = {material.density:g} kg/m³"
+            f"{_elasticity(material)}, ρ = {material.density:g} kg/m³"
             + (
                 f" at small strains, rubber by the law {material.law}{_constants(material)}"
                 if material.law
@@ -89,6 +90,18 @@ def _tapers(sheet: Sheet) -> str:
     )
 
 
+def _elasticity(material: Material) -> str:
+    """E and ν, or those of fibres."""
+    if material.kind == "isotropic":
+        return f"E = {_pascals(material.young)}, ν = {material.poisson:g}"
+    ply = Ply.of(material)
+    moduli = ", ".join(
+        f"{name} = {_pascals(value)}"
+        for name, value in (("E₁", ply.young_1), ("E₂", ply.young_2), ("G₁₂", ply.shear_12))
+    )
+    return f"fibres at {degrees(ply.angle):.4g}° from x, {moduli}, ν₁₂ = {ply.poisson_12:g}"
+
+
 def _patch(patch: Patch) -> str:
     """Where it is, and what is its own."""
     words = {
@@ -96,6 +109,7 @@ def _patch(patch: Patch) -> str:
         "young": lambda value: f"E = {_pascals(value)}",
         "poisson": lambda value: f"ν = {value:g}",
         "density": lambda value: f"ρ = {value:g} kg/m³",
+        "angle": lambda value: f"fibres at {degrees(value):.4g}°",
     }
     return f"{patch.shape.in_words()}: {', '.join(words[name](value) for name, value in patch.own.items())}"
 
@@ -119,8 +133,12 @@ def _relaxation(material: Material) -> str:
 def sheet_in_words(sheet: Sheet, material: Material) -> str:
     """The sheet and its material in a line."""
     sides = " × ".join(f"{1e3 * length:g}" for length in (*sheet.lengths, sheet.thickness))
-    young = f"{material.young / 1e6:g} MPa" + (" (long-time)" if material.branches.times else "")
-    return f"{sides} mm, E = {young}, ν = {material.poisson:g}, ρ = {material.density:g} kg/m³"
+    if material.kind == "isotropic":
+        young = f"{material.young / 1e6:g} MPa" + (" (long-time)" if material.branches.times else "")
+        elasticity = f"E = {young}, ν = {material.poisson:g}"
+    else:
+        elasticity = _elasticity(material)
+    return f"{sides} mm, {elasticity}, ρ = {material.density:g} kg/m³"
 
 
 def _weight(scene: Scene, mass: float) -> str:

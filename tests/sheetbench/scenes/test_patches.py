@@ -58,7 +58,7 @@ def test_tapers_multiply():
             {"shape": {"rectangle": {"x": (0.3, 0.4), "y": (0.0, 0.1)}}, "young": 1e6},
             "patch 1.shape: .*no part of it is on",
         ),
-        ({"shape": DISC}, "needs one of thickness, young, poisson, density"),
+        ({"shape": DISC}, "needs one of thickness, young, poisson, density, angle"),
         ({"shape": DISC, "thickness": 0.2}, r"patch 1.thickness = 0.2 m is more than"),
         ({"shape": {**ROOT, **DISC}, "young": 1e6}, "rectangle and circle: give one of"),
         ({"shape": {"rectangle": {"x": (0.05, 0.0), "y": (0.0, 0.1)}}, "young": 1e6}, r"x = \[0.05, 0\]"),

@@ -1,0 +1,92 @@
+"""Stiffness of sheets with fibres: orthotropic plies at angles, one or several through the thickness.
+
+In a ply's own axes, plane stress (`sheetbench.scenes.orthotropy`), with ν₂₁ = ν₁₂ E₂/E₁:
+
+    Q = 1/(1 − ν₁₂ ν₂₁) [[E₁, ν₁₂ E₂, 0], [ν₁₂ E₂, E₂, 0], [0, 0, (1 − ν₁₂ ν₂₁) G₁₂]],    C = Tᵀ Q T,
+
+T(θ) what makes strains [11, 22, 2·12] of [xx, yy, 2xy]. Of plies from z₀ to z₁ (classical lamination theory)
+
+    A = Σ C (z₁ − z₀),    D = Σ C (z₁³ − z₀³)/3,
+
+and the transverse shear has the energy of the stresses that balance those of cylindrical bending along x
+and along y, τ_xz = g_x Q_x with g_x = −∫ C₁₁ z dz/D₁₁ from the lower face up, g_y likewise:
+
+    S⁻¹ = ∫ diag(g) G⁻¹ diag(g) dz,
+
+which is 5/6 h G of a single ply.
+Sources: Jones, Mechanics of Composite Materials (1999), 2.6 and 4.2; Whitney, J. Appl. Mech. 40 (1973) 302.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from sheetbench.scenes.orthotropy import Ply
+
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)  # exact for g², of the fourth power
+
+
+def plane_stress(ply: Ply) -> np.ndarray:
+    """C (…, 3, 3) [Pa]: stress [xx, yy, xy] of strain [xx, yy, 2xy]."""
+    e1, e2, nu, g, angle = np.broadcast_arrays(
+        *map(np.float64, (ply.young_1, ply.young_2, ply.poisson_12, ply.shear_12, ply.angle))
+    )
+    own = np.zeros((*e1.shape, 3, 3))
+    left = 1.0 - nu**2 * e2 / e1
+    own[..., 0, 0], own[..., 1, 1], own[..., 2, 2] = e1 / left, e2 / left, g
+    own[..., 0, 1] = own[..., 1, 0] = nu * e2 / left
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
+    turn = np.moveaxis(turn, (0, 1), (-2, -1))
+    return np.asarray(turn.swapaxes(-1, -2) @ own @ turn)
+
+
+def shear_moduli(ply: Ply) -> np.ndarray:
+    """G (…, 2, 2) [Pa]: stress [xz, yz] of strain [2xz, 2yz]."""
+    g13, g23, angle = np.broadcast_arrays(*map(np.float64, (ply.shear_13, ply.shear_23, ply.angle)))
+    c, s = np.cos(angle), np.sin(angle)
+    mixed = (g13 - g23) * c * s
+    rows = np.array([[g13 * c * c + g23 * s * s, mixed], [mixed, g13 * s * s + g23 * c * c]])
+    return np.moveaxis(rows, (0, 1), (-2, -1))
+
+
+def section(plies: Sequence[Ply], thickness: float | np.ndarray) -> tuple[np.ndarray, ...]:
+    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m] and S (…, 2, 2) [N/m] of plies, of a sheet (…) [m] thick."""
+    moduli = [plane_stress(ply) for ply in plies]
+    stretching = sum(c * (ply.high - ply.low) for c, ply in zip(moduli, plies, strict=True))
+    bending = sum(c * (ply.high**3 - ply.low**3) / 3.0 for c, ply in zip(moduli, plies, strict=True))
+    bent = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
+    compliance = np.zeros((*bent.shape, 2))
+    carried = np.zeros_like(bent)  # g at the ply's lower face
+    for c, ply in zip(moduli, plies, strict=True):
+        own = np.diagonal(c, axis1=-2, axis2=-1)[..., :2]
+        soft, half = np.linalg.inv(shear_moduli(ply)), 0.5 * (ply.high - ply.low)
+        for point, weight in zip(_POINTS, _WEIGHTS, strict=True):
+            at = ply.low + half * (1.0 + point)
+            g = carried - own * (at**2 - ply.low**2) / (2.0 * bent)
+            compliance = compliance + weight * half * g[..., :, None] * soft * g[..., None, :]
+        carried = carried - own * (ply.high**2 - ply.low**2) / (2.0 * bent)
+    h = np.asarray(thickness)[..., None, None]
+    return h * stretching, h**3 * bending, h * np.linalg.inv(compliance)
+
+
+def in_space(ply: Ply) -> np.ndarray:
+    """Stiffness (…, 6, 6) [Pa]: stress [xx, yy, zz, xy, yz, xz] of strain [xx, yy, zz, 2xy, 2yz, 2xz]."""
+    e1, e2, e3, n12, n13, n23, g12, g13, g23, angle = np.broadcast_arrays(*map(np.float64, ply[2:-1]))
+    soft = np.zeros((*e1.shape, 6, 6))
+    for place, modulus in enumerate((e1, e2, e3, g12, g23, g13)):
+        soft[..., place, place] = 1.0 / modulus
+    for (a, b), mixed in (((0, 1), n12 / e1), ((0, 2), n13 / e1), ((1, 2), n23 / e2)):
+        soft[..., a, b] = soft[..., b, a] = -mixed
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.zeros_like(soft)  # strains in the ply's axes of those in x, y, z
+    turn[..., 0, 0] = turn[..., 1, 1] = c * c
+    turn[..., 0, 1] = turn[..., 1, 0] = s * s
+    turn[..., 0, 3], turn[..., 1, 3] = c * s, -c * s
+    turn[..., 3, 0], turn[..., 3, 1], turn[..., 3, 3] = -2.0 * c * s, 2.0 * c * s, c * c - s * s
+    turn[..., 2, 2] = 1.0
+    turn[..., 4, 4] = turn[..., 5, 5] = c
+    turn[..., 4, 5], turn[..., 5, 4] = -s, s
+    return np.asarray(turn.swapaxes(-1, -2) @ np.linalg.inv(soft) @ turn)

@@ -1,0 +1,74 @@
+"""Stiffness of sheets with fibres: orthotropic plies, by the invariants of their stiffness under rotation.
+
+With Q of a ply in its own axes and t its angle (Tsai and Pagano)
+
+    U₁ = (3 Q₁₁ + 3 Q₂₂ + 2 Q₁₂ + 4 Q₆₆)/8      C₁₁ = U₁ + U₂ cos 2t + U₃ cos 4t
+    U₂ = (Q₁₁ − Q₂₂)/2                          C₂₂ = U₁ − U₂ cos 2t + U₃ cos 4t
+    U₃ = (Q₁₁ + Q₂₂ − 2 Q₁₂ − 4 Q₆₆)/8          C₁₂ = U₄ − U₃ cos 4t
+    U₄ = (Q₁₁ + Q₂₂ + 6 Q₁₂ − 4 Q₆₆)/8          C₁₆ = ½ U₂ sin 2t + U₃ sin 4t
+    U₅ = (U₁ − U₄)/2                            C₂₆ = ½ U₂ sin 2t − U₃ sin 4t,   C₆₆ = U₅ − U₃ cos 4t.
+
+Plies from z₀ to z₁ have A = Σ C (z₁ − z₀), D = Σ C (z₁³ − z₀³)/3. Transverse forces Q_x, Q_y have the
+stresses of cylindrical bending, in each ply (a − b z²) Q with b = C₁₁/2D₁₁, of which their shear compliance
+is made; of one ply S = κ G h, κ = 5/6. What couples shear along x with that along y a lattice does not have.
+Source: Jones, Mechanics of Composite Materials (1999), 2.7, 4.2; Whitney, J. Appl. Mech. 40 (1973) 302.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from sheetbench.scenes.orthotropy import Ply
+
+Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+
+def in_plane(ply: Ply) -> np.ndarray:
+    """C (…, 3, 3) [Pa] of a ply over (x, y, xy)."""
+    q11 = np.asarray(ply.young_1**2 / (ply.young_1 - ply.poisson_12**2 * ply.young_2))
+    q22 = q11 * ply.young_2 / ply.young_1
+    q12, q66, both = ply.poisson_12 * q22, ply.shear_12, q11 + q22
+    u1, u4 = (3.0 * both + 2.0 * q12 + 4.0 * q66) / 8.0, (both + 6.0 * q12 - 4.0 * q66) / 8.0
+    u2, u3 = 0.5 * (q11 - q22), (both - 2.0 * q12 - 4.0 * q66) / 8.0
+    once, twice = u2 * np.cos(2.0 * ply.angle), u3 * np.cos(4.0 * ply.angle)
+    half, skew = 0.5 * u2 * np.sin(2.0 * ply.angle), u3 * np.sin(4.0 * ply.angle)
+    c11, c22, c12, c66 = u1 + once + twice, u1 - once + twice, u4 - twice, 0.5 * (u1 - u4) - twice
+    return _matrix(((c11, c12, half + skew), (c12, c22, half - skew), (half + skew, half - skew, c66)))
+
+
+def section(plies: Sequence[Ply], thickness: np.ndarray) -> Parts:
+    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m] and S along x and y (…, 2) [N/m] of plies."""
+    moduli = [in_plane(ply) for ply in plies]
+    layers = list(zip(moduli, plies, strict=True))
+    stretching = sum(c * (ply.high - ply.low) for c, ply in layers)
+    bending = np.sum([c * (ply.high**3 - ply.low**3) / 3.0 for c, ply in layers], axis=0)
+    compliance, below = np.zeros((2, 2)), np.zeros(2)
+    for c, ply in layers:
+        b = np.stack([c[..., n, n] / (2.0 * bending[..., n, n]) for n in range(2)], axis=-1)
+        a = below + b * ply.low**2
+        one, three, five = ((ply.high**n - ply.low**n) / n for n in (1, 3, 5))
+        mixed = a[..., :, None] * b[..., None, :]
+        squares = one * a[..., :, None] * a[..., None, :] + five * b[..., :, None] * b[..., None, :]
+        squares = squares - three * (mixed + mixed.swapaxes(-1, -2))
+        compliance = compliance + squares * _shear_compliance(ply)
+        below = a - b * ply.high**2
+    h = np.asarray(thickness)[..., None]
+    shear = h * np.diagonal(np.linalg.inv(compliance), axis1=-2, axis2=-1)
+    return h[..., None] * stretching, h[..., None] ** 3 * bending, shear
+
+
+def _shear_compliance(ply: Ply) -> np.ndarray:
+    """Of transverse shear along x and y (…, 2, 2) [1/Pa]."""
+    mean, apart = (
+        0.5 * (1.0 / ply.shear_13 + 1.0 / ply.shear_23),
+        0.5 * (1.0 / ply.shear_13 - 1.0 / ply.shear_23),
+    )
+    once, mixed = apart * np.cos(2.0 * ply.angle), apart * np.sin(2.0 * ply.angle)
+    return _matrix(((mean + once, mixed), (mixed, mean - once)))
+
+
+def _matrix(rows: Sequence[Sequence[np.ndarray]]) -> np.ndarray:
+    """(…, k, k) of entries (…)."""
+    return np.stack([np.stack(np.broadcast_arrays(*row), axis=-1) for row in rows], axis=-2)

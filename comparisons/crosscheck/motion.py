@@ -17,7 +17,7 @@ from comparisons.runs.store import Store
 from comparisons.tradeoff.motion import SAMPLES, shortest_period
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput, NoEquilibrium
-from sheetbench.scenes import Scene
+from sheetbench.scenes import History, Scene, Status
 from sheetbench.scenes.quantities import require_positive
 
 
@@ -61,15 +61,20 @@ def crosscheck_motion(
     coarser = models[REFERENCE][-2]
     runs = [motion_run(scene, spec, duration, every) for spec in (*asked.values(), coarser)]
     *found, rough = carry_out(runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
-    histories = {}
+    histories: dict[str, History] = {}
+    failed: list[str] = []
     for name, outcome in zip(asked, found, strict=True):
         if (history := history_of(outcome)) is not None:
             histories[name] = history
         else:
-            left_out.append(f"{name} is left out: {outcome.message}")
+            (left_out if outcome.status == Status.REFUSED else failed).append(
+                f"{name} is left out: {outcome.message}"
+            )
     if REFERENCE not in histories or len(histories) < 2:
-        raise NoEquilibrium("; ".join(left_out))
+        raise NoEquilibrium("; ".join([*left_out, *failed]))
     other = history_of(rough)
     mesh = None if other is None else largest(other, histories[REFERENCE])
     versions = {one.code.name: one.version for one in codes if one.version and one.code.name in histories}
-    return MotionComparison(scene, histories, {"finer": mesh}, codes=versions, left_out=tuple(left_out))
+    return MotionComparison(
+        scene, histories, {"finer": mesh}, codes=versions, left_out=tuple(left_out), failed=tuple(failed)
+    )

@@ -23,9 +23,9 @@ from sheetbench.scenes.measured_history import COMPONENTS
 @dataclass(frozen=True, repr=False)
 class MotionComparison(Answer):
     """Histories by model, the lattice's first, the reference's last; codes: of which program's version some
-    are; left_out: why models have none, a sentence each; uncertainty: how far the reference may
-    be off by its mesh and by its steps, as `largest` and `rms` are measured; None where it was not asked;
-    animate: draw the sheets moving, side by side."""
+    are; left_out, failed: why models were refused, or did not reach their end, a sentence each; uncertainty:
+    how far the reference may be off by its mesh and by its steps, as `largest` and `rms` are measured; None
+    where it was not asked; animate: draw the sheets moving, side by side."""
 
     file_name = "motion"
     scene: Scene
@@ -34,6 +34,7 @@ class MotionComparison(Answer):
     animate: bool = False
     codes: dict[str, str] = field(default_factory=dict)
     left_out: tuple[str, ...] = ()
+    failed: tuple[str, ...] = ()
 
     @property
     def reference(self) -> str:
@@ -43,7 +44,8 @@ class MotionComparison(Answer):
     @property
     def converged(self) -> bool:
         """Whether all runs reached their end."""
-        return all(history.status is Status.CONVERGED for history in self.histories.values())
+        ends = (history.status is Status.CONVERGED for history in self.histories.values())
+        return not self.failed and all(ends)
 
     @property
     def differences(self) -> list[dict[str, Any]]:
@@ -59,6 +61,7 @@ class MotionComparison(Answer):
         truth = self.histories[self.reference]
         return {
             "scene": self.scene.document(),
+            "failed": self.failed,
             "motion": {
                 "time": truth.time,
                 "probes": {name: history.probes for name, history in self.histories.items()},
@@ -106,7 +109,8 @@ class MotionComparison(Answer):
         return [*_bars(self), *versions, *self.left_out, *own]
 
     def complaints(self) -> list[str]:
-        return [f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints()]
+        ends = (f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints())
+        return [*self.failed, *ends]
 
     def files(self) -> dict[str, Write]:
         """Samples of every model, and where frames were kept sheets at some moments."""

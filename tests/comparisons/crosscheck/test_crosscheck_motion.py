@@ -60,14 +60,20 @@ def test_what_is_asked_of_a_motion_is_one_scene_and_a_shell(capsys: pytest.Captu
     assert "--shell: with --duration" in one_line(capsys)
 
 
-def test_without_a_motion_beside_the_shell_it_says_why_and_is_three(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize(
+    ("grids", "said"),
+    [
+        ("", "no motion to compare: calculix is left out"),
+        ("3,4", "calculix is left out: CalculiX: left with exit status 201"),
+    ],
+)
+def test_a_code_that_does_not_reach_the_end_is_said_and_is_three(
+    grids: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "ccx"
     file.write_text("#!/bin/sh\necho This is Version 2.20\nexit 201\n", encoding="utf-8")
     file.chmod(0o755)
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
-    none = ("--lumped", "", "--plate", "", "--solid", "", "--shell", "1,2", "--meshes", "1,2")
-    asked = ("--duration", "0.004", *none, "--judges", "calculix", "--workers", "1")
+    asked = (*SMALL, "--lumped", grids, "--duration", "0.004", "--judges", "calculix", "--meshes", "1,2")
     assert run("crosscheck", "one-edge-clamped", *asked) == 3
-    assert "no motion to compare: calculix is left out" in capsys.readouterr().err
+    assert said in capsys.readouterr().err

@@ -1,9 +1,8 @@
 """Springs fitted to data, by way of the lattice's own answers, and the door to every calibration."""
 
-from lumped.fitting.fits import FittedCalibration
+from lumped.fitting.fits import FittedCalibration, ModalTarget, StaticTarget
 from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.fitting.methods import CALIBRATIONS, calibrate
-from lumped.fitting.targets import ModalTarget, StaticTarget
 
 __all__ = [
     "CALIBRATIONS",

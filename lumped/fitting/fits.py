@@ -26,19 +26,38 @@ from lumped.calibration.calibration import Calibration
 from lumped.calibration.consistent import consistent
 from lumped.calibration.report import report
 from lumped.fitting.identifiability import Identifiability, identifiability
-from lumped.fitting.targets import ModalTarget, StaticTarget, Target
 from lumped.lattice import Grid
 from lumped.sensitivity import sensitivity
 from lumped.spring_constants import EDGES_OWN
 from lumped.vibration import frequency_slopes
 from sheetbench.answers.table import PERCENT, Table
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Sheet
+from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.summary import few
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
 FIXED_CONSTANTS = ("vertical", "layer_distance", "stretch", *EDGES_OWN)
+
+
+@dataclass(frozen=True)
+class StaticTarget:
+    """A scene and the mid-surface displacement (n, 3) [m] wanted at plan points (n, 2) [m]."""
+
+    scene: Scene
+    points: np.ndarray
+    displacement: np.ndarray
+
+
+@dataclass(frozen=True)
+class ModalTarget:
+    """A scene and the lowest natural frequencies (n,) [Hz] wanted of it."""
+
+    scene: Scene
+    frequencies: np.ndarray
+
+
+Target = StaticTarget | ModalTarget
 
 
 @dataclass(frozen=True)

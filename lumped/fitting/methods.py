@@ -7,8 +7,7 @@ from typing import Any
 
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.methods import MAKERS, described
-from lumped.fitting.fits import fit_modal, fit_static
-from lumped.fitting.targets import Target
+from lumped.fitting.fits import Target, fit_modal, fit_static
 from lumped.sections import Section
 from sheetbench import choices
 from sheetbench.errors import BadInput

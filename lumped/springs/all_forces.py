@@ -11,26 +11,10 @@ import numpy as np
 from numba import njit
 
 from lumped.springs import packing as kinds
+from lumped.springs import tiles
 from lumped.springs.cell_laws import AreaAndStrains
 from lumped.springs.packing import Packing, Scratch
-from lumped.springs.tiles import (
-    HALF,
-    LANES,
-    NUMBA_FALSE,
-    NUMBA_TRUE,
-    OPTIONS,
-    R6,
-    R11,
-    gather_sides,
-    pull_ends,
-    push_corner,
-    push_warp,
-    resist_cells,
-    resist_links,
-    stretch_cells,
-    stretch_directional,
-    stretch_links,
-)
+from lumped.springs.tiles import HALF, LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R11
 
 DIRECTIONAL, CELLS, FACES = np.uint64(kinds.DIRECTIONAL), np.uint64(kinds.CELLS), np.uint64(kinds.FACES)
 UINT_ONE = np.uint64(1)
@@ -117,37 +101,37 @@ def _pass(
             if kind == DIRECTIONAL:
                 if not elastic:
                     continue
-                stretch_directional(u, rest, t, a, b, size, blocks, tile, at)
+                tiles.stretch_directional(u, rest, t, a, b, size, blocks, tile, at)
             elif fresh:
-                energy += stretch_links(u, share, rest, t, a, b, size, blocks, tile, at)
+                energy += tiles.stretch_links(u, share, rest, t, a, b, size, blocks, tile, at)
             else:
                 tile[: blocks * LANES] = 0.0
             if damped and kind != DIRECTIONAL:
-                power += resist_links(v, rest, t, a, b, size, blocks, tile, at)
-            pull_ends(-1.0, a, size, blocks, tile, at, force)
-            pull_ends(1.0, b, size, blocks, tile, at, force)
+                power += tiles.resist_links(v, rest, t, a, b, size, blocks, tile, at)
+            tiles.pull_ends(-1.0, a, size, blocks, tile, at, force)
+            tiles.pull_ends(1.0, b, size, blocks, tile, at, force)
             continue
         c, d = run[5], run[6]
         if fresh:
-            gather_sides(u, a, b, c, d, size, blocks, tile)
+            tiles.gather_sides(u, a, b, c, d, size, blocks, tile)
             if kind == CELLS:
-                energy += stretch_cells(
+                energy += tiles.stretch_cells(
                     AreaAndStrains(rest), u, (a, b, c, d), size, share, t, blocks, tile, at
                 )
             elif kind == FACES:
-                energy += stretch_cells(packing.face, u, (a, b, c, d), size, share, t, blocks, tile, at)
+                energy += tiles.stretch_cells(packing.face, u, (a, b, c, d), size, share, t, blocks, tile, at)
             else:
-                energy += stretch_cells(packing.law, u, (a, b, c, d), size, share, t, blocks, tile, at)
-                push_warp(packing.law, (a, b, c, d), size, blocks, tile, force)
+                energy += tiles.stretch_cells(packing.law, u, (a, b, c, d), size, share, t, blocks, tile, at)
+                tiles.push_warp(packing.law, (a, b, c, d), size, blocks, tile, force)
         else:
             tile[R6 : R11 + blocks * LANES] = 0.0
         if damped:
-            gather_sides(v, a, b, c, d, size, blocks, tile)
-            power += resist_cells(rest, t, blocks, tile, at)
-        push_corner(-HALF, -HALF, a, size, blocks, tile, force)
-        push_corner(HALF, -HALF, b, size, blocks, tile, force)
-        push_corner(HALF, HALF, c, size, blocks, tile, force)
-        push_corner(-HALF, HALF, d, size, blocks, tile, force)
+            tiles.gather_sides(v, a, b, c, d, size, blocks, tile)
+            power += tiles.resist_cells(rest, t, blocks, tile, at)
+        tiles.push_corner(-HALF, -HALF, a, size, blocks, tile, force)
+        tiles.push_corner(HALF, -HALF, b, size, blocks, tile, force)
+        tiles.push_corner(HALF, HALF, c, size, blocks, tile, force)
+        tiles.push_corner(-HALF, HALF, d, size, blocks, tile, force)
     if packing.mid:
         share_out(packing, force)
     return energy, power

@@ -15,18 +15,8 @@ import numpy as np
 from numba import njit
 from numba.extending import overload
 
-from lumped.springs.laws import (
-    Constants,
-    Four,
-    Six,
-    Three,
-    area_and_strains,
-    mean_area_and_strains,
-    mean_rubber,
-    rubber,
-    stiffness_of_area_and_strains,
-    stiffness_of_rubber,
-)
+from lumped.springs import laws
+from lumped.springs.laws import Constants, Four, Six, Three
 
 
 class AreaAndStrains(NamedTuple):
@@ -142,9 +132,9 @@ def _parts_of_rubber(_stiffness: np.ndarray, others: np.ndarray, area: np.ndarra
 
 AREA_AND_STRAINS = Law(
     AreaAndStrains,
-    area_and_strains,
-    stiffness_of_area_and_strains,
-    mean_area_and_strains,
+    laws.area_and_strains,
+    laws.stiffness_of_area_and_strains,
+    laws.mean_area_and_strains,
     _four,
     3,
     False,
@@ -153,9 +143,9 @@ AREA_AND_STRAINS = Law(
 )
 RUBBER = Law(
     Rubber,
-    rubber,
-    stiffness_of_rubber,
-    mean_rubber,
+    laws.rubber,
+    laws.stiffness_of_rubber,
+    laws.mean_rubber,
     _thirteen,
     4,
     True,

@@ -1,7 +1,7 @@
 """Large lattices from smaller ones: where the corrections of one start is the equilibrium of the lattice of
 half as many cells a side, and so on down, interpolated by cubic splines.
 
-Two factorisations are left for each lattice, one to correct with (`numerics.iterated`) and one of the
+Two factorisations are left for each lattice, one to correct with (`numerics.direct.iterated`) and one of the
 equilibrium's own tangent, which tells its stability. The branch is the smaller lattice's: only from a path
 that neither snapped nor ended early, to a stable equilibrium that there is no doubt about. Anything else, and
 a start from which the corrections fail or that leads to an unstable equilibrium, goes the whole path as small

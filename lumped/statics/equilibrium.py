@@ -22,31 +22,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lumped.statics import limits
 from lumped.statics.faults import broken
-from lumped.statics.limits import (
-    BRANCHING,
-    CAREFUL_REACH,
-    CONTINUOUS,
-    CORRECTIONS,
-    FACTORISATIONS,
-    FARTHEST,
-    FIRST_REACH,
-    GROWTH,
-    IDLE_CORRECTION,
-    LENGTHEN_UP_TO,
-    LONGEST_REFINEMENT,
-    MISS,
-    REFINE_BELOW,
-    REFINEMENTS,
-    RESIDUAL_TOLERANCE,
-    REUSE_FACTORS_WITHIN,
-    SAFE,
-    SHORTEST_REACH,
-    SHORTEST_STEP,
-    STALE_FACTORS_ABOVE,
-)
-from lumped.statics.problem import SOLVED, Advance, Problem, Tangent
-from lumped.statics.residual import Residual
+from lumped.statics.problem import SOLVED, Advance, Problem, Residual, Tangent
 from sheetbench.numerics.reduced import Factor, SingularMatrixError
 
 
@@ -85,16 +63,16 @@ def follow(
     reach: float | None = None,
     step: float | None = None,
     careful: bool = False,
-    limit: int = FACTORISATIONS,
+    limit: int = limits.FACTORISATIONS,
 ) -> tuple[State, str]:
     """The equilibrium at load factor `target` along the path from `start`, or the last one before it, with
     the reason why the path ended ("" when it did not). reach: how far [m] the first load step may go, and by
     what load, unless it starts anew. careful: no load step may leave the branch that it begins on. limit: of
     factorisations in all."""
     state = start
-    reach = reach or (CAREFUL_REACH if careful else FIRST_REACH) * problem.size
+    reach = reach or (limits.CAREFUL_REACH if careful else limits.FIRST_REACH) * problem.size
     step = step or target - start.load_factor
-    shortest = abs(step) * SHORTEST_STEP
+    shortest = abs(step) * limits.SHORTEST_STEP
     while abs(target - state.load_factor) > 1e-12:
         step = np.sign(target - state.load_factor) * min(abs(step), abs(target - state.load_factor))
         predicted = predictor(problem, state, step)
@@ -106,14 +84,14 @@ def follow(
         try:
             before = problem.factorisations
             last = abs(target - state.load_factor - step) < 1e-12
-            tolerance = RESIDUAL_TOLERANCE if last else REFINE_BELOW
+            tolerance = limits.RESIDUAL_TOLERANCE if last else limits.REFINE_BELOW
             found = _correct(problem, state, state.load_factor + step, predicted, tolerance)
             longest = _require_continuous(problem, state, found, predicted) if careful else np.inf
             state = found
         except (StepFailed, SingularMatrixError) as failure:
             step /= 2.0
             reach = min(reach, farthest) / 2.0
-            ends = abs(step) < shortest and reach < SHORTEST_REACH * problem.size
+            ends = abs(step) < shortest and reach < limits.SHORTEST_REACH * problem.size
             if ends or problem.factorisations > limit:
                 return state, str(failure)
             continue
@@ -124,7 +102,7 @@ def follow(
             return state, f"{limit} factorisations were not enough"
         if careful:
             reach = longest
-        elif problem.factorisations - before <= LENGTHEN_UP_TO:
+        elif problem.factorisations - before <= limits.LENGTHEN_UP_TO:
             reach *= 1.5
         step *= 4.0
     return state, ""
@@ -136,14 +114,15 @@ def _require_continuous(problem: Problem, start: State, end: State, predicted: n
     stability by more than a short step."""
     length, side = float(np.abs(predicted).max()), problem.size
     miss = float(np.abs(end.u - start.u - predicted).max())
-    if miss > max(min(CONTINUOUS * length, MISS * side), IDLE_CORRECTION * side):
+    if miss > max(min(limits.CONTINUOUS * length, limits.MISS * side), limits.IDLE_CORRECTION * side):
         raise StepFailed("the path folds")
-    if (end.negative or 0) > (start.negative or 0) and length > BRANCHING * side:
+    if (end.negative or 0) > (start.negative or 0) and length > limits.BRANCHING * side:
         raise StepFailed("the path loses stability")
     if miss == 0.0:
-        return GROWTH * length
+        return limits.GROWTH * length
     square = length**2 / miss  # a miss grows with the square of the step
-    return float(min(GROWTH * length, SAFE * CONTINUOUS * square, (SAFE * MISS * side * square) ** 0.5))
+    reached = limits.SAFE * limits.CONTINUOUS * square, (limits.SAFE * limits.MISS * side * square) ** 0.5
+    return float(min(limits.GROWTH * length, *reached))
 
 
 def predictor(problem: Problem, state: State, step: float) -> np.ndarray:
@@ -164,7 +143,7 @@ def _correct(
 
 
 def newton_at_load(
-    problem: Problem, began: Advance, load_factor: float, tolerance: float = RESIDUAL_TOLERANCE
+    problem: Problem, began: Advance, load_factor: float, tolerance: float = limits.RESIDUAL_TOLERANCE
 ) -> State:
     """Equilibrium at a load factor from where a step has led, with the stresses predicted there. Raises
     StepFailed, SingularMatrixError."""
@@ -172,13 +151,13 @@ def newton_at_load(
     lengths = [length]
     near: Factor | None = None
     made: Tangent | None = None
-    for _ in range(CORRECTIONS):
+    for _ in range(limits.CORRECTIONS):
         problem.note(load_factor, residual.relative, lengths[-1])
         if not np.isfinite(residual.relative):
             raise StepFailed("a number overflowed")
-        if residual.relative < REFINE_BELOW or all_rounding(problem, u, residual, lengths[-1]):
+        if residual.relative < limits.REFINE_BELOW or all_rounding(problem, u, residual, lengths[-1]):
             near = None  # its memory is needed
-            close = made if lengths[-1] <= REUSE_FACTORS_WITHIN * problem.size else None
+            close = made if lengths[-1] <= limits.REUSE_FACTORS_WITHIN * problem.size else None
             return refine(problem, u, load_factor, tolerance, close, residual)
         done = None if near is None else problem.solve_near(u, load_factor, residual, stresses, near)
         if done is None:
@@ -189,16 +168,17 @@ def newton_at_load(
                 near, made = made.factor, None
         u, length, residual, stresses = done
         lengths.append(length)
-        if length > FARTHEST * problem.size or (len(lengths) > 4 and lengths[-1] > lengths[-2] > lengths[-3]):
+        growing = len(lengths) > 4 and lengths[-1] > lengths[-2] > lengths[-3]
+        if growing or length > limits.FARTHEST * problem.size:
             raise StepFailed("the corrections grow")
-    raise StepFailed(f"no equilibrium in {CORRECTIONS} corrections")
+    raise StepFailed(f"no equilibrium in {limits.CORRECTIONS} corrections")
 
 
 def refine(
     problem: Problem,
     u: np.ndarray,
     load_factor: float,
-    tolerance: float = RESIDUAL_TOLERANCE,
+    tolerance: float = limits.RESIDUAL_TOLERANCE,
     near: Tangent | None = None,
     residual: Residual | None = None,
 ) -> State:
@@ -210,12 +190,13 @@ def refine(
     """
     left = problem.residual(u, load_factor) if residual is None else residual
     aim = max(tolerance, rounding_floor(problem, u, left))
-    for fresh in range(REFINEMENTS + 1):
+    for fresh in range(limits.REFINEMENTS + 1):
         if fresh:
             near = None  # its memory is needed
             near = problem.linearise(u, load_factor)
             done = problem.correct(near.factor, u, load_factor, left)
-            if not np.isfinite(done.residual.relative) or done.length > LONGEST_REFINEMENT * problem.size:
+            far = done.length > limits.LONGEST_REFINEMENT * problem.size
+            if far or not np.isfinite(done.residual.relative):
                 raise StepFailed("the polishing step is not small")
             if done.residual.relative < left.relative:
                 u, left = done.u, done.residual
@@ -224,7 +205,7 @@ def refine(
             continue
         while not left.relative < aim:
             done = problem.correct(near.factor, u, load_factor, left)
-            if not done.residual.relative < STALE_FACTORS_ABOVE * left.relative:
+            if not done.residual.relative < limits.STALE_FACTORS_ABOVE * left.relative:
                 break
             u, left = done.u, done.residual
             problem.note(load_factor, left.relative, done.length)
@@ -239,7 +220,7 @@ def all_rounding(problem: Problem, u: np.ndarray, residual: Residual, correction
     Where nothing strains the sheet, as on a turned clamp alone, the forces are all rounding, and no residual
     is small beside them.
     """
-    if problem.assembly.precision == "double" and correction > IDLE_CORRECTION * problem.size:
+    if problem.assembly.precision == "double" and correction > limits.IDLE_CORRECTION * problem.size:
         return False
     return residual.relative < rounding_floor(problem, u, residual)
 

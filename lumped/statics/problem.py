@@ -10,17 +10,17 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
+from numba import njit
 
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
 from lumped.loads import Loads
 from lumped.springs.all_families import Stresses
 from lumped.statics.faults import Fault
-from lumped.statics.residual import Residual, size_of, unbalanced_force
 from lumped.supports import Constraints
-from sheetbench.numerics.iterated import iterated
-from sheetbench.numerics.maps import product, transposed_product
-from sheetbench.numerics.reduced import Factor, ReducedSystem
+from sheetbench.numerics.direct import Factor, iterated
+from sheetbench.numerics.maps import Rows, product, transposed_product
+from sheetbench.numerics.reduced import ReducedSystem
 from sheetbench.scenes import Iteration
 
 Progress = Callable[[Iteration], None]
@@ -33,6 +33,21 @@ class Tangent(NamedTuple):
 
     blocks: np.ndarray
     factor: Factor
+
+
+class Residual(NamedTuple):
+    """What the equilibrium equation leaves: the unbalanced force (n, 3) [N], the part of it on the free
+    unknowns (m,) and that one's norm [N]; scale: the norm [N] of the external forces plus the supports'."""
+
+    force: np.ndarray
+    reduced: np.ndarray
+    norm: float
+    scale: float
+
+    @property
+    def relative(self) -> float:
+        """The norm over the scale of the forces."""
+        return self.norm / self.scale if self.scale > 0.0 else self.norm
 
 
 class Advance(NamedTuple):
@@ -226,3 +241,31 @@ class Problem:
         self.history.append(line)
         if self.progress:
             self.progress(line)
+
+
+@njit(cache=True, nogil=True)
+def unbalanced_force(
+    internal: np.ndarray, external: np.ndarray, held: np.ndarray, free: Rows, n: int
+) -> tuple[np.ndarray, np.ndarray, float, float]:
+    """Return external less internal force r (k, 3) [N], Tᵀ r (n,), its norm and the forces' `size_of`."""
+    out = np.empty_like(internal)
+    for i in range(len(out)):
+        for q in range(3):
+            out[i, q] = external[i, q] - internal[i, q]
+    reduced = transposed_product(free, out.ravel(), n)
+    total = 0.0
+    for value in reduced:
+        total += value * value
+    return out, reduced, np.sqrt(total), size_of(internal, external, held)
+
+
+@njit(cache=True, nogil=True)
+def size_of(internal: np.ndarray, external: np.ndarray, held: np.ndarray) -> float:
+    """Return the norm of the external forces plus that of the supports' [N]; held: (k, 3) bool."""
+    loads = supports = 0.0
+    for i in range(len(internal)):
+        for q in range(3):
+            loads += external[i, q] ** 2
+            if held[i, q]:
+                supports += internal[i, q] ** 2
+    return np.sqrt(loads) + np.sqrt(supports)

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import LinearOperator, onenormest, splu
+from scipy.sparse.linalg import LinearOperator, cg, onenormest, splu
 
 from sheetbench.numerics import pardiso
 from sheetbench.numerics.banded import BACKWARD_ERROR
@@ -37,6 +37,8 @@ Solve = Callable[[np.ndarray], np.ndarray]
 CHOLESKY = (
     1e-14  # backward error of a positive definite matrix's factors, which need no pivots (Higham 2002, 10.1)
 )
+ITERATION_ACCURACY = 1e-4  # residual over the right-hand side: Newton's corrections gain few digits more
+ITERATIONS = 20  # each costs a solution with the factors
 LARGE = 20_000  # unknowns from which PARDISO is quicker than the fronts
 
 
@@ -220,6 +222,17 @@ def solve_free(matrix: sp.csr_matrix, force: np.ndarray, u: np.ndarray, free: np
     out[free] = 0.0
     out[free] = DirectSolver().factor(matrix[free][:, free]).solve((force - matrix @ out)[free])
     return out
+
+
+def iterated(matrix: sp.csc_array, near: Factor, b: np.ndarray) -> np.ndarray | None:
+    """x with A x = b to ITERATION_ACCURACY by conjugate gradients with the factors of a matrix close by
+    (Hestenes and Stiefel 1952); None where the factors are those of an indefinite matrix or too far off."""
+    if near.negative != 0:
+        return None
+    n = len(b)
+    preconditioner = LinearOperator((n, n), matvec=near.solve_unrefined, dtype=float)
+    x, failed = cg(matrix, b, rtol=ITERATION_ACCURACY, maxiter=ITERATIONS, M=preconditioner)
+    return None if failed or not np.isfinite(x).all() else x
 
 
 def _largest(matrix: Matrix) -> float:

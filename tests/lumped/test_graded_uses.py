@@ -9,7 +9,7 @@ import pytest
 
 import lumped
 from comparisons.report.vtk import write_solution
-from lumped.fitting.targets import StaticTarget
+from lumped.fitting.fits import StaticTarget
 from lumped.grid_lines import grid_lines
 from sheetbench.scenes import History, Scene, Status, load
 

@@ -1,12 +1,13 @@
 """Grading of a lattice, finer cells at the edges: as given, or by the scene's boundary layers.
 
-`auto` looks at the widths of the layers that form at the edges (`comparisons.models.layers`), before anything
-is solved, and grades the grid where the narrowest is less than NARROW of the shorter side and less than
-RESOLVED cells wide. On the transfer study's scenes that tells those that grading mends (curved edges, soft
-and thin sheets, pressure) from those whose smooth interior it would make coarser; on scenes that were drawn
-after the rule was made, of eight that it grades by GRADED seven are nearer and one is not, by ½ two are much
-farther off (docs/theory.md). Where one clamped edge is all that holds the sheet it grades towards that edge
-alone, by ONE_SIDED.
+`auto` looks at the widths of the layers that form at the edges (`comparisons.models.layers`), before
+anything is solved, and grades the grid where the narrowest is less than NARROW of the shorter side (of a
+sheet that one clamped edge alone holds: of the length that it juts out) and less than RESOLVED cells
+wide. On the transfer study's scenes that tells those that grading mends (curved edges, soft and thin
+sheets, pressure) from those whose smooth interior it would make coarser; on scenes that were drawn after
+the rule was made, of eight that it grades by GRADED seven are nearer and one is not, by ½ two are much
+farther off (docs/theory.md). Where one clamped edge is all that holds the sheet it grades towards that
+edge alone, by ONE_SIDED.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from comparisons.models.layers import layers
 from comparisons.models.spec import GradingLike, Lattice, LatticePair
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Clamped, Scene
+from sheetbench.scenes import EDGES, Clamped, Scene
 from sheetbench.scenes.grading import Graded, Grading, of_settings, towards
 from sheetbench.scenes.grid import LAYERS
 from sheetbench.scenes.summary import few
@@ -91,16 +92,16 @@ def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[Graded, str]:
     if not found:
         return 0.0, "nothing bends the sheet, so that it has no layers at its edges"
     layer = min(found)
-    width = layer.width
-    side = min(scene.sheet.lengths)
+    width, held = layer.width, scene.supports
+    one_sided = not (layer.bent_edge or scene.actuators) and len(held) == 1 and isinstance(held[0], Clamped)
+    side = scene.sheet.lengths[EDGES[held[0].edge].normal_axis] if one_sided else min(scene.sheet.lengths)
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
     cells = f"{few(width / cell)} cells of {1e3 * cell:.3g} mm where all are alike"
     if width >= NARROW * side:
         return 0.0, f"{layer}, no narrow layer on a side of {1e3 * side:.3g} mm"
     if cell * RESOLVED < width:
         return 0.0, f"{layer}, {cells}"
-    held = scene.supports
-    if layer.bent_edge or scene.actuators or len(held) != 1 or not isinstance(held[0], Clamped):
+    if not one_sided:
         return GRADED, f"{layer}, {cells}"
     edge = held[0].edge
     return towards(ONE_SIDED, [edge]), f"{layer}, {cells}; {edge} alone holds the sheet"

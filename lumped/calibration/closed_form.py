@@ -31,7 +31,12 @@ shear as before with less in each: the sides carry a third (`gradients`) from
 
     lz² = [L (C11 − C12 + (1 − r²) f C66) + (L − 1)(G11 − P r²)] lz²/E_x
 
-on, and its like along y; the mid-surface has the rest.
+on, and its like along y; the mid-surface has the rest. A long cell (l ≫ h) bent by θ is too soft by
+
+    θ²/12 − w θ²/8 + (1 − w)² θ²/(k + 40 w/3),    w = S* lz²/8D,    k = kz lz²/D,
+
+a chord for an arc, the diagonals that shorten as it bends, and the columns that shorten (docs/theory.md, 3);
+k = 8 costs more than the chord, so these sheets, which may bend far, have columns FIRMER: k = 32.
 
 The diagonals' share d is free too. Against a wave of wave number q at the angle θ to the grid the stiffness
 of square cells is too small by (q l)² sin² 2θ/48 times
@@ -50,6 +55,8 @@ import numpy as np
 from lumped.calibration.calibration import by_direction
 from lumped.moduli import Moduli, shear_gaps
 from sheetbench.scenes import SpringSet
+
+FIRMER = 4.0  # columns of a lattice with `gradients`, at no cost to the explicit step of cells of 5 h or more
 
 
 def closed_form(
@@ -72,12 +79,13 @@ def closed_form(
     gap = asked.shear * np.array([lx**2, ly**2]) / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
     ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
     bracket = 5.0 + 3.0 * asked.bending[0, 1] / asked.bending[0, 0]
+    upright = (FIRMER if gradients else 1.0) * vertical(asked, spacing, 1.0)  # kz lz² [N·m]
     share = diagonals_for_waves(asked, lx * ly, bracket) if waves else 1.0 / 3.0
     p = share * float(min(gap.max(), *(1.5 * gap / ratios)))
     gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
 
     lz2 = 0.0 if layer_distance is None else layer_distance**2
-    relaxation = _relaxation(asked, gap, p, spacing, lz2) if lz2 else np.zeros((3, 3))
+    relaxation = _relaxation(asked, gap, p, spacing, lz2, upright) if lz2 else np.zeros((3, 3))
     for _ in range(50):  # δ is small and depends little on lz: a fixed point
         relaxed = gap_form - relaxation
         layer = (asked.bending - sigma_gap * relaxed) / sigma
@@ -99,7 +107,7 @@ def closed_form(
         if needed <= 0.0 or abs(needed - lz2) < 1e-15 * needed:
             break
         lz2 = needed
-        relaxation = _relaxation(asked, gap, p, spacing, lz2)
+        relaxation = _relaxation(asked, gap, p, spacing, lz2, upright)
     if lz2 <= 0.0 or layer[2, 2] <= 0.0:
         return None
 
@@ -114,7 +122,7 @@ def closed_form(
     return SpringSet(
         axial=by_direction(axial[0] * ly / lx / lz2, axial[1] * lx / ly / lz2),
         diagonal=by_diagonals * layer[2, 2] * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
-        vertical=vertical(asked, spacing, lz2),
+        vertical=upright / lz2,
         cross=by_direction(
             (gap[0] - p * ratios[0]) * l1x * ly / (2.0 * lx**3 * lz2),
             (gap[1] - p * ratios[1]) * l1y * lx / (2.0 * ly**3 * lz2),
@@ -159,12 +167,12 @@ def vertical(asked: Moduli, spacing: tuple[float, float], lz2: float) -> float:
 
 
 def _relaxation(
-    asked: Moduli, gap: np.ndarray, p: float, spacing: tuple[float, float], lz2: float
+    asked: Moduli, gap: np.ndarray, p: float, spacing: tuple[float, float], lz2: float, upright: float
 ) -> np.ndarray:
-    """δ lz² (3, 3): what a gap's thickness, free to change, takes off its in-plane form."""
+    """δ lz² (3, 3): what a gap's thickness, free to change, takes off its in-plane form; upright: kz lz²."""
     lx, ly = spacing
     coupling = np.array([gap[0] / lx**2, gap[1] / ly**2, 0.0])  # the gap's S along x, y [N/m]
     cross = (gap - p * np.array([lx**2 / ly**2, ly**2 / lx**2])) / np.array([lx**4, ly**4]) * lz2
-    thickness = vertical(asked, spacing, lz2) * lz2 / (lx * ly) + cross.sum() + p * lz2 / (lx * ly) ** 2
+    thickness = upright / (lx * ly) + cross.sum() + p * lz2 / (lx * ly) ** 2
     relaxation: np.ndarray = np.outer(coupling, coupling) / thickness * lz2
     return relaxation

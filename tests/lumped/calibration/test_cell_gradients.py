@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from cases import relative
+from scipy.optimize import minimize
 
 import fem_reference
 import lumped
@@ -10,23 +11,33 @@ from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.report import report
-from sheetbench.scenes import Material, Sheet
+from sheetbench.scenes import Material, Sheet, SpringSet
 from studies.transfer.scenes import transfer_scenes
+
+YOUNG, THICKNESS = 1e6, 1e-3
+
+
+def one_cell(
+    gradients: bool, poisson: float, sides: tuple[float, float]
+) -> tuple[Assembly, moduli.Moduli, SpringSet]:
+    """A cell of these sides, the sheet's moduli and its springs."""
+    sheet = Sheet(length_x=sides[0], length_y=sides[1], thickness=THICKNESS)
+    material = Material(young=YOUNG, poisson=poisson, density=1.0)
+    asked = moduli.of_sheet(sheet, material, sides)
+    springs = closed_form(asked, sides, 2, gradients=gradients)
+    assert springs is not None
+    return Assembly(sheet, report("test", sheet, material, (2, 2, 2), springs)), asked, springs
 
 
 def cost_of_bending_in_plane(gradients: bool, poisson: float, axis: int, sides: tuple[float, float]) -> float:
     """Energy of one cell under ε = χ (place across) along an axis, over a beam's, E h χ² b³ l/24."""
-    young, thickness, bend = 1e6, 1e-3, 1e-4
-    sheet = Sheet(length_x=sides[0], length_y=sides[1], thickness=thickness)
-    material = Material(young=young, poisson=poisson, density=1.0)
-    springs = closed_form(moduli.of_sheet(sheet, material, sides), sides, 2, gradients=gradients)
-    assert springs is not None
-    assembly = Assembly(sheet, report("test", sheet, material, (2, 2, 2), springs))
+    bend = 1e-4
+    assembly = one_cell(gradients, poisson, sides)[0]
     x, y = (assembly.lattice.positions[:, :2] - np.array(sides) / 2.0).T
     u = np.zeros_like(assembly.lattice.positions)
     u[:, axis] = bend * x * y
     length, depth = sides[axis], sides[1 - axis]
-    energy: float = assembly.force(u)[0] / (young * thickness * bend**2 * depth**3 * length / 24.0)
+    energy: float = assembly.force(u)[0] / (YOUNG * THICKNESS * bend**2 * depth**3 * length / 24.0)
     return energy
 
 
@@ -45,6 +56,31 @@ def test_an_oblong_cell_costs_no_more_in_either_direction(sides: tuple[float, fl
     """One layer distance for both: the sides of one direction carry a third, of the other less."""
     costs = [cost_of_bending_in_plane(True, poisson, axis, sides) for axis in (0, 1)]
     assert max(costs) == pytest.approx(1.0, abs=0.015) and min(costs) > 0.4
+
+
+@pytest.mark.parametrize("gradients", [False, True])
+@pytest.mark.parametrize("poisson", [0.0, 0.48])
+def test_a_cell_bent_to_an_arc_is_too_soft_by_what_is_derived(gradients: bool, poisson: float) -> None:
+    """In θ², chord and columns free to change: by chord, diagonals and columns, of a cell 20 h long."""
+    side = 20.0 * THICKNESS
+    assembly, asked, springs = one_cell(gradients, poisson, (side, side))
+    at, turn, distance = assembly.lattice.positions, 0.2, springs.layer_distance
+
+    def energy(free: np.ndarray) -> float:
+        chord, column = side * (1.0 + 1e-4 * free[0]), distance * (1.0 + 1e-2 * free[1])
+        ahead, above = np.sign(at[:, 0] - side / 2.0), np.sign(at[:, 2] - at[:, 2].mean())
+        tilt = ahead * turn / 2.0
+        x = ahead * chord / 2.0 + above * column / 2.0 * np.sin(tilt)
+        moved = np.column_stack(
+            [side / 2.0 + x, at[:, 1], at[:, 2].mean() + above * column / 2 * np.cos(tilt)]
+        )
+        return float(assembly.force(moved - at)[0] / (0.5 * asked.bending[0, 0] * turn**2))
+
+    least = minimize(energy, np.zeros(2), tol=1e-12).fun
+    w = asked.shear[0] * distance**2 / (8.0 * asked.bending[0, 0])
+    k = springs.vertical * distance**2 / asked.bending[0, 0]
+    softer = 1.0 / 12.0 - w / 8.0 + (1.0 - w) ** 2 / (k + 40.0 * w / 3.0)
+    assert (1.0 - least) / turn**2 == pytest.approx(softer, abs=0.003)
 
 
 @pytest.mark.parametrize("poisson", [0.0, 0.24, 0.48])

@@ -15,15 +15,9 @@ def tangent_frames(directors: np.ndarray, axes: np.ndarray) -> np.ndarray:
         length = np.sqrt(x * x + y * y + z * z)
         x, y, z = x / length, y / length, z / length
         p, q, r = 1.0 * (axes[n] == 0), 1.0 * (axes[n] == 1), 1.0 * (axes[n] == 2)
-        if axes[n] < 0:  # the axis farthest from d, times d
-            if abs(x) <= abs(y) and abs(x) <= abs(z):
-                q, r = -z, y
-            elif abs(y) <= abs(z):
-                p, r = z, -x
-            else:
-                p, q = -y, x
-            length = np.sqrt(p * p + q * q + r * r)
-            p, q, r = p / length, q / length, r / length
+        if axes[n] < 0:  # e_x as d turns it along from e_z: no jumps beside factors made for a d nearby
+            side = 1.0 if z > -0.5 else -1.0
+            p, q, r = 1.0 - x * x / (1.0 + side * z), -x * y / (1.0 + side * z), -side * x
         out[n, 0, 0], out[n, 1, 0], out[n, 2, 0] = p, q, r
         out[n, 0, 1], out[n, 1, 1], out[n, 2, 1] = y * r - z * q, z * p - x * r, x * q - y * p
     return out

@@ -272,6 +272,9 @@ def test_directors_are_brought_to_unit_length_and_turn_across_themselves():
     frames = tangent_frames(directors, np.full(len(directors), -1))
     whole = np.concatenate([frames, unit[:, :, None]], axis=2)
     np.testing.assert_allclose(whole.swapaxes(1, 2) @ whole, np.tile(np.eye(3), (6, 1, 1)), atol=1e-14)
+    nearby = np.array([[1e-9, 2e-9, 1.0], [2e-9, 1e-9, 1.0], [0.6, 0.0, 1e-9], [0.6, 0.0, -1e-9]])  # no jumps
+    frames = tangent_frames(nearby, np.full(4, -1))
+    np.testing.assert_allclose(frames[::2], frames[1::2], atol=1e-8)
     couple = rng.normal(size=(6, 3))
     held = couple + multiplier(directors, couple)[:, None] * directors
     np.testing.assert_allclose(np.einsum("nc,nc->n", held, directors), 0.0, atol=1e-13)

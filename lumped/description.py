@@ -116,6 +116,8 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     if scene.actuators:
         raise BadInput("export: actuators are not springs between masses; export a scene without them")
     require_no_branches(scene.material, "an exported lattice")
+    if scene.air is not None:
+        raise BadInput("air: an exported lattice has no drag; leave [air] out")
     problem = build_problem(scene, calibration)
     assembly, lattice = problem.assembly, problem.assembly.lattice
     if not assembly.conservative:
@@ -123,7 +125,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     nx, ny, layers = lattice.grid
     j, i, k = (at.ravel() for at in np.meshgrid(*map(np.arange, (ny, nx, layers)), indexing="ij"))
     moments, pressure = problem.loads.at_time(None)
-    (pressed,) = (cells.nodes for cells in lattice.cells if cells.name == "mid_area")
+    pressed = lattice.mid_cells
     couples = tuple(c for edge, moment, turn in moments for c in _couples(edge, turn * moment))
     states, why = _states(scene, calibration, assembly)
     return Description(

@@ -125,6 +125,11 @@ class Lattice:
         """Mean sides at rest (c, 2, 3) [m], along x and along y, of the cells of each family."""
         return {family.name: mean_sides(self.positions, family.nodes) for family in self.cells}
 
+    @property
+    def mid_cells(self) -> np.ndarray:
+        """The columns of masses at the corners of the mid-surface's cells (c, 4, layers)."""
+        return next(cells.nodes for cells in self.cells if cells.name == "mid_area")
+
     def number(self, i: np.ndarray, j: np.ndarray, k: np.ndarray) -> np.ndarray:
         """Mass numbers of grid indices (broadcast)."""
         nx, _, layers = self.grid

@@ -150,7 +150,7 @@ class Loads:
             force[top] += couple
             force[bottom] -= couple
         if pressure:
-            add_forces(x, self._mid_cells, pressure, force)
+            add_forces(x, self._assembly.lattice.mid_cells, pressure, force)
         return force
 
     def add_tangent(
@@ -164,14 +164,9 @@ class Loads:
         for edge, moment, turn in moments:
             self._add_couple_tangent(x, edge, load_factor * moment, turn, blocks)
         if pressure:
-            cells = self._mid_cells
+            cells = self._assembly.lattice.mid_cells
             slots = self._assembly.pattern.among(cells.reshape(len(cells), -1))
             add_tangent(x, cells, slots, -load_factor * pressure, blocks)
-
-    @property
-    def _mid_cells(self) -> np.ndarray:
-        """The columns of masses at the corners of the mid-surface's cells (c, 4, layers)."""
-        return next(cells.nodes for cells in self._assembly.lattice.cells if cells.name == "mid_area")
 
     def _couple(
         self, x: np.ndarray, edge: np.ndarray, moment: np.ndarray, turn: float

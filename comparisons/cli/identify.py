@@ -48,8 +48,8 @@ def command(
         str,
         option(
             "young (or E), poisson (nu), density (rho), thickness (h), curvature_EDGE, tilt_EDGE (of a "
-            "clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch; several "
-            "with commas.",
+            "clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch, drag (of "
+            "the air); several with commas.",
             "NAMES",
         ),
     ] = "young",

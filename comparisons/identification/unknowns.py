@@ -17,7 +17,7 @@ from sheetbench.scenes.parameters import parameter, put
 from sheetbench.scenes.supports import LARGEST_TILT
 
 DAMPING = ("damping_time", "damping_rate")
-VISCOUS = ("loss_factor", "share_", "time_")  # beginnings of names that no equilibrium depends on, with these
+VISCOUS = ("loss_factor", "share_", "time_", "drag")  # and these beginnings: no equilibrium depends on them
 SYMBOLS = {"E": "young", "nu": "poisson", "ν": "poisson", "rho": "density", "ρ": "density", "h": "thickness"}
 FIRST_RATIO = 0.02  # of critical damping, in the lowest mode: where a search starts from a scene without any
 COARSE = 5  # masses of the lattice whose lowest mode that is

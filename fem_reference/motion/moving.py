@@ -7,7 +7,8 @@ has. |d| = 1 and what supports hold are constraints, and x the unknowns of the t
 Since M does not depend on q there are no gyroscopic forces: they come from the constraint.
 
 Viscous forces are those of the rate of strain under the elastic moduli, s = D (e + τ ė) with ė = B u̇ and τ
-the material's `dashpot_time`, as every spring of a lattice has the damper τ k; `damping_rate` α adds α M u̇.
+the material's `dashpot_time`, as every spring of a lattice has the damper τ k; `damping_rate` α adds α M u̇,
+and the air its drag (`motion.drag`).
 Their tangent leaves out how B changes with the shape, which is of the order of the turn in a step.
 """
 
@@ -21,6 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
+from fem_reference.motion.drag import Drag
 from fem_reference.motion.loads import Factor, factor_at, single_loads
 from fem_reference.motion.relaxation import Memory, Strained
 from fem_reference.motion.rods import MovingRods, at_rest
@@ -60,8 +62,8 @@ class Energies(NamedTuple):
 class Moving(ABC):
     """A reference in motion: N coordinates q [m, -] of n plan nodes, unknowns x; times in s, forces in N.
 
-    conservative: whether the law of strain is linear in Green's strain. drag: what `damping_rate` acts on,
-    the sheet's mass without that of the chains, `rods`.
+    conservative: whether the law of strain is linear in Green's strain. sheet_mass: what `damping_rate` acts
+    on, without the mass of the chains, `rods`.
     """
 
     label: str
@@ -69,7 +71,7 @@ class Moving(ABC):
     settings: dict[str, Any]
     conservative: bool
     mass: csr_matrix
-    drag: csr_matrix
+    sheet_mass: csr_matrix
     rods: MovingRods
     nodes: int
     unknowns: int
@@ -78,6 +80,7 @@ class Moving(ABC):
         self.memory = Memory(scene.material.branches)
         supports = tuple(support.replace(motion=None) for support in scene.supports)
         self.still = at_rest(scene.replace(loads=(), gravity=None, supports=supports))
+        self._air = scene.air
         self.tau, self.alpha = scene.material.dashpot_time, scene.material.damping_rate
         self.dead: list[tuple[np.ndarray, Factor]] = []
         self.followers: list[tuple[Follower, Factor]] = []
@@ -89,7 +92,7 @@ class Moving(ABC):
 
     def carry(self, rods: MovingRods) -> None:
         """Take up the chains, once the sheet has its mass."""
-        self.rods, self.drag = rods, self.mass
+        self.rods, self.sheet_mass = rods, self.mass
         if rods:
             self.mass = (self.mass + rods.mass()).tocsr()
 
@@ -175,6 +178,14 @@ class Moving(ABC):
     def stiffness_of(self, q: np.ndarray, step: np.ndarray) -> float:
         """Δeᵀ D Δe [J] of the strains of a step (N,) from q."""
 
+    @abstractmethod
+    def on_surface(self, v: np.ndarray) -> np.ndarray:
+        """Velocities (m, 9, 3) of the mid-surface at the nodes of the plan's elements, of rates (N,)."""
+
+    def drag(self, v: np.ndarray, by_v: float = 0.0) -> list[tuple[Follower, Factor]]:
+        """The drag of the air at rates v (N,), if there is air, as a load beside `followers`."""
+        return [(Drag(self._air.coefficient, self.on_surface(v), by_v), None)] if self._air else []
+
     def of_supports(self, exerted: np.ndarray) -> np.ndarray:
         """What supports and motions exert (N,) of M ü + g, which has no part along what is free."""
         return exerted
@@ -203,12 +214,12 @@ class Moving(ABC):
         return self._loaded(self.mean_internal(start, end, h) + on_rods, q, v, time)
 
     def _loaded(self, out: np.ndarray, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
-        """Internal forces (N,) less loads, and the drag."""
+        """Internal forces (N,) less loads, and what resists in proportion to the mass."""
         for force, factor in self.dead:
             out = out - factor_at(factor, time) * force
-        for follower, factor in self.followers:
+        for follower, factor in [*self.followers, *self.drag(v)]:
             out = out - factor_at(factor, time) * self.following(q, follower)
-        return out + self.alpha * (self.drag @ v) if self.alpha else out
+        return out + self.alpha * (self.sheet_mass @ v) if self.alpha else out
 
     def energies(self, q: np.ndarray, v: np.ndarray, time: float) -> Energies:
         """Energies of a state."""
@@ -222,8 +233,10 @@ class Moving(ABC):
         """Energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
         mean forces times changes, which a rate that jumps at its start does not swell."""
         h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
-        damped = self.tau * self.stiffness_of(middle, step) + self.alpha * float(step @ (self.drag @ step))
+        damped = self.tau * self.stiffness_of(middle, step)
+        damped += self.alpha * float(step @ (self.sheet_mass @ step))
         damped += self.rods.dissipated(start.q, end.q)
+        damped -= sum(h * float(self.following(middle, load) @ step) for load, _ in self.drag(step / h))
         self.memory.since(start.time, start.memory)
         self.memory.now = end.time
         relaxed = self.memory.dissipated(self.strains(end.q)) if self.memory else 0.0

@@ -1,4 +1,4 @@
-"""The linear plate in motion: M ü + (τ K + α M) u̇ + K u = F(t), loads on the flat sheet."""
+"""The linear plate in motion: M ü + (τ K + α M) u̇ + K u = F(t), loads and drag on the flat sheet."""
 
 from __future__ import annotations
 
@@ -75,11 +75,14 @@ class MovingPlate(Moving):
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
     ) -> csr_matrix:
         self.memory.now = time
-        return self._whole(by_a, by_v)[self._free][:, self._free]
+        whole = self._whole(by_a, by_v)
+        for load, _ in self.drag(v, by_v):
+            whole = whole - plate.tangent_on_flat_sheet(self._plate, load, self._held.size)
+        return whole[self._free][:, self._free]
 
     def _whole(self, by_a: float, by_v: float) -> csr_matrix:
         """by_a M + by_v C + K of all coordinates."""
-        sheet = (by_a + self.alpha * by_v) * self.drag + (
+        sheet = (by_a + self.alpha * by_v) * self.sheet_mass + (
             1.0 + self.tau * by_v + self.memory.gain
         ) * self._stiffness
         if not self.rods:
@@ -107,6 +110,9 @@ class MovingPlate(Moving):
         """On the flat sheet."""
         on_sheet = plate.on_flat_sheet(self._plate, [load]).ravel()
         return np.pad(on_sheet, (0, self._held.size - on_sheet.size))
+
+    def on_surface(self, v: np.ndarray) -> np.ndarray:
+        return self.displacement(v)[self._plate.elements.nodes]
 
     def elastic(self, q: np.ndarray) -> float:
         return 0.5 * self.stiffness_of(q, q)

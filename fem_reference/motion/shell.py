@@ -109,6 +109,9 @@ class MovingShell(MovingElements):
     def gather(self, q: np.ndarray) -> np.ndarray:
         return self._structure.gather(q)
 
+    def on_surface(self, v: np.ndarray) -> np.ndarray:
+        return self.gather(v)[:, :9]
+
     def scatter(self, pull: np.ndarray) -> np.ndarray:
         return self._structure.scatter(pull).ravel()
 
@@ -134,7 +137,7 @@ class MovingShell(MovingElements):
         turned = np.einsum("eica,ejcb->eiajb", of_elements, of_elements)
         turned *= share * self._on_turns[:, :, None, :, None]
         blocks[:, 27:, 27:] = turned.reshape(-1, 18, 18)
-        for follower, factor in self.followers:
+        for follower, factor in [*self.followers, *self.drag(v, by_v)]:
             on = follower.elements
             by_shape = projected(follower.tangent(vectors[on]), of_elements[on])
             blocks[on] -= factor_at(factor, time) * by_shape

@@ -121,7 +121,7 @@ class MovingSolid(MovingElements):
         bricks = tangent(self.element.gradient(change), moduli, self.stress(strain, rate))
         stiffness = self._structure.stack(bricks) + (by_a + self.alpha * by_v) * self._inertia
         places = self._structure.surface(self._columns.positions + self._on_sheet(q))
-        for load, factor in self.followers:
+        for load, factor in [*self.followers, *self.drag(v, by_v)]:
             on = load.elements
             stiffness[on] -= factor_at(factor, time) * self._structure.of_surface(load.tangent(places[on]))
         stiffness = self._structure.turn(stiffness, self._bases)
@@ -140,6 +140,9 @@ class MovingSolid(MovingElements):
 
     def gather(self, q: np.ndarray) -> np.ndarray:
         return self._structure.of_bricks(self._on_sheet(q))
+
+    def on_surface(self, v: np.ndarray) -> np.ndarray:
+        return self._structure.surface(self._on_sheet(v))[:, :9]
 
     def scatter(self, pull: np.ndarray) -> np.ndarray:
         return self._padded(self._structure.scatter(pull))

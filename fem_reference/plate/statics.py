@@ -266,8 +266,7 @@ def nodal_forces(scene: Scene, plate: Plate) -> np.ndarray:
 def on_flat_sheet(plate: Plate, followers: Sequence[loads.Follower]) -> np.ndarray:
     """Nodal forces and couples (n, 5) of follower loads on the flat sheet."""
     nodes, element_nodes = plate.nodes, plate.elements.nodes
-    force, flat = np.zeros((len(nodes), 5)), np.zeros((len(element_nodes), 18, 3))
-    flat[:, :9, :2], flat[:, 9:, 2] = nodes[element_nodes], 1.0
+    force, flat = np.zeros((len(nodes), 5)), _flat(plate)
     for load in followers:
         on, pull = element_nodes[load.elements], load.force(flat[load.elements])
         np.add.at(force[:, :3], on, pull[:, :9])
@@ -275,6 +274,20 @@ def on_flat_sheet(plate: Plate, followers: Sequence[loads.Follower]) -> np.ndarr
     return force
 
 
-def _assemble(plate: Plate, blocks: np.ndarray) -> csr_matrix:
+def tangent_on_flat_sheet(plate: Plate, load: loads.Follower, size: int) -> csr_matrix:
+    """The derivative (size, size) [N/m] of a follower load on positions alone, on the flat sheet."""
+    blocks = np.zeros((len(plate.elements.nodes), 9, 5, 9, 5))
+    blocks[:, :, :3, :, :3] = load.tangent(_flat(plate))[:, :9, :, :9]
+    return _assemble(plate, blocks, size)
+
+
+def _flat(plate: Plate) -> np.ndarray:
+    """Positions and directors (m, 18, 3) of the elements' nodes."""
+    flat = np.zeros((len(plate.elements.nodes), 18, 3))
+    flat[:, :9, :2], flat[:, 9:, 2] = plate.nodes[plate.elements.nodes], 1.0
+    return flat
+
+
+def _assemble(plate: Plate, blocks: np.ndarray, size: int | None = None) -> csr_matrix:
     number = plate.elements.unknowns
-    return Pattern(number, size=5 * plate.basis.N).matrix(blocks.reshape(*number.shape, -1))
+    return Pattern(number, size=size or 5 * plate.basis.N).matrix(blocks.reshape(*number.shape, -1))

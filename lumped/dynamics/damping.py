@@ -1,9 +1,10 @@
-"""The dampers of a scene on a lattice: link dampers, area dampers, mass-proportional damping.
+"""What damps a scene's lattice: link dampers, area dampers, mass-proportional damping, the air's drag.
 
 Every link's damper acts along the link (`lumped.springs.links`). Its coefficient is that of the
 scene's [dampers] table by family, or else damping_time × k; area and strain springs have dampers with
 damping_time only (`lumped.springs.cells`), since the table has no entry for
-them. damping_rate × m v acts on every mass. What has a zero coefficient is not assembled.
+them. damping_rate × m v acts on every mass, and drag (`lumped.dynamics.drag`) in air. What has a zero
+coefficient is not assembled.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.assembly import Assembly
+from lumped.dynamics import drag
 from lumped.springs.all_families import table_dampers
 from sheetbench.scenes import Scene
 
@@ -19,13 +21,14 @@ class Damping:
     """Damping forces, (size, 3) [N], on masses and actuators' rows. mass: (n,) [kg].
 
     dampers: those of the lattice; time [s]: coefficient over stiffness, where every spring has one of the
-    same (else 0); rate: of the masses (n,) [kg/s]; present: whether there are any; proportional: to the
-    stiffness and the masses, in the flat sheet.
+    same (else 0); rate: of the masses (n,) [kg/s]; drag: of the air; present: whether there are any;
+    proportional: to the stiffness and the masses, in the flat sheet.
     """
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
         self._coupling = assembly.coupling
         self._coupling_slots = assembly.coupling_slots if assembly.coupling is not None else np.empty(0, int)
+        self.drag, self._own = drag.of_scene(scene, assembly), assembly.pattern.diagonal[: len(mass)]
         self.rate = scene.material.damping_rate * mass
         self.time = 0.0
         if scene.dampers is not None:
@@ -35,13 +38,14 @@ class Damping:
             self.dampers = [family.damped(time) for family in assembly.springs] if time else []
             self.time = time if assembly.conservative else 0.0
         self._in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
-        self.proportional = scene.dampers is None and not scene.actuators and assembly.conservative
-        self.present = bool(self.dampers or self.rate.any() or self._in_chains)
+        others = scene.dampers or scene.actuators or self.drag.coefficient
+        self.proportional = not others and assembly.conservative
+        self.present = bool(self.dampers or self.rate.any() or self._in_chains or self.drag.coefficient)
 
     def add_other_forces(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
-        """Add the forces of the mass-proportional damping and of the chains, signed as internal ones; the
-        power taken [W]."""
-        power = 0.0
+        """Add the forces of the mass-proportional damping, of the air and of the chains, signed as internal
+        ones; the power taken [W]."""
+        power = drag.add_drag(self.drag, u, v, force)
         if self.rate.any():
             masses = len(self.rate)
             resisting = self.rate[:, None] * v[:masses]
@@ -51,12 +55,14 @@ class Damping:
             power += self._coupling.add_damping_force(u, v, force)
         return power
 
-    def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
+    def add_velocity_tangent(self, u: np.ndarray, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         """Add scale × the derivative of the force by the velocity to the 3×3 blocks, but for the dampers in
         proportion to the springs (`time`) and to the masses (`rate`)."""
         if not self.time:
             for dampers in self.dampers:
                 dampers.add_velocity_tangent(u, scale, blocks)
+        if self.drag.coefficient:
+            blocks[self._own] += scale * drag.velocity_tangent(self.drag, u, v)
         if self._in_chains and self._coupling is not None:
             self._coupling.add_damping_tangent(u, scale, self._coupling_slots, blocks)
 

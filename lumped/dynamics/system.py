@@ -232,7 +232,7 @@ class System:
                 self.coupling.add_tangent(u, self.drive(time), slots, others)
                 np.add.at(blocks, slots, mass * self._chain_mass)
             blocks += stiffness * others
-        self.damping.add_velocity_tangent(u, damping, blocks)
+        self.damping.add_velocity_tangent(u, v, damping, blocks)
         return blocks
 
     def since(self, state: State, ahead: float = 0.0) -> None:

@@ -2,6 +2,7 @@
 
 from sheetbench.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMotion
+from sheetbench.scenes.air import Air
 from sheetbench.scenes.balance import Balance, dead_force
 from sheetbench.scenes.cells import Cells, Constants
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
@@ -36,6 +37,7 @@ __all__ = [
     "EDGES",
     "About",
     "Actuator",
+    "Air",
     "AnyScene",
     "AreaLoad",
     "BadInput",

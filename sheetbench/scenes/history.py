@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 UNDAMPED = (
     "nothing damps this sheet: it swings on and does not settle; give [material] loss_factor, damping_time "
-    "or damping_rate if it is to"
+    "or damping_rate, or [air] its drag, if it is to"
 )
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
 

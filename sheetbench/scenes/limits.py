@@ -28,7 +28,7 @@ _STRESS_FREE = "the flat sheet is free of stress: pre-stretch and residual stres
 _FLAT = "the sheet is flat where nothing acts on it: a curved rest shape is not modelled"
 _FROM_REST = "motion starts from the flat sheet at rest; `history` makes loads come and go"
 _HEAT = "heat, swelling and growth are not modelled"
-_FLUID = "no fluid surrounds the sheet; damping_rate drags every mass"
+_FLUID = "of a fluid there is the drag of still air, [air]; no flow, lift or mass that moves along"
 _FIELDS = "magnetic and electric forces are not modelled; give the loads that they make"
 _ACTUATORS = "actuators are chains of segments on an edge and prescribed motions of an edge"
 _RIGID = "supports are rigid: elastic ones are not modelled"
@@ -49,7 +49,7 @@ _WORDS = {
     _FLAT: "rest_shape rest_curvature natural_curvature initial_curvature",
     _FROM_REST: "initial initial_state initial_displacement initial_velocity velocity release",
     _HEAT: "temperature thermal thermal_expansion expansion swelling growth",
-    _FLUID: "fluid water air drag lift buoyancy aerodynamics",
+    _FLUID: "fluid water wind lift added_mass buoyancy aerodynamics",
     _FIELDS: "magnetic magnetisation magnetization electric voltage charge",
     _ACTUATORS: "tendon tendons cable cables muscle muscles bellows chamber pneumatic",
     _RIGID: "foundation elastic spring",

@@ -6,6 +6,7 @@ share_N, time_N                                       of the material's branch N
 thickness                                             of the sheet
 curvature_EDGE                                        of the curved support, or of the chains, on an edge
 tilt_EDGE                                             of the clamp on an edge
+drag                                                  of the air
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from sheetbench.scenes.supports import LARGEST_TILT, Clamped, Curved
 MATERIAL = {"young": "Pa", "poisson": "", "density": "kg/m³", "damping_time": "s", "damping_rate": "1/s"}
 MATERIAL |= {"loss_factor": ""}
 BRANCH = {"share": ("", 1.0), "time": ("s", inf)}  # unit and upper bound
-NAMES = (*MATERIAL, "share_N", "time_N", "thickness", "curvature_EDGE", "tilt_EDGE")
+NAMES = (*MATERIAL, "share_N", "time_N", "thickness", "curvature_EDGE", "tilt_EDGE", "drag")
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,10 @@ def parameter(scene: Scene, name: str) -> Parameter:
         return Parameter(name, MATERIAL[name], getattr(scene.material, name), low, high)
     if name == "thickness":
         return Parameter(name, "m", scene.sheet.thickness, 0.0, min(scene.sheet.lengths))
+    if name == "drag":
+        if scene.air is None:
+            raise BadInput("'drag': the scene has no [air]; give a first guess there")
+        return Parameter(name, "", scene.air.drag, 0.0, inf)
     kind, _, edge = name.partition("_")
     if kind in BRANCH and edge.isdecimal():
         if not 1 <= int(edge) <= len(scene.material.relaxation):
@@ -77,6 +82,8 @@ def put(scene: Scene, name: str, value: float) -> Scene:
 def _with(scene: Scene, name: str, value: float) -> Scene:
     if name in MATERIAL:
         return scene.replace(material=scene.material.replace(**{name: value}))
+    if name == "drag" and scene.air is not None:
+        return scene.replace(air=scene.air.replace(drag=value))
     if name == "thickness":
         return scene.replace(sheet=scene.sheet.replace(thickness=value))
     kind, _, edge = name.partition("_")

@@ -18,6 +18,7 @@ from pydantic import Field, model_validator
 from sheetbench.errors import Implausible
 from sheetbench.scenes import corners, region, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreement
+from sheetbench.scenes.air import Air
 from sheetbench.scenes.anchors import held_twice
 from sheetbench.scenes.loads import AreaLoad, Load, PointLoad
 from sheetbench.scenes.material import Material
@@ -60,6 +61,8 @@ class Scene(Frozen):
     """Holes and notches: parts of the plan where there is no sheet."""
     gravity: Gravity | None = None
     """The sheet's weight; without this table the sheet is weightless."""
+    air: Air | None = Field(default=None, kw_only=True)
+    """Still air, which resists where the sheet moves along its normal; without this table there is none."""
     supports: tuple[Support, ...] = Field(
         default=(), validation_alias="support", serialization_alias="support"
     )

@@ -73,6 +73,7 @@ def _offered(sheet: Sheet, edge: str) -> list[tuple[str, dict[str, Any]]]:
     rising = {"time": [0.0, 0.5], "factor": [0.0, 1.0]}
     chain = {"segments": 8, "bending_stiffness": 0.01, "line_density": 0.05, "radius": 1.5e-3}
     return [
+        ("[air]", {"drag": 1.2, "density": 1.2}),
         ("[[support]]", {"edge": edge, "kind": "clamped", "tilt": 0.02}),
         ("[[support]]", {"edge": edge, "kind": "hinged"}),
         ("[[support]]", {"edge": edge, "kind": "held", "components": ["z"]}),

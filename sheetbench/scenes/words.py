@@ -7,6 +7,7 @@ from math import degrees, hypot
 from typing import TYPE_CHECKING
 
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
+from sheetbench.scenes.air import Air
 from sheetbench.scenes.loads import AreaLoad, EdgeLoad, PointLoad, Pressure
 from sheetbench.scenes.material import CONSTANTS, Material
 from sheetbench.scenes.orthotropy import Ply
@@ -53,6 +54,8 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         *((f"cutout {n}", cutout.shape.in_words()) for n, cutout in enumerate(scene.cutouts, start=1)),
         ("weight", _weight(scene, mass)),
     ]
+    if scene.air is not None:
+        sentences.append(("air", _air(scene.air, scene.sheet, mass)))
     for name, support in named(scene.supports).items():
         shape = place(support)
         inside = f", everywhere in the {shape.in_words()}" if shape is not None else ""
@@ -146,6 +149,14 @@ def _weight(scene: Scene, mass: float) -> str:
         return "none: weightless"
     force = [mass * component for component in scene.gravity.acceleration]
     return f"{_vector(force, 'N')}{_over_time(scene.gravity.history)}"
+
+
+def _air(air: Air, sheet: Sheet, mass: float) -> str:
+    share = air.carried_along(sheet) * sheet.length_x * sheet.length_y / mass
+    return (
+        f"drag of {air.coefficient:.3g} kg/m³ · v² per area, v along the normal; none at rest. The mass of "
+        f"air that moves along, up to {100.0 * share:.2g} % of the sheet's, is left out"
+    )
 
 
 def _support(support: AnySupport, sheet: Sheet) -> str:

@@ -151,6 +151,8 @@ def _of_motion(scene: Scene, linear: bool) -> str:
         return "linear = true: is for statics"
     if material.dashpot_time or material.damping_rate or material.branches.times:
         return "its steps in time have no dampers: leave damping_time, damping_rate and relaxation out"
+    if scene.air is not None:
+        return "its steps in time have no drag: leave [air] out"
     if any(load.history is not None for load in loads):
         return "loads with a history are not handed over"
     if bent_or_tilted(scene.supports, scene.sheet):

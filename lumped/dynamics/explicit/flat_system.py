@@ -138,7 +138,7 @@ class FlatSystem:
         by_layer = positions[:, : self._count].reshape(3, layers, plane)
         positions[:, self._count : self._count + plane] = by_layer.mean(axis=1)
         pressure = np.array([part.pressure for part in self._parts])
-        cells = next(cells.nodes for cells in lattice.cells if cells.name == "mid_area")
+        cells = lattice.mid_cells
         columns, strengths, owners = [np.empty((0, 4))], [np.empty(0)], [np.empty(0)]
         for number, part in enumerate(self._parts):
             for edge, moment, turn in part.moments:

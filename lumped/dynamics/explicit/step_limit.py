@@ -64,14 +64,14 @@ def turn_limit(ratio: float, exact: bool = True) -> float:
 
 
 def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
-    """The limit at displacement u (size, 3) [m]."""
+    """The limit at displacement u (size, 3) [m], at rest, where the air does not resist."""
     nothing = np.zeros_like(u)
     stiffness = system.matrix(u, nothing, time, 0.0, 0.0, 1.0)
     frequency = math.sqrt(max(_largest(system, stiffness, u), 0.0))
     ratio = 0.0
     if system.damping.present:
         damping = system.matrix(u, nothing, time, 0.0, 1.0, 0.0)
-        ratio = _largest(system, damping, u) / (2.0 * frequency)
+        ratio = _largest(system, damping, u) / (2.0 * frequency) if damping.any() else 0.0
     exact = system.damping.proportional
     return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact)
 

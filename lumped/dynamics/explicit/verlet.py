@@ -27,7 +27,8 @@ class Verlet(Integrator):
         super().__init__(system, step)
         self._projection = Projection(system)
         chains = system.coupling is not None and system.coupling.bodies
-        self._flat = None if chains or system.maxwell is not None else FlatSystem(system)
+        one_by_one = chains or system.maxwell is not None or system.damping.drag.coefficient > 0.0
+        self._flat = None if one_by_one else FlatSystem(system)
         if self._flat is not None:
             self._flat.compile()
 
@@ -37,8 +38,8 @@ class Verlet(Integrator):
         return step_limit(system, u)
 
     def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
-        """Steps in one compiled call; one at a time where there are chains or
-        branches. Raises StepFailed."""
+        """Steps in one compiled call; one at a time where there are chains, branches or air. Raises
+        StepFailed."""
         if self._flat is None:
             return super().march(state, step, most)
         return self._flat.march(state, step, most)

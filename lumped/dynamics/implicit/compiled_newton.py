@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from lumped.dynamics.drag import Drag, add_drag
 from lumped.dynamics.system import System
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
@@ -23,12 +24,13 @@ CONVERGED, STALE, LOST = range(3)
 
 
 class Arrays(NamedTuple):
-    """The equations of motion: springs and dampers, mass-proportional damping (n,) [kg/s], M, T, the place of
-    every unknown in the band, and its width."""
+    """The equations of motion: springs and dampers, mass-proportional damping (n,) [kg/s], the air's drag, M,
+    T, the place of every unknown in the band, and its width."""
 
     packing: Packing
     scratch: Scratch
     rate: np.ndarray
+    drag: Drag
     mass: Rows
     free: Rows
     place: np.ndarray
@@ -57,6 +59,7 @@ class CompiledNewton:
             system.packing,
             system.scratch,
             system.damping.rate,
+            system.damping.drag,
             csr_arrays(system.mass),
             csr_arrays(system.transform),
             np.argsort(band.order),
@@ -123,7 +126,7 @@ def iterate(
     workspace: Workspace,
 ) -> tuple[int, int, float]:
     """Correct u in place; how that ended, after how many corrections, and the power [W] that the lattice's
-    dampers and the masses' own damping took where the last one was found."""
+    dampers, the masses' own damping and the air took where the last one was found."""
     last, n, power = np.inf, len(arrays.place), 0.0
     force, velocity, right = workspace.force, workspace.velocity, workspace.right
     mass, free = arrays.mass, arrays.free
@@ -136,16 +139,16 @@ def iterate(
             for e in range(mass.pointers[row], mass.pointers[row + 1]):
                 inertia += mass.values[e] * (moved[mass.columns[e]] - held[mass.columns[e]])
             pull[row] = mass_coefficient * inertia - acting[row]
-        by_masses = 0.0
+        others = add_drag(arrays.drag, u, velocity, force)
         for i in range(len(arrays.rate)):
             for q in range(3):
                 resisted = arrays.rate[i] * velocity[i, q]
                 force[i, q] += resisted
-                by_masses += resisted * velocity[i, q]
+                others += resisted * velocity[i, q]
         _, power = add_forces(
             u, velocity, NUMBA_TRUE, arrays.packing.damped, arrays.packing, arrays.scratch, force
         )
-        power += by_masses
+        power += others
         right[:] = 0.0
         for row in range(len(moved)):
             for e in range(free.pointers[row], free.pointers[row + 1]):

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from lumped.dynamics.drag import Drag, add_drag
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
@@ -17,14 +18,15 @@ from sheetbench.numerics.maps import Rows
 
 
 class Observed(NamedTuple):
-    """Springs and dampers; M; mass-proportional damping (n,) [kg/s]; loads with a potential (n, 3) [N]; what
-    takes a displacement to the probes', (3 p, 3 n), and forces on masses to those of each support,
-    (3 s, 3 n)."""
+    """Springs and dampers; M; mass-proportional damping (n,) [kg/s]; the air's drag; loads with a potential
+    (n, 3) [N]; what takes a displacement to the probes', (3 p, 3 n), and forces on masses to those of each
+    support, (3 s, 3 n)."""
 
     packing: Packing
     scratch: Scratch
     mass: Rows
     rate: np.ndarray
+    drag: Drag
     dead: np.ndarray
     probes: Rows
     supports: Rows
@@ -45,6 +47,7 @@ def observe(
     exerted = np.zeros_like(u)
     damped = observed.packing.damped
     elastic, _ = add_forces(u, v, NUMBA_TRUE, damped, observed.packing, observed.scratch, exerted)
+    add_drag(observed.drag, u, v, exerted)
     for i in range(len(observed.rate)):
         for q in range(3):
             exerted[i, q] += observed.rate[i] * v[i, q]

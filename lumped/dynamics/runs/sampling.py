@@ -39,6 +39,7 @@ class Sampling:
                 system.scratch,
                 csr_arrays(system.mass),
                 system.damping.rate,
+                system.damping.drag,
                 system.problem.loads.dead,
                 csr_arrays(self._probes.matrix(masses)),
                 csr_arrays(system.problem.constraints.summed()),

@@ -8,7 +8,7 @@ import pytest
 from commands import one_line, run
 
 from comparisons.external.calculix.model import MODEL as CALCULIX
-from sheetbench.scenes import BadInput, FactorTable, Gravity, Relaxation, Status, load
+from sheetbench.scenes import Air, BadInput, FactorTable, Gravity, Relaxation, Status, load
 
 SWING = load("one-edge-clamped")
 SMALL = ("--lumped", "3,4", "--shell", "1,2", "--plate", "", "--solid", "", "--workers", "1")
@@ -33,6 +33,7 @@ def test_a_motion_that_calculix_is_not_given_says_why() -> None:
     scenes = {
         "no dampers": SWING.replace(damping_rate=1.0),
         "relaxation out": SWING.replace(relaxation=(Relaxation(0.2, 0.1),)),
+        r"\[air\] out": SWING.replace(air=Air(drag=1.0)),
         "with a history": SWING.replace(gravity=Gravity((0.0, 0.0, -9.81), history=grown)),
         "bent or turned": load("curved-edge"),
     }

@@ -7,7 +7,7 @@ import pytest
 
 import fem_reference
 from fem_reference.motion.generalised_alpha import GeneralisedAlpha, StepFailed
-from sheetbench.scenes import BadInput, Status, load
+from sheetbench.scenes import Air, BadInput, Status, load
 from sheetbench.scenes.tables import FactorTable
 
 BENT = FactorTable(time=(0.0, 0.013, 0.05), factor=(0.0, 1.0, 0.5))
@@ -18,7 +18,7 @@ def test_a_killed_run_goes_on_to_the_last_bit(tmp_path, options):
     """From a copy of its folder between two samples, which is what kill -9 leaves there; with a bend of a
     load's history before the checkpoint and one after."""
     scene = load("two-edges-settling")
-    scene = scene.replace(gravity=scene.gravity.replace(history=BENT))
+    scene = scene.replace(gravity=scene.gravity.replace(history=BENT), air=Air(drag=1.2))
     whole, killed, after = tmp_path / "whole", tmp_path / "killed", []
 
     def kill(time: float) -> None:

@@ -18,6 +18,7 @@ TABLE = scenes.DamperSet.model_validate({"axial": 0.3, "vertical": 1.0, "cross":
 CASES = {
     "dampers in proportion": scene(damping_time=1e-3),
     "dampers of a table, and of masses": scene(damping_rate=3.0).replace(dampers=TABLE),
+    "air": scene().replace(air=scenes.Air(drag=100.0)),
     "supports that hold means": scene(supports=HINGED),
     "a moving support": scene("one-edge-clamped", supports=MOVED, damping_time=1e-3),
 }

@@ -68,6 +68,8 @@ def with_load(keys: str) -> str:
             GOOD.replace("P4 = [", "edge = ['a', "),
             "probes.edge = ['a', 0.188, 0.188]: must have 2 entries, not 3",
         ),
+        (GOOD.replace("[probes]", "[air]\ndrag = 0\n[probes]"), "air.drag = 0: must be greater than 0"),
+        (GOOD.replace("[probes]", "[air]\ndensity = 1.2\n[probes]"), "air.drag: missing"),
         (
             GOOD.replace("[probes]", "[springs]\naxial = {x = 1.0}\n[probes]"),
             "springs.axial.y: missing; springs.diagonal: missing; springs.vertical: missing; and 3 more",

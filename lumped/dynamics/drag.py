@@ -1,0 +1,80 @@
+"""Quadratic drag of still air on the masses (`sheetbench.scenes.air`), compiled.
+
+Every mass has its part A of the current area as a vector and the velocity v along it:
+
+    F = −½ ρ c_d |v_n| v_n A,   v_n = v·A/|A|,   ∂F/∂v = −ρ c_d |v_n| A Aᵀ/|A|.
+
+A is the force on it of a unit pressure (`lumped.pressure`), as much larger or smaller as the mass is than
+its tributary one (`lumped.masses`): a sheet that falls flat stays so. The power taken is ½ ρ c_d |v_n|³ |A|.
+How A changes with the shape is left out of tangents: it is of the order of the turn in a step. Chains have
+no drag.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from lumped.assembly import Assembly
+from lumped.masses import masses
+from lumped.pressure import add_forces
+from sheetbench.scenes import Scene
+
+
+class Drag(NamedTuple):
+    """coefficient: ½ ρ c_d [kg/m³], 0 without air; positions: at rest (n, 3) [m]; cells: columns of masses
+    at the corners of the mid-surface's cells (c, 4, layers); weights: mass over tributary mass, (n,); area:
+    where A (n, 3) [m²] is computed."""
+
+    coefficient: float
+    positions: np.ndarray
+    cells: np.ndarray
+    weights: np.ndarray
+    area: np.ndarray
+
+
+def of_scene(scene: Scene, assembly: Assembly) -> Drag:
+    """The drag on the masses of a scene's lattice."""
+    lattice, cells = assembly.lattice, assembly.cells
+    inert, tributary = (masses(scene, lattice, by, cells) for by in (assembly.inertia, "tributary"))
+    coefficient = 0.0 if scene.air is None else scene.air.coefficient
+    area = np.zeros_like(lattice.positions)
+    return Drag(coefficient, lattice.positions, lattice.mid_cells, inert / tributary, area)
+
+
+@njit(cache=True, error_model="numpy")
+def _to_areas(drag: Drag, u: np.ndarray) -> None:
+    """A of the masses displaced by u."""
+    drag.area[:] = 0.0
+    add_forces(drag.positions + u[: len(drag.area)], drag.cells, 1.0, drag.area)
+    for i in range(len(drag.area)):
+        drag.area[i] *= drag.weights[i]
+
+
+@njit(cache=True, error_model="numpy")
+def add_drag(drag: Drag, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
+    """Add the drag, signed as an internal force, at a displacement and velocity (size, 3); the power taken
+    [W]."""
+    power = 0.0
+    if drag.coefficient == 0.0:
+        return power
+    _to_areas(drag, u)
+    for i in range(len(drag.area)):
+        a, w = drag.area[i], v[i]
+        size = np.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
+        speed = (w[0] * a[0] + w[1] * a[1] + w[2] * a[2]) / size
+        pressure = drag.coefficient * abs(speed) * speed
+        for q in range(3):
+            force[i, q] += pressure * a[q]
+        power += pressure * speed * size
+    return power
+
+
+def velocity_tangent(drag: Drag, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Its derivative by each mass's own velocity, (n, 3, 3) [N·s/m]."""
+    _to_areas(drag, u)
+    area, size = drag.area, np.linalg.norm(drag.area, axis=1)
+    share = 2.0 * drag.coefficient * np.abs(np.sum(v[: len(area)] * area, axis=1)) / size**2
+    return (share[:, None] * area)[:, :, None] * area[:, None, :]

@@ -8,7 +8,7 @@ GOOD = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8")
 
 BAD = {
     "unknown key": (GOOD.replace("thickness", "thicknes"), ["sheet.thicknes", "0.003", "unknown key"]),
-    "unknown table": (GOOD + "[wind]\nspeed = 3.0\n", ["wind", "unknown key"]),
+    "unknown table": (GOOD + "[moon]\nspeed = 3.0\n", ["moon", "unknown key"]),
     "missing key": (GOOD.replace("young = 54.5e6", ""), ["material.young", "missing"]),
     "negative thickness": (GOOD.replace("0.003", "-0.003"), ["sheet.thickness", "-0.003", "greater than 0"]),
     "millimetres": (GOOD.replace("0.003", "3.0"), ["thickness", "metres"]),

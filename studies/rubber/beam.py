@@ -10,12 +10,12 @@ lightest load, or by `identify` from the first PERIODS of each run; the load is 
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from matplotlib.figure import Figure
 from scipy.optimize import curve_fit
 
 import fem_reference
@@ -23,7 +23,7 @@ from comparisons.identification.answer import Identification
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements
 from comparisons.measured.c3d import read_markers
-from sheetbench.answers.table import Column, Table
+from sheetbench.answers.table import Column
 from sheetbench.errors import Implausible
 from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet, Status
 
@@ -32,7 +32,7 @@ RATE, THROUGH, PERIODS = 100.0, 250, 4.0  # 1/s; samples of a cosine, periods of
 YOUNG, LOSS, SET_AT, BAND = 296e3, 0.100, 7.75, (3.0, 8.0)  # Pa, –, Hz, Hz
 POISSON, DENSITY, STEPS = 0.49, 1070.0, 60.0  # –, kg/m³, of a period of SET_AT
 ELEMENTS, TIP = (2, 1), (0.1, 0.015)
-COLOURS = {"one damper": "#c44e52", "branches": "#4c72b0"}
+DAMPERS = ("one damper", "branches")
 
 
 @dataclass(frozen=True)
@@ -61,6 +61,25 @@ class Fitted:
     left: Annotated[float, Column("rms: fitted", "m", "mm", 1e3, ".2f")]
     one_damper: Annotated[float, Column("one damper", "m", "mm", 1e3, ".2f")]
     branches: Annotated[float, Column("branches", "m", "mm", 1e3, ".2f")]
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A tip over time, (n,) each [s], [m]."""
+
+    load: str
+    what: str
+    time: np.ndarray
+    tip: np.ndarray
+
+
+@dataclass(frozen=True)
+class Block:
+    """What is measured and computed of the block."""
+
+    swings: tuple[Swing, ...]
+    fits: tuple[Fitted, ...]
+    curves: tuple[Curve, ...]
 
 
 def cosine(
@@ -142,39 +161,32 @@ def computed(mass: float, what: str, end: float) -> tuple[Swing, np.ndarray, np.
     return Swing("", what, found[3] / (2 * np.pi), abs(found[2]), -found[0]), history.time, tip
 
 
-def beam(data: Path) -> tuple[Table, Table, Figure]:
-    """The tables of all runs and of their fits, and a picture of the first of each load.
+def beam(data: Path, progress: Callable[[str], None]) -> Block:
+    """All runs, what is fitted to each, and the curves of the first of each load.
 
     Raises BadInput for a missing file."""
-    rows: list[Swing] = []
+    swings: list[Swing] = []
     fits: list[Fitted] = []
-    figure = Figure(figsize=(10.2, 2.6), layout="constrained")
-    for axis, (load, (name, mass, first)) in zip(figure.subplots(1, 3), RUNS.items(), strict=True):
+    curves: list[Curve] = []
+    for load, (name, mass, first) in RUNS.items():
         runs = {run: measured(data / "silicone-beam" / f"beam_{name}_V2_{run}.c3d", first) for run in "ab"}
         end = max(float(time[-1]) for _, time, _ in runs.values())
-        shells = {what: computed(mass, what, end) for what in COLOURS}
+        progress(f"{load}: one damper, branches")
+        shells = {what: computed(mass, what, end) for what in DAMPERS}
         for run, (swing, time, tip) in runs.items():
-            rows.append(replace(swing, load=load, what=f"measured {run}"))
+            progress(f"{load}: run {run}, E and loss factor")
+            swings.append(replace(swing, load=load, what=f"measured {run}"))
             found = identified(mass, swing, time, tip)
             values = [(u.value, *u.interval) for u in found.unknowns.values()]
             off = [rms(np.interp(time, at, there) - tip) for _, at, there in shells.values()]
             left = found.residuals[:, 2]
             fits.append(Fitted(load, run, *values[0], *values[1], rms(left), *off))
             if run == "a":
-                axis.plot(time, 1e3 * tip, "k.", ms=3, label="measured")
-                axis.plot(time, 1e3 * (tip + left), color="0.6", lw=1, label="fitted to it")
+                curves += [Curve(load, "measured", time, tip), Curve(load, "fitted to it", time, tip + left)]
         for what, (swing, time, tip) in shells.items():
-            rows.append(replace(swing, load=load))
-            axis.plot(time, 1e3 * tip, color=COLOURS[what], lw=1, label=what)
-        axis.set(title=load, xlabel="time [s]")
-    figure.axes[0].set_ylabel("tip [mm]")
-    figure.axes[0].legend(frameon=False, fontsize=7)
-    swings = Table.of(Swing, rows, "A silicone block let go", "beam", grouped=True)
-    return (
-        swings,
-        Table.of(Fitted, fits, "E and loss factor of each run alone", "fitted", grouped=True),
-        figure,
-    )
+            swings.append(replace(swing, load=load))
+            curves.append(Curve(load, what, time, tip))
+    return Block(tuple(swings), tuple(fits), tuple(curves))
 
 
 def rms(of: np.ndarray) -> float:

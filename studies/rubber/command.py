@@ -5,34 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from comparisons.cli import console
 from comparisons.cli.options import option
-from studies.rubber.beam import beam
-from studies.rubber.study import blown, constants, curves, figure, pulled_and_hung
+from comparisons.cli.verb import PictureOptions
+from studies.rubber.answer import measure
 
 
 def command(
-    data: Annotated[Path, option("Where silicone-tensile/ and treloar/ are.", "DIR")] = Path(
+    data: Annotated[Path, option("Where silicone-tensile/, treloar/ and silicone-beam/ are.", "DIR")] = Path(
         "../shared/data"
     ),
-    pictures: Annotated[
-        Path | None,
-        option("Also the block of silicone-beam/ (C3D); draw both pictures here.", "DIR"),
-    ] = None,
+    block: Annotated[
+        bool, option("Also the block of silicone-beam/ (C3D; half an hour).", None, "--block")
+    ] = False,
+    *,
+    output: PictureOptions,
 ) -> None:
     """Fit laws of rubber to measured tensile tests; pull, hang and blow up linear lattices of them.
 
-    With --pictures also let a block of silicone go, with one damper and with branches.
+    With --block also let a block of silicone go, with one damper and with branches.
     """
-    fits = curves(data)
-    console.show(constants(fits))
-    console.show(strips := pulled_and_hung(fits))
-    first = next(iter(fits.values())).law
-    assert first is not None
-    console.show(squares := blown(first))
-    if pictures is not None:
-        figure(strips, squares).savefig(pictures / "linear-lattices.png", dpi=130)
-        *tables, swings = beam(data)
-        for table in tables:
-            console.show(table)
-        swings.savefig(pictures / "silicone-beam.png", dpi=130)
+    with output.open() as out:
+        out.show(measure(data, block, out.progress))

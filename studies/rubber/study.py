@@ -11,11 +11,13 @@ The errors are those of the end's displacement, of the top's where it is blown u
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Annotated
 
 import numpy as np
-from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
 import fem_reference
@@ -23,7 +25,7 @@ import lumped
 from comparisons.identification.tensile.curves import read
 from comparisons.identification.tensile.laws import Fit, stress
 from comparisons.identification.tensile.tensile import TensileFit, identify_tensile
-from sheetbench.answers.table import Column, Table, unit
+from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, Column, Unit, unit
 from sheetbench.errors import BadInput
 from sheetbench.scenes import (
     Clamped,
@@ -46,6 +48,41 @@ PRESSURES = (0.01, 0.05, 0.2, 0.5)  # over E
 SHEET, POISSON = Sheet(0.1, 0.05, 0.002), 0.499
 
 
+@dataclass(frozen=True)
+class Constant:
+    """A constant of a law, with its 95 % interval."""
+
+    material: str
+    covered: Annotated[str, Column("to stretch")]  # a number would take the unit of its row
+    law: str
+    misfit: Annotated[float, PERCENT(".1f")]
+    constant: str
+    unit: Unit
+    value: Annotated[float, NUMBER(".3g")]
+    least: Annotated[float, NUMBER(".3g", "from")]
+    largest: Annotated[float, NUMBER(".3g", "to")]
+
+
+@dataclass(frozen=True)
+class Strip:
+    """Errors of a linear lattice's end, pulled or hung, by stretch."""
+
+    material: str
+    way: str
+    errors: Annotated[dict[str, float], PERCENT("z.1f")]
+
+
+@dataclass(frozen=True)
+class Square:
+    """The tops of a clamped square that is blown up: of the shell with its law, of a linear lattice."""
+
+    pressure: Annotated[float, NUMBER(".3g", "p a/(E h)")]
+    stretch: Annotated[float | None, PERCENT(".1f", "largest stretch")]
+    shell: Annotated[float, MILLIMETRES(".3f")]
+    lattice: Annotated[float, MILLIMETRES(".3f")]
+    error: Annotated[float, PERCENT("z.1f")]
+
+
 def curves(data: Path) -> dict[str, TensileFit]:
     """The fits by name, of files under `data`: to UP_TO, of Treloar's rubber to its end."""
     files = {name: data / "silicone-tensile" / f"{name}.csv" for name in SILICONES}
@@ -61,43 +98,23 @@ def curves(data: Path) -> dict[str, TensileFit]:
         return {**found, TRELOAR: identify_tensile(str(headed))}
 
 
-def constants(fits: dict[str, TensileFit]) -> Table:
+def constants(fits: dict[str, TensileFit]) -> Iterator[Constant]:
     """A row per constant of the law that the data ask for."""
-    rows = []
     for name, found in fits.items():
         assert found.law is not None
-        covered = f"{found.covered['uniaxial'][1]:.2f}"
         for key, value in found.law.constants.items():
             of = unit("" if key == "limit" else "Pa")
             interval = found.law.intervals[key]
-            rows.append((name, covered, found.law.law, found.law.rms, key, of, value, *interval))
-    columns = (
-        Column("material"),
-        Column("to stretch"),
-        Column("law"),
-        Column("misfit", "", "%", 100.0, ".1f"),
-        Column("constant"),
-        Column("unit"),
-        *(Column(head, form=".3g") for head in ("value", "from", "to")),
-    )
-    return Table("Constants and 95 % intervals", columns, tuple(rows), "constants", grouped=True)
+            covered = f"{found.covered['uniaxial'][1]:.2f}"
+            yield Constant(name, covered, found.law.law, found.law.rms, key, of, value, *interval)
 
 
-def pulled_and_hung(fits: dict[str, TensileFit]) -> Table:
+def pulled_and_hung(fits: dict[str, TensileFit]) -> Iterator[Strip]:
     """A row per material and way: the error of a `consistent` lattice at each stretch."""
-    rows = []
     for name, found in fits.items():
-        assert found.law is not None
         for way, error in (("pulled", pulled), ("hung", hung)):
-            rows.append((name, way, *(error(found.law, stretch) for stretch in STRETCHES)))
-    columns = (
-        Column("material"),
-        Column("way"),
-        *(Column(f"{100 * stretch:g} %", "", "%", 100.0, "z.1f") for stretch in STRETCHES),
-    )
-    return Table(
-        "Error of the end's displacement at a stretch", columns, tuple(rows), "stretch", grouped=True
-    )
+            assert found.law is not None
+            yield Strip(name, way, {f"{100 * at:g} %": error(found.law, at) for at in STRETCHES})
 
 
 def _material(fit: Fit) -> Material:
@@ -143,11 +160,11 @@ def hung(fit: Fit, stretch: float) -> float:
     return _end(_lattice(scene)) / long - 1.0
 
 
-def blown(fit: Fit) -> Table:
+def blown(fit: Fit) -> Iterator[Square]:
     """A clamped square under pressures: the top's height in both, and the lattice's error."""
     laws = {"law": fit.law, **fit.constants} if fit.law != "neo-hookean" else {"law": fit.law}
     rubber = Material.model_validate({**_material(fit).model_dump(exclude_none=True), **laws})
-    sheet, rows = Sheet(0.1, 0.1, 0.002), []
+    sheet = Sheet(0.1, 0.1, 0.002)
     clamped = tuple(Clamped(edge) for edge in ("x0", "x1", "y0", "y1"))
     for share in PRESSURES:
         load = (Pressure(share * rubber.young * sheet.thickness / sheet.length_x),)
@@ -156,31 +173,4 @@ def blown(fit: Fit) -> Table:
         truth = fem_reference.solve(scene, "shell", elements=6)
         plain = scene.replace(material=_material(fit))
         tops = [float(s.displacement(at)[0, 2]) for s in (truth, _lattice(plain, (13, 13)))]
-        rows.append((share, truth.stretch, *tops, tops[1] / tops[0] - 1.0))
-    columns = (
-        Column("p a/(E h)", form=".3g"),
-        Column("largest stretch", "", "%", 100.0, ".1f"),
-        Column("shell", "m", "mm", 1e3, ".3f"),
-        Column("lattice", "m", "mm", 1e3, ".3f"),
-        Column("error", "", "%", 100.0, "z.1f"),
-    )
-    return Table(f"Blown up, clamped square, {fit.law}", columns, tuple(rows), "blown")
-
-
-def figure(strips: Table, squares: Table) -> Figure:
-    """Error of a linear lattice against stretch: of strips pulled and hung, by material, and blown up."""
-    drawn = Figure(figsize=(7.2, 2.8), layout="constrained")
-    axes = drawn.subplots(1, 3, sharey=True)
-    for axis, way in zip(axes, ("pulled", "hung"), strict=False):
-        for name, *errors in (row[:1] + row[2:] for row in strips.rows if row[1] == way):
-            axis.plot(100.0 * np.array(STRETCHES), 100.0 * np.array(errors), ".-", ms=4, lw=1, label=name)
-    stretch, error = np.array([(row[1], row[-1]) for row in squares.rows]).T
-    axes[2].plot(100.0 * stretch, 100.0 * error, ".-", ms=4, lw=1)
-    for axis, title in zip(axes, ("pulled", "hung", "blown up (Ecoflex 00-30)"), strict=True):
-        axis.axhspan(-2.0, 2.0, color="0.9", zorder=0)
-        axis.set_title(title, fontsize=8)
-        axis.set_xlabel("largest stretch [%]", fontsize=8)
-        axis.tick_params(labelsize=7)
-    axes[0].set_ylabel("error of a linear lattice [%]", fontsize=8)
-    axes[0].legend(frameon=False, fontsize=6)
-    return drawn
+        yield Square(share, truth.stretch, tops[0], tops[1], tops[1] / tops[0] - 1.0)

@@ -146,7 +146,7 @@ CODES = {
         ),
         Code(
             "genesis",
-            "Genesis 0.4, PBD cloth",
+            "Genesis 1.4, PBD cloth",
             "angle",
             (
                 Key(

@@ -10,7 +10,7 @@ soft.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -40,7 +40,8 @@ NEAR = 0.02  # of a square's side, from a clamp to the row beyond it
 @dataclass(frozen=True, repr=False)
 class CodeSetup(Answer):
     """A scene for a code. coefficients: our own, of the cell; limit_error: of however fine a mesh with them,
-    None where the scene has no answer at rest; best: whether they are those that are best in the scene."""
+    None where the scene has no answer at rest; best: whether they are those that are best in the scene;
+    given: parameters of the code in place of those that the coefficients make."""
 
     scene: Scene
     code: Code
@@ -49,6 +50,7 @@ class CodeSetup(Answer):
     coefficients: Mapping[str, float]
     limit_error: float | None
     best: bool
+    given: Mapping[str, float] = field(default_factory=dict)
 
     file_name = "code"
 
@@ -61,6 +63,7 @@ class CodeSetup(Answer):
     def problem(self) -> Problem:
         """Mesh and parameters, for the files. Raises BadInput for what codes of triangles do not have."""
         keys = {key.parameter: key.value for key in self.keys}
+        keys.update(self.given)
         material, tetrahedra = self.scene.material, None
         near = NEAR if self.best and self.code.hinge == "height" else 1.0
         flat = sheet_mesh(self.scene, self.squares, self.cell.name, near)
@@ -143,11 +146,13 @@ def setup(
     best: bool = True,
     mesh: str | None = None,
     coefficients: Mapping[str, float] | None = None,
+    given: Mapping[str, float] | None = None,
 ) -> CodeSetup:
     """Return a scene in a code's words.
 
     best: whether hinges are those best in the scene. mesh: another than the code's own choice; coefficients:
-    taken in place of those found. Raises BadInput for an unknown code.
+    taken in place of those found; given: the code's own parameters, likewise. Raises BadInput for an unknown
+    code.
     """
     scene = scene_of(scene)
     require_choice("--for", code, WRITERS)
@@ -173,7 +178,8 @@ def setup(
     if at_rest and off is None:
         springs = found if name != LAYERED else {"k": found["k"]}
         off = limit_error(scene, moduli_of(cell, springs))
-    return CodeSetup(scene, row, cell, squares, found, off, best and not coefficients)
+    best = best and not coefficients and not given
+    return CodeSetup(scene, row, cell, squares, found, off, best, dict(given or {}))
 
 
 def squares_of(grid: str | None) -> int:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import platform
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -19,17 +19,20 @@ import numpy as np
 
 import fem_reference
 from comparisons.cells.codes import CODES
+from comparisons.codes.mesh import refusal
 from comparisons.codes.setup import CodeSetup, setup
 from comparisons.comparison.differences import error
 from comparisons.external.process import ONE_THREAD, run
+from comparisons.scoring.cases import cases
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Scene, load
+from sheetbench.scenes import Scene
 
 RESULTS = Path(__file__).parent.parent / "results"
-SCENES = ("two-edges-clamped", "one-edge-clamped")
-SQUARES = 8
+SCENES = ("two-edges-clamped", "one-edge-clamped")  # every recipe; the others those that are taken everywhere
+CASES = {case.name: case.scene for case in cases("statics") if not refusal(case.scene)}
+SQUARES, BETTER = 8, 16
 MEAN_EDGE = (2.0 + 2.0**0.5) / 3.0  # of squares with diagonals, over their side
-Coefficients = Callable[[Scene, float], Mapping[str, float]]
+ONE = "one-diagonal"
 
 
 def _rigidity(scene: Scene) -> float:
@@ -37,25 +40,72 @@ def _rigidity(scene: Scene) -> float:
     return material.young * scene.sheet.thickness**3 / 12.0 / (1.0 - material.poisson**2)
 
 
-def _uniform(scene: Scene, _: float) -> dict[str, float]:
-    return {"k": scene.material.young * scene.sheet.thickness, "layers": scene.sheet.thickness}
+def _stretching(scene: Scene) -> float:
+    return scene.material.young * scene.sheet.thickness
 
 
-ONE = "one-diagonal"
-RECIPES: Mapping[str, Mapping[str, tuple[str | None, Coefficients | None]]] = {
-    "newton": {
-        "textbook: D/l": (ONE, lambda scene, side: {"hinge": _rigidity(scene) / side}),
-        "GAUGE: D/mean edge": (ONE, lambda scene, side: {"hinge": _rigidity(scene) / side / MEAN_EDGE}),
-        "ours": (None, None),
-    },
-    "mujoco": {
-        "textbook: E, ν, h": (ONE, lambda scene, _: {"hinge": _rigidity(scene) / 3.0}),
-        "ours, one diagonal": (ONE, None),
-        "ours": (None, None),
-    },
-    "pybullet": {"textbook: k = E h": (None, _uniform), "ours": (None, None)},
-}
+@dataclass(frozen=True)
+class Recipe:
+    """Numbers and a mesh for a code. coefficients: ours, of a scene and a square's side; keys: the code's own
+    parameters of a scene; without either what `calibrate --for` gives. everywhere: in all scenes."""
+
+    name: str
+    mesh: str | None = None
+    coefficients: Callable[[Scene, float], Mapping[str, float]] | None = None
+    keys: Callable[[Scene], Mapping[str, float]] | None = None
+    squares: int = SQUARES
+    everywhere: bool = True
+
+
 OURS = "ours"
+BEST = Recipe(OURS)
+FINER = Recipe(f"ours, {BETTER} squares", squares=BETTER)
+DIAGONAL = Recipe("ours, one diagonal", ONE)
+RECIPES: Mapping[str, tuple[Recipe, ...]] = {
+    "newton": (
+        Recipe(
+            "its defaults",
+            ONE,
+            keys=lambda _: dict.fromkeys(("tri_ke", "tri_ka", "edge_ke"), 100.0),
+            everywhere=False,
+        ),
+        Recipe("textbook: D/l", ONE, lambda scene, side: {"hinge": _rigidity(scene) / side}),
+        Recipe(
+            "GAUGE: D/mean edge",
+            ONE,
+            lambda scene, side: {"hinge": _rigidity(scene) / side / MEAN_EDGE},
+            everywhere=False,
+        ),
+        replace(DIAGONAL, everywhere=False),
+        BEST,
+        replace(FINER, everywhere=False),
+    ),
+    "mujoco": (
+        Recipe("textbook: E, ν, h", ONE, lambda scene, _: {"hinge": _rigidity(scene) / 3.0}),
+        DIAGONAL,
+        BEST,
+        FINER,
+    ),
+    "pybullet": (
+        Recipe("its defaults", keys=lambda _: {"springElasticStiffness": 1.0}, everywhere=False),
+        Recipe(
+            "textbook: k = E h",
+            coefficients=lambda scene, _: {"k": _stretching(scene), "layers": scene.sheet.thickness},
+        ),
+        BEST,
+        FINER,
+    ),
+    "genesis": (
+        Recipe("its defaults", keys=lambda _: _genesis(1e-7, 1e-5), everywhere=False),
+        Recipe("GAUGE: 1/K", keys=lambda scene: _genesis(1.0 / _stretching(scene), 1.0 / _rigidity(scene))),
+        BEST,
+        FINER,
+    ),
+}
+
+
+def _genesis(stretch: float, bending: float) -> dict[str, float]:
+    return {"own stretch_compliance": stretch, "own bending_compliance": bending}
 
 
 @dataclass(frozen=True)
@@ -75,15 +125,19 @@ def trials(code: str, python: str, seconds: float, say: Callable[[str], None]) -
     """Run every recipe of a code in every scene, with a Python that has it."""
     require_choice("code", code, RECIPES)
     found = []
-    for name in SCENES:
-        scene = load(name)
+    for name, scene in CASES.items():
         truth = fem_reference.solve(scene, model="shell", elements=16).displacement(scene.probe_points())
-        for recipe, (mesh, of) in RECIPES[code].items():
-            side = min(scene.sheet.lengths) / SQUARES
-            given = None if of is None else of(scene, side)
-            made = setup(scene, code, SQUARES, mesh=mesh, coefficients=given)
-            found.append(_trial(made, recipe, python, seconds, truth))
-            say(f"{code}, {name}, {recipe}: {found[-1].status}, {found[-1].error}")
+        for recipe in RECIPES[code]:
+            if not recipe.everywhere and name not in SCENES:
+                continue
+            side = min(scene.sheet.lengths) / recipe.squares
+            coefficients = recipe.coefficients and recipe.coefficients(scene, side)
+            given = recipe.keys and recipe.keys(scene)
+            made = setup(
+                scene, code, recipe.squares, mesh=recipe.mesh, coefficients=coefficients, given=given
+            )
+            found.append(_trial(made, recipe.name, python, seconds, truth))
+            say(f"{code}, {name}, {recipe.name}: {found[-1].status}, {found[-1].error}")
     return found
 
 
@@ -133,8 +187,8 @@ def read_results(path: Path) -> dict[str, Any]:
         raise BadInput(f"{path}: texts and rows are not to be empty")
     for row in rows:
         numbers = [value for value in (row.error, row.seconds) if value is not None]
-        if row.scene not in SCENES or not all(0.0 <= value < np.inf for value in numbers):
-            raise BadInput(f"{path}: {row.scene}, {row.recipe}: a scene of {', '.join(SCENES)}, numbers ≥ 0")
+        if row.scene not in CASES or not all(0.0 <= value < np.inf for value in numbers):
+            raise BadInput(f"{path}: {row.scene}, {row.recipe}: a scene of {', '.join(CASES)}, numbers ≥ 0")
         if row.status == "converged" and len(numbers) < 2:
             raise BadInput(f"{path}: {row.scene}, {row.recipe}: converged without an error or a time")
     return document

@@ -3,8 +3,10 @@
     pip install pybullet==3.2.7 numpy
     python run_pybullet.py [SECONDS]
 
-Steps are explicit: half of what the stiffest spring and the lightest vertex bear. Every vertex has the same
-mass there. Springs are damped, and the sheet is at rest where ten checks in turn find it in one place.
+Springs are damped along their length by DAMPING times their stiffness, which PyBullet takes implicitly: steps
+then may be as long as twice DAMPING, however stiff the springs, and the sheet creeps to rest. Damping as it
+is given in examples (0.1 N·s/m, in all directions) does not stop the sheet within minutes, and asks for steps
+shorter than a spring's period. Every vertex has the same mass there.
 """
 
 import json
@@ -15,7 +17,8 @@ from pathlib import Path
 import numpy as np
 import pybullet as bullet
 
-CHECK, AT_REST, DRAG = 500, 1e-3, 8.0  # steps between checks; of the largest displacement; 1/s
+STEP, DAMPING = 1e-3, 1e-2  # s
+CHECK, AT_REST = 50, 1e-4  # steps between checks; of the largest displacement
 
 
 def main(seconds=120.0):
@@ -26,8 +29,7 @@ def main(seconds=120.0):
     bullet.connect(bullet.DIRECT)
     bullet.resetSimulation(bullet.RESET_USE_DEFORMABLE_WORLD)
     bullet.setGravity(*sheet["gravity"])
-    step = 0.5 / (16.0 * keys["springElasticStiffness"] / mass) ** 0.5
-    bullet.setTimeStep(step)
+    bullet.setTimeStep(STEP)
     body = bullet.loadSoftBody(
         str(folder / "sheet.vtk"),
         mass=mass * len(rest),
@@ -36,17 +38,18 @@ def main(seconds=120.0):
         useBendingSprings=0,
         useSelfCollision=0,
         springElasticStiffness=keys["springElasticStiffness"],
-        springDampingStiffness=DRAG * mass,
-        springDampingAllDirections=1,
+        springDampingStiffness=DAMPING * keys["springElasticStiffness"],
+        springDampingAllDirections=0,
         collisionMargin=1e-4,
     )
     for vertex in np.flatnonzero(held).tolist():
         bullet.createSoftBodyAnchor(body, vertex, -1, -1)
-    status, count, earlier, calm, started = "step-limit", 0, None, 0, time.perf_counter()
+    status, count, earlier, calm = "step-limit", 0, None, 0
     forced = np.flatnonzero(np.array(sheet["forces"]).any(axis=1))
     if len(forced):
         sys.exit("loadSoftBody takes no forces at single vertices")
     moved = np.zeros_like(rest)
+    started, spent = time.perf_counter(), time.process_time()
     while time.perf_counter() - started < seconds:
         for _ in range(CHECK):
             bullet.stepSimulation()
@@ -59,11 +62,11 @@ def main(seconds=120.0):
         size = np.abs(moved).max()
         calm = calm + 1 if earlier is not None and np.abs(moved - earlier).max() < AT_REST * size else 0
         earlier = moved
-        if calm == 20:
+        if calm == 3:
             status = "converged"
             break
     probes = {n: (np.array(p["shares"]) @ moved[p["vertices"]]).tolist() for n, p in sheet["probes"].items()}
-    spent = time.perf_counter() - started
+    spent = time.process_time() - spent
     print(json.dumps({"status": status, "probes": probes, "solve_seconds": spent, "iterations": count}))
 
 

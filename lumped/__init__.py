@@ -23,7 +23,7 @@ from lumped.footprint import footprint
 from lumped.lattice import Lattice
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
-from lumped.sections import sections_of
+from lumped.sections import require_alike, sections_of
 from lumped.sensitivity import Sensitivity, gradient, sensitivity
 from lumped.statics.buckling import buckling_loads
 from lumped.statics.continuation import Path, trace
@@ -82,6 +82,7 @@ __all__ = [
     "modes",
     "moduli",
     "polygons",
+    "require_alike",
     "require_integrator",
     "sections_of",
     "sensitivity",

@@ -51,13 +51,14 @@ class Assembly:
             twisting,
             calibration.grading,
             calibration.half,
+            calibration.present,
         )
         # the seed's lattice has equal masses; any other one is as inert at its edges as the sheet
         self.cells = calibration.cells
         self.inertia: Distribution = "tributary" if weights == "full" else "gregory"
         self.coupling = couple(self.lattice) if couple is not None else None
         if self.coupling is None:
-            self.pattern = of_grid(self.lattice.grid)
+            self.pattern = of_grid(self.lattice.grid, self.lattice.present)
         else:
             own = self.coupling.pairs()
             pairs = neighbours(self.lattice.columns())

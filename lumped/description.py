@@ -124,7 +124,8 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
     nx, ny, layers = lattice.grid
     j, i, k = (at.ravel() for at in np.meshgrid(*map(np.arange, (ny, nx, layers)), indexing="ij"))
-    moments, pressure = problem.loads.at_time(None)
+    moments, pressures = problem.loads.at_time(None)
+    pressure = float(pressures[0])  # of a plain sheet all alike
     pressed = lattice.mid_cells
     couples = tuple(c for edge, moment, turn in moments for c in _couples(edge, turn * moment))
     states, why = _states(scene, calibration, assembly)

@@ -12,7 +12,8 @@ with the layers averaged, on every cell of the mid-surface.
 Source: the seed's lattice (Habibi et al.), with the tributary weights and area springs of
 docs/theory.md: a link between two cells has half of each one's stiffness, so that links lying in a boundary
 line of the sheet carry half; vertical links have a quarter of each of four cells; masses take the sheet
-around them (of equal cells ½ on edges, ¼ at corners).
+around them (of equal cells ½ on edges, ¼ at corners). Cells beyond the outline of a sheet, or in its holes,
+are absent: they have no springs and no mass, and masses between them alone are numbered but do not move.
 """
 
 from __future__ import annotations
@@ -77,7 +78,7 @@ class CellFamily:
 class Lattice:
     """Topology and rest geometry. lines: across x and across y; layer_distance: lz [m]; positions: (n, 3)
     [m]; share: (n,) of each mass in the plan area, in mean cells; twisting: the edges along which nothing
-    holds the director."""
+    holds the director; present: (ny − 1, nx − 1) of the cells, None where all are."""
 
     grid: Grid
     lines: tuple[Lines, Lines]
@@ -87,6 +88,19 @@ class Lattice:
     cells: tuple[CellFamily, ...]
     share: np.ndarray
     twisting: frozenset[str] = frozenset()
+    present: np.ndarray | None = None
+
+    @cached_property
+    def kept(self) -> np.ndarray | slice:
+        """The cells present among all, as an index of their numbers."""
+        return slice(None) if self.present is None else np.flatnonzero(self.present)
+
+    @cached_property
+    def absent_masses(self) -> np.ndarray:
+        """The masses of no cell, (k,)."""
+        there = np.zeros(self.mass_count, dtype=bool)
+        there[self.mid_cells] = True
+        return np.flatnonzero(~there)
 
     @cached_property
     def joined(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -116,9 +130,10 @@ class Lattice:
 
     @cached_property
     def cell_areas(self) -> np.ndarray:
-        """Plan areas of the cells, (ny − 1, nx − 1) [m²]."""
+        """Plan areas of the cells, (ny − 1, nx − 1) [m²], of absent ones none."""
         x, y = self.lines
-        return frozen(np.outer(y.widths, x.widths))
+        areas = np.outer(y.widths, x.widths)
+        return frozen(areas if self.present is None else areas * self.present)
 
     @cached_property
     def sides(self) -> dict[str, np.ndarray]:
@@ -179,16 +194,20 @@ def build(
     twisting: frozenset[str] = frozenset(),
     grading: Graded = 0.0,
     half: tuple[bool, bool] = (False, False),
+    present: np.ndarray | None = None,
 ) -> Lattice:
     """The lattice of a sheet. `weights="full"` gives every link its family's full stiffness and every
     mass the same share, as the seed has them. grading, half: of the grid's lines (`lumped.grid_lines`).
+    present: of the cells, where some are not.
 
     Raises BadInput for fewer than two masses a side or two layers, a grading outside 0 to 1, and full weights
     on a graded grid. A small lattice is the same object every time: its arrays are not to
     be written to, and read-only where no kernel takes them (numba has another type for those).
     """
     small = math.prod(grid) <= SHARED_UP_TO
-    return (_kept_lattice if small else _build)(sheet, grid, layer_distance, weights, twisting, grading, half)
+    made = _kept_lattice if small else _build
+    key = None if present is None else present.tobytes()
+    return made(sheet, grid, layer_distance, weights, twisting, grading, half, key)
 
 
 def _build(
@@ -199,8 +218,10 @@ def _build(
     twisting: frozenset[str],
     grading: Graded,
     half: tuple[bool, bool],
+    key: bytes | None,
 ) -> Lattice:
     nx, ny, layers = grid
+    present = None if key is None else np.frombuffer(key, dtype=bool).reshape(ny - 1, nx - 1)
     if min(grid) < 2:
         raise BadInput(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
     if weights == "full" and grading:
@@ -212,21 +233,25 @@ def _build(
 
     families = []
     for step in (_kept_steps if nx * ny * layers <= SHARED_UP_TO else _steps)(grid):
-        shares = step.shares
+        nodes, cells, shares, row, column = step.nodes, step.cells, step.shares, step.row, step.column
+        if present is not None:
+            shares = shares * present.ravel()[cells]
+            there = shares.any(axis=1)
+            nodes, cells, shares, row, column = (part[there] for part in (nodes, cells, shares, row, column))
         if weights == "full":
             shares = shares / shares.sum(axis=1, keepdims=True)
         di, dj, dk = step.by
-        offset = np.empty((len(step.nodes), 3))
-        offset[:, 0] = di * across_x.widths[step.column]
-        offset[:, 1] = dj * across_y.widths[step.row]
+        offset = np.empty((len(nodes), 3))
+        offset[:, 0] = di * across_x.widths[column]
+        offset[:, 1] = dj * across_y.widths[row]
         offset[:, 2] = dk * layer_distance
-        families.append(
-            LinkFamily(step.name, step.direction, step.nodes, *frozen((offset, step.cells, shares)))
-        )
+        families.append(LinkFamily(step.name, step.direction, nodes, *frozen((offset, cells, shares))))
 
     columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
     corners = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
     corners = corners.reshape(-1, 4, layers)
+    if present is not None:
+        corners = corners[present.ravel()]
     layer_cells = np.moveaxis(corners, 2, 0).reshape(-1, 4, 1)
     x_share, y_share = (side.tributary / side.mean for side in lines)
     share = np.repeat(np.outer(y_share, x_share).ravel(), layers)
@@ -242,6 +267,7 @@ def _build(
         cells=(CellFamily("area", layer_cells), CellFamily("mid_area", corners)),
         share=share,
         twisting=twisting,
+        present=present,
     )
 
 

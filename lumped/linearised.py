@@ -55,6 +55,7 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
+from sheetbench.scenes.supports import named
 
 MODES = 20  # of the state space unless asked for
 LAST = 1e9  # s: when every history has its last value, as in statics
@@ -211,14 +212,14 @@ def _inputs(
     for edge in _bent(scene):
         _, force, moved = rates(scene, calibration, problem, u, f"curvature_{edge}")
         columns.append((f"{edge} curvature", force.ravel(), -drag @ moved.ravel(), moved.ravel()))
-    for support in scene.supports:
-        rows, axes = problem.constraints.holders[support.edge]
+    for name, support in named(scene.supports).items():
+        rows, axes = problem.constraints.holders[name]
         for axis in () if isinstance(support, Symmetric) else axes:
             place, row = np.zeros_like(u), rows.ravel()
             free = ~problem.constraints.fixed[row, axis]
             place[row if holds_director(support) else row[free], axis] = 1.0
             moved = place.ravel()
-            columns.append((f"{support.edge} {'xyz'[axis]}", -spring @ moved, -drag @ moved, moved))
+            columns.append((f"{name} {'xyz'[axis]}", -spring @ moved, -drag @ moved, moved))
     names, *values = zip(*columns, strict=True)
     force, rate, place = (np.stack(value, axis=1) for value in values)
     return tuple(names), force, rate, place

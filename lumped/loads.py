@@ -21,12 +21,15 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lumped.assembly import Assembly
+from lumped.coverage import areas_of_masses, cell_shares
+from lumped.lattice import Lattice
 from lumped.masses import masses
 from lumped.mid_surface import MidSurface
 from lumped.pressure import add_forces, add_tangent
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import (
     EDGES,
+    AreaLoad,
     EdgeLoad,
     FactorTable,
     PiecewiseLinear,
@@ -35,19 +38,21 @@ from sheetbench.scenes import (
     Scene,
     encloses_volume,
 )
+from sheetbench.scenes.region import edge_parts
 
 
 @dataclass
 class Part:
     """Loads that share a history, if they have one.
 
-    dead: (n, 3) [N]; moments: masses of an edge, [N·m] by column, turn; pressure: [Pa].
+    dead: (n, 3) [N]; pressure: (cells,) [Pa] of those present, by their shares under it; moments: masses of
+    an edge, [N·m] by column, turn.
     """
 
     history: PiecewiseLinear | None
     dead: np.ndarray
+    pressure: np.ndarray
     moments: list[tuple[np.ndarray, np.ndarray, float]] = field(default_factory=list)
-    pressure: float = 0.0
 
     def factor(self, time: float | None) -> float:
         """The history's factor at a time [s]; the last one without a time."""
@@ -58,8 +63,8 @@ class Loads:
     """The external forces of a scene at load factor 1; every load scales with the load factor.
 
     dead: (n, 3) [N], of the dead loads without a history; last_dead, pressure: of all in the end, (n, 3) [N]
-    and [Pa]; follow: whether some loads follow the sheet, turning: edge moments; conservative: whether all
-    have a potential at a given time; potential: whether `dead` is all there is.
+    and (cells,) [Pa]; follow: whether some loads follow the sheet, turning: edge moments; conservative:
+    whether all have a potential at a given time; potential: whether `dead` is all there is.
     """
 
     def __init__(self, scene: Scene, assembly: Assembly):
@@ -83,22 +88,29 @@ class Loads:
                 )
             elif isinstance(load, EdgeLoad):
                 edge = lattice.edge_columns(load.edge)
-                length = lattice.lines[EDGES[load.edge].along_axis].tributary
+                length = _lengths(scene, lattice, load.edge)
+                edge, length = edge[length > 0.0], length[length > 0.0]
                 force = length[:, None] * np.array(load.force_per_length) / lattice.grid[2]
                 part.dead[edge] += force[:, None, :]
                 if load.moment_per_length:
                     along = np.eye(3)[EDGES[load.edge].along_axis]
                     turn = np.cross(EDGES[load.edge].outward, [0.0, 0.0, 1.0]) @ along
                     part.moments.append((edge, length * load.moment_per_length, float(turn)))
+            elif isinstance(load, AreaLoad):
+                area = areas_of_masses(scene, lattice, load.where).ravel() / lattice.grid[2]
+                part.dead[lattice.columns().reshape(len(area), -1)] += area[:, None, None] * np.array(
+                    load.force_per_area
+                )
             elif isinstance(load, Pressure):
-                part.pressure += load.value
+                part.pressure += load.value * cell_shares(scene, lattice, load.where)
         last = [(part.factor(None), part) for part in self._parts.values()]
-        self.pressure = sum(factor * part.pressure for factor, part in last)
+        self.pressure = np.sum([factor * part.pressure for factor, part in last], axis=0)
         others = [factor * part.dead for factor, part in last[1:]]
         self.last_dead = np.sum([self.dead, *others], axis=0) if others else self.dead
         self.turning = any(part.moments for _, part in last)
-        self.follow = self.turning or any(part.pressure for _, part in last)
-        self.conservative = not self.turning and (not self.follow or encloses_volume(scene.supports))
+        self.follow = self.turning or any(part.pressure.any() for _, part in last)
+        closed = encloses_volume(scene.supports) and not scene.shaped_by
+        self.conservative = not self.turning and (closed or not self.follow)
         self.potential = not self.follow and len(last) == 1
         frozen(tuple(part.dead for part in self._parts.values()))
 
@@ -111,14 +123,15 @@ class Loads:
         """The part with this history, made when it is first asked for."""
         if history not in self._parts:
             course = None if history is None else PiecewiseLinear(history.time, history.factor)
-            self._parts[history] = Part(course, np.zeros((self._assembly.pattern.size, 3)))
+            pressure = np.zeros(len(self._assembly.lattice.mid_cells))
+            self._parts[history] = Part(course, np.zeros((self._assembly.pattern.size, 3)), pressure)
         return self._parts[history]
 
-    def at_time(self, time: float | None) -> tuple[list[tuple[np.ndarray, np.ndarray, float]], float]:
-        """Edge moments (masses of an edge, [N·m] by column, turn) and pressure [Pa] at a time."""
+    def at_time(self, time: float | None) -> tuple[list[tuple[np.ndarray, np.ndarray, float]], np.ndarray]:
+        """Edge moments (masses of an edge, [N·m] by column, turn) and pressure (cells,) [Pa] at a time."""
         scaled = [(part.factor(time), part) for part in self._parts.values()]
         moments = [(edge, by * moment, turn) for by, part in scaled for edge, moment, turn in part.moments]
-        return moments, sum(by * part.pressure for by, part in scaled)
+        return moments, np.sum([by * part.pressure for by, part in scaled], axis=0)
 
     def force(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
         """External force (n, 3) [N] on the masses displaced by u, at a time [s]; without a time, as statics
@@ -149,7 +162,7 @@ class Loads:
             top, bottom, couple = self._couple(x, edge, moment, turn)[:3]
             force[top] += couple
             force[bottom] -= couple
-        if pressure:
+        if pressure.any():
             add_forces(x, self._assembly.lattice.mid_cells, pressure, force)
         return force
 
@@ -163,7 +176,7 @@ class Loads:
         moments, pressure = self.at_time(time)
         for edge, moment, turn in moments:
             self._add_couple_tangent(x, edge, load_factor * moment, turn, blocks)
-        if pressure:
+        if pressure.any():
             cells = self._assembly.lattice.mid_cells
             slots = self._assembly.pattern.among(cells.reshape(len(cells), -1))
             add_tangent(x, cells, slots, -load_factor * pressure, blocks)
@@ -203,6 +216,20 @@ class Loads:
             for layer in range(edge.shape[1]):
                 blocks[slots(row, edge[after, layer])] += sign * by_chord
                 blocks[slots(row, edge[before, layer])] -= sign * by_chord
+
+
+def _lengths(scene: Scene, lattice: Lattice, edge: str) -> np.ndarray:
+    """What length of an edge each of its masses stands for, (m,) [m]."""
+    lines = lattice.lines[EDGES[edge].along_axis]
+    if not scene.pierced:
+        return lines.tributary
+    length = np.zeros(len(lines.at))
+    for ends in edge_parts(scene, edge):
+        start, stop = (np.clip(at, *ends) for at in (lines.at[:-1], lines.at[1:]))
+        middle = (0.5 * (start + stop) - lines.at[:-1]) / lines.widths
+        length[:-1] += (stop - start) * (1.0 - middle)
+        length[1:] += (stop - start) * middle
+    return length
 
 
 def _spin(v: np.ndarray) -> np.ndarray:

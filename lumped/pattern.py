@@ -66,18 +66,25 @@ class Pattern:
         return self.slots(nodes[:, :, None], nodes[:, None, :])
 
 
-def of_grid(grid: Grid) -> Pattern:
-    """The pattern of a lattice on a grid alone; that of a small one is the same object every time."""
+def of_grid(grid: Grid, present: np.ndarray | None = None) -> Pattern:
+    """The pattern of a lattice on a grid alone, without cells that are not `present`; that of a small one is
+    the same object every time."""
     nx, ny, layers = grid
-    return (_kept if nx * ny * layers <= SHARED_UP_TO else _of_grid)(grid)
+    made = _kept if nx * ny * layers <= SHARED_UP_TO else _of_grid
+    return made(grid, None if present is None else present.tobytes())
 
 
-def _of_grid(grid: Grid) -> Pattern:
+def _of_grid(grid: Grid, key: bytes | None) -> Pattern:
     nx, ny, layers = grid
     columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
     masses = _of_cells(columns)
-    j, i = np.divmod(np.arange(len(masses)), nx - 1)
-    return Pattern(columns.size, *neighbours(columns), Cells(masses, np.stack([i, j], axis=1).astype(float)))
+    number, rest = np.arange(len(masses)), np.empty(0, dtype=int)
+    if key is not None:
+        number = np.flatnonzero(np.frombuffer(key, dtype=bool))
+        rest, masses = np.setdiff1d(columns, masses[number]), masses[number]
+    j, i = np.divmod(number, nx - 1)
+    rows, others = (np.concatenate([part, rest]) for part in _pairs(masses))
+    return Pattern(columns.size, rows, others, Cells(masses, np.stack([i, j], axis=1).astype(float)))
 
 
 _kept = lru_cache(maxsize=16)(_of_grid)
@@ -86,7 +93,10 @@ _kept = lru_cache(maxsize=16)(_of_grid)
 def neighbours(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Ordered pairs of masses that may act on each other: any two in the four columns of one cell of the
     plan, columns: (ny, nx, layers)."""
-    nodes = _of_cells(columns)
+    return _pairs(_of_cells(columns))
+
+
+def _pairs(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     p = nodes.shape[1]
     return np.repeat(nodes, p, axis=1).ravel(), np.tile(nodes, (1, p)).ravel()
 

@@ -28,10 +28,12 @@ def _means(x: np.ndarray, columns: np.ndarray, out: np.ndarray) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def add_forces(x: np.ndarray, cells: np.ndarray, pressure: float, force: np.ndarray) -> None:
-    """Add the force at positions x (n, 3) [m] on cells (c, 4, p) to `force` (n, 3) [N]; pressure in Pa."""
+def add_forces(x: np.ndarray, cells: np.ndarray, pressure: np.ndarray, force: np.ndarray) -> None:
+    """Add the force at positions x (n, 3) [m] on cells (c, 4, p) under pressure (c,) [Pa] to `force` (n, 3)
+    [N]."""
     corners, turned = np.empty((4, 3)), np.empty((4, 3))
-    for columns in cells:
+    for c in range(len(cells)):
+        columns = cells[c]
         _means(x, columns, corners)
         for b in range(4):
             r, s = corners[(b + 1) % 4] - corners[b], corners[b - 1] - corners[b]
@@ -44,12 +46,12 @@ def add_forces(x: np.ndarray, cells: np.ndarray, pressure: float, force: np.ndar
                 for b in range(4):
                     share += WEIGHTS[(b - a) % 4] * turned[b, q]
                 for mass in columns[a]:
-                    force[mass, q] += pressure * share / columns.shape[1]
+                    force[mass, q] += pressure[c] * share / columns.shape[1]
 
 
 @njit(cache=True, error_model="numpy")
 def add_tangent(
-    x: np.ndarray, cells: np.ndarray, slots: np.ndarray, pressure: float, blocks: np.ndarray
+    x: np.ndarray, cells: np.ndarray, slots: np.ndarray, pressure: np.ndarray, blocks: np.ndarray
 ) -> None:
     """Add the derivative of the force to the blocks (b, 3, 3) [N/m] at the slots (c, 4 p, 4 p) of the cells'
     masses. δc = [r]× δs − [s]× δr with r, s the two sides from a corner."""
@@ -63,7 +65,7 @@ def add_tangent(
             for q in range(3):
                 r, s = corners[after, q] - corners[b, q], corners[before, q] - corners[b, q]
                 for a in range(4):
-                    weight = WEIGHTS[(b - a) % 4] * pressure / p**2
+                    weight = WEIGHTS[(b - a) % 4] * pressure[c] / p**2
                     by[a, before, q] += weight * r
                     by[a, after, q] -= weight * s
                     by[a, b, q] += weight * (s - r)

@@ -28,11 +28,11 @@ import numpy as np
 from lumped import plies
 from lumped.grid_lines import Lines, grid_lines
 from sheetbench.errors import Impossible
-from sheetbench.scenes import Cells, Constants, Scene
+from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, require_uniform
 from sheetbench.scenes.cells import NUMBERS
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.patches import APART, parts_between, sides_of
+from sheetbench.scenes.patches import APART, KNOWING, parts_between, shares_of, sides_of
 
 SHEAR_CORRECTION = 5.0 / 6.0
 FINER = 4
@@ -77,7 +77,8 @@ class Section:
     @property
     def layer_width(self) -> np.ndarray:
         """λ (…) [m], in which twist fades at a free edge: √(D66/S), h/√10 of a homogeneous sheet."""
-        return np.asarray(np.sqrt(self.bending[..., 2, 2] / self.shear.mean(axis=-1)))
+        twisting, shear = self.bending[..., 2, 2], self.shear.mean(axis=-1)
+        return np.sqrt(np.divide(twisting, shear, out=np.zeros_like(twisting), where=shear > 0.0))
 
 
 def of_cells(cells: Cells, grid: Grid) -> Section:
@@ -87,9 +88,27 @@ def of_cells(cells: Cells, grid: Grid) -> Section:
     return Section.of(cells.arrays(shape))
 
 
+def require_alike(scene: Scene, who: str, instead: str = KNOWING) -> None:
+    """Raise Impossible for a sheet whose cells differ, which `who` does not know; instead: what does."""
+    require_uniform(scene, who, instead)
+    if scene.pierced:
+        require_rectangle(scene, who, instead)
+
+
 def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | None:
-    """The sections of the cells of a scene's sheet; None of a sheet that is the same all over and in all
-    directions."""
+    """The sections of the cells of a scene's sheet; None of one that is the same all over and in all
+    directions. A cell that the outline cuts has its share of what all of it would have."""
+    lines = grid_lines(scene.sheet, grid, grading)
+    whole = _as_if_whole(scene, grid, lines)
+    if not scene.pierced:
+        return whole
+    if whole is None:
+        whole = of_cells(Cells.of(scene.sheet, scene.material), grid)
+    return _times(whole, shares_of(scene.region, lines[0].at, lines[1].at))
+
+
+def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> Section | None:
+    """The sections of cells as if the sheet had no outline, None where they are alike in all directions."""
     if scene.uniform:
         return None
     if scene.material.kind == "orthotropic":
@@ -99,7 +118,6 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | No
         )
     if scene.homogeneous:
         return of_cells(Cells.of(scene.sheet, scene.material), grid)
-    lines = grid_lines(scene.sheet, grid, grading)
     x, y = (_divided(side, at) for side, at in zip(lines, sides_of(scene), strict=True))
     sections = [_times(Section.of(part.constants), part.share) for part in parts_between(scene, x, y)]
     total = sum(sections[1:], sections[0])

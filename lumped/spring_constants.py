@@ -84,19 +84,20 @@ def of_faces(springs: SpringSet, spacing: Sequence[float]) -> tuple[np.ndarray, 
 
 
 def of_rubber(
-    springs: SpringSet, sides: np.ndarray, area: np.ndarray, twist: np.ndarray
+    springs: SpringSet, sides: np.ndarray, area: np.ndarray, twist: np.ndarray, kept: Any = slice(None)
 ) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (c, 4) [N/m] of the small strains of a layer's plan cells that are rubber membranes, less
     that of their axial links, and what else `lumped.springs.laws` takes of them (c, 9). sides (c, 2, 3)
-    [m], area (c,) [m²]; twist: (c,) [N/m] that edges add to the shear."""
-    count = len(area)
+    [m], area (c,) [m²]; twist: [N/m] that edges add to the shear of all cells, of which `kept` are (c,)."""
+    count = len(twist)
     shear, volume, c01, c20, c30, limit = (
-        of_cells(getattr(springs, name), count) for name in RUBBER_CONSTANTS
+        of_cells(getattr(springs, name), count)[kept] for name in RUBBER_CONSTANTS
     )
+    twist = twist[kept]
     c10 = 0.5 * shear
-    stiffening = 2.0 * c20 + np.divide(c10, limit, out=np.zeros(count), where=limit > 0.0)
+    stiffening = 2.0 * c20 + np.divide(c10, limit, out=np.zeros_like(limit), where=limit > 0.0)
     modulus, lame = shear + 2.0 * c01, volume + 4.0 * (c01 + stiffening)
-    axial, lengths = along_each(springs.axial, count), (sides**2).sum(axis=2).T
+    axial, lengths = along_each(springs.axial, count)[:, kept], (sides**2).sum(axis=2).T
     stretch = 2.0 * modulus - axial * lengths / area
     ratio = lame / modulus
     stiffness = np.column_stack([2.0 * modulus * ratio / (2.0 + ratio), *stretch, modulus + twist])
@@ -181,19 +182,20 @@ def of_cell(springs: SpringSet, row: int, column: int) -> SpringSet:
     )
 
 
-def gathered(cells: Sequence[Sequence[SpringSet]]) -> SpringSet:
-    """The springs of a lattice from those of its cells, rows from y0 to y1; one layer distance for all."""
-    first = cells[0][0]
-    found: dict[str, Any] = {"layer_distance": first.layer_distance}
+def gathered(kinds: Sequence[SpringSet], which: np.ndarray, factor: np.ndarray) -> SpringSet:
+    """The springs of a lattice from those of its kinds of cells: which kind every cell is, (rows, columns),
+    rows from y0 to y1, and how many times as stiff; one layer distance for all."""
+    found: dict[str, Any] = {"layer_distance": kinds[0].layer_distance}
     for name in SpringSet.model_fields:
-        values = [[getattr(cell, name) for cell in row] for row in cells]
+        values = [getattr(kind, name) for kind in kinds]
         if name in (*found, *EDGES_OWN):
             continue
-        if any(isinstance(value, PerDirection) for row in values for value in row):
-            x, y = (_table([[_along(value, axis) for value in row] for row in values]) for axis in "xy")
+        times = np.ones_like(factor) if name == "gent_limit" else factor
+        if any(isinstance(value, PerDirection) for value in values):
+            x, y = (_table(times * np.array([_along(v, axis) for v in values])[which]) for axis in "xy")
             found[name] = x if x == y else PerDirection(x=x, y=y)
         else:
-            found[name] = _table(values)
+            found[name] = _table(times * np.array(values)[which])
     return SpringSet(**found)
 
 
@@ -201,9 +203,9 @@ def _along(value: Any, axis: str) -> Any:
     return getattr(value, axis) if isinstance(value, PerDirection) else value
 
 
-def _table(values: list[list[float]]) -> float | tuple[tuple[float, ...], ...]:
+def _table(values: np.ndarray) -> float | tuple[tuple[float, ...], ...]:
     """Zero where all are zero."""
-    return tuple(map(tuple, values)) if np.any(values) else 0.0
+    return tuple(map(tuple, values.tolist())) if values.any() else 0.0
 
 
 def cut(springs: SpringSet, rows: int, columns: int) -> SpringSet:

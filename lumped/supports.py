@@ -21,22 +21,24 @@ from scipy.sparse.linalg import splu
 
 from lumped.actuators import Coupling
 from lumped.actuators.corners import Tie
+from lumped.coverage import held_columns
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, Pattern
 from lumped.rest import Itself
 from sheetbench.numerics.kept import frozen
 from sheetbench.numerics.maps import Rows, csr_arrays
 from sheetbench.numerics.reduced import ReducedSystem, reduced
-from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt, require_rectangle
+from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
 from sheetbench.scenes.kinematics import bent_or_tilted, shifts
+from sheetbench.scenes.supports import named
 
 
 @dataclass(frozen=True, eq=False)
 class Constraints:
     """transform: (3n, m) sparse, q → u; turned: λ → g (n, 3) [m] of bent rods and tilted clamps; shift:
-    (n, 3) [m] in the end of supports that move; holders: edge → (mass rows of the edge (m, layers), axes
-    held); held: (n, 3) bool, components that some support acts on; fixed: (n, 3) bool, those of them that are
-    in place whatever q is."""
+    (n, 3) [m] in the end of supports that move; holders: by the supports' names (columns of masses (m,
+    layers), axes held); held: (n, 3) bool, components that some support acts on; fixed: (n, 3) bool, those of
+    them that are in place whatever q is."""
 
     transform: sp.csr_array
     turned: Callable[[float], np.ndarray]
@@ -126,7 +128,6 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     """The constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a linear
     map of the actuator's rows. Columns of edges moved rigidly are the motion's, not the supports'. Of the
     same supports without actuators on the same small lattice they are the same every time."""
-    require_rectangle(scene, "the lattice")
     if coupling is not None or lattice.mass_count > SHARED_UP_TO:
         return _constrain(scene.supports, scene.sheet, lattice, coupling)
     return _kept(tuple(scene.supports), scene.sheet, Itself(lattice))
@@ -145,16 +146,17 @@ def _constrain(
     fixed = np.zeros((n, 3), dtype=bool)
     mean_held: dict[tuple[int, int], np.ndarray] = {}  # (last mass of a column, axis) → the column
     holders: dict[str, tuple[np.ndarray, tuple[int, ...]]] = {}
-    for support in supports:
-        masses = lattice.edge_columns(support.edge)
+    for name, support in named(supports).items():
+        masses = held_columns(lattice, support, name)
         masses = masses[~moved[masses[:, 0]]]
         axes = held_axes(support)
-        holders[support.edge] = (masses, axes)
+        holders[name] = (masses, axes)
         if holds_tilt(support):
             fixed[masses.ravel()[:, None], list(axes)] = True
         else:
             for axis in axes:
                 mean_held.update({(column[-1], axis): column for column in masses})
+    fixed[lattice.absent_masses] = True
     held = fixed.copy()
     mean_held = {key: column for key, column in mean_held.items() if not fixed[key[0], key[1]]}
     dependent = np.zeros((n, 3), dtype=bool)

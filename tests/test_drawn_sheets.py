@@ -170,7 +170,7 @@ SHAPED = {
     'load.kind = "area"': {"loads": [{"kind": "area", "force_per_area": (0.0, 0.0, 1.0)}]},
 }
 UNKNOWN = {  # what each model does not know of shapes
-    **dict.fromkeys(["lumped", "plate", "shell", "solid"], SHAPED)
+    **dict.fromkeys(["plate", "shell", "solid"], SHAPED)
 }
 
 

@@ -31,7 +31,7 @@ from sheetbench.choices import (
     method_of,
 )
 from sheetbench.errors import BadInput, Implausible, require_choice
-from sheetbench.scenes import Scene, require_uniform
+from sheetbench.scenes import Scene
 from sheetbench.scenes.grid import Grid, near_square
 from sheetbench.scenes.plausibility import layer_slips
 from sheetbench.scenes.quantities import require_positive
@@ -105,11 +105,11 @@ class Resolved(Generic[S]):
             for slip in layer_slips(sheet, spec.layer_distance, "layer-distance"):
                 warn(Implausible(slip), stacklevel=2)
         own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading or 0.0}
-        if not self.scene.uniform:
+        if not self.scene.uniform or self.scene.pierced:
             named = method_of(spec.calibration, spec.k)
             if "cells" not in CALIBRATIONS[named].takes:
                 knowing = [name for name, method in CALIBRATIONS.items() if "cells" in method.takes]
-                require_uniform(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
+                lumped.require_alike(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
             own["cells"] = lumped.sections_of(self.scene, self.grid, grading or 0.0)
         if _fitted(spec):
             from comparisons.models.training import fitted

@@ -42,6 +42,12 @@ class Calibration(Answer):
     cells: Section | None = None
 
     @property
+    def present(self) -> np.ndarray | None:
+        """The cells where there is a sheet, (rows, columns); None where it is in all."""
+        there = None if self.cells is None else self.cells.per_area > 0.0
+        return None if there is None or there.all() else there
+
+    @property
     def layer_distance(self) -> float:
         """Distance of neighbouring layers [m]."""
         return self.springs.layer_distance

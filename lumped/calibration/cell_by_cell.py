@@ -7,6 +7,7 @@ its membrane, its layers being softer, is the mid-surface's (`lumped.calibration
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,34 +24,44 @@ OfCell = Callable[[Sides, Section, float | None], SpringSet]
 DIGITS = 12  # to which cells are told apart
 
 
+class Kinds(NamedTuple):
+    """of: sides [m] and section of every kind of cell; which: the number of every cell's kind, (rows,
+    columns); factor: how many times as stiff as that the cell is, at most 1, 0 where there is none."""
+
+    of: list[tuple[Sides, Section]]
+    which: np.ndarray
+    factor: np.ndarray
+
+
 def kinds_of_cells(
     sheet: Sheet, material: Material, grid: Grid, grading: Graded, cells: Section | None
-) -> tuple[list[list[int]], list[tuple[Sides, Section]]]:
-    """Return which kind every cell is, by rows, and the kinds: sides [m] and section. cells: the sections of
-    all, where they differ."""
-    across_x, across_y = (lines.widths for lines in grid_lines(sheet, grid, grading))
-    plain = Section.of(Constants.of(sheet, material))
+) -> Kinds:
+    """Return the kinds of cells. cells: the sections of all, where they differ; those that differ by a factor
+    alone are of one kind."""
+    across_x, across_y = (
+        [float(f"{width:.{DIGITS}g}") for width in lines.widths] for lines in grid_lines(sheet, grid, grading)
+    )
+    sides = np.stack(np.meshgrid(across_x, across_y), axis=-1)
+    plain, shape = Section.of(Constants.of(sheet, material)), sides.shape[:2]
+    every = plain.each(lambda part: np.broadcast_to(part, (*shape, *part.shape))) if cells is None else cells
+    scale = every.bending[..., 0, 0]
+    stiffness = [] if cells is None else [every.membrane, every.bending, every.shear]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        parts = [sides, *(part.reshape(*shape, -1) / scale[..., None] for part in stiffness)]
+        keys = _rounded(np.concatenate(parts, axis=-1))
     numbers: dict[tuple[float, ...], int] = {}
     found: list[tuple[Sides, Section]] = []
-    which = []
-    for row, y in enumerate(_rounded(across_y)):
-        which.append([0] * len(across_x))
-        for column, x in enumerate(_rounded(across_x)):
-            own = plain if cells is None else cells.each(lambda part, at=(row, column): part[at])  # type: ignore[misc]
-            key = (
-                x,
-                y,
-                *(
-                    ()
-                    if cells is None
-                    else _rounded(np.concatenate([part.ravel() for part in vars(own).values()]))
-                ),
-            )
-            if key not in numbers:
-                numbers[key] = len(found)
-                found.append(((x, y), own))
-            which[-1][column] = numbers[key]
-    return which, found
+    stiffest = []
+    which = np.zeros(shape, dtype=int)
+    for at in zip(*np.unravel_index(np.argsort(-scale, axis=None, kind="stable"), shape), strict=True):
+        if scale[at] == 0.0:
+            continue
+        number = which[at] = numbers.setdefault(tuple(keys[at]), len(found))
+        if number == len(found):
+            x, y = sides[at]
+            found.append(((float(x), float(y)), every.each(lambda part, at=at: part[at])))  # type: ignore[misc]
+            stiffest.append(scale[at])
+    return Kinds(found, which, scale / np.array(stiffest)[which])
 
 
 def cell_by_cell(
@@ -66,12 +77,14 @@ def cell_by_cell(
 
     Raises BadInput for a grading outside 0 to 1, and what `of_cell` raises.
     """
-    which, kinds = kinds_of_cells(sheet, material, grid, grading, cells)
+    kinds = kinds_of_cells(sheet, material, grid, grading, cells)
     if layer_distance is None:
-        layer_distance = max(of_cell(*kind, None).layer_distance for kind in kinds)
-    found = [of_cell(*kind, layer_distance) for kind in kinds]
-    return gathered([[found[number] for number in row] for row in which])
+        layer_distance = max(of_cell(*kind, None).layer_distance for kind in kinds.of)
+    found = [of_cell(*kind, layer_distance) for kind in kinds.of]
+    return gathered(found, kinds.which, kinds.factor)
 
 
-def _rounded(values: np.ndarray) -> list[float]:
-    return [float(f"{value:.{DIGITS}g}") for value in values]
+def _rounded(values: np.ndarray) -> np.ndarray:
+    """To so many digits."""
+    unit = 10.0 ** (np.floor(np.log10(np.abs(values))) - DIGITS + 1)
+    return np.where(values == 0.0, 0.0, np.rint(values / unit) * unit)

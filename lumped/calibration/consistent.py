@@ -15,6 +15,7 @@ from lumped.calibration.closed_form import closed_form
 from lumped.calibration.edge_twist import with_edges
 from lumped.calibration.least_squares import bounded_least_squares
 from lumped.calibration.report import report
+from lumped.calibration.rim_twist import with_rims
 from lumped.lattice import Grid
 from lumped.sections import Section
 from sheetbench.errors import BadInput
@@ -35,7 +36,7 @@ def consistent(
     Raises BadInput as `consistent_interior`.
     """
     found = consistent_interior(sheet, material, grid, layer_distance, grading, cells)
-    return _with_twist("consistent", sheet, found, grading)
+    return _with_twist("consistent", sheet, material, found, grading)
 
 
 def consistent_membrane(
@@ -51,7 +52,7 @@ def consistent_membrane(
     Raises BadInput as `consistent_interior`.
     """
     found = consistent_interior(sheet, material, grid, layer_distance, grading, cells, gradients=True)
-    return _with_twist("consistent-membrane", sheet, found, grading)
+    return _with_twist("consistent-membrane", sheet, material, found, grading)
 
 
 def consistent_oblique(
@@ -67,11 +68,16 @@ def consistent_oblique(
     Raises BadInput as `consistent_interior`.
     """
     found = consistent_interior(sheet, material, grid, layer_distance, grading, cells, waves=True)
-    return _with_twist("consistent-oblique", sheet, found, grading)
+    return _with_twist("consistent-oblique", sheet, material, found, grading)
 
 
-def _with_twist(method: str, sheet: Sheet, found: Calibration, grading: Graded) -> Calibration:
-    springs, notes = with_edges(sheet, found.grid, found.springs, grading, found.cells)
+def _with_twist(
+    method: str, sheet: Sheet, material: Material, found: Calibration, grading: Graded
+) -> Calibration:
+    if found.present is None:
+        springs, notes = with_edges(sheet, found.grid, found.springs, grading, found.cells)
+    else:
+        springs, notes = with_rims(sheet, material, found)
     return replace(found, method=method, springs=springs, remarks=(*found.remarks, *notes))
 
 

@@ -139,14 +139,14 @@ def _strip(
         column, row = (cell, place) if axis == 0 else (place, cell)
         own = constants.of_cell(springs, row, column) if unequal else springs
         sides = (float(lines[0].widths[column]), float(lines[1].widths[row]), springs.layer_distance)
-        twisting, shear, shares = _of_cell(own, sides, layers)
+        twisting, shear, shares = of_cell(own, sides, layers)
         rows.append((twisting, shear[1 - axis], shares[1 - axis]))
     of_strip = np.array(rows[::-1] if far else rows).T
     return of_strip[0], of_strip[1], of_strip[2]
 
 
 @lru_cache(maxsize=4096)  # kinds of cells: strips have most in common
-def _of_cell(
+def of_cell(
     springs: SpringSet, sides: tuple[float, float, float], layers: int
 ) -> tuple[float, list[float], list[float]]:
     """D66 [N·m] of a cell, its S along x and y [N/m] and the diagonals' share of it."""

@@ -18,6 +18,7 @@ from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
 Cell = tuple[Sides, Section, SpringSet]
+ALIKE = 1e-9
 
 
 def report(
@@ -67,16 +68,16 @@ def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
 def _kinds(
     sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, grading: Graded, cells: Section | None
 ) -> list[Cell]:
-    """The kinds of cells: one where all are alike, else each that differs from the others."""
+    """The kinds of cells: one where all are alike, else each that differs from the others by more than a
+    factor, of which the stiffest."""
     if not grading and not constants.varies(springs):
         x, y = grid_lines(sheet, grid)
         return [((x.mean, y.mean), Section.of(Constants.of(sheet, material)), springs)]
-    which, made_of = kinds_of_cells(sheet, material, grid, grading, cells)
+    kinds = kinds_of_cells(sheet, material, grid, grading, cells)
     found: dict[Any, Cell] = {}
-    for row, numbers in enumerate(which):
-        for column, number in enumerate(numbers):
-            own = constants.of_cell(springs, row, column)
-            found.setdefault((number, own), (*made_of[number], own))
+    for row, column in np.argwhere(kinds.factor > 1.0 - ALIKE).tolist():
+        own, number = constants.of_cell(springs, row, column), kinds.which[row, column]
+        found.setdefault((number, own), (*kinds.of[number], own))
     return list(found.values())
 
 

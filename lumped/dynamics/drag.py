@@ -18,19 +18,23 @@ import numpy as np
 from numba import njit
 
 from lumped.assembly import Assembly
+from lumped.coverage import cell_shares
 from lumped.masses import masses
 from lumped.pressure import add_forces
 from sheetbench.scenes import Scene
 
+TINY = np.finfo(float).tiny ** 0.5
+
 
 class Drag(NamedTuple):
     """coefficient: ½ ρ c_d [kg/m³], 0 without air; positions: at rest (n, 3) [m]; cells: columns of masses
-    at the corners of the mid-surface's cells (c, 4, layers); weights: mass over tributary mass, (n,); area:
-    where A (n, 3) [m²] is computed."""
+    at the corners of the mid-surface's cells (c, 4, layers); shares: of each that is on the sheet, (c,);
+    weights: mass over tributary mass, (n,); area: where A (n, 3) [m²] is computed."""
 
     coefficient: float
     positions: np.ndarray
     cells: np.ndarray
+    shares: np.ndarray
     weights: np.ndarray
     area: np.ndarray
 
@@ -41,14 +45,16 @@ def of_scene(scene: Scene, assembly: Assembly) -> Drag:
     inert, tributary = (masses(scene, lattice, by, cells) for by in (assembly.inertia, "tributary"))
     coefficient = 0.0 if scene.air is None else scene.air.coefficient
     area = np.zeros_like(lattice.positions)
-    return Drag(coefficient, lattice.positions, lattice.mid_cells, inert / tributary, area)
+    weights = np.divide(inert, tributary, out=np.zeros_like(inert), where=tributary > 0.0)
+    shares = cell_shares(scene, lattice, None)
+    return Drag(coefficient, lattice.positions, lattice.mid_cells, shares, weights, area)
 
 
 @njit(cache=True, error_model="numpy")
 def _to_areas(drag: Drag, u: np.ndarray) -> None:
     """A of the masses displaced by u."""
     drag.area[:] = 0.0
-    add_forces(drag.positions + u[: len(drag.area)], drag.cells, 1.0, drag.area)
+    add_forces(drag.positions + u[: len(drag.area)], drag.cells, drag.shares, drag.area)
     for i in range(len(drag.area)):
         drag.area[i] *= drag.weights[i]
 
@@ -64,6 +70,8 @@ def add_drag(drag: Drag, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> flo
     for i in range(len(drag.area)):
         a, w = drag.area[i], v[i]
         size = np.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
+        if size == 0.0:  # of no cell
+            continue
         speed = (w[0] * a[0] + w[1] * a[1] + w[2] * a[2]) / size
         pressure = drag.coefficient * abs(speed) * speed
         for q in range(3):
@@ -76,5 +84,7 @@ def velocity_tangent(drag: Drag, u: np.ndarray, v: np.ndarray) -> np.ndarray:
     """Its derivative by each mass's own velocity, (n, 3, 3) [N·s/m]."""
     _to_areas(drag, u)
     area, size = drag.area, np.linalg.norm(drag.area, axis=1)
-    share = 2.0 * drag.coefficient * np.abs(np.sum(v[: len(area)] * area, axis=1)) / size**2
+    share = (
+        2.0 * drag.coefficient * np.abs(np.sum(v[: len(area)] * area, axis=1)) / np.maximum(size, TINY) ** 2
+    )
     return (share[:, None] * area)[:, :, None] * area[:, None, :]

@@ -26,6 +26,7 @@ from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import PiecewiseLinear, Scene, held_axes, holds_director
+from sheetbench.scenes.supports import named
 
 
 @dataclass(frozen=True)
@@ -134,10 +135,10 @@ class System:
     def _support_motions(self) -> list[tuple[np.ndarray, int, PiecewiseLinear]]:
         """Masses, axis and displacement (3,) [m] of what supports move, an axis at a time."""
         found = []
-        for support in self.scene.supports:
+        for name, support in named(self.scene.supports).items():
             if support.motion is not None:
                 course = PiecewiseLinear(support.motion.time, support.motion.displacement)
-                row = self.problem.constraints.holders[support.edge][0].ravel()
+                row = self.problem.constraints.holders[name][0].ravel()
                 for axis in held_axes(support):
                     free = ~self.problem.constraints.fixed[row, axis]
                     found.append((row if holds_director(support) else row[free], axis, course))

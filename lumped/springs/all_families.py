@@ -235,9 +235,10 @@ def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
     layers, rest = lattice.grid[2], rest_of(lattice, pattern)
     for family in lattice.cells:
         nodes, slots, sides, area = rest.cells(family.name)
-        every = len(family.nodes) // len(twist)
+        every = layers if family.name == "area" else 1
         if family.name == "area" and springs.rubber:
-            found = constants.of_rubber(springs, sides[: len(twist)], area[: len(twist)], twist)
+            every_sides, every_area = (part[: len(part) // every] for part in (sides, area))
+            found = constants.of_rubber(springs, every_sides, every_area, twist, lattice.kept)
             stiffness, others = (np.concatenate([each] * every) for each in found)
             yield Cells(nodes, stiffness, slots, sides, area, ("rubber", ""), False, RUBBER, others)
             continue
@@ -246,7 +247,7 @@ def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
         strains[:, 2] += twist if family.name == "area" else -layers * twist
         stiffness = np.column_stack([of_area, strains])
         if stiffness.any():
-            stiffness = np.concatenate([stiffness] * every)
+            stiffness = np.concatenate([stiffness[lattice.kept]] * every)
             yield Cells(nodes, stiffness, slots, sides, area, (family.name, name))
 
 

@@ -80,5 +80,6 @@ def _facing(lattice: Lattice, u: np.ndarray) -> np.ndarray:
     a, b, c, d = cell_corners(middle)
     normal = 0.5 * np.cross(c - a, d - b)
     mean = sum(cell_corners(director)) / 4.0
-    facing: np.ndarray = np.einsum("jiq,jiq->ji", normal, mean) / lattice.cell_areas
-    return facing
+    across = np.einsum("jiq,jiq->ji", normal, mean)
+    there = lattice.cell_areas > 0.0
+    return np.divide(across, lattice.cell_areas, out=np.ones_like(across), where=there)

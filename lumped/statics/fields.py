@@ -74,14 +74,17 @@ def field_mesh(assembly: Assembly, u: np.ndarray, reactions: np.ndarray, linear:
 
 
 def _links_by_cell(lattice: Lattice, nodes: np.ndarray, energy: np.ndarray) -> np.ndarray:
-    """Energy of links (m, 2) summed over the plan cells that hold them, ((nx − 1)(ny − 1),) [J]."""
+    """Energy of links (m, 2) summed over the plan cells that hold them, (cells,) [J]."""
     nx, ny, _ = lattice.grid
     middle = lattice.positions[nodes].mean(axis=1)
     (i, x), (j, y) = (lines.index(middle[:, axis]) for axis, lines in enumerate(lattice.lines))
-    stored = np.zeros((ny - 1, nx - 1))
+    beside = []
     for side_x in (-1e-6, 1e-6):
         for side_y in (-1e-6, 1e-6):
             column = np.clip(i + np.floor(x + side_x).astype(int), 0, nx - 2)
             row = np.clip(j + np.floor(y + side_y).astype(int), 0, ny - 2)
-            np.add.at(stored, (row, column), energy / 4.0)
-    return stored.ravel()
+            beside.append(row * (nx - 1) + column)
+    there = lattice.cell_areas.ravel()[beside] > 0.0
+    shares = np.where(there, energy / there.sum(axis=0), 0.0)
+    stored = np.bincount(np.ravel(beside), shares.ravel(), minlength=lattice.cell_areas.size)
+    return np.asarray(stored[lattice.kept])

@@ -15,6 +15,7 @@ from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
 from lumped.lattice import Weights
 from lumped.loads import Loads
+from lumped.sections import require_alike
 from lumped.springs.families import Links
 from lumped.statics import validity
 from lumped.statics.answer import Outcome, solution
@@ -51,7 +52,6 @@ from sheetbench.scenes import (
     Status,
     outside_model,
     require_static,
-    require_uniform,
     scene_of,
 )
 from sheetbench.scenes.material import limit_note
@@ -144,7 +144,7 @@ def build_problem(
     move, and for springs of cells that are all alike where the scene's are not."""
     if calibration.cells is None:
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
-        require_uniform(scene, f"the calibration {calibration.method}", instead)
+        require_alike(scene, f"the calibration {calibration.method}", instead)
     couple = partial(Coupling, scene) if scene.actuators else None
     assembly = Assembly(scene.sheet, calibration, weights, couple, precision, scene.twisting_edges())
     size = max(scene.sheet.lengths)

@@ -55,7 +55,7 @@ def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[
 @njit(cache=True)
 def upright(columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, u: np.ndarray) -> bool:
     """Return whether the normal of every mid-surface cell points the way that the directors of its corners
-    do; areas (ny − 1, nx − 1) [m²] of the cells, the rest as in `surface`."""
+    do; areas (ny − 1, nx − 1) [m²] of the cells, 0 of absent ones, the rest as in `surface`."""
     ny, nx, _ = columns.shape
     middle, director = surface(columns, positions, u)
     first, second, mean = np.empty(3), np.empty(3), np.empty(3)
@@ -70,7 +70,7 @@ def upright(columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, u: np
             for q in range(3):
                 r, s = (q + 1) % 3, (q + 2) % 3
                 facing += (first[r] * second[s] - first[s] * second[r]) * mean[q]
-            if not 0.125 * facing / areas[j, i] > 0.0:
+            if areas[j, i] > 0.0 and not 0.125 * facing / areas[j, i] > 0.0:
                 return False
     return True
 
@@ -90,6 +90,8 @@ def sharpest_bend(
     largest, row, column = -1.0, 0, 0
     for j in range(ny - 1):
         for i in range(nx - 1):
+            if areas[j, i] == 0.0:
+                continue
             xx = xy = yx = yy = 0.0
             for q in range(3):
                 m, d = middle[j : j + 2, i : i + 2, q], director[j : j + 2, i : i + 2, q]

@@ -23,6 +23,8 @@ from sheetbench.scenes.shapes import APART, Shape
 from sheetbench.scenes.sheet import Sheet
 
 if TYPE_CHECKING:
+    from shapely import Polygon
+
     from sheetbench.scenes.scene import Scene
 
 CONSTANTS = ("thickness", "young", "poisson", "density", "angle")
@@ -95,24 +97,35 @@ def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
 
 
 def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
-    """Yield the parts of the sheet that have a share in the cells between lines at x and at y [m]. The shares
-    of a cell sum up to its part on the sheet; the thickness of a taper is that in the middle of the cell."""
-    import shapely
-
-    low, left = np.meshgrid(y[:-1], x[:-1], indexing="ij")
-    high, right = np.meshgrid(y[1:], x[1:], indexing="ij")
-    boxes = shapely.box(left, low, right, high)
+    """Yield the parts of the sheet that have a share in the cells between lines at x and at y [m], as if it
+    had no outline. The shares of a cell sum up to 1; the thickness of a taper is that in its middle."""
+    boxes = boxes_of(x, y)
+    middle = 0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1])
     of_sheet = Constants.of(scene.sheet, scene.material).replace(
-        thickness=scene.sheet.thickness_at(0.5 * (left + right), 0.5 * (low + high))
+        thickness=scene.sheet.thickness_at(*np.meshgrid(*middle))
     )
-    left_over = _shares(scene.region, boxes) if scene.pierced else np.ones(boxes.shape)
+    left_over = np.ones(boxes.shape)
     for area, own in _disjoint(scene.patches):
-        share = _shares(area.intersection(scene.region) if scene.pierced else area, boxes)
-        left_over = left_over - share
+        share = _shares(area, boxes)
+        left_over -= share
         constants = of_sheet.arrays(boxes.shape)
         _put(constants, own)
         yield Part(share, constants)
     yield Part(_without_rounding(left_over), of_sheet.arrays(boxes.shape))
+
+
+def shares_of(area: Polygon, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """What share an area takes of every cell between lines at x and at y [m], (rows, columns)."""
+    return _shares(area, boxes_of(x, y))
+
+
+def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The cells between lines at x and at y [m], (rows, columns)."""
+    import shapely
+
+    low, left = np.meshgrid(y[:-1], x[:-1], indexing="ij")
+    high, right = np.meshgrid(y[1:], x[1:], indexing="ij")
+    return np.asarray(shapely.box(left, low, right, high))
 
 
 def _shares(area: Any, boxes: np.ndarray) -> np.ndarray:
@@ -155,6 +168,8 @@ def mass_of(scene: Scene) -> float:
         return scene.material.density * sheet.thickness * area_in(scene, None)
     x, y = (np.linspace(0.0, length, FINE) for length in sheet.lengths)
     per_area = sum(part.share * part.constants.per_area for part in parts_between(scene, x, y))
+    if scene.pierced:
+        per_area *= shares_of(scene.region, x, y)
     return float(np.diff(y) @ per_area @ np.diff(x))
 
 

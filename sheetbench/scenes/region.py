@@ -5,6 +5,7 @@ What lies on a shape's boundary belongs to it. A region is one piece that hangs 
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from sheetbench.errors import Impossible
@@ -15,7 +16,7 @@ from sheetbench.scenes.sheet import EDGES, Sheet
 from sheetbench.scenes.supports import named, place
 
 if TYPE_CHECKING:
-    from shapely import Geometry, Polygon
+    from shapely import Polygon
 
     from sheetbench.scenes.scene import Scene
 
@@ -61,20 +62,22 @@ def nearest(plan: Polygon, point: PlanPoint) -> PlanPoint:
     return x, y
 
 
-def edge_part(scene: Scene, edge: str) -> Geometry:
-    """The part of an edge that the sheet reaches."""
-    import shapely
-
-    near = shapely.LineString(scene.sheet.edge_ends(edge)).buffer(
-        APART * max(scene.sheet.lengths), cap_style="square"
-    )
-    return scene.region.boundary.intersection(near)
+def edge_parts(scene: Scene, edge: str) -> list[tuple[float, float]]:
+    """From where to where along an edge [m] the sheet reaches it: the sides of the plan on that line."""
+    normal, along, far = EDGES[edge]
+    at = scene.sheet.lengths[normal] if far else 0.0
+    found = []
+    for ring in (scene.region.exterior, *scene.region.interiors):
+        for first, second in pairwise(ring.coords):
+            if max(abs(first[normal] - at), abs(second[normal] - at)) < APART * max(scene.sheet.lengths):
+                found.append((min(first[along], second[along]), max(first[along], second[along])))
+    return found
 
 
 def edge_length(scene: Scene, edge: str) -> float:
     """Length [m] of the part of an edge that the sheet reaches."""
     whole = scene.sheet.lengths[EDGES[edge].along_axis]
-    return float(edge_part(scene, edge).length) if scene.pierced else whole
+    return sum(stop - start for start, stop in edge_parts(scene, edge)) if scene.pierced else whole
 
 
 def area_in(scene: Scene, shape: Shape | None) -> float:
@@ -118,6 +121,8 @@ def misplaced(scene: Scene) -> str:
 
 def _apart(scene: Scene) -> str:
     """Why supports that hold the same part of the sheet cannot both be obeyed; "" where all can."""
+    from shapely import LineString
+
     named_supports = list(named(scene.supports).items())
     for i, (name, one) in enumerate(named_supports):
         shape = place(one)
@@ -127,8 +132,8 @@ def _apart(scene: Scene) -> str:
             beside = place(other)
             if j == i or (beside is not None and j < i) or one.motion == other.motion:
                 continue
-            area = edge_part(scene, other.edge) if beside is None else beside.area
-            if area.intersects(shape.area):
+            held: Any = beside.area if beside is not None else LineString(scene.sheet.edge_ends(other.edge))
+            if held.intersects(shape.area):
                 return f"{name} and {other_name} move the same part of the sheet differently"
     return ""
 

@@ -137,7 +137,7 @@ class FlatSystem:
         positions = self.flat(lattice.positions).reshape(3, self._stride)
         by_layer = positions[:, : self._count].reshape(3, layers, plane)
         positions[:, self._count : self._count + plane] = by_layer.mean(axis=1)
-        pressure = np.array([part.pressure for part in self._parts])
+        pressure = np.stack([part.pressure for part in self._parts])
         cells = lattice.mid_cells
         columns, strengths, owners = [np.empty((0, 4))], [np.empty(0)], [np.empty(0)]
         for number, part in enumerate(self._parts):

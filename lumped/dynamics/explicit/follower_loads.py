@@ -14,7 +14,7 @@ from lumped.springs.tiles import OPTIONS
 
 
 class Followers(NamedTuple):
-    """positions: (3 s,) [m] of every place, the mid-surface's too; pressure: (parts,) [Pa]; cells: (c, 4)
+    """positions: (3 s,) [m] of every place, the mid-surface's too; pressure: (parts, c) [Pa]; cells: (c, 4)
     corners under it, places of the mid-surface; couples: (e, 4) top and bottom mass of a column of an edge,
     and the mid-surface's places before and after it; moments: (e,) [N·m], signed as they turn; parts: (e,)
     whose history scales them."""
@@ -39,10 +39,10 @@ def add_followers(
     clear(packing, load)
     size = np.uint64(len(u) // 3)
     x = followers.positions
-    pressure = 0.0
-    for part in range(len(factors)):
-        pressure += factors[part] * followers.pressure[part]
     for c in range(len(cells)):
+        pressure = 0.0
+        for part in range(len(factors)):
+            pressure += factors[part] * followers.pressure[part, c]
         for b in range(4):  # as `lumped.pressure` has it
             ax, ay, az = _apart(x, u, cells[c, b], cells[c, (b + 1) % 4], size)
             bx, by, bz = _apart(x, u, cells[c, b], cells[c, (b + 3) % 4], size)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sheetbench.scenes import BadInput, Scene, SceneError, Sheet, dead_force, free_rigid_motions, load
-from sheetbench.scenes.patches import mass_of, parts_between
+from sheetbench.scenes.patches import mass_of, shares_of
 from sheetbench.scenes.region import edge_length
 from sheetbench.scenes.words import in_words
 
@@ -38,9 +38,9 @@ def test_area_mass_edges_and_weight():
     assert [edge_length(scene, edge) for edge in ("x0", "x1")] == pytest.approx([0.1, 0.06])
     assert dead_force(scene)[2] == pytest.approx(-30.0 * AREA)
     x, y = np.linspace(0.0, 0.2, 7), np.linspace(0.0, 0.1, 4)
-    drawn = scene.replace(patches=[{"shape": DISC, "young": 1e6}])
-    shares = sum(part.share for part in parts_between(drawn, x, y))
-    assert np.diff(y) @ shares @ np.diff(x) == pytest.approx(AREA)
+    assert np.diff(y) @ shares_of(scene.region, x, y) @ np.diff(x) == pytest.approx(AREA)
+    drawn = scene.replace(patches=[{"shape": DISC, "density": 3e3}], cutouts=())  # a third of it beyond x1
+    assert mass_of(drawn) > mass_of(scene.replace(cutouts=()))
 
 
 def test_loads_on_a_part_count_what_of_it_is_sheet():

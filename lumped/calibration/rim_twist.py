@@ -1,0 +1,102 @@
+"""What free rims of a sheet with an outline or cutouts take off the twisting stiffness.
+
+Any side of a cell with no cell beyond it is a rim. Along each row and each column of cells those that are
+there form runs; a run is the strip of `lumped.calibration.edge_twist`, of cells like that at its end, and the
+cell at a free end of it has the factor of a strip with as many cells. Ends within the sheet's rectangle are
+free; ends at its edges are the supports' to say, and stand in `edge_shear` and `strip_shear`.
+
+Twist in the axes of the grid fades towards rims along them. Towards an oblique one another twist does, of
+which a cell's shear springs know nothing, and cells that such a rim cuts keep theirs: a cell that is cut and
+has no neighbour along the rim that is cut alike.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lumped import spring_constants as constants
+from lumped.calibration.calibration import Calibration, either
+from lumped.calibration.cell_by_cell import kinds_of_cells
+from lumped.calibration.edge_twist import AT_CORNERS, MOST, edge_factor, of_cell
+from sheetbench.scenes import Material, Sheet, SpringSet
+
+ALIKE = 1e-9  # shares of cells that one straight line cuts
+
+
+def with_rims(sheet: Sheet, material: Material, found: Calibration) -> tuple[SpringSet, list[str]]:
+    """The springs of a calibration with absent cells and the twist of their rims, and a note for rims where
+    no factor will do."""
+    assert found.cells is not None and found.present is not None
+    springs, grid, there = found.springs, found.grid, found.present
+    kinds = kinds_of_cells(sheet, material, grid, found.grading, found.cells)
+    layers, lost = grid[2], np.broadcast_to(found.cells.layer_width, there.shape)
+    square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * springs.layer_distance**2
+    first = {int(n): np.argwhere((kinds.which == n) & (kinds.factor == 1.0))[0] for n in range(len(kinds.of))}
+    of_kind = [
+        of_cell(constants.of_cell(springs, *first[n]), (*kinds.of[n][0], springs.layer_distance), layers)
+        for n in range(len(kinds.of))
+    ]
+    twist = np.zeros(there.shape)
+    notes: list[str] = []
+    factors: dict[tuple[int, int, int, bool], float] = {}
+
+    def taken(at: tuple[int, int], axis: int, count: int, both: bool) -> float:
+        """What a rim across an axis adds to the shear of the cell `at` the end of a run [N/m]."""
+        kind = int(kinds.which[at])
+        key = kind, axis, count, both
+        twisting, shear, by_diagonals = of_kind[kind]
+        if key not in factors:
+            width = kinds.of[kind][0][axis]
+            strip = width, twisting, shear[1 - axis], by_diagonals[1 - axis]
+            factor = edge_factor(count, *strip, float(lost[at]), both)
+            if factor is None:
+                notes.append("no twisting stiffness of the cells along a rim makes it right")
+            factors[key] = MOST if factor is None else factor
+        corner = any(_beyond(there, at, 1 - axis))
+        factor = max(factors[key], AT_CORNERS) if corner else factors[key]
+        return (factor - 1.0) * twisting * float(kinds.factor[at]) / square
+
+    edges: dict[str, list[Any]] = {name: [] for name in constants.EDGES_OWN}
+    for axis in (0, 1):
+        rows = np.moveaxis(there, 1 - axis, 1)
+        at_edges = {name: np.zeros(len(rows)) for name in edges}
+        for place, row in enumerate(rows):
+            ends = np.flatnonzero(np.diff(np.concatenate([[0], row, [0]]))).reshape(-1, 2)
+            for start, stop in ends.tolist():
+                whole = start == 0 and stop == len(row)
+                for cell, outer, far in ((start, 0, ""), (stop - 1, len(row) - 1, "far_")):
+                    at = (place, cell) if axis == 0 else (cell, place)
+                    if not _aligned(kinds.factor, at, axis):
+                        continue
+                    if cell != outer:
+                        twist[at] += taken(at, axis, stop - start, True)
+                        continue
+                    for name, both in (("edge", not whole), ("strip", True)):
+                        at_edges[f"{far}{name}_shear"][place] = taken(at, axis, stop - start, both)
+        for name, values in at_edges.items():
+            edges[name].append(tuple(values.tolist()))
+    shear = constants.of_cells(springs.shear, there.size).reshape(there.shape) + twist
+    mid_shear = constants.of_cells(springs.mid_shear, there.size).reshape(there.shape) - layers * twist
+    update: dict[str, Any] = {name: either(*both) for name, both in edges.items()}
+    update |= {
+        name: tuple(map(tuple, v.tolist())) for name, v in (("shear", shear), ("mid_shear", mid_shear))
+    }
+    return springs.model_copy(update=update), list(dict.fromkeys(notes))
+
+
+def _beyond(there: np.ndarray, at: tuple[int, int], axis: int) -> tuple[bool, bool]:
+    """Whether the cell has none beside it before and after along an axis of the plan."""
+    along = there[:, at[1]] if axis else there[at[0]]
+    place = at[1 - axis]
+    return place == 0 or not along[place - 1], place == len(along) - 1 or not along[place + 1]
+
+
+def _aligned(share: np.ndarray, at: tuple[int, int], axis: int) -> bool:
+    """Whether the cell is whole, or cut along the rim that crosses an axis as a neighbour along it is."""
+    if share[at] > 1.0 - ALIKE:
+        return True
+    line, place = (share[:, at[1]], at[0]) if axis == 0 else (share[at[0]], at[1])
+    beside = line[max(place - 1, 0) : place + 2]
+    return int(np.sum(np.abs(beside - share[at]) < ALIKE)) > 1

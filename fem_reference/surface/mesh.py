@@ -7,16 +7,17 @@ order of scikit-fem's `ElementQuad2`. Coordinates in metres.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
 from skfem import Dofs, ElementQuad2, MeshQuad
 
+from fem_reference.surface.borders import borders_of
+from fem_reference.surface.outlined import quadrilaterals
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import EDGES, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric, require_rectangle
 from sheetbench.scenes.grid import near_square
-from sheetbench.scenes.patches import sides_of
 
 Elements = int | tuple[int, int]
 
@@ -68,7 +69,11 @@ def rectangle(
 @kept(last=16, most=1 << 14)
 def _tensor(x: np.ndarray, y: np.ndarray, *lengths: float) -> MeshQuad:
     """The mesh between lines at x and y of a sheet with these sides [m]."""
-    mesh = MeshQuad.init_tensor(x, y)
+    return _with_edges(MeshQuad.init_tensor(x, y), lengths)
+
+
+def _with_edges(mesh: MeshQuad, lengths: Sequence[float]) -> MeshQuad:
+    """The mesh with boundaries where it reaches the edges of a sheet with these sides [m]."""
     ends = {name: lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}
     return mesh.with_boundaries({name: _at(EDGES[name].normal_axis, end) for name, end in ends.items()})
 
@@ -96,21 +101,31 @@ def on_boundary(mesh: MeshQuad, name: str) -> np.ndarray:
 
 
 def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float = 1.0) -> MeshQuad:
-    """The mesh of a scene's sheet, its planes of symmetry no edges (see `rectangle`). Lines that lie near
-    sides of patches are moved there; where there are fewer lines than sides, the mesh has more."""
-    x, y = lines_of(scene, divisions(scene.sheet, elements), graded, reach)
-    return _tensor(x, y, *scene.sheet.lengths)
+    """The mesh of a scene's sheet, its planes of symmetry no edges (see `rectangle`).
+
+    Sides of elements lie on the borders of shapes. Where all of these lie along the axes, lines that lie near
+    them are moved there, and there are more lines where there are fewer than borders; else see `outlined`.
+    """
+    require_rectangle(scene, "a mesh")
+    counts, lengths = divisions(scene.sheet, elements), scene.sheet.lengths
+    borders = borders_of(scene)
+    if borders is None or borders.along_axes:
+        return _tensor(*lines_of(scene, counts, graded, reach), *lengths)
+    spacing = lengths[0] / counts[0], lengths[1] / counts[1]
+    return _with_edges(quadrilaterals(*borders, spacing, graded), lengths)
 
 
 def lines_of(
     scene: Scene, counts: tuple[int, int], graded: bool, reach: float = 1.0
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The lines of that mesh: their x and their y [m]."""
-    require_rectangle(scene, "a mesh of rows and columns")
+    """The lines of that mesh: their x and their y [m]; where it has none, equally far apart."""
+    borders = borders_of(scene)
+    if borders is not None and not borders.along_axes:
+        return _lines(scene.sheet, counts, False, _cuts(scene))
     x, y = _lines(scene.sheet, counts, graded, _cuts(scene), reach)
-    if scene.uniform:
+    if borders is None:
         return x, y
-    along_x, along_y = sides_of(scene)
+    along_x, along_y = borders.lines(scene.sheet.lengths)
     return _through(x, along_x), _through(y, along_y)
 
 

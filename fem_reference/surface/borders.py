@@ -1,0 +1,65 @@
+"""The lines in a sheet's plan that sides of elements lie on: its rim and the borders of shapes within it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from sheetbench.scenes import Scene
+from sheetbench.scenes.cells import Constants
+from sheetbench.scenes.patches import APART
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+
+class Borders(NamedTuple):
+    """region: where there is a sheet; inner: borders of shapes, within it or beyond [m]."""
+
+    region: BaseGeometry
+    inner: BaseGeometry
+
+    @property
+    def _sides(self) -> tuple[np.ndarray, np.ndarray]:
+        """Beginning and end (k, 2) of all straight parts."""
+        import shapely
+
+        parts = shapely.get_parts(shapely.union_all([self.region.boundary, self.inner]))
+        lines = [shapely.get_coordinates(part) for part in parts]
+        return np.concatenate([line[:-1] for line in lines]), np.concatenate([line[1:] for line in lines])
+
+    @property
+    def along_axes(self) -> bool:
+        """Whether all of them lie along x or y."""
+        begin, end = self._sides
+        return bool(np.all((begin == end).any(axis=1)))
+
+    def lines(self, lengths: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+        """x and y [m], rising, of those along y and along x, within the edges of a sheet with these sides."""
+        found, (begin, end) = [], self._sides
+        for axis, length in enumerate(lengths):
+            at = np.unique(begin[begin[:, axis] == end[:, axis], axis])
+            at = at[(at > APART * length) & (at < (1.0 - APART) * length)]
+            found.append(at[np.diff(at, prepend=-length) > APART * length])
+        return found[0], found[1]
+
+
+def borders_of(scene: Scene) -> Borders | None:
+    """Return the borders in a scene's plan, None of a whole rectangle without any: patches that are made of
+    what the sheet is made of have none."""
+    shapes = [patch.shape for patch in scene.patches] if _differ(scene) else []
+    if not shapes:
+        return None
+    import shapely
+
+    region = shapely.box(0.0, 0.0, *scene.sheet.lengths)
+    return Borders(region, shapely.union_all([shape.area.boundary for shape in shapes]))
+
+
+def _differ(scene: Scene) -> bool:
+    """Whether a patch is not made of what the sheet is made of."""
+    if scene.sheet.taper_x or scene.sheet.taper_y:
+        return bool(scene.patches)
+    sheet = vars(Constants.of(scene.sheet, scene.material))
+    return any(sheet.get(name) != value for patch in scene.patches for name, value in patch.own.items())

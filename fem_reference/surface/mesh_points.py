@@ -1,0 +1,195 @@
+"""Points of meshes that follow shapes: along borders, a row beside them, and those of a quadtree in the rest.
+
+Borders are divided by their length, finer where they turn or lie close to each other; sizes grow from there.
+Lengths are in sizes of the largest triangles, two elements.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from sheetbench.scenes import PiecewiseLinear
+
+if TYPE_CHECKING:
+    from shapely import LineString
+    from shapely.geometry.base import BaseGeometry
+
+CORNER = np.pi / 9.0  # by which a border turns at a corner; where it turns by less it is a curve
+TURN, MOST_TURN = np.pi / 4.0, np.pi / 3.0  # of a curve from one vertex of the triangles to the next
+GROWTH = 0.5  # of sizes, with the distance
+SMALLEST, NARROWEST = 1.0 / 256.0, 1.0 / 32.0  # by turns and by gaps
+GRID, NEAR = 1e-9, 1e-7  # of rounding; within which points are on the sheet
+CLEARANCE = 0.6  # of the local size, between borders and inner points
+SAMPLES = 4  # of a border, by size
+
+
+class Sides(NamedTuple):
+    """Of borders: the vertices at their ends (k, 2), the border each lies on (k,) and from where to where
+    (k, 2)."""
+
+    ends: np.ndarray
+    border: np.ndarray
+    span: np.ndarray
+
+    @property
+    def middle(self) -> np.ndarray:
+        return self.span.mean(axis=1)
+
+
+def borders_between_corners(region: BaseGeometry, inner: BaseGeometry) -> list[LineString]:
+    """The borders from corner or crossing to corner or crossing."""
+    import shapely
+
+    lines = shapely.get_parts(shapely.union_all([region.boundary, inner], grid_size=GRID))
+    on_sheet = shapely.distance(region, shapely.line_interpolate_point(lines, 0.5, normalized=True)) < NEAR
+    found: list[LineString] = []
+    for line in shapely.get_parts(shapely.line_merge(shapely.union_all(lines[on_sheet]))):
+        at = shapely.get_coordinates(line)
+        closed = bool(line.is_closed)
+        steps = np.diff(at, axis=0)
+        steps = np.vstack([steps[-1:], steps]) if closed else steps
+        turns = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
+        corners = np.flatnonzero(np.abs(turns) > CORNER) + (not closed)
+        if closed and len(corners):
+            at = np.roll(at[:-1], -corners[0], axis=0)
+            at, corners = np.vstack([at, at[:1]]), corners - corners[0]
+        cuts = np.unique([0, *corners, len(at) - 1])
+        found += [shapely.LineString(at[a : b + 1]) for a, b in pairwise(cuts)]
+    return found
+
+
+class Size(NamedTuple):
+    """Sizes of triangles: those (k,) at places (k, 2) where they must be below 1; they grow from there."""
+
+    places: np.ndarray
+    sizes: np.ndarray
+
+    @classmethod
+    def of(cls, region: BaseGeometry, borders: Sequence[LineString], coarse: float) -> Size:
+        """By how borders turn, and how close across the sheet they are to others that they do not touch; both
+        are divided more finely by finer meshes; coarse: how much larger elements are than usual ones."""
+        import shapely
+
+        places, sizes = [], []
+        for border in borders:
+            even = np.linspace(0.0, border.length, 2 + int(SAMPLES * border.length))
+            turning, radii = _radii(border)
+            along = np.concatenate([even, turning])
+            at = shapely.line_interpolate_point(border, along)
+            own = np.minimum(
+                1.0, min(coarse * TURN, MOST_TURN) * np.append(np.full(len(even), np.inf), radii)
+            )
+            for other in borders:
+                if not border.touches(other) and other is not border:
+                    across = shapely.shortest_line(at, other)
+                    middle = shapely.line_interpolate_point(across, 0.5, normalized=True)
+                    gap = np.maximum(min(coarse, 1.0) * shapely.length(across), NARROWEST)
+                    near = gap < own
+                    near[near] = shapely.contains(region, middle[near])
+                    own[near] = gap[near]
+            places.append(shapely.get_coordinates(at))
+            sizes.append(np.maximum(own, SMALLEST))
+        small = np.concatenate(sizes) < 1.0
+        every = cls(np.concatenate(places)[small], np.concatenate(sizes)[small])
+        return cls(*(part[every._first] for part in every))
+
+    @property
+    def _first(self) -> np.ndarray:
+        """Some of those that lie closer to each other than a quarter of their size, and all others."""
+        cells = np.floor(4.0 * self.places / self.sizes[:, None])
+        scale = np.rint(np.log2(self.sizes))
+        return np.unique(np.column_stack([cells, scale]), axis=0, return_index=True)[1]
+
+    def at(self, points: np.ndarray) -> np.ndarray:
+        """Of points (n, 2)."""
+        if not len(self.sizes):
+            return np.ones(len(points))
+        distance = np.linalg.norm(points[:, None] - self.places, axis=-1)
+        return np.minimum(1.0, np.min(self.sizes + GROWTH * distance, axis=1))
+
+
+def _radii(border: LineString) -> tuple[np.ndarray, np.ndarray]:
+    """Where along a border it turns, and the radius of the curve there."""
+    import shapely
+
+    steps = np.diff(shapely.get_coordinates(border), axis=0)
+    steps = np.vstack([steps, steps[:1]]) if border.is_closed else steps
+    lengths, angles = np.linalg.norm(steps, axis=1), np.arctan2(steps[:, 1], steps[:, 0])
+    turns = np.abs((np.diff(angles) + np.pi) % (2.0 * np.pi) - np.pi)
+    with np.errstate(divide="ignore"):
+        return np.cumsum(lengths)[:-1], 0.5 * (lengths[1:] + lengths[:-1]) / turns
+
+
+def divided(borders: Sequence[LineString], size: Size) -> tuple[np.ndarray, Sides]:
+    """Points (n, 2) along the borders, one where several meet, and the sides between them."""
+    import shapely
+
+    places, ends, on, spans = [], [], [], []
+    for number, border in enumerate(borders):
+        fine = np.linspace(0.0, border.length, 2 + int(8 * SAMPLES * border.length))
+        sizes = size.at(shapely.get_coordinates(shapely.line_interpolate_point(border, fine)))
+        steps = np.concatenate([[0.0], np.cumsum(np.diff(fine) * 2.0 / (sizes[1:] + sizes[:-1]))])
+        least = 3 if border.is_closed else min(2, len(border.coords) - 1)
+        count = max(least, int(np.ceil(steps[-1] - 1e-6)))
+        along = PiecewiseLinear(steps.tolist(), fine.tolist()).at(np.linspace(0.0, steps[-1], count + 1))
+        places.append(shapely.get_coordinates(shapely.line_interpolate_point(border, along)))
+        first = sum(len(at) for at in places[:-1])
+        ends.append(first + np.arange(count)[:, None] + [0, 1])
+        on.append(np.full(count, number))
+        spans.append(np.column_stack([along[:-1], along[1:]]))
+    points, same = np.unique(np.round(np.concatenate(places), 9), axis=0, return_inverse=True)
+    return points, Sides(same.ravel()[np.concatenate(ends)], np.concatenate(on), np.concatenate(spans))
+
+
+def on_borders(borders: Sequence[LineString], number: np.ndarray, along: np.ndarray) -> np.ndarray:
+    """Points (k, 2) along borders."""
+    import shapely
+
+    return shapely.get_coordinates(shapely.line_interpolate_point(np.array(borders)[number], along))
+
+
+def filling(region: BaseGeometry, borders: Sequence[LineString], sides: Sides, size: Size) -> np.ndarray:
+    """Inner points (n, 2): a row along borders, then corners of a quadtree's cells."""
+    import shapely
+
+    inner = np.flatnonzero(sides.span[:, 0] > 0.0)
+    on, along = sides.border[inner], sides.span[inner, 0]
+    step = 1e-3 * np.ptp(sides.span[inner], axis=1)
+    at, tangent = (
+        on_borders(borders, on, along),
+        on_borders(borders, on, along + step) - on_borders(borders, on, along - step),
+    )
+    normal = (
+        size.at(at)[:, None] * (tangent / np.linalg.norm(tangent, axis=1, keepdims=True))[:, ::-1] * [-1, 1]
+    )
+    points = np.concatenate([at + normal, at - normal, _quadtree(region.bounds, size)])
+    shapely.prepare(region)
+    points = points[shapely.contains_xy(region, points)]
+    clear = CLEARANCE * size.at(points)
+    away = shapely.distance(shapely.points(points), shapely.multilinestrings(borders)) > clear
+    points, clear = points[away], clear[away]
+    kept = np.ones(len(points), bool)
+    for first, second in sorted(KDTree(points).query_pairs(clear.max(initial=0.0))):
+        if kept[first] and np.linalg.norm(points[first] - points[second]) < clear[second]:
+            kept[second] = False
+    return points[kept]
+
+
+def _quadtree(bounds: tuple[float, float, float, float], size: Size) -> np.ndarray:
+    """Corners (n, 2) of cells as small as asked for."""
+    low, lengths = np.array(bounds[:2]), np.array(bounds[2:]) - bounds[:2]
+    counts = np.maximum(np.rint(lengths), 1.0).astype(int)
+    side, corners = lengths / counts, []
+    cells = low + side * (np.stack(np.meshgrid(*map(np.arange, counts)), axis=-1).reshape(-1, 2) + 0.5)
+    quarters = 0.25 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    while len(cells):
+        split = size.at(cells) < np.sqrt(0.5) * side.max()
+        corners.append((cells[~split, None] + 2.0 * quarters * side).reshape(-1, 2))
+        cells = (cells[split, None] + quarters * side).reshape(-1, 2)
+        side = 0.5 * side
+    return np.unique(np.round(np.concatenate(corners), 9), axis=0)

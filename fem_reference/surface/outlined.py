@@ -1,0 +1,277 @@
+"""Quadrilateral meshes of plans with outlines, holes and inner borders of any shape.
+
+The Delaunay triangles of the points (`mesh_points`) are joined in pairs to quadrilaterals, the best pairs
+first; then every quadrilateral is cut into four and every triangle left over into three, and inner vertices
+are moved to the mean of their neighbours where elements get better. Away from borders the elements are
+squares. Sides on borders are biquadratic: their middle nodes lie on the border too.
+
+A side of a border is an edge of the Delaunay triangulation if no point lies in the circle over it (Gabriel);
+one that is no edge is halved. Lengths are in sizes of the largest triangles, two elements.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial import Delaunay
+from skfem import MeshQuad, MeshQuad2
+
+from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
+from fem_reference.surface.mesh_points import (
+    Sides,
+    Size,
+    borders_between_corners,
+    divided,
+    filling,
+    on_borders,
+)
+from sheetbench.errors import BadInput
+
+if TYPE_CHECKING:
+    from shapely import LineString
+    from shapely.geometry.base import BaseGeometry
+
+USUAL = 8.0  # sizes across a sheet with that
+SKEW = np.pi / 4.0  # by which corners of two triangles that are joined may differ from right angles
+SKEWEST = np.pi / 3.0  # likewise, where rows along the rim do not make it worse
+FLAT = 1e-6  # of a triangle's longest side squared: area of one between points of a straight border
+LAYERS = (0.12, 0.4)  # of the row along the rim, where it is cut
+TIP = 0.5  # of a rim's vertex: least 2 (1 − cos of the angle)
+LEAST_AREA = 0.02  # of an element, from point to point, below which its sides are left straight
+ROUNDS, SWEEPS = 12, 6  # of halving sides, of moving vertices
+TOO_CLOSE = (
+    "borders of shapes lie too close to each other for elements between them: more elements, or move one"
+)
+
+
+def quadrilaterals(
+    region: BaseGeometry, inner: BaseGeometry, spacing: tuple[float, float], graded: bool = False
+) -> MeshQuad2:
+    """Return a mesh of a plan region with elements of about the spacing along x and y [m].
+
+    inner: lines that sides of elements within the region shall lie on; graded: the row along the rim is cut
+    into thinner ones. Raises BadInput where borders lie too close to each other to be meshed.
+    """
+    from shapely import affinity
+
+    unit = 2.0 * np.array(spacing)
+    region, inner = (affinity.scale(part, *(1.0 / unit), origin=(0.0, 0.0)) for part in (region, inner))
+    borders = borders_between_corners(region, inner)
+    size = Size.of(region, borders, USUAL / np.min(np.ptp(np.reshape(region.bounds, (2, 2)), axis=0)))
+    points, sides = divided(borders, size)
+    points, triangles, sides = _triangles(
+        region, borders, sides, points, filling(region, borders, sides, size)
+    )
+    mesh, middles = _cut(points, _joined(points, triangles, sides), borders, sides)
+    mesh = _smoothed(mesh, np.unique([*sides.ends.ravel(), *middles]))
+    halves = [
+        (
+            np.column_stack([sides.ends[:, end], middles]),
+            on_borders(borders, sides.border, sides.span @ share),
+        )
+        for end, share in enumerate([[0.75, 0.25], [0.25, 0.75]])
+    ]
+    ends, places = (np.concatenate(parts) for parts in zip(*halves, strict=True))
+    if graded:
+        mesh, ends, places = _layered(mesh, ends, places)
+    return _biquadratic(mesh, ends, places, unit)
+
+
+def _triangles(
+    region: BaseGeometry, borders: Sequence[LineString], sides: Sides, points: np.ndarray, inside: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, Sides]:
+    """All points, the triangles (m, 3) of the region counter-clockwise, and the sides, some halved."""
+    import shapely
+
+    for _ in range(ROUNDS):
+        every = np.concatenate([points, inside])
+        triangles = Delaunay(every).simplices
+        edges = _keys(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), len(every))
+        missing = ~np.isin(_keys(sides.ends, len(every)), edges)
+        if not missing.any():
+            break
+        middle, new = sides.middle[missing], len(points) + np.arange(missing.sum())
+        points = np.concatenate([points, on_borders(borders, sides.border[missing], middle)])
+        first, last = sides.ends[missing].T
+        halves = [np.column_stack([first, new]), np.column_stack([new, last])]
+        begin, end = sides.span[missing].T
+        spans = [sides.span[~missing], np.column_stack([begin, middle]), np.column_stack([middle, end])]
+        border = np.concatenate([sides.border[~missing], *[sides.border[missing]] * 2])
+        sides = Sides(np.concatenate([sides.ends[~missing], *halves]), border, np.concatenate(spans))
+    else:
+        raise BadInput(TOO_CLOSE)
+    a, b, c = np.moveaxis(every[triangles], 1, 0)
+    twice = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    longest = np.max([np.sum((p - q) ** 2, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
+    chords = shapely.get_parts(shapely.polygonize(shapely.linestrings(every[sides.ends])))
+    if not len(chords):
+        raise BadInput(TOO_CLOSE)
+    present = shapely.union_all(chords[shapely.contains(region, shapely.point_on_surface(chords))])
+    shapely.prepare(present)
+    kept = (np.abs(twice) > FLAT * longest) & shapely.contains_xy(present, (a + b + c) / 3.0)
+    turned = np.where(twice[:, None] > 0.0, triangles, triangles[:, ::-1])
+    return every, turned[kept], sides
+
+
+def _keys(ends: np.ndarray, count: int) -> np.ndarray:
+    """A number for each pair (k, 2) of points, whichever comes first."""
+    low, high = np.sort(ends, axis=1).T
+    return np.asarray(low * np.int64(count) + high)
+
+
+def _joined(points: np.ndarray, triangles: np.ndarray, sides: Sides) -> tuple[np.ndarray, np.ndarray]:
+    """Quadrilaterals (q, 4) of two triangles each, and the triangles (t, 3) left over."""
+    edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    keys = _keys(edges, len(points))
+    order = np.argsort(keys, kind="stable")
+    twin = np.flatnonzero(keys[order][1:] == keys[order][:-1])
+    one, two = order[twin], order[twin + 1]
+    inner = ~np.isin(keys[one], _keys(sides.ends, len(points)))
+    one, two = one[inner], two[inner]
+    apex = triangles[:, [2, 0, 1]].ravel()
+    quads = np.column_stack([edges[one, 0], apex[two], edges[one, 1], apex[one]])
+    skew = np.abs(_angles(points[quads]) - 0.5 * np.pi).max(axis=1)
+    free, chosen = np.ones(len(triangles), bool), []
+    for pair in np.argsort(skew, kind="stable"):
+        a, b = one[pair] // 3, two[pair] // 3
+        if skew[pair] < SKEW and free[a] and free[b]:
+            free[[a, b]] = False
+            chosen.append(pair)
+    return quads[chosen], triangles[free]
+
+
+def _angles(corners: np.ndarray) -> np.ndarray:
+    """Inner angles (m, k) of polygons (m, k, 2), counter-clockwise."""
+    onwards, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    turn = onwards[..., 0] * back[..., 1] - onwards[..., 1] * back[..., 0]
+    return np.asarray(np.arctan2(turn, np.sum(onwards * back, axis=-1)) % (2.0 * np.pi))
+
+
+def _cut(
+    points: np.ndarray, cells: tuple[np.ndarray, np.ndarray], borders: Sequence[LineString], sides: Sides
+) -> tuple[MeshQuad, np.ndarray]:
+    """The mesh of every polygon's corners with its centre, and the vertices (k,) in the middles of sides."""
+    edges = [np.stack([cell, np.roll(cell, -1, axis=1)], axis=-1).reshape(-1, 2) for cell in cells]
+    keys, which = np.unique(_keys(np.concatenate(edges), len(points)), return_inverse=True)
+    middle = 0.5 * (points[keys // len(points)] + points[keys % len(points)])
+    of_sides = np.searchsorted(keys, _keys(sides.ends, len(points)))
+    middle[of_sides] = on_borders(borders, sides.border, sides.middle)
+    centres = [points[cell].mean(axis=1) for cell in cells]
+    every, elements, first = np.concatenate([points, middle, *centres]), [], 0
+    centre = len(points) + len(middle)
+    for cell in cells:
+        on = len(points) + which.ravel()[first : first + cell.size].reshape(cell.shape)
+        centred = np.broadcast_to(centre + np.arange(len(cell))[:, None], cell.shape)
+        elements.append(np.stack([cell, on, centred, np.roll(on, 1, axis=1)], axis=-1).reshape(-1, 4))
+        first, centre = first + cell.size, centre + len(cell)
+    quads = np.ascontiguousarray(np.concatenate(elements).T)
+    return MeshQuad(np.ascontiguousarray(every.T), quads), len(points) + of_sides
+
+
+def _smoothed(mesh: MeshQuad, fixed: np.ndarray) -> MeshQuad:
+    """The mesh with vertices that are not fixed moved, where none of their elements gets worse."""
+    places, elements, ends = mesh.p.T.copy(), mesh.t.T, mesh.facets
+    free = np.ones(len(places), bool)
+    free[fixed] = False
+    degree = np.bincount(ends.ravel(), minlength=len(places))[:, None]
+
+    for _ in range(SWEEPS):
+        total = np.zeros_like(places)
+        np.add.at(total, ends[0], places[ends[1]])
+        np.add.at(total, ends[1], places[ends[0]])
+        moved = np.where(free[:, None], total / degree, places)
+        before = _worst(places, elements)
+        for _ in range(ROUNDS):
+            back = _worst(moved, elements) > before + 1e-9
+            if not back.any():
+                break
+            moved[back] = places[back]
+        else:
+            break
+        places = moved
+    return MeshQuad(np.ascontiguousarray(places.T), mesh.t)
+
+
+def _worst(at: np.ndarray, elements: np.ndarray) -> np.ndarray:
+    """By how much corners differ from right angles (n,): the most in the elements (m, 4) at each vertex."""
+    skew = np.abs(_angles(at[elements]) - 0.5 * np.pi).max(axis=1)
+    out = np.zeros(len(at))
+    np.maximum.at(out, elements, skew[:, None])
+    return out
+
+
+def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray, np.ndarray]:
+    """The mesh with further rows along its rim, whose vertices give way; ends (k, 2), places (k, 2): of sides
+    on borders and of their middles."""
+    keys, rim = _keys(ends, mesh.nvertices), mesh.boundary_facets()
+    order = np.argsort(keys)
+    on_rim = order[np.searchsorted(keys[order], _keys(mesh.facets[:, rim].T, mesh.nvertices))]
+    inner = np.setdiff1d(np.arange(len(ends)), on_rim)
+    at, element = mesh.p.T, mesh.f2t[0, rim]
+    inwards = at[mesh.t[:, element]].mean(axis=0) - places[on_rim]
+    along = np.diff(at[ends[on_rim]], axis=1)[:, 0]
+    normal = along[:, ::-1] * [-1.0, 1.0] / np.linalg.norm(along, axis=1, keepdims=True)
+    deep = np.sum(normal * inwards, axis=1)
+    normal, deep = normal * np.sign(deep)[:, None], 2.0 * np.abs(deep)
+    move, depth, count = np.zeros_like(at), np.full(len(at), np.inf), np.zeros(len(at))
+    for end in ends[on_rim].T:
+        np.add.at(move, end, normal)
+        np.add.at(count, end, 1.0)
+        np.minimum.at(depth, end, deep)
+    vertices = np.flatnonzero(count)
+    square = np.sum(move[vertices] ** 2, axis=1)  # 2 (1 + n₁ · n₂)
+    move[vertices] *= (2.0 * depth[vertices] / np.maximum(square, TIP))[:, None]
+    for one, other in ends[inner].T, ends[inner, ::-1].T:  # borders that end there stay where they are
+        meets = count[one] > 0.0
+        step, away = at[other[meets]] - at[one[meets]], move[one[meets]]
+        move[one[meets]] = step * (np.sum(away**2, axis=1) / np.sum(away * step, axis=1))[:, None]
+    allowed = np.maximum(_worst(at, mesh.t.T), SKEWEST)
+    for _ in range(ROUNDS):
+        move[_worst(at + LAYERS[-1] * move, mesh.t.T) > allowed + 1e-9] *= 0.5
+    in_middle = move[ends].mean(axis=1)
+    fresh = np.full(len(at), -1)
+    fresh[vertices] = np.arange(len(vertices))
+    rows = [len(at) + fresh[ends[on_rim]] + len(vertices) * row for row in range(len(LAYERS))] + [
+        ends[on_rim]
+    ]
+    shares = [0.0, *LAYERS]
+    moved = at + LAYERS[-1] * move
+    every = np.concatenate([moved, *(at[vertices] + share * move[vertices] for share in shares[:-1])])
+    more = [np.column_stack([low, high[:, ::-1]]) for low, high in pairwise(rows)]
+    turned = along[:, 0] * normal[:, 1] < along[:, 1] * normal[:, 0]
+    more = [np.where(turned[:, None], quads[:, ::-1], quads) for quads in more]
+    elements = np.concatenate([mesh.t.T, *more])
+    return (
+        MeshQuad(np.ascontiguousarray(every.T), np.ascontiguousarray(elements.T)),
+        np.concatenate([ends[inner], *rows]),
+        np.concatenate(
+            [
+                places[inner] + LAYERS[-1] * in_middle[inner],
+                *(places[on_rim] + share * in_middle[on_rim] for share in shares),
+            ]
+        ),
+    )
+
+
+def _biquadratic(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray, unit: np.ndarray) -> MeshQuad2:
+    """The mesh [m] with the middle nodes of sides between ends (k, 2) at places (k, 2)."""
+    curved = MeshQuad2.from_mesh(mesh)
+    at, keys, nodes = (
+        curved.doflocs.T.copy(),
+        _keys(mesh.facets.T, mesh.nvertices),
+        curved.dofs.element_dofs.T,
+    )
+    straight = at.copy()
+    order = np.argsort(keys)
+    facets = order[np.searchsorted(keys[order], _keys(ends, mesh.nvertices))]
+    at[curved.dofs.facet_dofs[0, facets]] = places
+    for _ in range(2):
+        at[nodes[:, 8]] = 0.5 * at[nodes[:, 4:8]].sum(axis=1) - 0.25 * at[nodes[:, :4]].sum(axis=1)
+        area = np.linalg.det(jacobians(at[nodes], AT_GAUSS[1]))
+        folded = nodes[area.min(axis=1) < LEAST_AREA * area.max(axis=1), 4:8]
+        at[folded] = straight[folded]
+    return dataclasses.replace(curved, doflocs=np.ascontiguousarray(at.T * unit[:, None]))

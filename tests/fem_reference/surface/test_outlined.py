@@ -1,0 +1,59 @@
+"""Meshes that follow shapes: elements upright, sides on the borders, in no time."""
+
+import time
+
+import numpy as np
+import pytest
+import shapely
+from skfem import Basis, ElementQuad2
+
+from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
+from fem_reference.surface.mesh import nodes_of
+from fem_reference.surface.outlined import quadrilaterals
+
+NONE = shapely.MultiLineString()
+PLATE, FIN = shapely.box(0.0, 0.0, 0.2, 0.2), shapely.Polygon([(0, 0), (0.2, 0.06), (0.2, 0.14), (0, 0.2)])
+
+
+def disc(x, y, radius):
+    return shapely.Point(x, y).buffer(radius, quad_segs=64)
+
+
+HOLES = shapely.union_all([disc(x, y, 0.02) for x in (0.05, 0.15) for y in (0.05, 0.14)])
+PLANS = {
+    "square": (PLATE, NONE),
+    "annulus": (disc(0.1, 0.1, 0.1).difference(disc(0.1, 0.1, 0.04)), NONE),
+    "fin with a stiff root": (FIN, shapely.LineString([(0.05, 0.0), (0.05, 0.2)])),
+    "four holes": (PLATE.difference(HOLES), NONE),
+    "round patch": (PLATE, disc(0.1, 0.08, 0.05).boundary),
+    "hole near a rim": (PLATE.difference(disc(0.1, 0.052, 0.05)), NONE),
+    "oblique slit": (PLATE.difference(shapely.LineString([(0.05, 0.06), (0.15, 0.14)]).buffer(0.001)), NONE),
+}
+
+
+@pytest.mark.parametrize("graded", [False, True])
+@pytest.mark.parametrize("count", [6, 16])
+@pytest.mark.parametrize("plan", PLANS)
+def test_elements_fill_the_plan_and_stand_upright(plan, count, graded):
+    region, inner = PLANS[plan]
+    begin = time.process_time()
+    mesh = quadrilaterals(region, inner, (0.2 / count, 0.2 / count), graded)
+    assert time.process_time() - begin < 1.0  # 0.04 s; 0.3 s are allowed a plate with four holes
+    nodes, elements = nodes_of(mesh)
+    area = np.linalg.det(jacobians(nodes[elements], AT_GAUSS[1]))
+    assert area.min() > 0.0
+    assert Basis(mesh, ElementQuad2()).dx.sum() == pytest.approx(region.area, rel=1e-3 / count)
+    rim = np.unique(mesh.facets[:, mesh.boundary_facets()])
+    assert shapely.distance(region.boundary, shapely.points(nodes[rim])).max() < 1e-9
+    on_inner = shapely.distance(inner, shapely.points(nodes)) < 1e-9  # as much of it as lies in the region
+    sides = nodes[mesh.facets.T]
+    along = on_inner[mesh.facets].all(axis=0)
+    assert np.linalg.norm(np.diff(sides[along], axis=1)[:, 0], axis=1).sum() == pytest.approx(
+        shapely.intersection(inner, region).length, rel=1e-2
+    )
+
+
+def test_away_from_borders_elements_are_squares():
+    mesh = quadrilaterals(*PLANS["square"], (0.025, 0.025))
+    assert mesh.nelements == 64
+    assert np.allclose(np.unique(np.round(mesh.p[0, : mesh.nvertices], 12)), np.linspace(0.0, 0.2, 9))

@@ -30,6 +30,8 @@ from lumped.lattice import STEPS
 from lumped.sections import Section
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 
+ROUNDING = 1e-12  # of moduli, for what is 0
+
 
 @dataclass(frozen=True)
 class Moduli:
@@ -38,6 +40,13 @@ class Moduli:
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
+
+    @property
+    def oblique(self) -> bool:
+        """Whether stretching along the sides shears: fibres are at an angle to them."""
+        return any(
+            np.abs(form[:2, 2]).max() > ROUNDING * form[0, 0] for form in (self.membrane, self.bending)
+        )
 
     def named(self, square: bool) -> dict[str, float]:
         """The moduli by name; on square cells the x and y values are one."""
@@ -50,6 +59,8 @@ class Moduli:
             "A12": a[0, 1],
             "A66": a[2, 2],
         }
+        if self.oblique:
+            names |= {"D16": d[0, 2], "D26": d[1, 2], "A16": a[0, 2], "A26": a[1, 2]}
         if square:
             return {**names, "S": self.shear[0]}
         return {**names, "D22": d[1, 1], "A22": a[1, 1], "Sx": self.shear[0], "Sy": self.shear[1]}
@@ -95,13 +106,13 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     dilation = np.zeros((3, 3))
     dilation[:2, :2] = 1.0
     in_layer = layer[:3, :3] + springs.area * dilation
-    in_layer += np.diag(constants.of_strains(springs, "area")[1][0])
+    in_layer += _of_strains(springs, "area")
     if springs.rubber:
         area = spacing[0] * spacing[1]
         sides = np.array([[[spacing[0], 0.0, 0.0], [0.0, spacing[1], 0.0]]])
         ((volume, *strains),), _ = constants.of_rubber(springs, sides, np.array([area]), np.zeros(1))
         in_layer += volume * dilation + np.diag(strains)
-    mid_surface = springs.mid_area * dilation + np.diag(constants.of_strains(springs, "mid_area")[1][0])
+    mid_surface = springs.mid_area * dilation + _of_strains(springs, "mid_area")
     in_gap = gap[:3, :3].copy()
     if gap[3, 3] > 0.0:
         in_gap -= np.outer(gap[:3, 3], gap[:3, 3]) / gap[3, 3]
@@ -113,6 +124,13 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
         bending=(heights**2).sum() * in_layer + (gap_heights**2).sum() * in_gap,
         shear=shear_gaps(layers) * (np.diag(gap)[4:] + sum(constants.of_faces(springs, spacing[:2]))),
     )
+
+
+def _of_strains(springs: SpringSet, cells: str) -> np.ndarray:
+    """The form (3, 3) of strain springs and couplings."""
+    own = np.diag(constants.of_strains(springs, cells)[1][0])
+    own[[0, 0, 1], [1, 2, 2]] = own[[1, 2, 2], [0, 0, 1]] = constants.of_couplings(springs, cells, 1)[0]
+    return own
 
 
 def of_section(section: Section, spacing: tuple[float, float]) -> Moduli:

@@ -27,7 +27,6 @@ import numpy as np
 
 from lumped import plies
 from lumped.grid_lines import Lines, grid_lines
-from sheetbench.errors import Impossible
 from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, require_uniform
 from sheetbench.scenes.cells import NUMBERS
 from sheetbench.scenes.grading import Graded
@@ -76,9 +75,21 @@ class Section:
 
     @property
     def layer_width(self) -> np.ndarray:
-        """λ (…) [m], in which twist fades at a free edge: √(D66/S), h/√10 of a homogeneous sheet."""
-        twisting, shear = self.bending[..., 2, 2], self.shear.mean(axis=-1)
-        return np.sqrt(np.divide(twisting, shear, out=np.zeros_like(twisting), where=shear > 0.0))
+        """λ (…, 2) [m], in which twist fades at free edges normal to x and to y: √(D/S), D `twisting` and S
+        the shear stiffness along the edge; h/√10 of an isotropic sheet."""
+        return np.sqrt(_over(twisting(self.bending), self.shear[..., ::-1]))
+
+
+def twisting(bending: np.ndarray) -> np.ndarray:
+    """Twisting stiffness (…, 2) [N·m] at edges normal to x and to y, D66 less D16²/D11 and D26²/D22: at an
+    edge that bends freely the moment across it stays 0, and fibres at an angle turn twist into bending."""
+    own = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
+    return np.asarray(bending[..., 2, 2, None] - _over(bending[..., :2, 2] ** 2, own))
+
+
+def _over(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
+    """part/whole, 0 of cells that are not there."""
+    return np.divide(part, whole, out=np.zeros_like(part), where=whole > 0.0)
 
 
 def of_cells(cells: Cells, grid: Grid) -> Section:
@@ -111,11 +122,6 @@ def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> Sectio
     """The sections of cells as if the sheet had no outline, None where they are alike in all directions."""
     if scene.uniform:
         return None
-    if scene.material.kind == "orthotropic":
-        raise Impossible(
-            f"scene '{scene.name}': material.kind = 'orthotropic': the lattice has no fibres yet; plate, "
-            "shell and solid have"
-        )
     if scene.homogeneous:
         return of_cells(Cells.of(scene.sheet, scene.material), grid)
     x, y = (_divided(side, at) for side, at in zip(lines, sides_of(scene), strict=True))

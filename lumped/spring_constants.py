@@ -26,7 +26,9 @@ RUBBER_CONSTANTS = (
     "yeoh_cube",
     "gent_limit",
 )
-SIGNED = ("area", "mid_area", "mid_shear", *EDGES_OWN)
+COUPLINGS = ("coupling_xy", "coupling_x", "coupling_y")
+MID_COUPLINGS = ("mid_coupling_xy", "mid_coupling_x", "mid_coupling_y")
+SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN)
 
 
 def number(table: SpringSet | DamperSet, family: str, direction: str) -> float | None:
@@ -67,6 +69,13 @@ def of_strains(springs: SpringSet, cells: str, count: int = 1) -> tuple[str, np.
         stiffness[:] = x, y, shear
         return name, stiffness
     return name, np.stack([of_cells(value, count) for value in (x, y, shear)], axis=1)
+
+
+def of_couplings(springs: SpringSet, cells: str, count: int) -> np.ndarray:
+    """What couples ε1 ε2, ε1 γ and ε2 γ of the `count` plan cells called "area" (each layer) or "mid_area"
+    (the mid-surface), (count, 3) [N/m]."""
+    names = COUPLINGS if cells == "area" else MID_COUPLINGS
+    return np.stack([of_cells(getattr(springs, name), count) for name in names], axis=1)
 
 
 def along_each(value: Any, count: int) -> np.ndarray:

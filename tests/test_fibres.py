@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from commands import one_line, run
 
 import fem_reference
+import lumped
 import lumped.plies
 from fem_reference.surface import plies
 from sheetbench.scenes import Material, load
@@ -20,6 +22,9 @@ def with_fibres(scene=PLAIN, **constants):
 
 
 def answer(scene, model):
+    """Of 9 × 9 masses, or 4 elements."""
+    if model == "lumped":
+        return lumped.solve(scene)
     return fem_reference.solve(scene, model, elements=4)
 
 
@@ -44,13 +49,13 @@ def test_two_derivations_of_the_section_agree():
         assert mine == pytest.approx(theirs, rel=1e-12, abs=1e-12 * np.abs(theirs).max())
 
 
-@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
+@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
 def test_isotropic_constants_are_the_isotropic_sheet(model):
     plain, found = both(PLAIN, with_fibres(**SAME, angle=0.3), model)
     assert found == pytest.approx(plain, rel=1e-8, abs=1e-8 * np.abs(plain).max())
 
 
-@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
+@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
 def test_a_quarter_turn_exchanges_the_constants(model):
     swapped = dict(young_1=8e6, young_2=54.5e6, poisson_12=0.35 * 8.0 / 54.5, shear_12=4e6)
     swapped |= dict(shear_13=2e6, shear_23=3e6, young_3=8e6, poisson_13=0.35, poisson_23=0.35)
@@ -58,10 +63,11 @@ def test_a_quarter_turn_exchanges_the_constants(model):
     assert found == pytest.approx(turned, rel=1e-8, abs=1e-8 * np.abs(turned).max())
 
 
-def test_fibres_and_their_mirror_image_move_mirrored():
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+def test_fibres_and_their_mirror_image_move_mirrored(model):
     """About the diagonal of two clamped edges 30° is 60°."""
     scene = with_fibres(**FIBRES, angle=np.pi / 6)
-    one, other = both(scene, with_fibres(**FIBRES, angle=np.pi / 3), "shell")
+    one, other = both(scene, with_fibres(**FIBRES, angle=np.pi / 3), model)
     mirrored = other[[0, 2, 1, 3]][:, [1, 0, 2]]  # P2 and P3 change places, and x and y
     assert mirrored == pytest.approx(one, abs=1e-7 * np.abs(one).max())
 
@@ -74,3 +80,94 @@ def test_shell_and_solid_agree_on_oblique_fibres():
         for model in ("shell", "solid")
     )
     assert np.abs(shell - solid).max() < 0.005 * np.abs(shell).max()
+
+
+def lattice(scene, masses):
+    cells = lumped.sections_of(scene, (masses, masses, 2))
+    return lumped.calibrate(scene.sheet, scene.material, (masses, masses), cells=cells)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4, np.pi / 2])
+def test_the_energy_of_even_strains_in_the_plane_is_the_sheets(angle):
+    """Of all springs together, the thickness free to change: ½ ε·A ε of the area, for any strain."""
+    scene = with_fibres(**FIBRES, angle=angle)
+    problem = lumped.build_problem(scene, lattice(scene, 5))
+    x = problem.assembly.lattice.positions
+    area = scene.sheet.length_x * scene.sheet.length_y
+    membrane = lumped.sections_of(scene, (5, 5, 2)).membrane[0, 0]
+
+    def stored(strain, thinning):
+        gradient = np.array(
+            [[strain[0], 0.5 * strain[2], 0], [0.5 * strain[2], strain[1], 0], [0, 0, thinning]]
+        )
+        return problem.assembly.force(1e-6 * x @ gradient)[0] * 1e12
+
+    for strain in (*np.eye(3), np.array([1.0, -0.7, 0.4])):
+        at = np.array([stored(strain, thinning) for thinning in (-1.0, 0.0, 1.0)])
+        least = at[1] - (at[2] - at[0]) ** 2 / (8.0 * (at[0] - 2.0 * at[1] + at[2]))
+        # Green's strains have a square of 1e-6 in them
+        assert least == pytest.approx(0.5 * area * strain @ membrane @ strain, rel=1e-5)
+
+
+STRONG = dict(young_1=200e6, young_2=8e6, poisson_12=0.3, shear_12=4e6)
+WOVEN = dict(young_1=50e6, young_2=50e6, poisson_12=0.2, shear_12=2e6)
+
+
+@pytest.mark.parametrize("angle", [0.0, np.pi / 6, np.pi / 4])
+@pytest.mark.parametrize("fibres", [FIBRES, STRONG, WOVEN], ids=["rubber", "strong", "woven"])
+def test_lattice_and_shell_agree(fibres, angle):
+    """Within 2 % of the largest displacement with 17 masses on a side, and no modulus missed."""
+    scene = with_fibres(**fibres, angle=angle)
+    springs = lattice(scene, 17)
+    assert all(abs(row["miss"]) < 1e-9 for row in springs.moduli)
+    found, shell = lumped.solve(scene, springs), fem_reference.solve(scene, "shell", elements=12)
+    assert found.balance.holds
+    off = found.displacement(scene.probe_points()) - shell.displacement(scene.probe_points())
+    assert np.abs(off).max() < 0.02 * np.abs(shell.displacement(scene.probe_points())).max()
+
+
+@pytest.fixture(scope="module")
+def fabric(tmp_path_factory):
+    path = tmp_path_factory.mktemp("fabric") / "fabric.toml"
+    with_fibres(load("one-edge-clamped"), **FIBRES, angle=0.5).save(path)
+    path.with_name("measured.csv").write_text("x,y,ux,uy,uz\n0.188,0.094,,,-0.05\n")
+    return str(path)
+
+
+SMALL = ["--lumped", "5", "--elements", "4", "--no-pictures"]
+
+
+@pytest.mark.parametrize(
+    ("verb", "options"),
+    [
+        ("check", []),
+        ("compare", SMALL),
+        ("compare", [*SMALL, "--duration", "0.01"]),
+        ("modes", [*SMALL, "--count", "2"]),
+        ("simulate", ["--lumped", "5", "--duration", "0.01", "--no-pictures"]),
+        ("calibrate", ["--grid", "5"]),
+        ("calibrate", ["--grid", "5", "--toml"]),
+        ("tradeoff", ["--lumped", "5", "--shell", "2", "--repeats", "1"]),
+        ("linearise", ["--lumped", "5"]),
+    ],
+)
+def test_verbs_that_know_fibres(fabric, verb, options, capsys):
+    assert run(verb, fabric, *options) == 0, capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("verb", "options", "who"),
+    [
+        ("advise", [], "advise"),
+        ("stability", [], "stability"),
+        ("live", ["--no-browser"], "live"),
+        ("identify", ["--measured", "measured.csv", "--unknown", "young"], "identify"),
+        ("calibrate", ["--grid", "5", "--export", "lattice"], "an export"),
+        ("calibrate", ["--method", "uniform"], "calibration 'uniform'"),
+        ("compare", ["--law", "biot"], "the shell's law 'biot'"),
+    ],
+)
+def test_verbs_that_do_not_say_so(fabric, verb, options, who, monkeypatch, capsys):
+    monkeypatch.chdir(fabric.removesuffix("fabric.toml"))
+    assert run(verb, fabric, *options) == 2
+    assert f"material.kind = 'orthotropic': {who} is for isotropic sheets" in one_line(capsys)

@@ -49,8 +49,10 @@ which is 3ν − 1 + 2 S*/κGh for a third and vanishes (`waves`) for a d from 0
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from scipy.linalg import eigvalsh
 
 from lumped.calibration.calibration import by_direction
 from lumped.moduli import Moduli, shear_gaps
@@ -81,6 +83,8 @@ def closed_form(
     bracket = 5.0 + 3.0 * asked.bending[0, 1] / asked.bending[0, 0]
     upright = (FIRMER if gradients else 1.0) * vertical(asked, spacing, 1.0)  # kz lz² [N·m]
     share = diagonals_for_waves(asked, lx * ly, bracket) if waves else 1.0 / 3.0
+    least = float(min(asked.bending[0, 0], asked.bending[1, 1]))
+    share *= min(1.0, 4.0 * float(asked.bending[2, 2]) / least)  # of sheets that are soft in shear less
     p = share * float(min(gap.max(), *(1.5 * gap / ratios)))
     gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
 
@@ -90,13 +94,17 @@ def closed_form(
         relaxed = gap_form - relaxation
         layer = (asked.bending - sigma_gap * relaxed) / sigma
         lattice = layers * layer + (layers - 1) * relaxed
-        needed = max(
-            (lattice[0, 0] - lattice[0, 1]) / (asked.membrane[0, 0] - asked.membrane[0, 1]),
-            (lattice[1, 1] - lattice[0, 1]) / (asked.membrane[1, 1] - asked.membrane[0, 1]),
-            lattice[2, 2] / asked.membrane[2, 2],
-        )
         by_diagonals = _by_diagonals(layer, ratios)
         axial = np.diag(layer)[:2] - layer[0, 1] + by_diagonals * layer[2, 2] * (1.0 - ratios)
+        if fibres := _has_fibres(asked, layer, axial):
+            by_diagonals, axial = 0.0, 1.0 / (3.0 * np.diag(np.linalg.inv(layer))[:2])
+            needed = float(eigvalsh(lattice, asked.membrane)[-1])
+        else:
+            needed = max(
+                (lattice[0, 0] - lattice[0, 1]) / (asked.membrane[0, 0] - asked.membrane[0, 1]),
+                (lattice[1, 1] - lattice[0, 1]) / (asked.membrane[1, 1] - asked.membrane[0, 1]),
+                lattice[2, 2] / asked.membrane[2, 2],
+            )
         if gradients:
             on_sides = layers * axial + (layers - 1) * (gap - p * ratios)
             needed = max(needed, float((on_sides / _on_sides(asked.membrane)).max()))
@@ -110,15 +118,24 @@ def closed_form(
         relaxation = _relaxation(asked, gap, p, spacing, lz2, upright)
     if lz2 <= 0.0 or layer[2, 2] <= 0.0:
         return None
-
-    area = layer[0, 1] - by_diagonals * layer[2, 2]
-    if min(axial) < 0.0:
+    if min(axial) < 0.0 or (fibres and np.linalg.eigvalsh(layer)[0] <= 0.0):
         return None
     l1x, l1y, l2 = lx**2 + lz2, ly**2 + lz2, lx**2 + ly**2 + lz2
     rest = asked.membrane * lz2 - lattice
-    rest[:2, :2] -= rest[0, 1]
+    area, mid_area = layer[0, 1] - by_diagonals * layer[2, 2], rest[0, 1]
+    more: dict[str, Any] = {}
+    if fibres:
+        area = mid_area = 0.0
+        stretch = np.diag(layer)[:2] - axial
+        more = {"stretch": by_direction(stretch[0] / lz2, stretch[1] / lz2)}
+        for cells, form in (("", layer), ("mid_", rest)):
+            more |= {
+                f"{cells}coupling_xy": form[0, 1] / lz2,
+                f"{cells}coupling_x": form[0, 2] / lz2,
+                f"{cells}coupling_y": form[1, 2] / lz2,
+            }
+    rest[:2, :2] -= mid_area
     rest[np.abs(rest) < 1e-12 * asked.membrane[0, 0] * lz2] = 0.0
-    mid_area = asked.membrane[0, 1] * lz2 - lattice[0, 1]
     return SpringSet(
         axial=by_direction(axial[0] * ly / lx / lz2, axial[1] * lx / ly / lz2),
         diagonal=by_diagonals * layer[2, 2] * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
@@ -134,7 +151,19 @@ def closed_form(
         mid_shear=rest[2, 2] / lz2,
         mid_stretch=by_direction(rest[0, 0] / lz2, rest[1, 1] / lz2),
         layer_distance=math.sqrt(lz2),
+        **more,
     )
+
+
+def _has_fibres(asked: Moduli, layer: np.ndarray, axial: np.ndarray) -> bool:
+    """Whether the layer's cells need couplings: at an angle to the fibres, and where area springs would leave
+    the links along the sides, of a sheet that is not isotropic, less than the third of E h of `gradients`."""
+    stretching, shearing = asked.bending[0, 0] - asked.bending[0, 1], 2.0 * asked.bending[2, 2]
+    if asked.oblique:
+        return True
+    if math.isclose(stretching, shearing, rel_tol=1e-9) or np.linalg.eigvalsh(layer)[0] <= 0.0:
+        return False
+    return bool(np.any(axial < 1.0 / (3.0 * np.diag(np.linalg.inv(layer))[:2])))
 
 
 def diagonals_for_waves(asked: Moduli, area: float, bracket: float) -> float:
@@ -161,9 +190,9 @@ def _on_sides(form: np.ndarray) -> np.ndarray:
 
 
 def vertical(asked: Moduli, spacing: tuple[float, float], lz2: float) -> float:
-    """kz [N/m]: 8 D/lz² per square of the shorter spacing, over the cell."""
+    """kz [N/m]: 8 D/lz² per square of the shorter spacing, over the cell; D² = D11 D22."""
     lx, ly = spacing
-    return 8.0 * float(asked.bending[0, 0]) / lz2 * lx * ly / min(lx, ly) ** 2
+    return 8.0 * math.sqrt(asked.bending[0, 0] * asked.bending[1, 1]) / lz2 * lx * ly / min(lx, ly) ** 2
 
 
 def _relaxation(

@@ -19,7 +19,8 @@ and loses the width Σ_c [b − f_c (b − (ψ_{c+1} − ψ_c))], which is Σ_c 
 edges free: f_0 = f_{n−1} = f (of a single cell both reductions add) and 2 λ is lost; else ψ_n = 0 at the far
 edge and λ is lost. An edge's cell is a spring f D66/b in series with the rest of the strip, whose energy is
 quadratic in ψ_1 − ψ_0 alone, so f follows from one solution for the rest. Derived for this project
-(`docs/theory.md`); the thin strip's torsion constant is Saint-Venant's.
+(`docs/theory.md`); D66 is that of `lumped.sections.twisting`. The thin strip's torsion constant is
+Saint-Venant's.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from typing import Any
 import numpy as np
 from scipy.linalg import LinAlgError, solveh_banded
 
-from lumped import moduli
+from lumped import moduli, sections
 from lumped import spring_constants as constants
 from lumped.calibration.calibration import either
 from lumped.grid_lines import Lines, grid_lines
@@ -63,7 +64,7 @@ def with_edges(
     lines = grid_lines(sheet, grid, grading)
     notes: list[str] = []
     lost = np.broadcast_to(
-        layer_width(sheet.thickness) if cells is None else cells.layer_width, (grid[1] - 1, grid[0] - 1)
+        layer_width(sheet.thickness) if cells is None else cells.layer_width, (grid[1] - 1, grid[0] - 1, 2)
     )
     alike = cells is None and all(_alike(side) for side in lines)
     edges = _of_edges(lost, lines, springs, grid[2], False, cells is not None, notes)
@@ -88,7 +89,7 @@ def _of_edges(
     notes: list[str],
 ) -> dict[str, Any]:
     """edge_shear and strip_shear of x0 and y0, or of x1 and y1 (`far`); adds to the notes. lost: λ of the
-    cells (rows, columns) [m]; differ: whether they have sections of their own, and each is taken as if all
+    cells (rows, columns, 2) [m]; differ: whether they have sections of their own, and each is taken as if all
     across the sheet were like it."""
     square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * springs.layer_distance**2
     unequal = constants.varies(springs)
@@ -103,7 +104,7 @@ def _of_edges(
                 (np.full_like(d, d[0]), np.full_like(s, s[0]), np.full_like(q, q[0])) for d, s, q in strips
             ]
         widths = across.widths[::-1] if far else across.widths
-        along_edge = np.moveaxis(lost, 1 - axis, 0)[-int(far)]
+        along_edge = np.moveaxis(lost[..., axis], 1 - axis, 0)[-int(far)]
         for both, values in found.items():
             taken = []
             mirrored = both and not _alike(across)
@@ -140,7 +141,7 @@ def _strip(
         own = constants.of_cell(springs, row, column) if unequal else springs
         sides = (float(lines[0].widths[column]), float(lines[1].widths[row]), springs.layer_distance)
         twisting, shear, shares = of_cell(own, sides, layers)
-        rows.append((twisting, shear[1 - axis], shares[1 - axis]))
+        rows.append((twisting[axis], shear[1 - axis], shares[1 - axis]))
     of_strip = np.array(rows[::-1] if far else rows).T
     return of_strip[0], of_strip[1], of_strip[2]
 
@@ -148,10 +149,10 @@ def _strip(
 @lru_cache(maxsize=4096)  # kinds of cells: strips have most in common
 def of_cell(
     springs: SpringSet, sides: tuple[float, float, float], layers: int
-) -> tuple[float, list[float], list[float]]:
-    """D66 [N·m] of a cell, its S along x and y [N/m] and the diagonals' share of it."""
+) -> tuple[list[float], list[float], list[float]]:
+    """D66 [N·m] of a cell at edges normal to x and to y, its S along x and y [N/m], the diagonals' share."""
     whole = moduli.of_springs(springs, sides, layers)
-    return float(whole.bending[2, 2]), whole.shear.tolist(), _shares(springs, sides)
+    return sections.twisting(whole.bending).tolist(), whole.shear.tolist(), _shares(springs, sides)
 
 
 def _shares(springs: SpringSet, spacing: tuple[float, float, float]) -> list[float]:

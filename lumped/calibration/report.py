@@ -45,12 +45,14 @@ def report(
                 row["kappa_G_h"] = float(section.shear[int(row["name"] == "Sy")])
             if row["name"] not in worst or abs(row["miss"]) > abs(worst[row["name"]]["miss"]):
                 worst[row["name"]] = row
-        if constants.value_of(own, "area") < 0.0 or constants.value_of(own, "mid_area") < 0.0:
+        couplings = [constants.of_couplings(own, cells, 1) for cells in ("area", "mid_area")]
+        negative = any(constants.value_of(own, name) < 0.0 for name in ("area", "mid_area"))
+        if negative or np.any(couplings):
             _require_positive(own, whole)
     missed = [
         f"{row['name']} is missed by {row['miss']:+.1%}"
         for row in worst.values()
-        if abs(row["got"] - row["asked"]) > 0.01 * abs(worst[row["name"].replace("12", "11")]["asked"])
+        if abs(row["got"] - row["asked"]) > 0.01 * abs(worst[_like(row["name"])]["asked"])
     ]
     if missed and not np.any(springs.area) and not np.any(springs.shear):
         missed.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
@@ -85,10 +87,15 @@ def _rows(asked: dict[str, float], got: dict[str, float]) -> list[dict[str, Any]
     """Each modulus with its miss, relative to what is asked or, where that is zero, to its like along x."""
     rows = []
     for name, value in asked.items():
-        scale = value or abs(asked[name.replace("12", "11")])
+        scale = value or abs(asked[_like(name)])
         miss = float((got[name] - value) / scale)
         rows.append({"name": name, "asked": float(value), "got": float(got[name]), "miss": miss})
     return rows
+
+
+def _like(name: str) -> str:
+    """The modulus by whose size another is measured: D11 for D12, D16 and D26."""
+    return f"{name[0]}11" if name[1:] in ("12", "16", "26") else name
 
 
 def _areas(springs: SpringSet) -> str:

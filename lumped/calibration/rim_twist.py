@@ -31,7 +31,7 @@ def with_rims(sheet: Sheet, material: Material, found: Calibration) -> tuple[Spr
     assert found.cells is not None and found.present is not None
     springs, grid, there = found.springs, found.grid, found.present
     kinds = kinds_of_cells(sheet, material, grid, found.grading, found.cells)
-    layers, lost = grid[2], np.broadcast_to(found.cells.layer_width, there.shape)
+    layers, lost = grid[2], np.broadcast_to(found.cells.layer_width, (*there.shape, 2))
     square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * springs.layer_distance**2
     first = {int(n): np.argwhere((kinds.which == n) & (kinds.factor == 1.0))[0] for n in range(len(kinds.of))}
     of_kind = [
@@ -49,14 +49,14 @@ def with_rims(sheet: Sheet, material: Material, found: Calibration) -> tuple[Spr
         twisting, shear, by_diagonals = of_kind[kind]
         if key not in factors:
             width = kinds.of[kind][0][axis]
-            strip = width, twisting, shear[1 - axis], by_diagonals[1 - axis]
-            factor = edge_factor(count, *strip, float(lost[at]), both)
+            strip = width, twisting[axis], shear[1 - axis], by_diagonals[1 - axis]
+            factor = edge_factor(count, *strip, float(lost[at][axis]), both)
             if factor is None:
                 notes.append("no twisting stiffness of the cells along a rim makes it right")
             factors[key] = MOST if factor is None else factor
         corner = any(_beyond(there, at, 1 - axis))
         factor = max(factors[key], AT_CORNERS) if corner else factors[key]
-        return (factor - 1.0) * twisting * float(kinds.factor[at]) / square
+        return (factor - 1.0) * twisting[axis] * float(kinds.factor[at]) / square
 
     edges: dict[str, list[Any]] = {name: [] for name in constants.EDGES_OWN}
     for axis in (0, 1):

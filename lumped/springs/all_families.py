@@ -20,7 +20,7 @@ from lumped.lattice import Lattice
 from lumped.pattern import Pattern
 from lumped.rest import Rest, rest_of
 from lumped.springs import cells, links
-from lumped.springs.cell_laws import FACE, RUBBER, AreaAndStrains
+from lumped.springs.cell_laws import COUPLED, FACE, RUBBER, AreaAndStrains
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import Cells, Dampers, DirectionalLinks, Family, Links
 from lumped.springs.links import LinkArrays
@@ -246,9 +246,15 @@ def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
         of_area = constants.of_cells(getattr(springs, family.name), len(twist))
         strains[:, 2] += twist if family.name == "area" else -layers * twist
         stiffness = np.column_stack([of_area, strains])
-        if stiffness.any():
-            stiffness = np.concatenate([stiffness[lattice.kept]] * every)
-            yield Cells(nodes, stiffness, slots, sides, area, (family.name, name))
+        couplings = constants.of_couplings(springs, family.name, len(twist))
+        if stiffness.any() or couplings.any():
+            stiffness, couplings = (
+                np.concatenate([each[lattice.kept]] * every) for each in (stiffness, couplings)
+            )
+            if couplings.any():
+                yield Cells(nodes, stiffness, slots, sides, area, (name, ""), False, COUPLED, couplings)
+            else:
+                yield Cells(nodes, stiffness, slots, sides, area, (family.name, name))
 
 
 def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:

@@ -16,7 +16,9 @@ from lumped.springs.cell_laws import AreaAndStrains
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import HALF, LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R11
 
-DIRECTIONAL, CELLS, FACES = np.uint64(kinds.DIRECTIONAL), np.uint64(kinds.CELLS), np.uint64(kinds.FACES)
+DIRECTIONAL, CELLS, FACES, COUPLED = (
+    np.uint64(kind) for kind in (kinds.DIRECTIONAL, kinds.CELLS, kinds.FACES, kinds.COUPLED_CELLS)
+)
 UINT_ONE = np.uint64(1)
 
 
@@ -128,6 +130,8 @@ def _pass(
         if damped:
             tiles.gather_sides(v, a, b, c, d, size, blocks, tile)
             power += tiles.resist_cells(rest, t, blocks, tile, at)
+            if kind == COUPLED:
+                power += tiles.resist_couplings(rest, t, blocks, tile, at)
         tiles.push_corner(-HALF, -HALF, a, size, blocks, tile, force)
         tiles.push_corner(HALF, -HALF, b, size, blocks, tile, force)
         tiles.push_corner(HALF, HALF, c, size, blocks, tile, force)

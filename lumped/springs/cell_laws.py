@@ -16,11 +16,17 @@ from numba import njit
 from numba.extending import overload
 
 from lumped.springs import laws
-from lumped.springs.laws import Constants, Four, Six, Three
+from lumped.springs.laws import Constants, Four, Memory, Six, Three
 
 
 class AreaAndStrains(NamedTuple):
     """constants: (c, 4) of every cell's `area_and_strains` [N/m³]."""
+
+    constants: np.ndarray
+
+
+class Coupled(NamedTuple):
+    """constants: (c, 7) of every cell's `coupled` [N/m³]."""
 
     constants: np.ndarray
 
@@ -37,7 +43,40 @@ class Face(NamedTuple):
     constants: np.ndarray
 
 
-Tag = AreaAndStrains | Rubber | Face
+Tag = AreaAndStrains | Coupled | Rubber | Face
+
+
+@njit(cache=True, error_model="numpy")
+def coupled(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory, Four]:
+    """The law of cells with fibres: `area_and_strains` of k₀ to k₃, and what couples the strains,
+
+        k₄ δg₁₁ δg₂₂ + k₅ δg₁₁ δg₁₂ + k₆ δg₂₂ δg₁₂.
+
+    Return W, the area's memory, and S.
+    """
+    energy, memory, s = laws.area_and_strains(half, d, g, area, k)
+    x, y, z = k[4], k[5], k[6]
+    more = x * d[1] + y * d[2], x * d[0] + z * d[2], y * d[0] + z * d[1]
+    energy += half * (more[0] * d[0] + more[1] * d[1] + more[2] * d[2])
+    return energy, memory, (s[0] + more[0], s[1] + more[1], s[2] + more[2], s[3])
+
+
+@njit(cache=True, error_model="numpy")
+def stiffness_of_coupled(
+    d: Four, g: Three, area: float, memory: Memory, share: float, k: Constants
+) -> tuple[Six, Four]:
+    """Return M + share (D − M) of `coupled`, its 11 22 33 12 13 23; nothing of s."""
+    six, none = laws.stiffness_of_area_and_strains(d, g, area, memory, share, k)
+    return (six[0], six[1], six[2], six[3] + k[4], six[4] + k[5], six[5] + k[6]), none
+
+
+@njit(cache=True, error_model="numpy")
+def mean_coupled(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
+    """Return the stress over a step whose work is the energy stored: of the couplings that of the mean."""
+    s = laws.mean_area_and_strains(d0, d1, g, area, k)
+    m1, m2, m3 = 0.5 * (d0[0] + d1[0]), 0.5 * (d0[1] + d1[1]), 0.5 * (d0[2] + d1[2])
+    x, y, z = k[4], k[5], k[6]
+    return s[0] + x * m2 + y * m3, s[1] + x * m1 + z * m3, s[2] + y * m1 + z * m2, s[3]
 
 
 @njit(cache=True, error_model="numpy")
@@ -86,6 +125,11 @@ def _five(k: np.ndarray, c: int) -> Constants:
 
 
 @njit(cache=True, error_model="numpy")
+def _seven(k: np.ndarray, c: int) -> Constants:
+    return k[c, 0], k[c, 1], k[c, 2], k[c, 3], k[c, 4], k[c, 5], k[c, 6]
+
+
+@njit(cache=True, error_model="numpy")
 def _thirteen(k: np.ndarray, c: int) -> Constants:
     return (
         k[c, 0], k[c, 1], k[c, 2], k[c, 3], k[c, 4], k[c, 5], k[c, 6], k[c, 7], k[c, 8], k[c, 9], k[c, 10],
@@ -117,6 +161,7 @@ class Law:
 ENERGIES = {  # of an exported cell with the constants k1, k2, …; see the README of an export
     "area": "0.5 k1 (a/a0 - 1)^2 a0",
     "strain": "0.5 (k1 e1^2 + k2 e2^2 + k3 g^2) a0",
+    "coupling": "(k1 e1 e2 + k2 e1 g + k3 e2 g) a0",
     "rubber": "W(k1 .. k6) a0 - 0.5 k7 (la - |A0|)^2 - 0.5 k8 (lb - |B0|)^2",
     "face": "0.5 k1 (A.B/|A||B0|)^2 a0",
 }
@@ -140,6 +185,17 @@ AREA_AND_STRAINS = Law(
     False,
     lambda stiffness, _others, _area: {"area": stiffness[:, :1], "strain": stiffness[:, 1:]},
     ((-30.0, 200.0, 150.0, 80.0),),
+)
+COUPLED = Law(
+    Coupled,
+    coupled,
+    stiffness_of_coupled,
+    mean_coupled,
+    _seven,
+    3,
+    False,
+    lambda k, others, _area: {"area": k[:, :1], "strain": k[:, 1:], "coupling": others},
+    ((-30.0, 200.0, 150.0, 80.0, 60.0, -50.0, 40.0),),
 )
 RUBBER = Law(
     Rubber,
@@ -168,7 +224,7 @@ FACE = Law(
     lambda _stiffness, others, area: {"face": others * area[:, None]},
     ((0.0, 0.0, 0.0, 25.0, 25.0),),
 )
-LAWS = (AREA_AND_STRAINS, RUBBER, FACE)
+LAWS = (AREA_AND_STRAINS, COUPLED, RUBBER, FACE)
 _OF = {law.tag: law for law in LAWS}
 
 

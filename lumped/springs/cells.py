@@ -24,7 +24,6 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.springs import laws
 from lumped.springs.cell_blocks import add_blocks, add_warped_blocks, both, by_sides, by_warp, to_diagonals
 from lumped.springs.cell_laws import Tag, constants, mean_stress, measures, respond, stiffness
 from lumped.springs.laws import Four, Six, Three, Vector, dot, less, plus, times
@@ -219,10 +218,9 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
 
 @njit(cache=True, error_model="numpy")
 def _material(cells: CellArrays, c: int, now: Three) -> Six:
-    """M of area and strains of cell c, whose measure is `now`."""
-    memory = 0.0, now[0] * now[1] - now[2] * now[2]
-    k = constants(cells.law, c)
-    return laws.stiffness_of_area_and_strains(NO_CHANGE, now, cells.area[c], memory, 0.0, k)[0]
+    """M of the dampers of cell c, of area and strains and what couples these, whose measure is `now`."""
+    memory, k = (0.0, now[0] * now[1] - now[2] * now[2]), constants(cells.law, c)
+    return stiffness(cells.law, NO_CHANGE, now, cells.area[c], memory, 0.0, k)[0]
 
 
 @njit(cache=True, error_model="numpy")

@@ -10,12 +10,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
 from lumped.springs import cells, laws, links
-from lumped.springs.cell_laws import AREA_AND_STRAINS, Law
+from lumped.springs.cell_laws import AREA_AND_STRAINS, COUPLED, Law
 from lumped.springs.cells import CellArrays
 from lumped.springs.links import LinkArrays
 
@@ -87,7 +87,11 @@ class Family(ABC):
 
     def damped(self, time: float) -> Dampers:
         """Return dampers of coefficient time [s] × stiffness."""
-        return Dampers(replace(self, stiffness=time * self.stiffness))
+        return Dampers(self.scaled(time))
+
+    def scaled(self, factor: float) -> Self:
+        """Return the springs or dampers with so many times their stiffness."""
+        return replace(self, stiffness=factor * self.stiffness)
 
 
 @dataclass(frozen=True)
@@ -99,7 +103,7 @@ class Dampers:
 
     def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         """Add scale × the derivative of the force by the velocity to the 3×3 blocks."""
-        scaled = replace(self.family, stiffness=scale * self.family.stiffness)
+        scaled = self.family.scaled(scale)
         scaled.add_tangent(u, scaled.no_stress, blocks, 0.0)
 
     def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
@@ -214,7 +218,10 @@ class Cells(Family):
     def constants(self) -> np.ndarray:
         """Return the law's constants, (c, 4 + n), those of small strains first [N/m³]."""
         springs = laws.of_stiffness(self.stiffness, self.sides, self.area)
-        return springs if self.others is None else np.column_stack([springs, self.others])
+        others = self.others
+        if others is not None and self.law is COUPLED:
+            others = laws.of_couplings(others, self.sides, self.area)
+        return springs if others is None else np.column_stack([springs, others])
 
     @cached_property
     def arrays(self) -> CellArrays:
@@ -246,7 +253,11 @@ class Cells(Family):
             )
             squares = np.stack([(strains[0] + strains[1]) ** 2, *strains**2], axis=1)
             stored = 0.5 * self.area[:, None] * self.stiffness * squares
-            return np.stack([stored[:, 0], stored[:, 1:].sum(axis=1)], axis=1)
+            of_strains = stored[:, 1:].sum(axis=1)
+            if self.others is not None and self.law is COUPLED:
+                products = strains[[0, 0, 1]] * strains[[1, 2, 2]]
+                of_strains += self.area * (self.others.T * products).sum(axis=0)
+            return np.stack([stored[:, 0], of_strains], axis=1)
         if self.law is not AREA_AND_STRAINS:
             every: np.ndarray = cells.energies(u, self.arrays)
             return every[:, None]
@@ -268,7 +279,14 @@ class Cells(Family):
 
     def damped(self, time: float) -> Dampers:
         """Return dampers of coefficient time [s] × stiffness of small strains."""
+        if self.law is COUPLED:
+            return Dampers(self.scaled(time))
         return Dampers(replace(self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None))
+
+    def scaled(self, factor: float) -> Self:
+        """Return the springs or dampers, of a linear law, with so many times their stiffness."""
+        others = None if self.others is None else factor * self.others
+        return replace(self, stiffness=factor * self.stiffness, others=others)
 
 
 _NO_STRESS = {count: np.empty((0, count)) for count in (3, 4)}

@@ -161,6 +161,16 @@ def of_stiffness(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarr
     return constants
 
 
+def of_couplings(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarray:
+    """Constants (c, 3) [N/m³] of stiffnesses k (c, 3) [N/m] that couple the Green strains ε1 ε2, ε1 γ and
+    ε2 γ of the same cells, each with the energy k ε ε A₀."""
+    aa, bb = (sides**2).sum(axis=2).T
+    both = 2.0 * np.sqrt(aa * bb)
+    per_strain = np.stack([1.0 / (4.0 * aa * bb), 1.0 / (aa * both), 1.0 / (bb * both)], axis=1)
+    constants: np.ndarray = k * area[:, None] * per_strain
+    return constants
+
+
 @njit(cache=True, error_model="numpy")
 def less_logarithm(x: float, logarithm: float) -> float:
     """x − ln(1 + x), no digits lost where x is small; logarithm: ln(1 + x)."""

@@ -19,7 +19,8 @@ keeps it finite.
 Cells. Rows of a tile: changes of the mean sides a and b, or their velocities (0 to 5), and the forces on a
 and b (6 to 11), of a law of s those on q (15 to 17). Rows of rest data: a, b (0 to 5), a·a, b·b, a·b (6 to
 8), the area (9), and four constants of the springs' law (10 to 13) and of the dampers' (14 to 17); of rubber
-those are k₄ to k₇, and k₈ to k₁₂ are in more rows (18 to 22); of faces the first is k₄. Kept of every cell:
+those are k₄ to k₇, and k₈ to k₁₂ are in more rows (18 to 22); with fibres more rows have what couples
+strains, of springs (18 to 20) and of dampers (21 to 23); of faces the first is k₄. Kept of every cell:
 a and b, and n/A of its area (`lumped.springs.laws`). A place without a cell is a unit square without
 stiffness.
 """
@@ -33,7 +34,7 @@ import numpy as np
 from numba import njit
 from numba.extending import overload
 
-from lumped.springs.cell_laws import AreaAndStrains, Face, Rubber, Tag, measures, respond
+from lumped.springs.cell_laws import AreaAndStrains, Coupled, Face, Rubber, Tag, measures, respond
 from lumped.springs.laws import Constants
 from sheetbench.numerics.memory import load, store
 
@@ -53,7 +54,7 @@ OPTIONS: dict[str, Any] = {
 }
 (R0, R1, R2, R3, R4, R5, R6, R7, R8, R9, R10, R11, R12, R13, R14, R15, R16, R17) = ROWS[:18]
 LINK_DATA, LINK_SHAPE = 8, 3  # rows of rest data, and of what is kept
-CELL_DATA, CELL_SHAPE = {AreaAndStrains: 18, Rubber: 23, Face: 18}, 9
+CELL_DATA, CELL_SHAPE = {AreaAndStrains: 18, Coupled: 24, Rubber: 23, Face: 18}, 9
 USED = 18  # rows of a tile
 TINY = 1e-36  # m²
 HALF = 0.5
@@ -273,6 +274,7 @@ def tile_constants(law: Tag, rest: np.ndarray, t: int, i: int) -> Any:
 @overload(tile_constants, strict=False)
 def _tile_constants(law: Any, rest: Any, t: Any, i: Any) -> Any:
     return {AreaAndStrains: lambda law, rest, t, i: _four(rest, t, i),
+            Coupled: lambda law, rest, t, i: _seven(rest, t, i),
             Face: lambda law, rest, t, i: _face(rest, t, i),
             Rubber: lambda law, rest, t, i: _rubber(rest, t, i)}[law.instance_class]  # fmt: skip
 
@@ -282,6 +284,16 @@ def _four(rest: np.ndarray, t: int, i: int) -> Constants:
     return (
         load(GIVEN, rest, t + R10 + i), load(GIVEN, rest, t + R11 + i), load(GIVEN, rest, t + R12 + i),
         load(GIVEN, rest, t + R13 + i),
+    )  # fmt: skip
+
+
+@njit(**OPTIONS)
+def _seven(rest: np.ndarray, t: int, i: int) -> Constants:
+    r = ROWS
+    return (
+        load(GIVEN, rest, t + R10 + i), load(GIVEN, rest, t + R11 + i), load(GIVEN, rest, t + R12 + i),
+        load(GIVEN, rest, t + R13 + i), load(GIVEN, rest, t + r[18] + i), load(GIVEN, rest, t + r[19] + i),
+        load(GIVEN, rest, t + r[20] + i),
     )  # fmt: skip
 
 
@@ -337,4 +349,27 @@ def resist_cells(rest: np.ndarray, t: int, blocks: int, tile: np.ndarray, at: in
         store(ROW, tile, R9 + i, load(ROW, tile, R9 + i) + (s2 * bx + s3 * ax))
         store(ROW, tile, R10 + i, load(ROW, tile, R10 + i) + (s2 * by + s3 * ay))
         store(ROW, tile, R11 + i, load(ROW, tile, R11 + i) + (s2 * bz + s3 * az))
+    return 1.0 * power
+
+
+@njit(**OPTIONS)
+def resist_couplings(rest: np.ndarray, t: int, blocks: int, tile: np.ndarray, at: int) -> float:
+    """Add the forces of dampers that couple strains to the rows of forces; the power taken."""
+    r, power = ROWS, rest.dtype.type(0.0)
+    for i in range(blocks * LANES):
+        r1 = r2 = r3 = rest.dtype.type(0.0)  # half the rates of a·a and b·b, that of a·b
+        for e in range(3):
+            a, b = load(KEPT, tile, at + r[e] + i), load(KEPT, tile, at + r[3 + e] + i)
+            u, w = load(ROW, tile, r[e] + i), load(ROW, tile, r[3 + e] + i)
+            r1, r2, r3 = r1 + a * u, r2 + b * w, r3 + (a * w + b * u)
+        r1, r2 = r1 + r1, r2 + r2
+        x, y = load(GIVEN, rest, t + r[21] + i), load(GIVEN, rest, t + r[22] + i)
+        z = load(GIVEN, rest, t + r[23] + i)
+        s1, s2, s3 = x * r2 + y * r3, x * r1 + z * r3, y * r1 + z * r2
+        power += s1 * r1 + s2 * r2 + s3 * r3
+        for e in range(3):
+            a, b = load(KEPT, tile, at + r[e] + i), load(KEPT, tile, at + r[3 + e] + i)
+            on_a, on_b = (s1 + s1) * a + s3 * b, (s2 + s2) * b + s3 * a
+            store(ROW, tile, r[6 + e] + i, load(ROW, tile, r[6 + e] + i) + on_a)
+            store(ROW, tile, r[9 + e] + i, load(ROW, tile, r[9 + e] + i) + on_b)
     return 1.0 * power

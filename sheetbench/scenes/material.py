@@ -273,10 +273,12 @@ class Material(Frozen):
     def replace(self, **values: Any) -> Self:
         """Return a copy with other values for some keys; of a law with constants, and of fibres, these follow
         another young, and young follows other constants. Raises SceneError for what makes no sense."""
-        if self.kind == "orthotropic" and values.get("kind", self.kind) == self.kind:
-            scale = values.pop("young", self.young) / self.young
+        kinds = {self.kind, values.get("kind", self.kind)}
+        if "orthotropic" in kinds:
+            own = {"young", "poisson", *(orthotropy.KEYS if len(kinds) == 2 else ())}
+            scale = values.pop("young") / self.young if len(kinds) == 1 and "young" in values else 1.0
             moduli = {k: scale * v for k in orthotropy.MODULI if (v := getattr(self, k)) is not None}
-            return self._with({**moduli, **values}, {"young", "poisson"})
+            return self._with({**moduli, **values} if scale != 1.0 else values, own)
         if WORDS.get(self.law or "") is None or ("law" in values and values["law"] != self.law):
             dropped = {} if "law" not in values else {key: None for key in CONSTANTS if key not in values}
             return super().replace(**dropped, **values)

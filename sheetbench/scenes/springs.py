@@ -107,6 +107,18 @@ class SpringSet(Frozen):
     """Strain springs against the in-plane shear of the mid-surface's cells."""
     mid_stretch: Stiffness = 0.0
     """Strain springs against the stretching of the mid-surface along x and y."""
+    coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
+    """Of a layer's cells with fibres, energy k ε1 ε2 a0 of their strains along x and y."""
+    coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """Of a layer's cells with fibres at an angle, energy k ε1 γ a0 of their strain along x and shear."""
+    coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of their strain along y and shear."""
+    mid_coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
+    """coupling_xy of the mid-surface's cells."""
+    mid_coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """coupling_x of the mid-surface's cells."""
+    mid_coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """coupling_y of the mid-surface's cells."""
     neo_hookean_shear: Annotated[Links, Unit("N/m")] = 0.0
     """Cells of a layer as a rubber membrane instead of area and stretch: 2 f'(0) of its energy's f(I1 - 3),
     neo-Hooke's shear modulus, times its thickness. Axial links then resist only the bending of cells in

@@ -28,6 +28,9 @@ def state(system, size=1e-3, seed=0):
 
 
 SHEET = scene(damping_time=1e-3)
+FIBRES = SHEET.replace(
+    kind="orthotropic", young_1=54.5e6, young_2=8e6, poisson_12=0.35, shear_12=4e6, angle=0.5,
+)  # fmt: skip
 TABLE = scenes.DamperSet.model_validate(
     {"axial": 0.3, "diagonal": 0.0, "vertical": 1.0, "cross": {"x": 0.2, "y": 0.1}}
 )
@@ -41,6 +44,7 @@ CASES = {
         SHEET,
         {"grid": (4, 5, 3), "method": "neo-hookean", "grading": 0.5},
     ),
+    "fibres": (FIBRES, {"grid": (5, 6), "cells": scenes.Cells.of(FIBRES.sheet, FIBRES.material)}),
     "three layers": (SHEET, {"grid": (5, 5, 3), "method": "moduli"}),
     "dampers of a table": (scene().replace(dampers=TABLE), {"grid": (5, 6)}),
     "with rows of a chain": (scene("one-edge-clamped", actuators=[ROD], damping_time=1e-3), {"grid": (5, 5)}),

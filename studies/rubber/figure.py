@@ -46,7 +46,7 @@ def of_block(block: Block, style: FigureStyle = PLAIN) -> Figure:
     """Tips over time by load: measured, fitted to it, with one damper and with branches."""
     drawn = Figure(figsize=(style.width, 2.9), layout="constrained")
     loads = list(dict.fromkeys(curve.load for curve in block.curves))
-    for axis, load in zip(drawn.subplots(1, len(loads)), loads, strict=True):
+    for axis, load in zip(drawn.subplots(1, len(loads), squeeze=False)[0], loads, strict=True):
         for curve in (curve for curve in block.curves if curve.load == load):
             axis.plot(curve.time, 1e3 * curve.tip, lw=1, label=curve.what, **DRAWN[curve.what])
         axis.set(title=load, xlabel="time [s]")

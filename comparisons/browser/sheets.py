@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from comparisons.report.arrows import load_arrows
-from comparisons.report.vtk import PLAN_CELLS
-from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, holds_director
+from comparisons.report.plan import PLAN_CELLS, rims
+from sheetbench.scenes import EDGES, FieldMesh, Scene, holds_director
+from sheetbench.scenes.supports import place
 
 # corners of a brick's faces, outwards, as VTK numbers its nodes; those of quadratic ones come after them
 FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
@@ -109,16 +110,17 @@ def _normals(points: np.ndarray, displacement: np.ndarray, plan: np.ndarray) -> 
     return found
 
 
-def outline(sheet: Sheet) -> dict[str, str]:
+def outline(scene: Scene) -> dict[str, str]:
     """Return the corners of the undeformed sheet in turn."""
-    x, y = sheet.lengths
-    return packed(np.array([[0, 0, 0], [x, 0, 0], [x, y, 0], [0, y, 0]], dtype=float))
+    corners = rims(scene)[0][:-1]
+    return packed(np.column_stack([corners, np.zeros(len(corners))]))
 
 
 def free_side(scene: Scene) -> list[float]:
     """Return the direction of an eye that looks at the sheet from where it is free, above and a little
     aside."""
-    away = sum((-np.array(EDGES[s.edge].outward[:2]) for s in scene.supports), np.zeros(2))
+    on_edges = [support for support in scene.supports if place(support) is None]
+    away = sum((-np.array(EDGES[s.edge].outward[:2]) for s in on_edges), np.zeros(2))
     heading = np.arctan2(away[1], away[0]) - np.radians(24.0) if np.any(away) else np.radians(-64.0)
     return [float(np.cos(heading)), float(np.sin(heading)), 0.55]
 
@@ -170,6 +172,8 @@ def _held(points: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
     size = max(scene.sheet.lengths)
     found = []
     for support in scene.supports:
+        if place(support) is not None:  # no line of points
+            continue
         edge = EDGES[support.edge]
         across = scene.sheet.lengths[edge.normal_axis] if edge.far_end else 0.0
         on = np.flatnonzero(np.abs(points[:, edge.normal_axis] - across) < 1e-6 * size)

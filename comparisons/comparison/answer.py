@@ -25,7 +25,8 @@ from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.comparison.rows import CostRow, Difference, ProbeRow, ReactionRow
 from comparisons.models.expected_error import ExpectedError
 from comparisons.models.grading import choice_notes
-from comparisons.report.vtk import plan_mesh, write_mesh, write_solution
+from comparisons.report.plan import plan_mesh
+from comparisons.report.vtk import write_mesh, write_solution
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import Table
@@ -259,7 +260,7 @@ class Comparison(Answer):
         `displacement` is the reference's; `difference` is the chosen lattice's from it, `difference_MODEL`
         any other model's.
         """
-        plan = plan_mesh(self.scene.sheet)
+        plan = plan_mesh(self.scene)
         fields = {s.model: s.displacement(plan.points[:, :2]) for s in self.solutions}
         truth = fields[self.reference.model]
         plan.point_data["displacement"] = truth

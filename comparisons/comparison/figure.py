@@ -17,8 +17,8 @@ from matplotlib.figure import Figure
 from comparisons.comparison.answer import Comparison
 from comparisons.report import acting, offscreen
 from comparisons.report.labels import place_labels
+from comparisons.report.plan import plan_mesh
 from comparisons.report.stage import Stage
-from comparisons.report.vtk import plan_mesh
 from sheetbench.answers import style as plots
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.report import NoPicture
@@ -47,7 +47,7 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
         raise NoPicture("a displacement is not a finite number")
     if impossible := offscreen.why_not():
         raise NoPicture(impossible)
-    plan = plan_mesh(scene.sheet).points[:, :2]
+    plan = plan_mesh(scene).points[:, :2]
     truth = reference.displacement(plan)
     difference = 1e3 * np.linalg.norm(lattice.displacement(plan) - truth, axis=1)
     largest = np.abs(truth).max(axis=0)
@@ -100,7 +100,7 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
 
 def exaggeration(scene: Scene, solutions: list[Solution]) -> float:
     """1, or the round number by which displacements too small to see are enlarged."""
-    plan = plan_mesh(scene.sheet, 16).points[:, :2]
+    plan = plan_mesh(scene, 16).points[:, :2]
     largest = max(float(np.abs(solution.displacement(plan)).max()) for solution in solutions)
     longer = max(scene.sheet.lengths)
     if largest == 0.0 or largest >= VISIBLE * longer:

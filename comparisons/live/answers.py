@@ -18,7 +18,7 @@ from comparisons.live.panel import Question
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements
-from comparisons.report.vtk import plan_mesh
+from comparisons.report.plan import plan_mesh
 from sheetbench.answers.files import plain
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 
@@ -98,7 +98,7 @@ def shell(scene: Scene, question: Question, masses: np.ndarray) -> Sampled:
     lattice's."""
     solution = solve(resolve(scene, Elements("shell", question.elements)))
     found = _document("shell", question, scene, solution)
-    plan = plan_mesh(scene.sheet, SHELL_CELLS)
+    plan = plan_mesh(scene, SHELL_CELLS)
     u = solution.displacement(plan.points[:, :2])
     mesh = FieldMesh(plan.points, plan.cells, {"displacement": u})
     found["sheet"] = viewer_sheet("shell", mesh, "Shell", scene=scene)

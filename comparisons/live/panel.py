@@ -95,7 +95,7 @@ class Panel:
         return {
             "name": scene.name,
             "title": scene.title,
-            "outline": outline(scene.sheet),
+            "outline": outline(scene),
             "from": free_side(scene),
             "probes": {name: [*point] for name, point in scene.probes.items()},
             "sliders": [asdict(slider) for slider in self.sliders.values()],

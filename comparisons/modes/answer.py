@@ -14,7 +14,8 @@ from comparisons.models.grading import choice_notes
 from comparisons.modes.damping import ModeDamping, mode_damping
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
-from comparisons.report.vtk import plan_mesh, write_mesh
+from comparisons.report.plan import plan_mesh
+from comparisons.report.vtk import write_mesh
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import HERTZ, NUMBER, PERCENT, Column, Table, number
@@ -195,7 +196,7 @@ class Spectra(Answer, Sequence[Spectrum]):
     def write_shapes(self, path: Path) -> None:
         """Write every mode of every model on one plan grid, `MODEL_mode_N` each, its largest displacement a
         tenth of the longer side; `displacement` is the first model's first mode."""
-        plan = plan_mesh(self.scene.sheet)
+        plan = plan_mesh(self.scene)
         largest = 0.1 * max(self.scene.sheet.lengths)
         for spectrum in self:
             for mode, shape in enumerate(spectrum.shapes(plan.points[:, :2]), 1):

@@ -20,8 +20,8 @@ from PIL import Image
 from comparisons.comparison.figure import HEIGHTS, colour_bar
 from comparisons.motion.frames import Frame, Surface, frames, surfaces
 from comparisons.report import offscreen
+from comparisons.report.plan import plan_mesh
 from comparisons.report.stage import Stage
-from comparisons.report.vtk import plan_mesh
 from sheetbench.answers.report import NoPicture
 from sheetbench.answers.style import STYLE, plain
 from sheetbench.files import whole
@@ -61,7 +61,7 @@ def _images(
     """A page a moment, of frames of one run or of several at the same times; labels: what each is called."""
     moments = list(zip(*runs, strict=False))
     moments = moments[:: -(-len(moments) // MOST)]
-    plan = plan_mesh(scene.sheet, 16).points[:, :2]
+    plan = plan_mesh(scene, 16).points[:, :2]
     flat = np.column_stack([plan, np.zeros(len(plan))])
     every = [frame for moment in moments for _, frame in moment]
     sheets = [flat + frame.displacement(plan) for frame in every]
@@ -90,7 +90,7 @@ def _view(
     if isinstance(frame, Frame):
         stage.lattice(frame.mesh, 1e3 * frame.mesh.point_data["displacement"][:, 2], limits, HEIGHTS)
     else:
-        plan = plan_mesh(scene.sheet).points[:, :2]
+        plan = plan_mesh(scene).points[:, :2]
         stage.surface(held, 1e3 * frame.displacement(plan)[:, 2], limits, HEIGHTS, SURFACE_LINES)
     for rest, u in frame.axes:
         stage.chain(rest + u)

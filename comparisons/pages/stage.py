@@ -17,7 +17,7 @@ import numpy as np
 
 from comparisons.browser.sheets import displaced, field, free_side, outline, viewer_sheet
 from comparisons.pages.studies import Study
-from comparisons.report.vtk import PLAN_CELLS
+from comparisons.report.plan import PLAN_CELLS
 from sheetbench.errors import BadInput
 from sheetbench.scenes import FieldMesh, Scene
 
@@ -129,7 +129,7 @@ def _moving(name: str, frames: list[tuple[float, FieldMesh]], scene: Scene | Non
 
 def _seen(scene: Scene | None, meshes: list[FieldMesh]) -> Options:
     if scene is not None:
-        return {"outline": outline(scene.sheet), "from": free_side(scene)}
+        return {"outline": outline(scene), "from": free_side(scene)}
     return {}
 
 

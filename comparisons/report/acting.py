@@ -12,6 +12,7 @@ import numpy as np
 import pyvista
 
 from comparisons.report.arrows import ALONG, edge_plan, load_arrows
+from comparisons.report.plan import on_sheet
 from comparisons.report.stage import Stage
 from sheetbench.scenes import EDGES, Chain, EdgeLoad, Solution
 
@@ -26,19 +27,19 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
     scene = stage.scene
     for actuator in scene.actuators:
         if isinstance(actuator, Chain):
-            plan = edge_plan(scene.sheet, actuator.edge, np.linspace(0.0, 1.0, actuator.segments + 1))
+            plan = edge_plan(scene, actuator.edge, np.linspace(0.0, 1.0, actuator.segments + 1))
             side = np.sign(actuator.axis_height(scene.sheet.thickness))
             aside = side * ASIDE * stage.size * _normals(stage, solution, plan)
             stage.chain(stage.deformed(solution, plan) + aside)
         else:
-            plan = edge_plan(scene.sheet, actuator.edge, np.array([0.0, 1.0]))
+            plan = edge_plan(scene, actuator.edge, np.array([0.0, 1.0]))
             stage.chain(stage.deformed(solution, plan))
     plan, arrows = load_arrows(scene, partial(_normals, stage, solution))
     if len(plan):
         seen += _arrows(stage, stage.deformed(solution, plan), arrows)
     for load in scene.loads:
         if isinstance(load, EdgeLoad) and load.moment_per_length:
-            plan = edge_plan(scene.sheet, load.edge, np.linspace(0.0, 1.0, ALONG))[1::2]
+            plan = edge_plan(scene, load.edge, np.linspace(0.0, 1.0, ALONG))[1::2]
             _turns(stage, stage.deformed(solution, plan), load.edge, load.moment_per_length)
     return np.vstack(seen)
 
@@ -75,12 +76,12 @@ def _turns(stage: Stage, places: np.ndarray, edge: str, moment: float) -> None:
 
 def _normals(stage: Stage, solution: Solution, plan: np.ndarray) -> np.ndarray:
     """Unit normals (n, 3) of the drawn mid-surface at plan points (n, 2), by differences."""
-    step, lengths = 1e-3 * stage.size, np.array(stage.scene.sheet.lengths)
+    step = 1e-3 * stage.size
     tangents = []
     for axis in range(2):
         aside = np.zeros(2)
         aside[axis] = step
-        ends = [np.clip(plan + sign * aside, 0.0, lengths) for sign in (-1.0, 1.0)]
+        ends = [on_sheet(stage.scene, plan + sign * aside) for sign in (-1.0, 1.0)]
         tangents.append(stage.deformed(solution, ends[1]) - stage.deformed(solution, ends[0]))
     normal = np.cross(*tangents)
     unit: np.ndarray = normal / np.linalg.norm(normal, axis=1, keepdims=True)

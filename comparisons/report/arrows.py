@@ -10,7 +10,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, Sheet
+from comparisons.report.plan import edge_ends
+from sheetbench.scenes import AreaLoad, EdgeLoad, PointLoad, Pressure, Scene
+from sheetbench.scenes.shapes import Shape
 
 POINT, EDGE, PRESSURE = 0.16, 0.1, 0.08  # lengths, of the sheet's longer side; of points the largest
 SHORTEST = 0.4  # of any other point's, of the largest
@@ -26,20 +28,39 @@ def load_arrows(scene: Scene, normals: Callable[[np.ndarray], np.ndarray]) -> tu
     arrows = [point_arrows(np.array([load.force for load in points]).reshape(-1, 3))]
     for load in scene.loads:
         if isinstance(load, EdgeLoad) and any(load.force_per_length):
-            plan.append(edge_plan(scene.sheet, load.edge, np.linspace(0.0, 1.0, ALONG)))
-            force = np.array(load.force_per_length) / np.linalg.norm(load.force_per_length)
-            arrows.append(np.tile(EDGE * force, (ALONG, 1)))
+            plan.append(edge_plan(scene, load.edge, np.linspace(0.0, 1.0, ALONG)))
+            arrows.append(np.tile(EDGE * _direction(load.force_per_length), (len(plan[-1]), 1)))
+        elif isinstance(load, AreaLoad) and any(load.force_per_area):
+            plan.append(_all_over(scene, load.where))
+            arrows.append(np.tile(PRESSURE * _direction(load.force_per_area), (len(plan[-1]), 1)))
         elif isinstance(load, Pressure) and load.value:
-            plan.append(np.array([(x, y) for x in ACROSS for y in ACROSS]) * scene.sheet.lengths)
+            plan.append(_all_over(scene, load.where))
             arrows.append(PRESSURE * np.sign(load.value) * normals(plan[-1]))
     return np.vstack(plan), np.vstack(arrows)
 
 
-def edge_plan(sheet: Sheet, edge: str, shares: np.ndarray) -> np.ndarray:
-    """Plan points (n, 2) [m] at shares of an edge."""
-    start, end = (np.array(corner) for corner in sheet.edge_ends(edge))
-    points: np.ndarray = start + shares[:, None] * (end - start)
-    return points
+def edge_plan(scene: Scene, edge: str, shares: np.ndarray) -> np.ndarray:
+    """Plan points (n, 2) [m] at shares of every part of an edge that the sheet reaches."""
+    ends = np.array(edge_ends(scene, edge))
+    return np.vstack([start + shares[:, None] * (end - start) for start, end in ends])
+
+
+def _all_over(scene: Scene, where: Shape | None) -> np.ndarray:
+    """Plan points (n, 2) [m] evenly over the sheet, or over its part in a shape."""
+    box = np.array([(x, y) for x in ACROSS for y in ACROSS])
+    if where is None and not scene.pierced:
+        return box * scene.sheet.lengths
+    part = scene.region if where is None else scene.region.intersection(where.area)
+    from shapely import Point
+
+    low, high = np.array(part.bounds).reshape(2, 2)
+    points = low + box * (high - low)
+    inside = points[[part.contains(Point(*point)) for point in points]]
+    return inside if len(inside) else np.array(part.representative_point().coords)
+
+
+def _direction(force: tuple[float, float, float]) -> np.ndarray:
+    return np.array(force) / np.linalg.norm(force)
 
 
 def point_arrows(forces: np.ndarray) -> np.ndarray:

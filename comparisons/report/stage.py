@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 import pyvista
 
-from comparisons.report.vtk import PLAN_CELLS, plan_mesh
+from comparisons.report.plan import held_lines, plan_lines, plan_mesh, rims
 from sheetbench.answers.style import DARK, GREY
-from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, Solution, holds_director
-from sheetbench.scenes.grid import near_square
+from sheetbench.scenes import EDGES, FieldMesh, Scene, Solution, holds_director
+from sheetbench.scenes.supports import place
 
 REFERENCE_PIXELS = 1800  # across an image, in which the widths of lines below are pixels
 MARGIN = 0.04  # as a share of the image's width
@@ -46,8 +46,9 @@ class Stage:
         for some, colour, width in ((pairs[~straight], PALE, 2.0), (pairs[straight], GREY, 4.0)):
             links = pyvista.PolyData(points, lines=np.insert(some, 0, 2, axis=1).ravel())
             self.plotter.add_mesh(links, color=colour, line_width=self._line * width, lighting=False)
-        masses = pyvista.PolyData(points)
-        masses["value"] = values
+        linked = np.unique(pairs)  # those of absent cells are not
+        masses = pyvista.PolyData(points[linked])
+        masses["value"] = values[linked]
         ball = pyvista.Sphere(radius=min(0.15 * self.size / np.sqrt(len(points)), 0.011 * self.size))
         balls = masses.glyph(geom=ball, scale=False, orient=False)
         self.plotter.add_mesh(balls, smooth_shading=True, specular=0.3, **_coloured(limits, colours))
@@ -65,15 +66,14 @@ class Stage:
         self, solution: Solution, values: np.ndarray, limits: tuple[float, float], colours: str, lines: int
     ) -> None:
         """The mid-surface, smooth, coloured by a value a plan point, with `lines` cells marked a side."""
-        sheet = self.scene.sheet
-        plan = plan_mesh(sheet)
+        plan = plan_mesh(self.scene)
         quads = plan.cells[0][1]
         faces = np.insert(quads, 0, 4, axis=1).ravel()
         surface = pyvista.PolyData(self.deformed(solution, plan.points[:, :2]), faces=faces)
         surface["value"] = values
         shown = _coloured(limits, colours)
         self.plotter.add_mesh(surface, smooth_shading=True, specular=0.25, ambient=0.25, **shown)
-        for line in _plan_lines(sheet, lines):
+        for line in plan_lines(self.scene, lines):
             self._curve(self.deformed(solution, line), DARK, width=2.0, opacity=0.45)
 
     def deformed(self, solution: Solution, plan: np.ndarray) -> np.ndarray:
@@ -110,7 +110,8 @@ class Stage:
 
     def _axes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Unit vectors towards the eye, to its right and up: from the free side, above and a little aside."""
-        free = sum((-np.array(EDGES[s.edge].outward[:2]) for s in self.scene.supports), np.zeros(2))
+        on_edges = [s for s in self.scene.supports if place(s) is None]
+        free = sum((-np.array(EDGES[s.edge].outward[:2]) for s in on_edges), np.zeros(2))
         heading = np.degrees(np.arctan2(free[1], free[0])) if np.any(free) else -40.0
         azimuth, raised = np.radians(heading - TURN), np.radians(ELEVATION)
         ahead = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
@@ -128,23 +129,21 @@ class Stage:
         return x, self.plotter.window_size[1] - y
 
     def _outline(self) -> None:
-        lx, ly = self.scene.sheet.lengths
-        corners = np.array([[0, 0, 0], [lx, 0, 0], [lx, ly, 0], [0, ly, 0], [0, 0, 0]], dtype=float)
-        for start, end in pairwise(corners):
-            dashes = max(round(28 * np.linalg.norm(end - start) / self.size), 1)
-            for i in range(dashes):
-                ends = [start + (end - start) * (i + share) / dashes for share in (0.2, 0.8)]
-                self._curve(np.array(ends), OUTLINE, width=5.0)
+        for rim in rims(self.scene):
+            for start, end in pairwise(np.column_stack([rim, np.zeros(len(rim))])):
+                dashes = max(round(28 * np.linalg.norm(end - start) / self.size), 1)
+                for i in range(dashes):
+                    ends = [start + (end - start) * (i + share) / dashes for share in (0.2, 0.8)]
+                    self._curve(np.array(ends), OUTLINE, width=5.0)
 
     def _supports(self, held: Solution) -> None:
         for support in self.scene.supports:
-            start, end = np.array(self.scene.sheet.edge_ends(support.edge))
-            plan = start + np.linspace(0, 1, 60)[:, None] * (end - start)
             firm = holds_director(support)
-            tube = pyvista.lines_from_points(self.deformed(held, plan)).tube(
-                radius=(0.009 if firm else 0.005) * self.size
-            )
-            self.plotter.add_mesh(tube, color=DARK if firm else GREY, smooth_shading=True, specular=0.2)
+            for plan in held_lines(self.scene, support):
+                tube = pyvista.lines_from_points(self.deformed(held, plan)).tube(
+                    radius=(0.009 if firm else 0.005) * self.size
+                )
+                self.plotter.add_mesh(tube, color=DARK if firm else GREY, smooth_shading=True, specular=0.2)
 
     def _curve(self, points: np.ndarray, colour: str, width: float, opacity: float = 1.0) -> None:
         curve = pyvista.lines_from_points(points)
@@ -159,14 +158,3 @@ def _coloured(limits: tuple[float, float], colours: str) -> dict[str, Any]:
 
 def _middle(values: np.ndarray) -> float:
     return 0.5 * float(values.min() + values.max())
-
-
-def _plan_lines(sheet: Sheet, cells: int) -> list[np.ndarray]:
-    """Plan lines (n, 2) [m] that cut the sheet into near-square cells, `cells` along the shorter side."""
-    if cells == 0:
-        return []
-    nx, ny = near_square(sheet, cells)
-    along = np.linspace(0, 1, 2 * PLAN_CELLS + 1)[:, None]
-    lx, ly = sheet.lengths
-    across = [np.array([x, 0.0]) + along * np.array([0.0, ly]) for x in np.linspace(0, lx, nx + 1)]
-    return across + [np.array([0.0, y]) + along * np.array([lx, 0.0]) for y in np.linspace(0, ly, ny + 1)]

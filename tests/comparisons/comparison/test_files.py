@@ -17,7 +17,6 @@ from comparisons.calibration import answer as calibration
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
 from comparisons.report import offscreen as rendering
-from comparisons.report import vtk
 from comparisons.runs.folder import Folder
 from sheetbench import scenes
 from sheetbench.answers import files, style
@@ -81,14 +80,6 @@ def test_common_plan_grid_holds_all_solutions_and_their_difference(
     assert np.allclose(fields["displacement_shell"], shell)
     assert np.allclose(fields["difference"], lumped - shell)
     assert np.allclose(fields["difference_lumped-uniform"], uniform - shell)
-
-
-def test_plan_grid_covers_the_sheet_with_cells_facing_up() -> None:
-    mesh = vtk.plan_mesh(scenes.Sheet(length_x=0.2, length_y=0.1, thickness=0.001), 4)
-    quads = mesh.points[mesh.cells[0][1]]
-    area = 0.5 * np.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1])[:, 2]
-    assert np.all(area > 0)
-    assert area.sum() == pytest.approx(0.02)
 
 
 def test_tables_carry_units_and_si_values(folder: Path, comparison: Comparison) -> None:

@@ -1,0 +1,113 @@
+"""The plan of a scene in pictures: a mesh over the sheet, lines across it, its rims, and where it is held."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from sheetbench.scenes import FieldMesh, Scene, Support
+from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.region import edge_parts, nearest
+from sheetbench.scenes.sheet import EDGES
+from sheetbench.scenes.supports import place
+
+PLAN_CELLS = 64
+
+
+def plan_mesh(scene: Scene, cells: int = PLAN_CELLS) -> FieldMesh:
+    """Quadrilaterals over the flat sheet, `cells` along the shorter side; of a rectangle x runs fastest,
+    those at other rims follow them. No fields yet."""
+    sheet = scene.sheet
+    nx, ny = near_square(sheet, cells)
+    y, x = np.meshgrid(
+        np.linspace(0, sheet.length_y, ny + 1), np.linspace(0, sheet.length_x, nx + 1), indexing="ij"
+    )
+    points = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+    corner = (np.arange(ny)[:, None] * (nx + 1) + np.arange(nx)).ravel()
+    quads = np.column_stack([corner, corner + 1, corner + nx + 2, corner + nx + 1])
+    if scene.pierced:
+        import shapely
+
+        middle = points[quads].mean(axis=1)
+        quads = quads[shapely.contains_xy(scene.region, middle[:, 0], middle[:, 1])]
+        used, quads = np.unique(quads, return_inverse=True)
+        points, quads = points[used], quads.reshape(-1, 4)
+        points[:, :2] = on_sheet(scene, points[:, :2])
+    return FieldMesh(points, [("quad", quads)], {})
+
+
+def inside(scene: Scene, points: np.ndarray) -> np.ndarray:
+    """Which of the plan points (n, 2) [m] of the rectangle lie on the sheet, (n,)."""
+    if not scene.pierced:
+        return np.ones(len(points), dtype=bool)
+    import shapely
+
+    return np.asarray(shapely.contains_xy(scene.region, *points.T))
+
+
+def on_sheet(scene: Scene, points: np.ndarray) -> np.ndarray:
+    """The points of the sheet nearest to plan points (n, 2) [m]."""
+    if not scene.pierced:
+        return np.clip(points, 0.0, scene.sheet.lengths)
+    import shapely
+
+    found = points.copy()
+    for n in np.flatnonzero(~shapely.contains_xy(scene.region, *points.T)):
+        found[n] = nearest(scene.region, (points[n, 0], points[n, 1]))
+    return found
+
+
+def plan_lines(scene: Scene, cells: int) -> list[np.ndarray]:
+    """Plan lines (n, 2) [m] that cut the sheet into near-square cells, `cells` along the shorter side."""
+    if cells == 0:
+        return []
+    (nx, ny), (lx, ly) = near_square(scene.sheet, cells), scene.sheet.lengths
+    ends = [((x, 0.0), (x, ly)) for x in np.linspace(0, lx, nx + 1)]
+    ends += [((0.0, y), (lx, y)) for y in np.linspace(0, ly, ny + 1)]
+    if scene.pierced:
+        from shapely import LineString
+
+        cut = [scene.region.intersection(LineString(pair)) for pair in ends]
+        parts = [part for each in cut for part in getattr(each, "geoms", [each])]
+        ends = [(part.coords[0], part.coords[-1]) for part in parts if part.length > 0.0]
+    return [_divided(pair, 2 * PLAN_CELLS + 1) for pair in ends]
+
+
+def rims(scene: Scene) -> list[np.ndarray]:
+    """The rims of the flat sheet, of each its corners in turn, the first again at the end, (n, 2) [m]."""
+    if scene.pierced:
+        return [np.array(ring.coords) for ring in (scene.region.exterior, *scene.region.interiors)]
+    lx, ly = scene.sheet.lengths
+    return [np.array([[0, 0], [lx, 0], [lx, ly], [0, ly], [0, 0]], dtype=float)]
+
+
+def held_lines(scene: Scene, support: Support) -> list[np.ndarray]:
+    """Plan lines (n, 2) [m] along what a support holds: its edge, or the rim of its part of the sheet."""
+    shape = place(support)
+    if shape is not None:
+        part = scene.region.intersection(shape.area)
+        pieces = [piece for piece in getattr(part, "geoms", [part]) if piece.area > 0.0]
+        return [
+            np.array(piece.exterior.segmentize(0.02 * max(scene.sheet.lengths)).coords) for piece in pieces
+        ]
+    return [_divided(ends, 60) for ends in edge_ends(scene, support.edge)]
+
+
+def edge_ends(scene: Scene, edge: str) -> list[tuple[Sequence[float], Sequence[float]]]:
+    """Both ends [m] of every part of an edge that the sheet reaches."""
+    if not scene.pierced:
+        return [scene.sheet.edge_ends(edge)]
+    normal, along, far = EDGES[edge]
+    at = partial(_point, scene.sheet.lengths[normal] if far else 0.0, along)
+    return [(at(start), at(stop)) for start, stop in edge_parts(scene, edge)]
+
+
+def _point(across: float, along: int, at: float) -> tuple[float, float]:
+    return (at, across) if along == 0 else (across, at)
+
+
+def _divided(ends: tuple[Sequence[float], Sequence[float]], count: int) -> np.ndarray:
+    start, end = np.array(ends)
+    return np.asarray(start + np.linspace(0.0, 1.0, count)[:, None] * (end - start))

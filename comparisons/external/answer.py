@@ -11,6 +11,7 @@ from comparisons.external.bricks import Bricks
 from comparisons.external.plugins import Model
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, Scene, Solution, Status
+from sheetbench.scenes.orthotropy import FIBRES
 
 BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"
 
@@ -48,13 +49,13 @@ def require(elements: Any, layers: Any, grading: str, gradings: Collection[str])
     require_choice("grading", grading, gradings)
 
 
-def refusal(scene: Scene, chains: str, moments: str, laws: Collection[str] = ()) -> str:
+def refusal(scene: Scene, chains: str, moments: str, laws: Collection[str] = (), fibres: bool = False) -> str:
     """Return why an external code cannot solve a scene, "" if it can.
 
     chains, moments: the reasons of this code against actuator chains and edge moments; laws: the laws of
-    rubber that it is given.
+    rubber that it is given; fibres: whether it is given those of a sheet that is the same all over.
     """
-    if scene.drawn_by:
+    if scene.drawn_by and not (fibres and scene.drawn_by == FIBRES):
         return f"{scene.drawn_by}: it is given isotropic whole rectangles that are the same all over"
     law = scene.material.law
     if law is not None and law not in laws:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 NEEDED = ("young_1", "young_2", "poisson_12", "shear_12")
 MODULI = ("young_1", "young_2", "young_3", "shear_12", "shear_13", "shear_23")
 KEYS = (*NEEDED, "shear_13", "shear_23", "young_3", "poisson_13", "poisson_23", "angle")
+FIBRES = "material.kind = 'orthotropic'"
 LARGEST_POISSON = 0.49  # of the isotropic material that stands for one with fibres
 
 

@@ -22,6 +22,7 @@ from sheetbench.scenes.air import Air
 from sheetbench.scenes.anchors import held_twice
 from sheetbench.scenes.loads import AreaLoad, Load, PointLoad
 from sheetbench.scenes.material import Material
+from sheetbench.scenes.orthotropy import FIBRES
 from sheetbench.scenes.patches import Patch, mismatched, misplaced
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
@@ -213,7 +214,7 @@ class Scene(Frozen):
     @property
     def varied_by(self) -> str:
         """The words by which it is not, "" where it is."""
-        fibres = ["material.kind = 'orthotropic'"] if self.material.kind == "orthotropic" else []
+        fibres = [FIBRES] if self.material.kind == "orthotropic" else []
         tapers = [f"sheet.{name}" for name in ("taper_x", "taper_y") if getattr(self.sheet, name) is not None]
         return ", ".join([*fibres, *tapers, *(["patch"] if self.patches else [])])
 

@@ -8,7 +8,7 @@ differences looked for, so the deck tightens them. Pressure acts half on the low
 and follows both. In time: Hilber, Hughes and Taylor's method with its α of −0.05, in steps of one length.
 
 Source: CalculiX CrunchiX user's manual 2.20, sections on *HYPERELASTIC, *STATIC, *DYNAMIC, *CONTROLS, *DLOAD,
-*TRANSFORM, *NODE PRINT.
+*TRANSFORM, *NODE PRINT, *ELASTIC, *ORIENTATION.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ import numpy as np
 
 from comparisons.external.bricks import Bricks, forces, held
 from sheetbench.scenes import Material, Pressure, Scene
+from sheetbench.scenes.orthotropy import Ply
 
 RESIDUAL, CORRECTION = 1e-7, 1e-7  # of the mean force, of the displacement: where an increment ends
 FIRST, LEAST, LARGEST = 1.0, 1e-6, 1.0
@@ -52,7 +53,8 @@ def deck(scene: Scene, bricks: Bricks, linear: bool, motion: Steps | None = None
     lines = ["*NODE, NSET=NALL", *_rows(bricks.positions, 1)]
     lines += ["*ELEMENT, TYPE=C3D20R, ELSET=EALL", *_elements(bricks.elements)]
     lines += ["*MATERIAL, NAME=SHEET", *_elasticity(material)]
-    lines += ["*DENSITY", f"{material.density!r}", "*SOLID SECTION, ELSET=EALL, MATERIAL=SHEET"]
+    oriented = ", ORIENTATION=FIBRES" if material.kind == "orthotropic" else ""
+    lines += ["*DENSITY", f"{material.density!r}", f"*SOLID SECTION, ELSET=EALL, MATERIAL=SHEET{oriented}"]
     for node in np.flatnonzero(supports.turned):
         along, across = supports.axes[node, :2]
         lines += [f"*NSET, NSET=AT{node + 1}", f"{node + 1}", f"*TRANSFORM, NSET=AT{node + 1}, TYPE=R"]
@@ -83,6 +85,17 @@ def deck(scene: Scene, bricks: Bricks, linear: bool, motion: Steps | None = None
 
 
 def _elasticity(material: Material) -> list[str]:
+    if material.kind == "orthotropic":
+        ply = Ply.of(material)
+        moduli, ratios = (
+            (ply.young_1, ply.young_2, ply.young_3),
+            (ply.poisson_12, ply.poisson_13, ply.poisson_23),
+        )
+        first = ", ".join(f"{c:.12e}" for c in (*moduli, *ratios, ply.shear_12, ply.shear_13))
+        c, s = np.cos(ply.angle), np.sin(ply.angle)
+        axes = f"{c:.12e}, {s:.12e}, 0., {-s:.12e}, {c:.12e}, 0."
+        constants = ["*ELASTIC, TYPE=ENGINEERING CONSTANTS", first, f"{ply.shear_23:.12e}"]
+        return [*constants, "*ORIENTATION, NAME=FIBRES", axes]
     if material.law is None:
         return ["*ELASTIC", f"{material.young!r}, {material.poisson!r}"]
     (name, keys), energy = LAWS[material.law], material.energy

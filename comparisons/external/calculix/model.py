@@ -26,6 +26,7 @@ from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import History, Scene, Solution, Status
 from sheetbench.scenes.kinematics import bent_or_tilted
+from sheetbench.scenes.orthotropy import Ply, impossible_in_space
 
 PROGRAM, JOB = "ccx", "sheet"
 STEPS = 8  # of a motion between two samples
@@ -67,7 +68,7 @@ class CalculiX:
             raise BadInput(f"model = 'calculix': needs {self.needs}")
         bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
         began = perf_counter()
-        note = refusal(scene, CHAINS, BRICK_MOMENTS, LAWS) or _of_volume(scene, settings["linear"])
+        note = refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, True) or _of_volume(scene, settings["linear"])
         displacement, load_factor, iterations = np.zeros_like(bricks.positions), 0.0, 0
         ready, status = began, Status.REFUSED
         if not note:
@@ -95,7 +96,7 @@ class CalculiX:
         program = shutil.which(PROGRAM)
         if program is None:
             raise BadInput(f"model = 'calculix': needs {self.needs}")
-        note = refusal(scene, CHAINS, BRICK_MOMENTS, LAWS) or _of_volume(scene, settings["linear"])
+        note = refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, True) or _of_volume(scene, settings["linear"])
         if note := note or _of_motion(scene, settings["linear"]):
             raise BadInput(f"calculix: {note}")
         began = perf_counter()
@@ -161,8 +162,10 @@ def _of_motion(scene: Scene, linear: bool) -> str:
 
 
 def _of_volume(scene: Scene, linear: bool) -> str:
-    """Return why a rubber is none of CalculiX', "" if it is."""
+    """Return why a rubber, or a material with fibres, is none of CalculiX', "" if it is."""
     material = scene.material
+    if material.kind == "orthotropic":
+        return impossible_in_space(Ply.of(material))
     if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):
         return ""
     if linear:

@@ -31,7 +31,7 @@ from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, requir
 from sheetbench.scenes.cells import NUMBERS
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.patches import APART, KNOWING, parts_between, shares_of, sides_of
+from sheetbench.scenes.patches import APART, KNOWING, of_sheet, parts_between, shares_of, sides_of
 
 SHEAR_CORRECTION = 5.0 / 6.0
 FINER = 4
@@ -123,7 +123,7 @@ def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> Sectio
     if scene.uniform:
         return None
     if scene.homogeneous:
-        return of_cells(Cells.of(scene.sheet, scene.material), grid)
+        return of_cells(Cells(**vars(of_sheet(scene))), grid)
     x, y = (_divided(side, at) for side, at in zip(lines, sides_of(scene), strict=True))
     sections = [_times(Section.of(part.constants), part.share) for part in parts_between(scene, x, y)]
     total = sum(sections[1:], sections[0])

@@ -7,8 +7,10 @@ from commands import one_line, run
 import fem_reference
 import lumped
 import lumped.plies
+from comparisons.external.answer import refusal
+from comparisons.external.calculix.model import MODEL as CALCULIX
 from fem_reference.surface import plies
-from sheetbench.scenes import Material, load
+from sheetbench.scenes import Material, SceneError, Status, load
 from sheetbench.scenes.orthotropy import Ply
 
 PLAIN = load("two-edges-clamped")
@@ -124,6 +126,65 @@ def test_lattice_and_shell_agree(fibres, angle):
     assert found.balance.holds
     off = found.displacement(scene.probe_points()) - shell.displacement(scene.probe_points())
     assert np.abs(off).max() < 0.02 * np.abs(shell.displacement(scene.probe_points())).max()
+
+
+CROSS = [{"thickness": 7.5e-4, "angle": angle} for angle in (0.0, np.pi / 2, np.pi / 2, 0.0)]
+ANGLED = [{"thickness": 7.5e-4, "angle": angle} for angle in (0.5, -0.8, -0.8, 0.5)]
+SANDWICH = [{"thickness": 5e-4}, {"thickness": 2e-3, "young": 1e6, "poisson": 0.3}, {"thickness": 5e-4}]
+
+
+def test_layers_of_one_material_are_the_sheet_of_it():
+    scene = with_fibres(**FIBRES, angle=0.4)
+    layered = scene.replace(layers=[{"thickness": 1e-3}] * 3)
+    for model in ("lumped", "plate", "shell"):
+        plain, found = both(scene, layered, model)
+        assert found == pytest.approx(plain, rel=1e-8, abs=1e-8 * np.abs(plain).max())
+
+
+@pytest.mark.parametrize("layers", [CROSS, ANGLED, SANDWICH], ids=["cross-ply", "angles", "sandwich"])
+def test_lattice_and_shell_agree_on_laminates(layers):
+    """Layers of masses bend as the laminate does, the cells of the mid-surface make up its stretching."""
+    scene = with_fibres(**FIBRES).replace(layers=layers)
+    springs = lattice(scene, 17)
+    assert all(abs(row["miss"]) < 1e-9 for row in springs.moduli)
+    found, shell = (
+        solution.displacement(scene.probe_points())
+        for solution in (lumped.solve(scene, springs), fem_reference.solve(scene, "shell", elements=12))
+    )
+    assert np.abs(found - shell).max() < 0.02 * np.abs(shell).max()
+
+
+@pytest.mark.parametrize(
+    ("layers", "said"),
+    [
+        (CROSS[:3], "layer: thicknesses add up to 0.00225 m; the sheet's is 0.003 m"),
+        ([CROSS[0], CROSS[1], CROSS[0], CROSS[1]], "layer: 1 is not 4 from the other face"),
+        ([{"thickness": 3e-3, "young": 1e6}], "young and poisson: an isotropic layer has both"),
+        ([{"thickness": 3e-3, "shear_12": 1e6}], "young_1, young_2, poisson_12 missing"),
+    ],
+)
+def test_what_is_no_laminate_is_refused(layers, said):
+    with pytest.raises(SceneError, match=said):
+        with_fibres(**FIBRES).replace(layers=layers)
+
+
+def test_the_solid_refuses_layers():
+    with pytest.raises(ValueError, match="layer: the solid has one material through its thickness"):
+        fem_reference.solve(with_fibres(**FIBRES).replace(layers=CROSS), "solid", elements=2)
+
+
+@pytest.mark.skipif(CALCULIX.version() is None, reason="CalculiX is not installed")
+def test_calculix_agrees_with_the_shell():
+    scene = with_fibres(**FIBRES, angle=np.pi / 6)
+    judged = CALCULIX.solve(scene, {**CALCULIX.settings, "elements": 6})
+    assert judged.status is Status.CONVERGED
+    shell = fem_reference.solve(scene, "shell", elements=12).displacement(scene.probe_points())
+    assert np.abs(judged.displacement(scene.probe_points()) - shell).max() < 0.003 * np.abs(shell).max()
+
+
+def test_calculix_refuses_layers():
+    scene = with_fibres(**FIBRES).replace(layers=CROSS)
+    assert "layer: it is given isotropic whole rectangles" in refusal(scene, "", "", fibres=True)
 
 
 @pytest.fixture(scope="module")

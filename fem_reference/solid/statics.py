@@ -157,6 +157,10 @@ def _require_meshable(scene: Scene, law: str) -> None:
     another law, or loads that follow it."""
     if scene.uniform:
         return
+    if scene.layers:
+        raise BadInput(
+            "layer: the solid has one material through its thickness; plate, shell and lattice have layers"
+        )
     if scene.material.kind == "orthotropic" and (wrong := impossible_in_space(Ply.of(scene.material))):
         raise BadInput(f"material.{wrong}")
     taper = scene.sheet.taper_x or scene.sheet.taper_y

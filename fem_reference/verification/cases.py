@@ -14,6 +14,7 @@ from fem_reference.verification import (
     manufactured_solid,
     mindlin_plates,
     natural_frequencies,
+    orthotropic,
     patch,
     roll_up,
     settling_strip,
@@ -44,6 +45,9 @@ CASES: dict[str, Case] = {
     "locking-solid": Case("solid on 8 × 8, ν up to 0.4999", locking.rows, quick=False),
     "strain-laws": Case("strip pulled one way and both ways, three laws of strain", strain_laws.rows),
     "rubber": Case("rubber pulled, pressed and sheared, four laws", strain_laws.rubbers),
+    "orthotropic-plate": Case("plate with fibres along x, simply supported", orthotropic.plate),
+    "laminate": Case("laminate [0/90]s, simply supported", orthotropic.laminate),
+    "off-axis": Case("strip with oblique fibres, pulled", orthotropic.off_axis),
     "patch": Case("patch tests on distorted meshes", patch.rows),
 }
 

@@ -7,6 +7,7 @@ from sheetbench.scenes.balance import Balance, dead_force
 from sheetbench.scenes.cells import Cells, Constants
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
+from sheetbench.scenes.layers import Layer
 from sheetbench.scenes.loads import AreaLoad, EdgeLoad, Load, PointLoad, Pressure
 from sheetbench.scenes.material import Material, require_no_branches
 from sheetbench.scenes.patches import Patch, require_plain, require_uniform
@@ -62,6 +63,7 @@ __all__ = [
     "History",
     "Implausible",
     "Iteration",
+    "Layer",
     "Load",
     "Material",
     "Motion",

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 PAGE = "docs/limits.md"
 
+_LAYERS = "a laminate is [[layer]]s, from the lower face up, each with its thickness and angle"
 _HOLE = "a hole, a slit or a notch is a [[cutout]] with a shape"
-_UNIFORM = "a part with a thickness or a material of its own is a [[patch]]: one layer, not magnetic"
+_UNIFORM = "a part with a thickness or a material of its own is a [[patch]], not magnetic"
 _OUTLINE = "a sheet that is no rectangle has an `outline` in [sheet], the corners of a polygon"
 _FIBRES = (
     "fibres are [material] kind = 'orthotropic' with young_1, young_2, poisson_12, shear_12 and an angle; no "
@@ -35,9 +36,9 @@ _RIGID = "supports are rigid: elastic ones are not modelled"
 _PLASTIC = "plasticity, damage and fracture are not modelled"
 
 _WORDS = {
+    _LAYERS: "layers laminate laminates ply plies lamina",
     _HOLE: "hole holes cutouts cut cuts slit slits notch notches",
-    _UNIFORM: "patches region regions inclusion inclusions stiffener stiffeners magnet magnets layer "
-    "layers laminate ply plies",
+    _UNIFORM: "patches region regions inclusion inclusions stiffener stiffeners magnet magnets",
     _OUTLINE: "contour mesh diameter",
     _FIBRES: "young_x young_y young_z poisson_xy poisson_yx poisson_21 shear_xy orthotropic orthotropy "
     "anisotropic fibre fibres fiber fibers fibre_angle fiber_angle",

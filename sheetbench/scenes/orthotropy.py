@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 NEEDED = ("young_1", "young_2", "poisson_12", "shear_12")
 MODULI = ("young_1", "young_2", "young_3", "shear_12", "shear_13", "shear_23")
 KEYS = (*NEEDED, "shear_13", "shear_23", "young_3", "poisson_13", "poisson_23", "angle")
-FIBRES = "material.kind = 'orthotropic'"
+KIND = "kind = 'orthotropic'"
+FIBRES = f"material.{KIND}"
 LARGEST_POISSON = 0.49  # of the isotropic material that stands for one with fibres
 
 
@@ -117,7 +118,7 @@ def fault(given: Mapping[str, Any]) -> str:
 def impossible(given: Mapping[str, Any]) -> str:
     """Return why an orthotropic material's constants cannot be, "" where they can."""
     if missing := [key for key in NEEDED if given.get(key) is None]:
-        return f"kind = 'orthotropic': {', '.join(missing)} missing; it takes {', '.join(NEEDED)}"
+        return f"{KIND}: {', '.join(missing)} missing; it takes {', '.join(NEEDED)}"
     poisson, ratio = given["poisson_12"], given["young_1"] / given["young_2"]
     if poisson**2 >= ratio:
         return (

@@ -15,6 +15,7 @@ from pydantic import Field, model_validator
 
 from sheetbench.errors import Impossible
 from sheetbench.scenes.cells import NUMBERS, Constants
+from sheetbench.scenes.layers import plies
 from sheetbench.scenes.material import Material
 from sheetbench.scenes.orthotropy import in_own_axes
 from sheetbench.scenes.quantities import Finite, Frozen, Number, Positive, Unit
@@ -73,10 +74,16 @@ class Part(NamedTuple):
     constants: Constants
 
 
+def of_sheet(scene: Scene) -> Constants:
+    """Return the constants of a scene's sheet and its layers, without tapers and patches."""
+    found = Constants.of(scene.sheet, scene.material)
+    return found.replace(plies=plies(scene.layers, scene.material)) if scene.layers else found
+
+
 def constants_at(scene: Scene, points: np.ndarray) -> Constants:
     """Return the constants at plan points (…, 2) [m], arrays (…); of a sheet that is the same all over its
     numbers."""
-    sheet = Constants.of(scene.sheet, scene.material)
+    sheet = of_sheet(scene)
     if scene.homogeneous:
         return sheet
     found = sheet.arrays(points.shape[:-1])
@@ -101,17 +108,15 @@ def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
     had no outline. The shares of a cell sum up to 1; the thickness of a taper is that in its middle."""
     boxes = boxes_of(x, y)
     middle = 0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1])
-    of_sheet = Constants.of(scene.sheet, scene.material).replace(
-        thickness=scene.sheet.thickness_at(*np.meshgrid(*middle))
-    )
+    plain = of_sheet(scene).replace(thickness=scene.sheet.thickness_at(*np.meshgrid(*middle)))
     left_over = np.ones(boxes.shape)
     for area, own in _disjoint(scene.patches):
         share = _shares(area, boxes)
         left_over -= share
-        constants = of_sheet.arrays(boxes.shape)
+        constants = plain.arrays(boxes.shape)
         _put(constants, own)
         yield Part(share, constants)
-    yield Part(_without_rounding(left_over), of_sheet.arrays(boxes.shape))
+    yield Part(_without_rounding(left_over), plain.arrays(boxes.shape))
 
 
 def shares_of(area: Polygon, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -165,7 +170,7 @@ def mass_of(scene: Scene) -> float:
     """Mass [kg] of the sheet."""
     sheet = scene.sheet
     if scene.homogeneous:
-        return scene.material.density * sheet.thickness * area_in(scene, None)
+        return float(of_sheet(scene).per_area * area_in(scene, None))
     x, y = (np.linspace(0.0, length, FINE) for length in sheet.lengths)
     per_area = sum(part.share * part.constants.per_area for part in parts_between(scene, x, y))
     if scene.pierced:

@@ -20,6 +20,7 @@ from sheetbench.scenes import corners, region, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreement
 from sheetbench.scenes.air import Air
 from sheetbench.scenes.anchors import held_twice
+from sheetbench.scenes.layers import Layer, misfit
 from sheetbench.scenes.loads import AreaLoad, Load, PointLoad
 from sheetbench.scenes.material import Material
 from sheetbench.scenes.orthotropy import FIBRES
@@ -52,6 +53,10 @@ class Scene(Frozen):
     """The flat, stress-free sheet."""
     material: Material
     """What the sheet is made of."""
+    layers: tuple[Layer, ...] = Field(
+        default=(), validation_alias="layer", serialization_alias="layer", kw_only=True
+    )
+    """Plies of a laminate, from the lower face up, symmetric about the middle; none for one material."""
     patches: tuple[Patch, ...] = Field(
         default=(), validation_alias="patch", serialization_alias="patch", kw_only=True
     )
@@ -127,6 +132,10 @@ class Scene(Frozen):
             raise ValueError(f"patch {wrong}")
         if self.shaped_by and (wrong := region.misplaced(self)):
             raise ValueError(wrong)
+        if self.layers and not self.homogeneous:
+            raise ValueError(f"layer: a laminate is the same all over, without {self.varied_by}")
+        if self.layers and (wrong := misfit(self.layers, self.sheet, self.material)):
+            raise ValueError(f"layer: {wrong}")
         if wrong := mismatched(self.patches, self.material):
             raise ValueError(f"patch {wrong}")
         if self.material.law is not None and self.springs is not None:
@@ -216,7 +225,8 @@ class Scene(Frozen):
         """The words by which it is not, "" where it is."""
         fibres = [FIBRES] if self.material.kind == "orthotropic" else []
         tapers = [f"sheet.{name}" for name in ("taper_x", "taper_y") if getattr(self.sheet, name) is not None]
-        return ", ".join([*fibres, *tapers, *(["patch"] if self.patches else [])])
+        drawn = [name for name, given in (("layer", self.layers), ("patch", self.patches)) if given]
+        return ", ".join([*fibres, *tapers, *drawn])
 
     @property
     def pierced(self) -> bool:

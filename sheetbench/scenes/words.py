@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
 from sheetbench.scenes.air import Air
+from sheetbench.scenes.layers import Layer
 from sheetbench.scenes.loads import AreaLoad, EdgeLoad, PointLoad, Pressure
 from sheetbench.scenes.material import CONSTANTS, Material
 from sheetbench.scenes.orthotropy import Ply
@@ -50,6 +51,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
             + (f", dampers of {1e3 * material.dashpot_time:.4g} ms · k" if material.dashpot_time else "")
             + (f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""),
         ),
+        *((f"layer {n}", _layer(layer)) for n, layer in enumerate(scene.layers, start=1)),
         *((f"patch {n}", _patch(patch)) for n, patch in enumerate(scene.patches, start=1)),
         *((f"cutout {n}", cutout.shape.in_words()) for n, cutout in enumerate(scene.cutouts, start=1)),
         ("weight", _weight(scene, mass)),
@@ -103,6 +105,13 @@ def _elasticity(material: Material) -> str:
         for name, value in (("E₁", ply.young_1), ("E₂", ply.young_2), ("G₁₂", ply.shear_12))
     )
     return f"fibres at {degrees(ply.angle):.4g}° from x, {moduli}, ν₁₂ = {ply.poisson_12:g}"
+
+
+def _layer(layer: Layer) -> str:
+    """How thick, at which angle, and what else is its own."""
+    own = ", ".join(f"{name} = {value:g}" for name, value in layer.own.items() if name != "angle")
+    at = "" if layer.angle is None else f", fibres at {degrees(layer.angle):.4g}°"
+    return f"{_mm(layer.thickness)} mm thick{at}{f', {own}' if own else ''}"
 
 
 def _patch(patch: Patch) -> str:

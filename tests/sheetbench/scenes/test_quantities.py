@@ -196,7 +196,7 @@ def test_an_implausible_scene_made_in_python_is_warned_of_where_it_is_written() 
     ("text", "key"),
     [
         ("[[hole]]\nx = 1\n[probes]", "hole"),
-        ("[[layer]]\nx = 1\n[probes]", "layer"),
+        ("[[laminate]]\nx = 1\n[probes]", "laminate"),
         ("[contact]\n[probes]", "contact"),
         ("[initial]\nx = 1\n[probes]", "initial"),
         ('[[load]]\nkind = "magnetic"\n[probes]', "magnetic"),

@@ -180,7 +180,7 @@ def test_whatever_is_put_in_its_place_the_refusal_is_ours() -> None:
 WITHOUT_UNIT = {
     "grid", "grading", "graded_edges", "poisson", "factor", "components", "support", "load", "actuator",
     "x", "y", "z", "limit", "poisson_12", "poisson_13", "poisson_23", "loss_factor", "relaxation", "share",
-    "patch", "cutout", "drag",
+    "patch", "cutout", "layer", "drag",
 }  # fmt: skip
 
 

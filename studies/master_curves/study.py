@@ -1,4 +1,4 @@
-"""Two problems whose answer depends on one number alone, by lattices and shells.
+"""Three problems whose answer depends on one number alone, by lattices and shells.
 
 **Cantilever** under its own weight: drop over reach H/W against Γ = ρ_A g L³/B (ρ_A mass per area, B bending
 stiffness per width; ν = 0 here, B = E h³/12). Exact: the heavy elastica θ'' = −Γ (1 − s) cos θ,
@@ -9,7 +9,11 @@ stiffness per width; ν = 0 here, B = E h³/12). Exact: the heavy elastica θ'' 
 (q L³) = 12.85 √(EI·GJ) (Timoshenko and Gere); wider ones are found here, by bisection for the largest stable
 load.
 
-Romero et al. 2021 (ACM Trans. Graph. 40(4)) use both to judge simulators.
+**Bending and twisting** of a strip that is clamped with its plane turned by 45° about its length, under its
+own weight: how far the tip drops and goes aside, over the length, against Γ (ν = 0). Exact, of a narrow
+strip: Kirchhoff's rod (`studies.master_curves.twist`).
+
+Romero et al. 2021 (ACM Trans. Graph. 40(4)) use the first two to judge simulators.
 """
 
 from __future__ import annotations
@@ -30,6 +34,7 @@ from sheetbench.answers.report import Picture
 from sheetbench.answers.table import Column, Table
 from sheetbench.errors import Implausible
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Solution
+from studies.master_curves.twist import tip, weight_direction
 
 YOUNG, DENSITY, WIDTH = 1e7, 1000.0, 0.25
 LOADS = (0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0)
@@ -44,6 +49,13 @@ CANTILEVERS: dict[str, dict[str, Any]] = {
 POISSON, SLENDER = 0.35, 0.002  # of the strips on edge; thickness over length
 WIDTHS = (0.05, 0.1, 0.2, 0.4)  # over length
 BISECTIONS = 13
+TURNED, TURNED_WIDTH = np.pi / 4, 0.05
+TWISTING = (1.0, 3.16, 10.0, 31.6)
+TWISTED: dict[str, dict[str, Any]] = {
+    "lattice 33": {"grid": (33, 3)},
+    "shell 16": {"model": "shell", "elements": (16, 1)},
+    "shell 32": {"model": "shell", "elements": (32, 2)},
+}
 NARROW = 18.17 * (1.0 - POISSON**2) / (1.0 + POISSON) ** 0.5
 
 
@@ -71,12 +83,31 @@ class Buckled:
     lattice: Annotated[float, Column("Γ* lattice 33", form=".2f")]
 
 
+@dataclass(frozen=True)
+class Twisted:
+    """How far the tip of a turned strip goes, over its length."""
+
+    load: Annotated[float, Column("Γ", form="g")]
+    model: str
+    narrow_drop: Annotated[float, Column("drop, narrow strip", form=".4f")]
+    drop: Annotated[float, Column("drop", form=".4f")]
+    narrow_aside: Annotated[float, Column("aside, narrow strip", form=".4f")]
+    aside: Annotated[float, Column("aside", form=".4f")]
+
+    @property
+    def error(self) -> Annotated[float, Column("off by", "", "%", 100.0, ".2f")]:
+        """The distance of both tips over the narrow strip's displacement."""
+        miss = np.hypot(self.drop - self.narrow_drop, self.aside - self.narrow_aside)
+        return float(miss / np.hypot(self.narrow_drop, self.narrow_aside))
+
+
 @dataclass(frozen=True, repr=False)
 class MasterCurves(Answer):
-    """Both curves."""
+    """The three curves."""
 
     drops: tuple[Drop, ...]
     buckled: tuple[Buckled, ...]
+    twisted: tuple[Twisted, ...]
 
     file_name = "master-curves"
     narrow = NARROW
@@ -92,6 +123,15 @@ class MasterCurves(Answer):
                 Drop, self.drops, "Cantilever under its weight", "cantilever", fields=fields, grouped=True
             ),
             Table.of(Buckled, self.buckled, "Lateral buckling of a strip on edge", "buckling", text=narrow),
+            Table.of(
+                Twisted,
+                self.twisted,
+                "Bending and twisting of a strip that is turned by 45°",
+                "bend-twist",
+                fields=("load", "model", "narrow_drop", "drop", "narrow_aside", "aside", "error"),
+                grouped=True,
+                text=f"Strips are {TURNED_WIDTH:g} of their length wide, {SLENDER:g} thick, ν = 0.",
+            ),
         )
 
     def figures(self) -> tuple[Picture, ...]:
@@ -102,6 +142,7 @@ class MasterCurves(Answer):
             "cantilever": [{**asdict(drop), "error": drop.error} for drop in self.drops],
             "buckling": [asdict(one) for one in self.buckled],
             "narrow": self.narrow,
+            "bend_twist": [{**asdict(one), "error": one.error} for one in self.twisted],
         }
 
 
@@ -131,6 +172,13 @@ def on_edge(load: float, width: float) -> Scene:
     return _strip((1.0, width, SLENDER), POISSON, (0.0, -weight, 0.0))
 
 
+def turned(load: float, width: float = TURNED_WIDTH) -> Scene:
+    """A strip of 1 m with ν = 0 whose plane is turned about its length, at Γ = load."""
+    weight = load * YOUNG * SLENDER**2 / 12.0 / DENSITY
+    x, y, z = (weight * weight_direction(TURNED)).tolist()
+    return _strip((1.0, width, SLENDER), 0.0, (x, y, z))
+
+
 def _strip(size: tuple[float, float, float], poisson: float, weight: tuple[float, float, float]) -> Scene:
     length, width, thickness = size
     with warnings.catch_warnings():
@@ -151,7 +199,7 @@ def _solve(scene: Scene, model: str = "lumped", **settings: Any) -> Solution:
 
 def measure(progress: Callable[[str], None]) -> MasterCurves:
     """Solve both problems."""
-    return MasterCurves(tuple(_drops(progress)), tuple(_buckled(progress)))
+    return MasterCurves(tuple(_drops(progress)), tuple(_buckled(progress)), tuple(_twisted(progress)))
 
 
 def _drops(progress: Callable[[str], None]) -> Iterator[Drop]:
@@ -180,3 +228,14 @@ def _buckled(progress: Callable[[str], None]) -> Iterator[Buckled]:
                 stable, unstable = (middle, unstable) if holds else (stable, middle)
             found.append((stable + unstable) / 2.0)
         yield Buckled(width, *found)
+
+
+def _twisted(progress: Callable[[str], None]) -> Iterator[Twisted]:
+    down = weight_direction(TURNED)
+    across = np.array([0.0, -down[2], down[1]])
+    for load in TWISTING:
+        progress(f"turned strip, Γ = {load:g}")
+        exact, scene = tip(load, 0.0, TURNED), turned(load)
+        for name, settings in TWISTED.items():
+            moved = _solve(scene, **settings).displacement(scene.probe_points())[0]
+            yield Twisted(load, name, *(float(u @ way) for way in (down, across) for u in (exact, moved)))

@@ -99,7 +99,7 @@ RECIPES: Mapping[str, tuple[Recipe, ...]] = {
         Recipe("its defaults", keys=lambda _: _genesis(1e-7, 1e-5), everywhere=False),
         Recipe("GAUGE: 1/K", keys=lambda scene: _genesis(1.0 / _stretching(scene), 1.0 / _rigidity(scene))),
         BEST,
-        FINER,
+        replace(FINER, everywhere=False),
     ),
 }
 

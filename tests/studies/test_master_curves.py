@@ -4,6 +4,7 @@ import pytest
 
 import sheetbench as sb
 from studies.master_curves import study
+from studies.master_curves.twist import tip
 
 
 @pytest.mark.parametrize(("load", "drop"), [(0.1, 0.01249), (1.0, 0.12456), (10.0, 1.0668), (100.0, 5.8881)])
@@ -14,6 +15,7 @@ def test_the_elastica_is_the_published_one(load, drop):
 def test_a_lattice_lies_on_the_curve(monkeypatch):
     monkeypatch.setattr(study, "LOADS", (1.0,))
     monkeypatch.setattr(study, "WIDTHS", ())
+    monkeypatch.setattr(study, "TWISTING", ())
     drops = {drop.model: drop.error for drop in study.measure(lambda _: None).drops}
     assert abs(drops["lattice 9"]) < 0.01 > 10 * abs(drops["shell 16"])
 
@@ -23,3 +25,19 @@ def test_a_narrow_strip_on_edge_buckles_where_timoshenko_has_it(settings):
     """Wider by a tenth of its length it holds a tenth more."""
     below, above = (sb.solve(study.on_edge(load, 0.1), **settings).status for load in (13.7, 15.8))
     assert below == "converged" and above == "unstable"
+
+
+def test_a_strip_that_is_not_turned_is_the_elastica():
+    along, aside, drop = tip(1.0, 0.3, 0.0)
+    assert -drop / (1.0 + along) == pytest.approx(-study.elastica(1.0), rel=1e-5) and abs(aside) < 1e-8
+
+
+def test_a_shell_lies_on_the_turned_strips_curve():
+    """One of a twentieth is off by the order of its width over its length, squared, and its bending in
+    its plane, (h/width)²: 0.2 % each."""
+    down, across = (study.weight_direction(study.TURNED + quarter) for quarter in (0.0, study.np.pi / 2))
+    exact = tip(3.16, 0.0, study.TURNED)
+    scene = study.turned(3.16)
+    found = sb.solve(scene, model="shell", elements=(16, 1)).displacement(scene.probe_points())[0]
+    for way in (down, across):
+        assert found @ way == pytest.approx(exact @ way, abs=5e-3 * abs(exact[2]))

@@ -152,25 +152,27 @@ CODES = {
                 Key(
                     "stretch_compliance",
                     "m/N",
-                    "1/k of every side of a triangle, whatever its length",
+                    "1/k of every side of a triangle at rest; the engine is given 1/k − (1/m₁ + 1/m₂) dt²",
                     lambda c: 1.0 / c["k"],
                 ),
                 Key(
                     "bending_compliance",
                     "rad/(N·m)",
-                    "1/k, ½ k θ² of an edge whatever its length",
+                    "1/k, ½ k θ² of an edge; the engine is given bending_relaxation = k W dt² instead",
                     lambda c: 1.0 / c["hinge"],
                 ),
                 Key("rho", "kg/m²", "of the area: times thickness", lambda c: c["density"] * c["thickness"]),
             ),
-            "Genesis-Embodied-AI/Genesis, genesis/engine/solvers/pbd_solver.py: _kernel_solve_stretch, "
-            "_kernel_solve_bending («alpha = … compliance / substep_dt**2», no multiplier is kept, so that n "
-            "iterations of relaxation r are n r times as stiff); pbd_entity.py remeshes («remesh(edge_len_abs"
-            "=particle_size)»)",
-            "springs along the sides of triangles are near ν = 1/3; a constraint is never stiffer than n r/"
-            "((w₁ + w₂) dt²), and the mesh that you give is replaced by one of its own",
+            "Genesis-Embodied-AI/Genesis 1.4.5, genesis/engine/solvers/pbd_solver.py: _kernel_solve_stretch "
+            "(«dp = -C / (w1 + w2 + alpha)», «alpha = … compliance / substep_dt**2», no multiplier is kept), "
+            "_kernel_solve_bending («-sqrt(1 - d**2) * constraint / (sum_wq + alpha)» where both have a sine "
+            "to be divided by); materials/PBD/cloth.py («rho … is kg/m²»); pbd_entity.py («remesh("
+            "edge_len_abs=particle_size)»)",
+            "springs along the sides of triangles are near ν = 1/3; a flat sheet with any bending compliance "
+            "does not resist bending; the mesh that you give is replaced by one of its own",
             elements="springs",
             licence="Apache-2.0",
+            runs=True,
         ),
         Code(
             "sofa",

@@ -117,6 +117,28 @@ def test_files_read_back_hold_our_energy_of_the_same_mesh(code, tmp_path):
     assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max())
 
 
+@pytest.mark.parametrize("code", ["sofa", "arcsim", "c-ipc", "ppf"])
+def test_files_read_back_hold_the_clamped_rows(code, tmp_path):
+    made = written(code, tmp_path)
+    if code == "sofa":
+        root = ElementTree.parse(tmp_path / "sofa.scn").getroot()
+        held = next(root.iter("FixedProjectiveConstraint")).attrib["indices"].split()
+    elif code == "arcsim":
+        held = json.loads((tmp_path / "arcsim.json").read_text())["handles"][0]["nodes"]
+    elif code == "ppf":
+        held = np.flatnonzero(json.loads((tmp_path / "sheet.json").read_text())["held"])
+    else:  # by boxes, in shares of the mesh
+        places = made.mesh.vertices
+        shares = (places - places.min(axis=0)) / np.maximum(np.ptp(places, axis=0), 1e-9)
+        inside = np.zeros(len(places), dtype=bool)
+        for line in (tmp_path / "c_ipc_sheet.py").read_text().splitlines():
+            if "set_DBC" in line:
+                low, high = (json.loads(f"[{one}]") for one in re.findall(r"Vector3d\(([^)]*)\)", line)[:2])
+                inside |= ((low <= shares) & (shares <= high)).all(axis=1)
+        held = np.flatnonzero(inside)
+    assert np.array(held, dtype=int).tolist() == np.flatnonzero(made.mesh.held).tolist()
+
+
 def test_mujocos_forces_are_our_energys_on_the_same_mesh(tmp_path):
     """In its plane and out of it, at displacements so small that its laws are linear."""
     mujoco = pytest.importorskip("mujoco")
@@ -137,9 +159,21 @@ def test_mujocos_forces_are_our_energys_on_the_same_mesh(tmp_path):
         )
 
 
-def test_openusd_says_the_sheets_own_stiffnesses(tmp_path):
-    written("openusd", tmp_path)
+def numbers(text: str, before: str) -> list[float]:
+    """Those in the brackets after some words of a stage."""
+    return [
+        float(one)
+        for one in re.findall(r"-?[\d.]+(?:e[-+]?\d+)?", text.split(f"{before} = [")[1].split("]")[0])
+    ]
+
+
+def test_openusd_has_the_mesh_and_the_sheets_own_stiffnesses(tmp_path):
+    """It has no law of a mesh: a program makes one of the sheet's numbers."""
+    mesh = written("openusd", tmp_path).mesh
     text = (tmp_path / "sheet.usda").read_text()
+    assert numbers(text, "points") == mesh.vertices.ravel().tolist()
+    assert numbers(text, "faceVertexIndices") == mesh.triangles.ravel().tolist()
+    assert numbers(text, "held") == np.flatnonzero(mesh.held).tolist()
     own = {name: float(value) for name, value in re.findall(r"float physics:(\w+) = ([\d.e+-]+)", text)}
     young, nu, h = 54.5e6, 0.48, 0.003
     assert own["surfaceStretchStiffness"] == pytest.approx(young * h / (1 - nu**2))

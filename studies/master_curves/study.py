@@ -130,8 +130,8 @@ class MasterCurves(Answer):
                 "bend-twist",
                 fields=("load", "model", "narrow_drop", "drop", "narrow_aside", "aside", "error"),
                 grouped=True,
-                text=f"Sheets are {TURNED_WIDTH:g} of their length wide, {SLENDER:g} thick, ν = 0. Between the "
-                "shells is what their mesh leaves open; what both are off is the width.",
+                text=f"Sheets are {TURNED_WIDTH:g} of their length wide, {SLENDER:g} thick, ν = 0. The shells "
+                "differ by what their mesh leaves open; what both are off is the width.",
             ),
         )
 

@@ -130,7 +130,7 @@ class MasterCurves(Answer):
                 "bend-twist",
                 fields=("load", "model", "narrow_drop", "drop", "narrow_aside", "aside", "error"),
                 grouped=True,
-                text=f"Sheets are {TURNED_WIDTH:g} of their length wide, {SLENDER:g} thick, ν = 0. The shells "
+                text=f"Sheets are {TURNED_WIDTH:g} of their length wide, {SLENDER:g} thick, ν = 0. Shells "
                 "differ by what their mesh leaves open; what both are off is the width.",
             ),
         )

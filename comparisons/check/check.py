@@ -15,6 +15,7 @@ import lumped
 from comparisons.models.grids import scene_grid
 from comparisons.models.method import RUBBER
 from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture
 from sheetbench.answers.table import Column, Table
 from sheetbench.choices import CALIBRATION, ELEMENTS
 from sheetbench.errors import Implausible
@@ -74,6 +75,9 @@ class Check(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         return (Table.of(Part, self.parts, "What will be solved"),)
+
+    def figures(self) -> tuple[Picture, ...]:
+        return (Picture("plan", "comparisons.check.figure:compose", (self.scene,)),)
 
     def notes(self) -> list[str]:
         solve = f"Solve it with:\nsheetbench compare {shlex.quote(self.called)}"

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from comparisons.check.check import check
 from comparisons.report.arrows import load_arrows
 from comparisons.report.plan import edge_ends, held_lines, on_sheet, plan_lines, plan_mesh, rims
 from sheetbench.scenes import load
@@ -55,3 +56,13 @@ def test_a_rectangle_is_drawn_as_it_was():
         and len(rims(PLAIN)) == 1
     )
     assert on_sheet(PLAIN, np.array([[-1.0, 0.1]])).tolist() == [[0.0, 0.1]]
+
+
+def test_check_draws_the_plan_of_any_scene():
+    """The sheet with its hole, and what is held, loaded and probed; as many patches as the scene has."""
+    patched = DRAWN.replace(patches=[{"shape": GRIP, "young": 1e6}])
+    for scene, labels in ((PLAIN, set()), (patched, {"patch 1", "support 2", "load 2"})):
+        axis = check(scene).plot("plan").axes[0]
+        texts = {text.get_text() for text in axis.texts}
+        assert texts >= labels | set(scene.probes)
+        assert axis.patches[0].get_path().vertices.max() == pytest.approx(188.0)

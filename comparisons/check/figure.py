@@ -1,0 +1,87 @@
+"""The picture of a scene before anything is solved: its plan, with patches, supports, loads and probes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+
+from comparisons.report.arrows import load_arrows
+from comparisons.report.plan import held_lines
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.style import DARK, plain
+from sheetbench.scenes import Scene, holds_director
+from sheetbench.scenes.shapes import Shape
+from sheetbench.scenes.supports import named, place
+
+SHEET, PATCHES, LOAD, HELD = "#e8ebee", "YlOrBr", "#1b6ca8", "#8a939c"
+LONGEST = 0.14  # of the longer side, an arrow
+
+
+def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
+    """Return the plan: the sheet pale, patches in colours, what is held grey under a dark rim, loads blue."""
+    lengths = np.array(scene.sheet.lengths)
+    height = style.width * min(max(lengths[1] / lengths[0], 0.25), 1.5) + 0.6
+    figure = Figure(figsize=(style.width, height), layout="constrained")
+    axis = figure.add_subplot()
+    axis.add_patch(_filled(scene.region, facecolor=SHEET, edgecolor=DARK, linewidth=0.8))
+    for number, patch in enumerate(scene.patches, start=1):
+        colour = colormaps[PATCHES](0.2 + 0.6 * number / (len(scene.patches) + 1))
+        look = {"facecolor": colour, "edgecolor": DARK, "linewidth": 0.4, "alpha": 0.7}
+        _part(axis, scene, patch.shape, f"patch {number}", look)
+    for name, support in named(scene.supports).items():
+        if (shape := place(support)) is not None:
+            _part(axis, scene, shape, name, {"facecolor": HELD, "edgecolor": "none", "alpha": 0.6})
+        for line in held_lines(scene, support):
+            axis.plot(*1e3 * line.T, color=DARK, linewidth=3.0 if holds_director(support) else 1.5)
+    for number, load in enumerate(scene.loads, start=1):
+        if (shape := getattr(load, "where", None)) is not None:
+            look = {"facecolor": LOAD, "edgecolor": LOAD, "alpha": 0.2}
+            _part(axis, scene, shape, f"load {number}", look)
+    _arrows(axis, scene, 1e3 * LONGEST * lengths.max())
+    for name, at in scene.probes.items():
+        axis.plot(1e3 * at[0], 1e3 * at[1], "o", markersize=3, markerfacecolor="white", markeredgecolor=DARK)
+        axis.annotate(plain(name, longest=14), (1e3 * at[0], 1e3 * at[1]), (3, 3), textcoords="offset points")
+    axis.set(xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
+    if style.titled:
+        axis.set_title(plain(scene.title or scene.name, longest=60), fontsize=8)
+    axis.margins(0.06)
+    return figure
+
+
+def _arrows(axis: Axes, scene: Scene, longest: float) -> None:
+    """Loads in the plane as arrows [mm], those across it as dots towards the eye or crosses away from it."""
+    plan, arrows = load_arrows(scene, lambda points: np.tile([0.0, 0.0, 1.0], (len(points), 1)))
+    for at, along in zip(1e3 * plan, arrows, strict=True):
+        size = float(np.linalg.norm(along))
+        if size == 0.0:
+            continue
+        if abs(along[2]) < 0.7 * size:
+            end = at + longest * along[:2] / size
+            axis.annotate("", end, at, arrowprops={"arrowstyle": "->", "color": LOAD})
+        else:
+            axis.plot(*at, marker="." if along[2] > 0.0 else "x", color=LOAD, markersize=5)
+
+
+def _part(axis: Axes, scene: Scene, shape: Shape, name: str, look: Mapping[str, Any]) -> None:
+    """The part of the sheet in a shape, with its name at the upper left, a patch's at the lower right."""
+    area = scene.region.intersection(shape.area)
+    axis.add_patch(_filled(area, **look))
+    left, low, right, top = (1e3 * bound for bound in area.bounds)
+    if name.startswith("patch"):
+        axis.annotate(name, (right, low), (-2, 2), textcoords="offset points", fontsize=6, ha="right")
+    else:
+        axis.annotate(name, (left, top), (3, -3), textcoords="offset points", fontsize=6, va="top")
+
+
+def _filled(area: Any, **look: Any) -> PathPatch:
+    """An area [m] without its holes, which run the other way round."""
+    parts = [part for part in getattr(area.normalize(), "geoms", [area.normalize()]) if part.area > 0.0]
+    rings = [np.array(ring.coords) for part in parts for ring in (part.exterior, *part.interiors)]
+    return PathPatch(Path.make_compound_path(*(Path(1e3 * ring, closed=True) for ring in rings)), **look)

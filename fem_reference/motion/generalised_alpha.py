@@ -62,6 +62,7 @@ class GeneralisedAlpha:
     def forget(self) -> None:
         """Drop the factors, so that a resumed run goes on exactly as one never stopped."""
         self._factor = None
+        self._solver.forget()
 
     def memory(self) -> dict[str, float]:
         """What a resumed run needs besides the motion."""

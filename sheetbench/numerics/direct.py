@@ -162,6 +162,11 @@ class DirectSolver:
         self._analysis: Any = None
         self._transposed: np.ndarray | None = None
 
+    def forget(self) -> None:
+        """Drop the analysis: that of L U orders rows by the values of the matrix it was made of, and the last
+        digits of what later ones solve depend on it."""
+        self._analysis = None
+
     def factor(self, matrix: Matrix) -> Factor:
         """Factors of a matrix (n, n) that has the pattern of the first one given.
 

@@ -56,8 +56,9 @@ class Newton:
         self.made = 0  # corrections of the last step's stages
 
     def forget(self) -> None:
-        """Drop the factors."""
+        """Drop the factors, and what those made anew would take over from them."""
         self._factor = self._factored = None
+        self._system.problem.system.forget()
 
     def solve(
         self,

@@ -60,6 +60,7 @@ class Run:
 
     def begin(self, start: State) -> None:
         """Take up the last checkpoint, or sample the start."""
+        self._method.forget()
         checkpoint = self._kept.resume()
         if checkpoint is None:
             self.reached = Reached(start)

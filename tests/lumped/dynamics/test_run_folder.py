@@ -20,7 +20,7 @@ DURATION = 0.025  # s, two checkpoints
 PULSE = {"kind": "pressure", "value": 5.0, "history": {"time": [0.0, 0.01, 0.02], "factor": [0.0, 1.0, 0.0]}}
 CHAIN = {"segments": 2, "curvature": 3.0}
 RUNS = [(name, [], [PULSE]) for name in ("generalised-alpha", "esdirk", "verlet", "midpoint")]
-RUNS += [("midpoint", [CHAIN], [])]
+RUNS += [("midpoint", [CHAIN], []), ("midpoint", [CHAIN], [PULSE])]
 
 
 @pytest.mark.parametrize("branches", [(), (Relaxation(0.3, 0.02),)])

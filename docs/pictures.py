@@ -18,7 +18,14 @@ from sheetbench.answers import style
 from sheetbench.answers.report import Report
 
 IMAGES = Path(__file__).parent / "images"
-COMPARED = ("two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down", "actuated-edge")
+COMPARED = (
+    "two-edges-clamped",
+    "one-edge-clamped",
+    "fabric-square",
+    "curved-edge",
+    "curved-edge-down",
+    "actuated-edge",
+)
 RUBBER = {"rubber-inflated-square": 12, "rubber-strip": 6}  # scenes of examples/rubber, elements of the solid
 DPI = 170  # 1224 pixels wide
 

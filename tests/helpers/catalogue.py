@@ -24,7 +24,10 @@ DIGITS = 13  # decimals of a metre: 1e-11 of the smallest scene's largest displa
 
 
 def lattice(scene: Scene, **options: Any) -> Solution:
-    return lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, (GRID, GRID)), **options)
+    cells = lumped.sections_of(scene, (GRID, GRID, 2))
+    return lumped.solve(
+        scene, lumped.calibrate(scene.sheet, scene.material, (GRID, GRID), cells=cells), **options
+    )
 
 
 MODELS = {

@@ -101,6 +101,8 @@ def consistent_interior(
     Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.
     """
+    if cells is None and material.kind == "orthotropic":
+        cells = Cells.of(sheet, material)
     if isinstance(cells, Cells):
         cells = sections.of_cells(cells, grid)
     if grading or cells is not None:

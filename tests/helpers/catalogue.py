@@ -24,10 +24,7 @@ DIGITS = 13  # decimals of a metre: 1e-11 of the smallest scene's largest displa
 
 
 def lattice(scene: Scene, **options: Any) -> Solution:
-    cells = lumped.sections_of(scene, (GRID, GRID, 2))
-    return lumped.solve(
-        scene, lumped.calibrate(scene.sheet, scene.material, (GRID, GRID), cells=cells), **options
-    )
+    return lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, (GRID, GRID)), **options)
 
 
 MODELS = {

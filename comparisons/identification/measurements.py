@@ -28,6 +28,7 @@ import numpy as np
 from comparisons.measured.c3d import read_markers
 from comparisons.measured.columns import Columns, Row, read_columns
 from comparisons.measured.ply import read_points
+from comparisons.measured.start import require_flat_start
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Sheet
 
@@ -160,6 +161,8 @@ def _displacements(path: Path, columns: Columns, scene: Scene, named: bool) -> D
         raise BadInput(f"{path}: no displacement in it")
     if times and (min(times) < 0.0 or max(times) == 0.0):
         raise BadInput(f"{path}: time: the motion starts at 0 and goes on to later times")
+    if times:
+        require_flat_start(path, np.array(times), values[:, 2:])
     return Displacements(
         values[:, :2], values[:, 2:], np.array(times) if times else None, str(path), tuple(lines)
     )

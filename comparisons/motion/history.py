@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.measured.columns import read_columns
+from comparisons.measured.start import require_flat_start
 from sheetbench.errors import BadInput
 from sheetbench.scenes import History
 from sheetbench.scenes.measured_history import COMPONENTS, Measured
@@ -30,11 +31,10 @@ def read_measured(path: Path, probes: list[str]) -> dict[str, Measured]:
             raise row.refused("probe", f"the scene has {', '.join(probes)}")
         numbers = [row.number("time"), *(row.measured(name) for name in COMPONENTS)]
         rows.setdefault(row.cells["probe"], []).append(numbers)
-    found = {}
-    for probe, values in rows.items():
-        table = np.array(sorted(values))
-        found[probe] = Measured(table[:, 0], table[:, 1:])
-    return found
+    every = np.array([values for of in rows.values() for values in of]).reshape(-1, 4)
+    require_flat_start(path, every[:, 0], every[:, 1:])
+    tables = {probe: np.array(sorted(values)) for probe, values in rows.items()}
+    return {probe: Measured(table[:, 0], table[:, 1:]) for probe, table in tables.items()}
 
 
 def require_within(measured: Mapping[str, Measured], duration: float, file: Path) -> None:

@@ -81,6 +81,10 @@ BAD = {
     "millimetres": ("x,y,ux,uy,uz\n0.1,0.1,0,0,-6.02\n", ["line 2", "metres"]),
     "still": ("x,y,ux,uy,uz\n0.1,0.1,0,0,0\n", ["nothing moved"]),
     "too few": ("x,y,ux,uy,uz\n0.1,0.1,,,-1e-3\n", ["1 measured number"]),
+    "begins elsewhere": (
+        "time,probe,ux,uy,uz\n0,P4,0,0,-2e-3\n0.1,P4,0,0,-6e-3\n",
+        ["bad.csv: uz = -0.002 m at time = 0: a run begins with the flat sheet at rest; up to 0.0006 m"],
+    ),
     "probe": ("probe,ux,uy,uz\nP9,0,0,-1e-3\n", ["line 2", "P9", "P1, P2, P3, P4"]),
 }
 

@@ -140,12 +140,14 @@ def report(folder: str | Path, out: str | Path | None = None) -> Path:
     return target
 
 
-def score(answers: str | Path, suite: str = "statics", case: str | Sequence[str] = ()) -> Score:
-    """Score a CSV of answers to the reference set, of all its cases unless some are named."""
+def score(answers: str | Path, suite: str | None = None, case: str | Sequence[str] = ()) -> Score:
+    """Score a CSV of answers to the reference set: of the suite that its header is of, and of all its cases,
+    unless some are named."""
     from comparisons.scoring.cases import SUITES
     from comparisons.scoring.score import score as rate
 
-    require_choice("suite", suite, SUITES)
+    if suite is not None:
+        require_choice("suite", suite, SUITES)
     return rate(Path(answers), suite, case)
 
 

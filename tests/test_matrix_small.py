@@ -13,7 +13,7 @@ from matrix_rows import Row, named, pairwise
 
 from comparisons.stability import extremes
 
-SUITES = ("statics", "settling", "modes")
+SUITES = ("statics", "motion", "modes")
 VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     "compare --duration 0.004 --elements 2": [
         (("two-edges-settling",), ("{pressed}",)),

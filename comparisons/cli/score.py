@@ -13,11 +13,14 @@ from comparisons.cli.verb import PictureOptions
 
 def command(
     answers: Annotated[
-        Path, typer.Argument(metavar="ANSWERS", help="CSV: case,probe,ux,uy,uz[,seconds] in m.")
+        Path, typer.Argument(metavar="ANSWERS", help="CSV: case,probe[,time],ux,uy,uz[,seconds] in m, s.")
     ],
     suite: Annotated[
-        str, option("What it answers: statics, settling or modes.", "NAME", "--suite")
-    ] = "statics",
+        str | None,
+        option(
+            "What it answers: statics, motion or modes; as its header says unless given.", "NAME", "--suite"
+        ),
+    ] = None,
     case: Annotated[list[str] | None, option("Only this case; may be repeated.", "NAME", "--case")] = None,
     *,
     output: PictureOptions,
@@ -31,6 +34,7 @@ def command(
     from comparisons.scoring.score import score
     from sheetbench.errors import require_choice
 
-    require_choice("--suite", suite, SUITES)
+    if suite is not None:
+        require_choice("--suite", suite, SUITES)
     with output.open(variant={"--suite": suite, "--case": sorted(case) if case else None}) as out:
         out.show(score(answers, suite, case or ()))

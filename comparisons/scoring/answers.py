@@ -1,16 +1,19 @@
 """Somebody's answers to a suite, from a CSV file (`comparisons.measured.columns`); SI units.
 
-statics   case,probe,ux,uy,uz[,seconds]
-settling  case,time,probe,ux,uy,uz[,seconds]: at the times of the reference, which are interpolated to
-modes     case,mode,frequency[,seconds]: modes count from 1, lowest first
+statics  case,probe,ux,uy,uz[,seconds]
+motion   case,probe,time,ux,uy,uz[,seconds]: a sample at every time of the reference, for nothing is
+         interpolated; those at other times are passed over
+modes    case,mode,frequency[,seconds]: modes count from 1, lowest first
 
-A form may be filled in stages: a row whose numbers are all empty is open, and so is its case.
+The header tells the suite. Where one case is asked for the column `case` may be left out, as in the history
+that a run writes. A form may be filled in stages: a row whose numbers are all empty is open, and so is its
+case.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -22,9 +25,11 @@ from sheetbench.errors import BadInput
 
 HEADERS = {
     "statics": ("case", "probe", "ux", "uy", "uz"),
-    "settling": ("case", "time", "probe", "ux", "uy", "uz"),
+    "motion": ("case", "probe", "time", "ux", "uy", "uz"),
     "modes": ("case", "mode", "frequency"),
 }
+PLACES = ("case", "probe", "time", "mode")  # columns that say where, not what
+SAME_TIME = 1e-6  # of the duration
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,19 +41,28 @@ class Answer:
     seconds: float | None
 
 
-def read_answers(path: Path, suite: str, chosen: Sequence[str] = ()) -> tuple[list[Answer], list[Reference]]:
+def read_answers(
+    path: Path, suite: str | None = None, chosen: Sequence[str] = ()
+) -> tuple[list[Answer], list[Reference]]:
     """The answers to a suite, or to the chosen cases of it, and the cases that are open.
 
-    Raises BadInput naming a case that there is not, what is missing of one, or is there twice.
+    suite: the one that the header is of unless given. Raises BadInput naming a case that there is not, what
+    is missing of one, or is there twice.
     """
+    columns = read_columns(path)
+    suite = suite or _suite_of(columns.names)
     known = references(suite)
     wanted = [reference(name, suite) for name in dict.fromkeys(chosen)] or list(known.values())
-    columns = read_columns(path)
     header = HEADERS[suite]
-    if not set(header) <= set(columns.names):
-        raise BadInput(f"{path}: the header of {suite} must be {','.join(header)}, and may have seconds")
+    only = {"case": wanted[0].name} if len(chosen) == 1 else {}
+    if not set(header) <= {*columns.names, *only}:
+        raise BadInput(
+            f"{path}: the header of {suite} must be {','.join(header)}, and may have seconds; "
+            "with one --case, case may be left out"
+        )
     rows: dict[str, list[Row]] = {}
-    for row in columns.rows:
+    for read in columns.rows:
+        row = replace(read, cells=only | read.cells)
         if row.cells["case"] not in known:
             raise row.refused("case", _unknown(row.cells["case"], suite))
         rows.setdefault(row.cells["case"], []).append(row)
@@ -62,10 +76,13 @@ def read_answers(path: Path, suite: str, chosen: Sequence[str] = ()) -> tuple[li
     return [_answer(path, one, rows[one.name]) for one in closed], unanswered
 
 
+def _suite_of(names: Sequence[str]) -> str:
+    return "motion" if "time" in names else "modes" if "mode" in names else "statics"
+
+
 def _open(suite: str, row: Row) -> bool:
     """Whether none of the numbers of a row is filled in."""
-    names = HEADERS[suite][2:] if suite != "settling" else HEADERS[suite][3:]
-    return not any(row.cells[name] for name in names if name != "probe")
+    return not any(row.cells[name] for name in HEADERS[suite] if name not in PLACES)
 
 
 def _unknown(name: str, suite: str) -> str:
@@ -80,32 +97,44 @@ def _unknown(name: str, suite: str) -> str:
 def _answer(path: Path, reference: Reference, rows: list[Row]) -> Answer:
     timed = [row.measured("seconds") for row in rows if "seconds" in row.cells]
     seconds = [value for value in timed if value == value]
-    read = {"statics": _probes, "settling": _histories, "modes": _frequencies}[reference.suite]
+    read = _frequencies if reference.suite == "modes" else _displacements
     return Answer(reference, read(path, reference, rows), float(np.mean(seconds)) if seconds else None)
 
 
-def _probes(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
-    return np.array(
-        [_only(path, reference, name, of_probe)[1:] for name, of_probe in _by_probe(reference, rows)]
+def _displacements(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
+    """At every probe and, of a motion, every time of the reference."""
+    probes = list(reference.scene.probes)
+    values = np.full(reference.values.shape, np.nan)
+    times: list[float] = []
+    for row in rows:
+        if row.cells["probe"] not in probes:
+            raise row.refused("probe", f"{reference.name} has {', '.join(probes)}")
+        at: tuple[int, ...] = (probes.index(row.cells["probe"]),)
+        if reference.time is not None:
+            time = row.number("time")
+            times.append(time)
+            sample = int(np.abs(reference.time - time).argmin())
+            if abs(reference.time[sample] - time) > SAME_TIME * reference.time[-1]:
+                continue
+            at += (sample,)
+        if not np.isnan(values[at][0]):
+            raise row.refused("probe", "is there twice" if reference.time is None else "has this time twice")
+        values[at] = [row.number(name) for name in ("ux", "uy", "uz")]
+    for missing in np.argwhere(np.isnan(values[..., 0])):
+        without = "" if reference.time is None else f" at {_missing(reference.time, times, missing[1])}"
+        raise BadInput(f"{path}: case {reference.name}: probe {probes[missing[0]]} is missing{without}")
+    return values
+
+
+def _missing(needed: np.ndarray, given: list[float], sample: int) -> str:
+    """The first time that is needed and not given, which all are needed, and what is given instead."""
+    every = f"{len(needed)} times are needed, every {needed[1]:g} s from 0 to {needed[-1]:g} s"
+    said = (
+        f"{needed[sample]:g} s: {every}; given are {len(set(given))} from {min(given):g} to {max(given):g} s"
     )
-
-
-def _histories(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
-    assert reference.time is not None
-    values = []
-    for name, of_probe in _by_probe(reference, rows):
-        if not of_probe:
-            raise BadInput(f"{path}: case {reference.name}: probe {name} is missing")
-        table = np.array(sorted([row.number("time"), *_vector(row)] for row in of_probe))
-        if table[0, 0] > reference.time[0] or table[-1, 0] < reference.time[-1]:
-            raise BadInput(
-                f"{path}: case {reference.name}: probe {name} from {table[0, 0]:g} to {table[-1, 0]:g} s; "
-                f"the reference is from {reference.time[0]:g} to {reference.time[-1]:g} s"
-            )
-        values.append(
-            np.column_stack([np.interp(reference.time, table[:, 0], table[:, i]) for i in (1, 2, 3)])
-        )
-    return np.array(values)
+    if max(given) > 30.0 * needed[-1]:
+        said += ", as in ms: name the column time [ms]"
+    return said
 
 
 def _frequencies(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
@@ -114,22 +143,3 @@ def _frequencies(path: Path, reference: Reference, rows: list[Row]) -> np.ndarra
     if missing:
         raise BadInput(f"{path}: case {reference.name}: mode {missing[0]} is missing")
     return np.array([frequencies[n] for n in range(1, len(reference.values) + 1)])
-
-
-def _by_probe(reference: Reference, rows: list[Row]) -> list[tuple[str, list[Row]]]:
-    """The rows of every probe. Raises BadInput for a probe that there is not."""
-    for row in rows:
-        if row.cells["probe"] not in reference.scene.probes:
-            raise row.refused("probe", f"{reference.name} has {', '.join(reference.scene.probes)}")
-    return [(name, [row for row in rows if row.cells["probe"] == name]) for name in reference.scene.probes]
-
-
-def _only(path: Path, reference: Reference, name: str, rows: list[Row]) -> list[float]:
-    if len(rows) != 1:
-        often = "is missing" if not rows else f"is there {len(rows)} times"
-        raise BadInput(f"{path}: case {reference.name}: probe {name} {often}")
-    return [0.0, *_vector(rows[0])]
-
-
-def _vector(row: Row) -> list[float]:
-    return [row.number(name) for name in ("ux", "uy", "uz")]

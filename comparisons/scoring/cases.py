@@ -1,19 +1,23 @@
 """The cases of the reference set: scenes, and why each is in it.
 
-statics   displacement at the probes
-settling  displacement at the probes over time, from rest, weight and loads on at t = 0
-modes     the lowest natural frequencies about the flat, stress-free sheet
+statics  displacement at the probes
+motion   displacement at the probes over time, from rest, weight and loads on at t = 0
+modes    the lowest natural frequencies about the flat, stress-free sheet
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import pi, sin
 from typing import Any
 
 from sheetbench.scenes import (
+    Chain,
     Clamped,
+    CurvatureTable,
     EdgeLoad,
+    FactorTable,
     Gravity,
     Held,
     Hinged,
@@ -25,9 +29,9 @@ from sheetbench.scenes import (
     Sheet,
     load,
 )
-from sheetbench.scenes.supports import AnySupport
+from sheetbench.scenes.supports import AnySupport, Motion
 
-SUITES = ("statics", "settling", "modes")
+SUITES = ("statics", "motion", "modes")
 FREQUENCIES = 6
 SEED = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
 NITRILE = Material(young=54.5e6, poisson=0.48, density=1678.0)
@@ -51,7 +55,7 @@ class Case:
 
 def cases(suite: str | None = None) -> tuple[Case, ...]:
     """All cases, or those of one suite."""
-    every = (*_statics(), *_settling(), *_modes())
+    every = (*_statics(), *_motion(), *_modes())
     return tuple(case for case in every if suite in (None, case.suite))
 
 
@@ -62,9 +66,18 @@ def _scene(
     material: Material = NITRILE,
     loads: tuple[Load, ...] = (),
     weight: bool = True,
+    actuators: tuple[Chain, ...] = (),
 ) -> Scene:
     gravity = WEIGHT if weight else None
-    return Scene(name=name, sheet=sheet, material=material, gravity=gravity, supports=supports, loads=loads)
+    return Scene(
+        name=name,
+        sheet=sheet,
+        material=material,
+        gravity=gravity,
+        supports=supports,
+        loads=loads,
+        actuators=actuators,
+    )
 
 
 def _with(material: Material, **changes: float) -> Material:
@@ -146,16 +159,61 @@ def _statics() -> Iterator[Case]:
         yield Case(scene.name, "statics", scene, why)
 
 
-def _settling() -> Iterator[Case]:
-    settling = load("two-edges-settling")
-    yield Case(settling.name, "settling", settling, "the published model's motion, with dampers", 0.3)
+def _motion() -> Iterator[Case]:
     damped = _with(NITRILE, damping_time=2e-3)
-    falling = _scene("one-edge-falling", ONE, material=damped)
-    yield Case(falling.name, "settling", falling, "a sheet let go: large rotations in time", 0.4)
-    struck = _scene(
-        "corner-struck", CORNER, _thick(0.006), damped, (PointLoad(at=(0.188, 0.188), force=(0.0, 0.0, 4.0)),)
+    struck = PointLoad(at=(0.188, 0.188), force=(0.0, 0.0, 4.0))
+    times = tuple(n / 80 for n in range(41))  # s
+    shaken = Motion(
+        time=times, displacement=tuple((0.0, 0.0, round(0.005 * sin(2.0 * pi * 4.0 * t), 9)) for t in times)
     )
-    yield Case(struck.name, "settling", struck, "a force put on a corner at once: many modes", 0.15)
+    bent = CurvatureTable(time=(0.0, 0.05, 0.15, 0.2), value=(0.0, 4.0, -4.0, 0.0))
+    chain = Chain(
+        edge="x1", segments=16, bending_stiffness=0.2, line_density=0.05, radius=1.5e-3, curvature=bent
+    )
+    pushed = Motion(time=(0.0, 0.1), displacement=((0.0, 0.0, 0.0), (-0.006, 0.0, 0.0)))
+    lifted = PointLoad(
+        at=(0.096, 0.03),
+        force=(0.0, 0.0, 2.0),
+        history=FactorTable(time=(0.0, 0.1, 0.2), factor=(0.0, 0.0, 1.0)),
+    )
+    whys: list[tuple[Scene, str, float]] = [
+        (load("two-edges-settling"), "the published model's motion, with dampers", 0.3),
+        (_scene("one-edge-falling", ONE, material=damped), "a sheet let go: large rotations in time", 0.42),
+        (
+            _scene("corner-struck", CORNER, _thick(0.006), damped, (struck,)),
+            "a force put on a corner at once: many modes",
+            0.15,
+        ),
+        (_scene("free-swing", ONE), "let go without dampers: period and amplitude", 0.6),
+        (
+            _scene("harmonic-base", (Clamped(edge="x0", motion=shaken),), material=damped, weight=False),
+            "a clamp that moves up and down 4 times a second, above the lowest frequency",
+            0.48,
+        ),
+        (
+            _scene("driven-chain", ONE, material=damped, weight=False, actuators=(chain,)),
+            "a chain that bends the free edge up, then down: what it moves is the sheet's inertia",
+            0.42,
+        ),
+        (
+            _scene(
+                "snap-through",
+                (Clamped(edge="x0"), Clamped(edge="x1", motion=pushed)),
+                Sheet(length_x=0.24, length_y=0.06, thickness=0.002),
+                _with(NITRILE, damping_time=1e-3),
+                (lifted,),
+            ),
+            "a strip buckled by its clamps, then pushed through: a snap with inertia",
+            0.36,
+        ),
+        (
+            _scene("pressure-step", ROUND, loads=(Pressure(value=500.0),), material=damped, weight=False),
+            "pressure put at once on a sheet clamped all round: it stiffens as it goes",
+            0.03,
+        ),
+    ]
+    for scene, why, duration in whys:
+        yield Case(scene.name, "motion", scene, why, duration)
 
 
 def _modes() -> Iterator[Case]:

@@ -15,7 +15,7 @@ from sheetbench.errors import require_choice
 from sheetbench.scenes import Scene
 
 FILE = Path(__file__).parent / "data" / "suite.json"
-VERSION = "1.0"
+VERSION = "2.0"
 LICENCE = "CC-BY-4.0"
 
 
@@ -69,6 +69,8 @@ def _reference(case: dict[str, Any]) -> Reference:
         values, bars = case["frequencies_hz"]["f"], case["frequencies_hz"]["bar"]
     else:
         values, bars = ([probe[key] for probe in case["probes"].values()] for key in ("u", "bar"))
+    if "time" in case:  # one bar a probe and component, at all times
+        bars = np.broadcast_to(np.array(bars)[:, None], np.shape(values))
     return Reference(
         name=case["name"],
         suite=case["suite"],

@@ -2,6 +2,8 @@
 
     error   of a case, as everywhere: largest |component of u − u_ref| over the probes (and times) / largest
             |component of u_ref|; of frequencies the largest |f/f_ref − 1|
+    rms     of a case, the root of the mean of |u − u_ref|² over the probes and times, over the same; of
+            frequencies that of f/f_ref − 1
     score   the geometric mean over the cases of the error, none counted below the reference's own bar and
             none above 1, which is also what a case without an answer counts
 
@@ -45,10 +47,12 @@ class Row:
 
 @dataclass(frozen=True)
 class CaseRow:
-    """A case: its error, the reference's bar, whether that is less, and the time [s] where it was told."""
+    """A case: its largest error and their root mean square, the reference's bar, whether that is less, and
+    the time [s] where it was told."""
 
     case: str
     error: Annotated[float, PERCENT(".3g")]
+    rms: Annotated[float, PERCENT(".3g")]
     bar: Annotated[float, PERCENT(".3g", "reference's bar")]
     distinguishable: bool
     seconds: Annotated[float | None, MILLISECONDS(".3g", "time")]
@@ -109,7 +113,8 @@ class Score(ShownAnswer):
         """One a case."""
         rated = ((a, self.error(a)) for a in self.answers)
         return [
-            CaseRow(a.reference.name, e, a.reference.bar, e > a.reference.bar, a.seconds) for a, e in rated
+            CaseRow(a.reference.name, e, _rms(a), a.reference.bar, e > a.reference.bar, a.seconds)
+            for a, e in rated
         ]
 
     @property
@@ -213,11 +218,13 @@ class Score(ShownAnswer):
         return not self.faults
 
 
-def score(path: Path, suite: str = "statics", case: str | Sequence[str] = ()) -> Score:
-    """The score of a file of answers to a suite, or to a case or some cases of it. Raises BadInput for what
-    it lacks."""
+def score(path: Path, suite: str | None = None, case: str | Sequence[str] = ()) -> Score:
+    """The score of a file of answers to a suite, or to a case or some cases of it.
+
+    suite: the one that the file's header is of unless given. Raises BadInput for what the file lacks.
+    """
     answers, unanswered = read_answers(path, suite, [case] if isinstance(case, str) else case)
-    return Score(suite, tuple(answers), tuple(one.name for one in unanswered))
+    return Score(answers[0].reference.suite, tuple(answers), tuple(one.name for one in unanswered))
 
 
 def mean(errors: Sequence[float | None], of: Sequence[Reference]) -> float:
@@ -244,6 +251,14 @@ def _rows(answer: Answer) -> list[Row]:
         distinguishable = (off > known.bars).reshape(len(off), -1).any(axis=1)
     every = zip(names, errors.tolist(), distinguishable.tolist(), strict=True)
     return [Row(known.name, name, error, differs) for name, error, differs in every]
+
+
+def _rms(answer: Answer) -> float:
+    known = answer.reference
+    off = answer.values - known.values
+    if known.suite == "modes":
+        return float(np.sqrt(np.mean((off / known.values) ** 2)))
+    return float(np.sqrt(np.mean(np.sum(off**2, axis=-1))) / np.abs(known.values).max())
 
 
 def own_models(cases: Sequence[Reference]) -> list[Standing]:

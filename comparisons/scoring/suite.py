@@ -102,9 +102,8 @@ def _values(cases: Sequence[Reference]) -> str:
                 for n, (f, by) in enumerate(zip(case.values, case.bars, strict=True))
             ]
         return _csv(rows)
-    moving = cases[0].suite == "settling"
     head = ["ux", "uy", "uz", "bar_x", "bar_y", "bar_z"]
-    rows = [["case", *(["time"] if moving else []), "probe", "x", "y", *head]]
+    rows = [["case", "probe", *(["time"] if cases[0].suite == "motion" else []), "x", "y", *head]]
     for case in cases:
         for probe, u, by in zip(case.scene.probes.items(), case.values, case.bars, strict=True):
             name, point = probe
@@ -112,7 +111,7 @@ def _values(cases: Sequence[Reference]) -> str:
                 rows.append([case.name, name, *point, *u, *by])
             else:
                 rows += [
-                    [case.name, time, name, *point, *u[n], *by[n]]
+                    [case.name, name, time, *point, *u[n], *by[n]]
                     for n, time in enumerate(case.time.tolist())
                 ]
     return _csv(rows)
@@ -129,7 +128,7 @@ def _form(cases: Sequence[Reference]) -> str:
             rows += [[case.name, probe, "", "", "", ""] for probe in case.scene.probes]
         else:
             rows += [
-                [case.name, time, probe, "", "", "", ""]
+                [case.name, probe, time, "", "", "", ""]
                 for probe in case.scene.probes
                 for time in case.time.tolist()
             ]

@@ -40,7 +40,7 @@ def verdict(answers: Sequence[Answer], errors: Sequence[float], faults: Sequence
 
 def stiffness(answers: Sequence[Answer]) -> float | None:
     """How much stiffer than the reference the answers are throughout, a fraction; None where they are not."""
-    if answers[0].reference.suite == "settling":
+    if answers[0].reference.suite == "motion":
         return None
     off = [_stiffer(answer) for answer in answers]
     for side in (1.0, -1.0):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -117,8 +118,15 @@ class History(Answer):
         return (Picture("history", "sheetbench.scenes.history_figure:compose", (self, self.label, {})),)
 
     def files(self) -> dict[str, Write]:
-        """All samples as CSV."""
-        return {"history.csv": lambda path: write_text(path, self.series().to_csv())}
+        """All samples as CSV, and those of the probes a row each, as measured histories are read."""
+        columns = (Column("time", "s"), Column("probe"), *(Column(name, "m") for name in COMPONENTS))
+        rows = tuple(
+            (time, name, *u)
+            for name, of in self.probes.items()
+            for time, u in zip(self.time.tolist(), of.tolist(), strict=True)
+        )
+        tables = {"history.csv": self.series(), "displacements.csv": Table("Displacements", columns, rows)}
+        return {name: partial(write_text, text=table.to_csv()) for name, table in tables.items()}
 
     def notes(self) -> list[str]:
         """Where the run went on from, why the integrator is the one that it is, how long explicit steps

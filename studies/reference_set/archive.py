@@ -18,7 +18,7 @@ from comparisons.scoring.suite import Suite
 README = """\
 # Reference set {version} of sheetbench
 
-{cases} scenes of soft sheets (statics, settling, modes) with converged values and error bars, {licence}.
+{cases} scenes of soft sheets (statics, motion, modes) with converged values and error bars, {licence}.
 
 - `NAME.toml`: a scene, SI units.
 - `values-*.csv`: displacements [m] at its probes, over time where it moves, or natural frequencies [Hz], with

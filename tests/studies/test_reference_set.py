@@ -14,7 +14,13 @@ def test_one_command_makes_it(monkeypatch: pytest.MonkeyPatch) -> None:
     """On coarse meshes and one case of each suite, with the keys and cases of the file."""
     chosen = [case for case in cases() if case.name in ("thick", "corner-struck", "modes-one-edge")]
     monkeypatch.setattr(regenerate, "cases", lambda: chosen)
-    for name, value in (("ELEMENTS", 4), ("SOLID", 2), ("FINE", 4), ("COARSE", 3)):
+    for name, value in (
+        ("ELEMENTS", 4),
+        ("SOLID", 2),
+        ("OTHERS", {}),
+        ("MOVING", (2, 1e-4)),
+        ("GRID", 3),
+    ):
         monkeypatch.setattr(regenerate, name, value)
     found = regenerate.regenerate(lambda text: None)
     kept = {case["name"]: case for case in document()["cases"]}

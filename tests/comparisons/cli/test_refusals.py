@@ -89,7 +89,7 @@ ROWS = {
     "study nosuch": "study = 'nosuch': unknown, choose one of advisor, ",
     "study coverage --wrongly": "No such option: --wrongly; see sheetbench study coverage --help",
     "study coverage --model lumped": "model = 'lumped': unknown, choose one of plate, shell",
-    "suite --suite all": "statics, settling, modes",
+    "suite --suite all": "statics, motion, modes",
     f"tradeoff {TWO} --lumped 1": "--lumped = '1'",
     f"tradeoff {TWO} --calibration guess": "calibration = 'guess'",
     f"tradeoff {TWO} --elements 1": "--elements = 1",

@@ -14,6 +14,7 @@ from comparisons.motion import history as histories
 from comparisons.motion.frames import frames
 from sheetbench.scenes import load
 from sheetbench.scenes.measured_history import Measured
+from sheetbench.scenes.toml import to_toml
 
 RUN = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1"]
 
@@ -42,6 +43,9 @@ def test_files_of_a_run(tmp_path, capsys):
     assert 0.0 < document["measured_errors"]["P4"] < 1.0
     lines = (tmp_path / "history.csv").read_text().splitlines()
     assert len(lines) == 22 and lines[0].startswith("time [s],P1.ux [m]") and "balance [J]" in lines[0]
+    ours = histories.read_measured(tmp_path / "displacements.csv", ["P1", "P2", "P3", "P4"])
+    assert [len(one.time) for one in ours.values()] == [21] * 4
+    assert ours["P4"].displacement.tolist() == document["probes"]["P4"]
     assert (tmp_path / "history.png").stat().st_size > 10_000
     series = ElementTree.parse(tmp_path / "frames.pvd").getroot().findall("Collection/DataSet")
     last = series[-1].attrib
@@ -60,6 +64,10 @@ def test_files_of_a_run(tmp_path, capsys):
         ("time,probe,ux,uy,uz\n0.1,P1,0,0,zero\n", "not a number"),
         ("time,probe,ux,uy,uz\n0.1,P1,0,0,inf\n", "line 2: uz = 'inf'"),
         ("time,probe,ux,uy,uz\n,P1,0,0,0\n", "line 2: time = ''"),
+        (
+            "time,probe,ux,uy,uz\n0,P1,,,-0.02\n1,P1,,,-0.04",
+            "uz = -0.02 m at time = 0: a run begins with the",
+        ),
     ],
 )
 def test_measured_files_are_checked(tmp_path, text, said):
@@ -67,6 +75,17 @@ def test_measured_files_are_checked(tmp_path, text, said):
     path.write_text(text)
     with pytest.raises(ValueError, match=said):
         histories.read_measured(path, ["P1"])
+
+
+def test_a_run_that_cannot_go_on_keeps_what_it_has_and_is_three(tmp_path, capsys):
+    """A pressure that no sheet withstands turns cells inside out."""
+    torn = tmp_path / "torn.toml"
+    torn.write_text(to_toml(load("one-edge-clamped")) + "[[load]]\nkind = 'pressure'\nvalue = 5e5\n")
+    out = tmp_path / "out"
+    asked = ("--lumped", "3", "--duration", "0.01", "--every", "0.001", "--no-pictures", "--out", str(out))
+    assert run("simulate", str(torn), *asked) == 3
+    assert "inverted: at 0.003 s the cell at" in capsys.readouterr().err
+    assert len((out / "history.csv").read_text().splitlines()) > 2
 
 
 def test_measured_times_beyond_the_run_are_said(tmp_path, capsys):

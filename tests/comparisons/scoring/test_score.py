@@ -47,7 +47,7 @@ def lines(case: Reference, values: np.ndarray) -> list[list[Any]]:
     if case.time is None:
         return [[name, *u] for name, u in zip(case.scene.probes, values, strict=True)]
     return [
-        [time, name, *u[n]]
+        [name, time, *u[n]]
         for name, u in zip(case.scene.probes, values, strict=True)
         for n, time in enumerate(case.time)
     ]
@@ -132,8 +132,12 @@ def test_a_model_that_is_merely_bad_has_no_fault(write: Write) -> None:
 @pytest.mark.parametrize(
     ("suite", "change", "said"),
     [
-        ("settling", lambda case, u: 1e3 * u, "mm for m"),
-        ("settling", lambda case, u: -u, "opposite sign"),
+        ("motion", lambda case, u: 1e3 * u, "mm for m, in all 8 cases"),
+        ("motion", lambda case, u: -u, "opposite sign"),
+        ("motion", lambda case, u: later(u, 3), "motion is 15 ms too late"),
+        ("motion", lambda case, u: earlier(u, 2), "motion is 10 ms too early"),
+        ("motion", lambda case, u: u + 0.1, "displacements at t = 0 are not zero"),
+        ("motion", lambda case, u: u[[0, 3, 2, 1]], "probes P2 and P4 look swapped"),
         ("modes", lambda case, f: 2.0 * np.pi * f, "rad/s for Hz"),
     ],
 )
@@ -144,6 +148,58 @@ def test_other_suites(write: Write, suite: str, change: Change, said: str) -> No
     off = score(write(suite, lambda case, u: 1.05 * u), suite)
     assert off.score == pytest.approx(0.05, rel=0.2) and not off.faults
     assert len(off.standing) == 1  # our own models were measured on statics
+
+
+def later(u: np.ndarray, samples: int) -> np.ndarray:
+    """A motion that begins some samples late, from the flat sheet."""
+    return np.concatenate([np.zeros_like(u[:, :samples]), u[:, :-samples]], axis=1)
+
+
+def earlier(u: np.ndarray, samples: int) -> np.ndarray:
+    """A motion that has begun some samples ago and stays where it ends."""
+    return np.concatenate([u[:, samples:], np.repeat(u[:, -1:], samples, axis=1)], axis=1)
+
+
+@pytest.mark.parametrize(("case", "grid"), [("free-swing", "9"), ("pressure-step", "17")])
+def test_a_run_of_ours_is_scored_from_its_history(
+    case: str, grid: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The lattice, 2 % off with so many masses a side; samples between the reference's are passed over."""
+    known = references()[case]
+    assert known.time is not None and known.duration is not None
+    assert run("suite", "--suite", "motion", "--out", str(tmp_path / "set")) == 0
+    springs = ["--lumped", grid, "--duration", str(known.duration), "--every", str(known.time[1] / 2)]
+    out = ["--no-pictures", "--out", str(tmp_path / "run")]
+    assert run("simulate", str(tmp_path / "set" / f"{case}.toml"), *springs, *out) == 0
+    path = tmp_path / "run" / "displacements.csv"
+    capsys.readouterr()
+    assert run("score", str(path), "--case", case, "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    (row,) = found["cases"]
+    assert found["suite"] == "motion" and found["faults"] == [] and row["rms"] < row["error"] < 0.03
+    path.write_text(path.read_text().replace("[m]", "[mm]"))
+    assert run("score", str(path), "--case", case) == 3
+    assert "displacements are 1000 times too small" in capsys.readouterr().err
+
+
+def test_what_is_missing_of_a_motion_is_refused(write: Write, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write("motion")
+    text = path.read_text()
+    needed = "61 times are needed, every 0.01 s from 0 to 0.6 s"
+    for old, new, said in (
+        ("free-swing,P2,0.01,", "free-swing,P2,0.0101,", f"P2 is missing at 0.01 s: {needed}; given are 62"),
+        ("free-swing,P2,0.6,", "free-swing,P2,600,", "from 0 to 600 s, as in ms: name the column time [ms]"),
+        ("free-swing,P2,0.01,", "free-swing,P2,0.02,", "probe = 'P2': has this time twice"),
+        (
+            "case,probe,time",
+            "case,probe,time [ms]",
+            "0.005 s from 0 to 0.3 s; given are 61 from 0 to 0.0003 s",
+        ),
+        ("case,", "scene,", "with one --case, case may be left out"),
+    ):
+        path.write_text(text.replace(old, new))
+        assert run("score", str(path)) == 2
+        assert said in one_line(capsys)
 
 
 def test_what_is_missing_is_refused_in_a_line(
@@ -161,7 +217,7 @@ def test_what_is_missing_is_refused_in_a_line(
     for changed, said in (
         (text.replace("thick,P2,", "thick,P9,"), "probe = 'P9': thick has P1, P2, P3, P4"),
         ("\n".join(line for line in text.splitlines() if "thick,P2" not in line), "probe P2 is missing"),
-        (text.replace("case,probe", "scene,probe"), "the header of statics must be case,probe,ux,uy,uz"),
+        (text.replace("case,probe", "case,point"), "the header of statics must be case,probe,ux,uy,uz"),
         (text.replace("thick,P2,", "thick,P2,x"), "not a number"),
         (text.replace("thick,", "thik,"), "case = 'thik': statics has no such case; did you mean thick?"),
         (

@@ -238,8 +238,7 @@ def constrain(
 
     rods: of the scene, whose bases hold a node.
     """
-    on_edge = {str(on.edge): edge_nodes(plate, on.edge) for on in (*scene.supports, *scene.actuators)}
-    supports = rod.hold_bases(surface_supports.of_scene(scene, plate.nodes, on_edge), rods)
+    supports = rod.hold_bases(surface_supports.of_scene(scene, plate.basis.mesh), rods)
     held = np.column_stack([supports.position, supports.director[:, None] | supports.tilt])
     for name in hard_edges:
         held[edge_nodes(plate, name), TILT_X + EDGES[name].along_axis] = True

@@ -35,7 +35,7 @@ from fem_reference.surface.biquadratic import cross
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_at
-from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of, nodes_of, on_boundary
+from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of, nodes_of
 from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
@@ -216,9 +216,7 @@ def discretise(
     """The discrete shell of a scene on a mesh, and its nodes' plan positions (n, 2) [m]."""
     nodes, element_nodes = nodes_of(mesh)
     element = _elements(nodes[element_nodes], scene, section, law)
-    holding = (*scene.supports, *scene.actuators)
-    on_edge = {str(on.edge): on_boundary(mesh, on.edge) for on in holding}
-    supports = surface_supports.of_scene(scene, nodes, on_edge)
+    supports = surface_supports.of_scene(scene, mesh)
     dead, followers = loads.of_scene(scene, mesh, element_nodes, nodes)
     sides = rod.sides(scene, mesh, element_nodes, nodes)
     rods = rod.of_scene(scene, nodes, sides)

@@ -31,7 +31,8 @@ from fem_reference.solving.equilibrium import trace
 from fem_reference.solving.path import Progress
 from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
-from fem_reference.surface.mesh import Elements, divisions, mesh_of, require_upright
+from fem_reference.surface.borders import borders_of
+from fem_reference.surface.mesh import Elements, divisions, has_lines, mesh_of, require_upright
 from fem_reference.surface.rubber import limit_notes, require_law
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
@@ -180,10 +181,11 @@ def _require_meshable(scene: Scene, law: str) -> None:
 
 
 def plan_mesh(scene: Scene, elements: tuple[int, int], grading: str) -> MeshQuad:
-    """The plan mesh. Raises BadInput for an unknown grading."""
+    """The plan mesh; without lines along x and y it has no rows along its rim, for thin curved bricks keep
+    corrections from shrinking. Raises BadInput for an unknown grading."""
     if grading not in GRADINGS:
         raise BadInput(f"grading = {grading!r}: known are {', '.join(GRADINGS)}")
-    return mesh_of(scene, elements, graded=grading == "edges")
+    return mesh_of(scene, elements, graded=grading == "edges" and has_lines(borders_of(scene)))
 
 
 def discretise(

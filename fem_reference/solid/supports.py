@@ -32,6 +32,7 @@ from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Symmetric, holds_director
+from sheetbench.scenes.supports import named
 
 CLAMPS = ("shell-like", "full")
 
@@ -116,8 +117,7 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
     """The supports of a scene; rods: of its actuators. Raises BadInput for an unknown clamp."""
     if clamp not in CLAMPS:
         raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
-    on_edge = {str(on.edge): columns.edge(on.edge) for on in (*scene.supports, *scene.actuators)}
-    line = supports.of_scene(scene, columns.plan_nodes, on_edge)
+    line = supports.of_scene(scene, columns.plan.mesh)
     edges, hinged = {}, np.zeros(len(columns.plan_nodes), dtype=bool)
 
     def face(nodes: np.ndarray, axes: np.ndarray | list[int], turns: bool) -> np.ndarray:
@@ -128,16 +128,16 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
             held[nodes, :, : 2 if clamp == "shell-like" else 3] = True
         return held
 
-    for support in scene.supports:
-        nodes, axes = line.edges[support.edge]
+    for name, support in named(scene.supports).items():
+        nodes, axes = line.edges[name]
         held = face(nodes, axes, isinstance(support, Symmetric) or not holds_director(support))
         if isinstance(support, Symmetric):
             held[nodes[:, None], :, axes] = True
         elif not holds_director(support):
             hinged[nodes] = True
-        edges[str(support.edge)] = held
+        edges[name] = held
     for motion in scene.motions().values():
-        edges[motion.held_as] = face(on_edge[motion.edge], [0, 1, 2], False)
+        edges[motion.held_as] = face(columns.edge(motion.edge), [0, 1, 2], False)
     for rod in rods:
         if rod.base is not None:
             edges[rod.held_as] = face(rod.line[[rod.base]], [0, 1, 2], False)

@@ -26,7 +26,10 @@ from fem_reference.surface.biquadratic import GAUSS, THREE, THREE_WEIGHTS, areas
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import constants_of
+from fem_reference.surface.mesh import elements_in
 from sheetbench.scenes import Balance, EdgeLoad, PointLoad, Pressure, Scene, dead_force
+from sheetbench.scenes.loads import AreaLoad
+from sheetbench.scenes.shapes import Shape
 
 _VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
 _AT_GAUSS, _ = shape(*GAUSS)  # (9 points, 9 nodes)
@@ -86,8 +89,12 @@ def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np
                 moment = moment + factor * np.cross(at[0], load.force)
             case EdgeLoad():
                 moment = moment + factor * _edge_moment(load, surface)
+            case AreaLoad():
+                weights, at = _area(load, surface)
+                force = force + factor * weights.sum() * np.array(load.force_per_area)
+                moment = moment + factor * np.cross(np.einsum("eg,egc->c", weights, at), load.force_per_area)
             case Pressure():
-                pushed, turned = _pressure(surface)
+                pushed, turned = _pressure(surface, load.where)
                 force, moment = force + factor * load.value * pushed, moment + factor * load.value * turned
     return force, moment
 
@@ -116,9 +123,11 @@ def left_over(
 
 
 def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
+    """Of all loads but those on areas, which are the mesh's own."""
+    scene = scene.replace(loads=[load for load in scene.loads if not isinstance(load, AreaLoad)])
     mass = float(surface.masses(scene).sum())
     if not surface.own:
-        return dead_force(scene, None if scene.uniform else mass)
+        return dead_force(scene, None if scene.uniform and not scene.pierced else mass)
     sides = {name: surface.sides(facets) for name, facets in (surface.mesh.boundaries or {}).items()}
     lengths = {name: float(surface.lengths(on).sum()) for name, on in sides.items()}
     return dead_force(scene, mass, lengths)
@@ -152,9 +161,20 @@ def _edge_moment(load: EdgeLoad, surface: Surface) -> np.ndarray:
     return np.cross(middle, load.force_per_length) + load.moment_per_length * couple
 
 
-def _pressure(surface: Surface) -> tuple[np.ndarray, np.ndarray]:
-    """Force [m²] and moment [m³] of a unit pressure; with the sheet to its right, the rim runs clockwise."""
-    rim = surface.position[surface.sides(surface.mesh.boundary_facets())]
+def _area(load: AreaLoad, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
+    """w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of the elements that are loaded."""
+    on = surface.element_nodes[elements_in(load.where, surface.plan, surface.element_nodes)]
+    return areas(surface.plan[on]), _AT_GAUSS @ surface.position[on]
+
+
+def _pressure(surface: Surface, where: Shape | None) -> tuple[np.ndarray, np.ndarray]:
+    """Force [m²] and moment [m³] of a unit pressure; with the sheet to its right, the rim of what is pressed
+    runs clockwise."""
+    mesh, on = surface.mesh, elements_in(where, surface.plan, surface.element_nodes)
+    inside = np.isin(mesh.f2t, on)
+    facets = np.flatnonzero(inside.sum(axis=0) == 1)
+    line = Line.along(mesh, facets, surface.corners, np.where(inside[0], *mesh.f2t)[facets])
+    rim = surface.position[surface.element_nodes[line.elements[:, None], line.sides]]
     at, slope = _VALUE @ rim, _SLOPE @ rim
     square = (at * at).sum(axis=-1, keepdims=True)
     force, moment = (

@@ -8,7 +8,8 @@ import numpy as np
 
 from sheetbench.scenes import Scene
 from sheetbench.scenes.cells import Constants
-from sheetbench.scenes.patches import APART
+from sheetbench.scenes.shapes import APART
+from sheetbench.scenes.supports import place
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -48,13 +49,15 @@ class Borders(NamedTuple):
 def borders_of(scene: Scene) -> Borders | None:
     """Return the borders in a scene's plan, None of a whole rectangle without any: patches that are made of
     what the sheet is made of have none."""
-    shapes = [patch.shape for patch in scene.patches] if _differ(scene) else []
-    if not shapes:
+    places = [place(support) for support in scene.supports]
+    places += [getattr(load, "where", None) for load in scene.loads]
+    shapes = [shape for shape in places if shape is not None]
+    shapes += [patch.shape for patch in scene.patches] if _differ(scene) else []
+    if not (shapes or scene.pierced):
         return None
     import shapely
 
-    region = shapely.box(0.0, 0.0, *scene.sheet.lengths)
-    return Borders(region, shapely.union_all([shape.area.boundary for shape in shapes]))
+    return Borders(scene.region, shapely.union_all([shape.area.boundary for shape in shapes]))
 
 
 def _differ(scene: Scene) -> bool:

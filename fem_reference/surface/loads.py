@@ -3,6 +3,7 @@
 gravity    f = ∫ ρ h g N dA                       dead
 point      f = F N(x)                             dead
 edge       f = ∫ q N dL                           dead, per undeformed length
+area       f = ∫ q N dA                           dead, per undeformed area
 pressure   f = ∫ p N φ,r × φ,s dr ds              follows the normal, per current area
 moment     f_d = ∫ m N t̂ × d dL,  t̂ = φ,L/|φ,L|   on the directors, about the current edge tangent
 
@@ -29,7 +30,9 @@ from fem_reference.surface.biquadratic import (
 )
 from fem_reference.surface.location import locate
 from fem_reference.surface.materials import constants_of
+from fem_reference.surface.mesh import elements_in
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, encloses_volume
+from sheetbench.scenes.loads import AreaLoad
 
 # Local nodes of the four sides, in scikit-fem's order of facets: corner, mid-side, corner.
 _SIDES = np.array([[0, 4, 1], [1, 5, 2], [2, 6, 3], [0, 7, 3]])
@@ -63,16 +66,13 @@ def _cross_matrix(a: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class FollowerPressure:
-    """Pressure [Pa] on all elements; orientation: (m,) +1 where r, s run counter-clockwise, else −1;
-    conservative: where the edges sweep no area (`scenes.encloses_volume`)."""
+    """Pressure [Pa] on elements (k,); orientation: (k,) +1 where r, s run counter-clockwise, else −1;
+    conservative: where the rim of what is pressed sweeps no area (`scenes.encloses_volume`)."""
 
     value: float
+    elements: np.ndarray
     orientation: np.ndarray
     conservative: bool = False
-
-    @property
-    def elements(self) -> np.ndarray:
-        return np.arange(len(self.orientation))
 
     def force(self, vectors: np.ndarray) -> np.ndarray:
         value, slope = AT_GAUSS
@@ -114,9 +114,12 @@ class Line:
     speed: np.ndarray
 
     @classmethod
-    def along(cls, mesh: MeshQuad, facets: np.ndarray, nodes: np.ndarray) -> Line:
-        """The sides that are `facets` of the mesh; nodes: plan positions (m, 9, 2) [m]."""
-        elements = mesh.f2t[0, facets]
+    def along(
+        cls, mesh: MeshQuad, facets: np.ndarray, nodes: np.ndarray, elements: np.ndarray | None = None
+    ) -> Line:
+        """The sides that are `facets` (k,) of the mesh, of these elements or of any; nodes: plan positions
+        (m, 9, 2) [m]."""
+        elements = mesh.f2t[0, facets] if elements is None else elements
         sides = _SIDES[np.argmax(mesh.t2f[:, elements] == facets, axis=0)]
         rows = np.arange(len(elements))[:, None]
         ends = nodes[elements][rows, sides]
@@ -236,9 +239,14 @@ def of_scene(
                 dead += line_force(line, element_nodes, count, factor * np.array(load.force_per_length))
                 if load.moment_per_length:
                     followers.append(FollowerMoment(factor * load.moment_per_length, line))
+            case AreaLoad():
+                on = elements_in(load.where, nodes, element_nodes)
+                force = factor * np.array(load.force_per_area)
+                dead += area_force(areas(corners[on]), element_nodes[on], count, force)
             case Pressure():
-                closed = encloses_volume(scene.supports)
-                followers.append(FollowerPressure(factor * load.value, orientation(corners), closed))
+                on = elements_in(load.where, nodes, element_nodes)
+                closed = encloses_volume(scene.supports) and not (scene.pierced or load.where)
+                followers.append(FollowerPressure(factor * load.value, on, orientation(corners[on]), closed))
     return dead, followers
 
 

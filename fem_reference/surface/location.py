@@ -14,6 +14,7 @@ from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 
 SLACK = 1e-9  # how far outside, in element sizes, still counts as on the edge: rounding only
+BULGE = 0.05  # likewise, of elements with curved sides, which are not the shape's to the last digit
 _PAIRS_AT_ONCE = 4_000_000
 _NEWTON = 8
 
@@ -36,11 +37,11 @@ def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         point, candidate = np.nonzero(np.all(above & below, axis=0))
         xi = _invert(mesh, candidate, x[:, point])
         outside = np.maximum(np.abs(xi - 0.5).max(axis=0) - 0.5, 0.0)
-        order = np.lexsort((candidate, outside > SLACK, point))
+        order = np.lexsort((candidate, np.maximum(outside, SLACK), point))
         point, candidate, xi, outside = point[order], candidate[order], xi[:, order], outside[order]
         first = np.ones(len(point), dtype=bool)
         first[1:] = point[1:] != point[:-1]
-        first &= outside <= SLACK
+        first &= outside <= (SLACK if nodes.shape[1] == 4 else BULGE)
         element[start + point[first]] = candidate[first]
         local[:, start + point[first]] = np.clip(xi[:, first], 0.0, 1.0)
     if np.any(element < 0):

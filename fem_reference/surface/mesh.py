@@ -8,16 +8,21 @@ order of scikit-fem's `ElementQuad2`. Coordinates in metres.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from skfem import Dofs, ElementQuad2, MeshQuad
 
-from fem_reference.surface.borders import borders_of
-from fem_reference.surface.outlined import quadrilaterals
+from fem_reference.surface.borders import Borders, borders_of
+from fem_reference.surface.outlined import LAYERS, quadrilaterals
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes import EDGES, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric, require_rectangle
+from sheetbench.scenes import EDGES, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric
 from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.shapes import Shape
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
 
 Elements = int | tuple[int, int]
 
@@ -106,13 +111,18 @@ def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float
     Sides of elements lie on the borders of shapes. Where all of these lie along the axes, lines that lie near
     them are moved there, and there are more lines where there are fewer than borders; else see `outlined`.
     """
-    require_rectangle(scene, "a mesh")
     counts, lengths = divisions(scene.sheet, elements), scene.sheet.lengths
     borders = borders_of(scene)
     if borders is None or borders.along_axes:
-        return _tensor(*lines_of(scene, counts, graded, reach), *lengths)
+        mesh = _tensor(*lines_of(scene, counts, graded, reach), *lengths)
+        return _with_edges(_within(mesh, borders.region), lengths) if borders and scene.pierced else mesh
     spacing = lengths[0] / counts[0], lengths[1] / counts[1]
     return _with_edges(quadrilaterals(*borders, spacing, graded), lengths)
+
+
+def has_lines(borders: Borders | None) -> bool:
+    """Whether a mesh with these borders is one of lines along x and y."""
+    return borders is None or borders.along_axes
 
 
 def lines_of(
@@ -120,13 +130,30 @@ def lines_of(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The lines of that mesh: their x and their y [m]; where it has none, equally far apart."""
     borders = borders_of(scene)
-    if borders is not None and not borders.along_axes:
-        return _lines(scene.sheet, counts, False, _cuts(scene))
+    if not has_lines(borders):
+        x, y = _lines(scene.sheet, counts, False, _cuts(scene))
+        return (_with_rows(x), _with_rows(y)) if graded else (x, y)
     x, y = _lines(scene.sheet, counts, graded, _cuts(scene), reach)
     if borders is None:
         return x, y
     along_x, along_y = borders.lines(scene.sheet.lengths)
     return _through(x, along_x), _through(y, along_y)
+
+
+def _with_rows(lines: np.ndarray) -> np.ndarray:
+    """Lines with those of `outlined` along the rim."""
+    first, last = np.diff(lines)[[0, -1]]
+    rows = np.array(LAYERS)
+    return np.concatenate(
+        [lines[:1], lines[0] + first * rows, lines[1:-1], lines[-1] - last * rows[::-1], lines[-1:]]
+    )
+
+
+def _within(mesh: MeshQuad, region: BaseGeometry) -> MeshQuad:
+    """The elements of a mesh whose middles lie in a region."""
+    import shapely
+
+    return mesh.restrict(np.flatnonzero(shapely.contains_xy(region, *mesh.p[:, mesh.t].mean(axis=1))))
 
 
 def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:
@@ -166,6 +193,14 @@ def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:
 
 def _at(axis: int, position: float) -> Callable[[np.ndarray], np.ndarray]:
     return lambda x: np.isclose(x[axis], position, rtol=1e-9, atol=1e-12)
+
+
+def elements_in(shape: Shape | None, nodes: np.ndarray, elements: np.ndarray) -> np.ndarray:
+    """The elements (k,) in a shape, whose borders lie on their sides, or all; nodes (n, 2) [m], elements
+    (m, 9)."""
+    return (
+        np.arange(len(elements)) if shape is None else np.flatnonzero(shape.contains(nodes[elements[:, 8]]))
+    )
 
 
 def require_upright(mesh: MeshQuad) -> None:

@@ -12,9 +12,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from skfem import MeshQuad
 
+from fem_reference.surface.mesh import elements_in, nodes_of, on_boundary
 from sheetbench.scenes import EDGES, Scene, Symmetric, held_axes, holds_director
 from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, Placed, bent_or_tilted, shifts
+from sheetbench.scenes.supports import named, place
 
 
 @dataclass(frozen=True)
@@ -76,9 +79,15 @@ class Supports:
         return out
 
 
-def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) -> Supports:
-    """The supports and moved edges of a scene on nodes with plan positions (n, 2) [m]; on_edge: the nodes of
-    every edge."""
+def of_scene(scene: Scene, mesh: MeshQuad) -> Supports:
+    """The supports and moved edges of a scene on the biquadratic nodes of a mesh."""
+    nodes, elements = nodes_of(mesh)
+    named_supports = named(scene.supports)
+    on_edge = {str(on.edge): on_boundary(mesh, on.edge) for on in scene.actuators}
+    for name, support in named_supports.items():
+        shape = place(support)
+        inside = np.unique(elements[elements_in(shape, nodes, elements)]) if shape else None
+        on_edge[name] = on_boundary(mesh, support.edge) if inside is None else inside
     position, director = np.zeros((len(nodes), 3), dtype=bool), np.zeros(len(nodes), dtype=bool)
     tilt = np.zeros((len(nodes), 2), dtype=bool)
     edges: dict[str, tuple[np.ndarray, np.ndarray]] = {}
@@ -88,13 +97,13 @@ def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) ->
         on = on_edge[motion.edge]
         position[on] = director[on] = True
         movers[on] += 1.0
-    for support in scene.supports:
-        on, axes = on_edge[support.edge], np.array(held_axes(support))
+    for name, support in named_supports.items():
+        on, axes = on_edge[name], np.array(held_axes(support))
         position[np.ix_(on, axes)] = True
         director[on] |= holds_director(support)
         if isinstance(support, Symmetric):
             tilt[on, EDGES[support.edge].normal_axis] = True
-        edges[support.edge] = (on[movers[on] == 0.0], axes)
+        edges[name] = (on[movers[on] == 0.0], axes)
     edges |= {motion.held_as: (on_edge[motion.edge], np.arange(3)) for motion in motions.values()}
 
     def driven(edge: DrivenEdge) -> Driven:

@@ -233,7 +233,7 @@ def test_follower_tangents_are_exact(kind):
     mesh = distorted()
     element, nodes, element_nodes = build(mesh)
     load = (
-        FollowerPressure(3.0, orientation(nodes[element_nodes]))
+        FollowerPressure(3.0, np.arange(len(element_nodes)), orientation(nodes[element_nodes]))
         if kind == "pressure"
         else FollowerMoment(2.0, Line.along(mesh, mesh.boundaries["x1"], nodes[element_nodes]))
     )

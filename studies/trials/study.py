@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import platform
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -121,10 +121,9 @@ class Trial:
     why: str = ""
 
 
-def trials(code: str, python: str, seconds: float, say: Callable[[str], None]) -> list[Trial]:
-    """Run every recipe of a code in every scene, with a Python that has it."""
+def trials(code: str, python: str, seconds: float, say: Callable[[str], None]) -> Iterator[Trial]:
+    """Run every recipe of a code in every scene, with a Python that has it, one after the other."""
     require_choice("code", code, RECIPES)
-    found = []
     for name, scene in CASES.items():
         truth = fem_reference.solve(scene, model="shell", elements=16).displacement(scene.probe_points())
         for recipe in RECIPES[code]:
@@ -136,9 +135,9 @@ def trials(code: str, python: str, seconds: float, say: Callable[[str], None]) -
             made = setup(
                 scene, code, recipe.squares, mesh=recipe.mesh, coefficients=coefficients, given=given
             )
-            found.append(_trial(made, recipe.name, python, seconds, truth))
-            say(f"{code}, {name}, {recipe.name}: {found[-1].status}, {found[-1].error}")
-    return found
+            found = _trial(made, recipe.name, python, seconds, truth)
+            say(f"{code}, {name}, {recipe.name}: {found.status}, {found.error}")
+            yield found
 
 
 def _trial(made: CodeSetup, recipe: str, python: str, seconds: float, truth: np.ndarray) -> Trial:

@@ -62,8 +62,8 @@ class Suite(Answer):
 
     def notes(self) -> tuple[str, ...]:
         return (
-            "bar: what the reference's mesh leaves uncertain, of its largest value; agreeing: codes within "
-            "that or 1 %",
+            "bar: what the reference's mesh and steps leave uncertain, of its largest value; agreeing: codes "
+            "within that or 1 %",
             "--out DIR writes scenes, values and forms to fill in; sheetbench score answers-statics.csv",
         )
 

@@ -22,7 +22,7 @@ README = """\
 
 - `NAME.toml`: a scene, SI units.
 - `values-*.csv`: displacements [m] at its probes, over time where it moves, or natural frequencies [Hz], with
-  the bars that the references' meshes leave.
+  the bars that the references' meshes and steps leave.
 - `answers-*.csv`: forms for answers; `sheetbench score answers-statics.csv` reads them.
 - `suite.json`: all of it, with how far each code is off that solved the case, and with what it was made.
 - `cases.csv`: why each case is in the set. `SHA256SUMS`: `sha256sum --check SHA256SUMS`.

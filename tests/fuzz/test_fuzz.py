@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from fuzz import trials
-from fuzz.grammar import command_lines, measured, sound, texts
+from fuzz.grammar import command_lines, measured, shaped, sound, texts
 from hypothesis import HealthCheck, Phase, given, settings
 
 pytestmark = pytest.mark.smoke
@@ -50,6 +50,12 @@ def test_a_scene_is_checked_and_written_only_where_asked(folder: Path, text: byt
 @given(data=sound())
 def test_a_sound_scene_is_solved_and_what_converges_is_in_balance(folder: Path, data: dict[str, Any]) -> None:
     trials.solves(folder, data)
+
+
+@tries(60)
+@given(data=shaped())
+def test_a_scene_of_shapes_is_refused_or_solved_in_balance(folder: Path, data: dict[str, Any]) -> None:
+    trials.solves_shapes(folder, data)
 
 
 @tries(30)

@@ -6,6 +6,7 @@ swaps, renames or replaces values anywhere in it, and another breaks its text.
 
 import copy
 import tomllib
+from math import cos, pi, sin
 from typing import Any
 
 import tomlkit
@@ -120,6 +121,51 @@ def sound(draw: st.DrawFn) -> dict[str, Any]:
     data["load"] = draw(st.lists(load(lengths), max_size=2))
     if held < 3 and draw(st.booleans()):
         data["actuator"] = [draw(actuator(edges[held]))]
+    return data
+
+
+@st.composite
+def shape(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
+    """A shape about a point of the sheet, its sides on lines of coarse grids or not."""
+    share = st.sampled_from([0.0, 0.25, 0.5, 0.75, 1.0]) | numbers(-0.1, 1.1)
+    middle = [draw(share) * length for length in lengths]
+    size = draw(st.sampled_from([0.125, 0.25, 0.5]) | numbers(0.02, 0.4))
+    kind = draw(st.sampled_from(["rectangle", "circle", "polygon"]))
+    if kind == "circle":
+        return {"circle": {"centre": middle, "radius": 0.5 * size * min(lengths)}}
+    if kind == "rectangle":
+        x, y = (
+            [at - side, at + side]
+            for at, side in zip(middle, (0.5 * size * length for length in lengths), strict=True)
+        )
+        return {"rectangle": {"x": x, "y": y}}
+    turns = sorted(draw(st.sets(st.integers(0, 11), min_size=3, max_size=6)))
+    radii = [draw(st.sampled_from([0.5, 1.0])) * size * min(lengths) for _ in turns]
+    corners = zip(radii, (turn * pi / 6.0 for turn in turns), strict=True)
+    return {"polygon": [[middle[0] + r * cos(a), middle[1] + r * sin(a)] for r, a in corners]}
+
+
+@st.composite
+def shaped(draw: st.DrawFn) -> dict[str, Any]:
+    """A scene of the grammar with an outline, cutouts and patches, held and loaded where shapes say."""
+    data = draw(sound())
+    lengths = [data["sheet"]["length_x"], data["sheet"]["length_y"]]
+    del data["probes"]
+    data.pop("actuator", None)
+    if draw(st.booleans()):
+        cut = [draw(st.sampled_from([0.0, 0.1, 0.3])) for _ in range(4)]
+        at = [(cut[0], 0.0), (1.0, cut[1]), (1.0 - cut[2], 1.0), (0.0, 1.0 - cut[3])]
+        data["sheet"]["outline"] = [[x * lengths[0], y * lengths[1]] for x, y in at]
+    data["cutout"] = [{"shape": draw(shape(lengths))} for _ in range(draw(st.integers(0, 3)))]
+    data["patch"] = [
+        {"shape": draw(shape(lengths)), "young": 1e7} for _ in range(draw(st.sampled_from([0, 0, 1])))
+    ]
+    if draw(st.booleans()):
+        data["support"].append({"kind": "clamped", "where": draw(shape(lengths))})
+    force = draw(st.lists(numbers(-2.0, 2.0), min_size=3, max_size=3))
+    loads = {"kind": "pressure", "value": 5.0}, {"kind": "area", "force_per_area": force}
+    if draw(st.booleans()):
+        data["load"].append({**draw(st.sampled_from(loads)), "where": draw(shape(lengths))})
     return data
 
 

@@ -27,7 +27,7 @@ from hypothesis import strategies as st
 
 from comparisons.runs.manifest import made_with
 from fuzz import record, trials
-from fuzz.grammar import command_lines, measured, sound, texts
+from fuzz.grammar import command_lines, measured, shaped, sound, texts
 
 LONGEST = 300.0  # s of the processor that one example may take; the longest honest one takes a few
 STILL = 3600.0  # s by the clock, for one that waits for ever
@@ -50,6 +50,7 @@ KINDS = {
     "scenes": Kind("scenes' files read", texts(), trials.reads, 20_000, 500),
     "commands": Kind("command lines", command_lines(), trials.obeys, 1000, 50),
     "measured": Kind("measured files", measured(), trials.measures, 2000, 100),
+    "shapes": Kind("scenes of shapes", shaped(), trials.solves_shapes, 5000, 250),
     "solved": Kind("sound scenes solved", sound(), trials.solves, 1000, 50, ("done", "not converged", FAULT)),
 }
 

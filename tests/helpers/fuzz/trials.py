@@ -8,10 +8,14 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import tomlkit
+from pydantic import ValidationError
 
+import lumped
 from fuzz.judge import BAD_INPUT, NOT_CONVERGED, document, files, held, in_balance, outcome
 from sheetbench import scenes
+from sheetbench.scenes.grid import grid_of
 
 WORDS = {0: "done", BAD_INPUT: "refused", NOT_CONVERGED: "not converged"}
 
@@ -53,6 +57,27 @@ def solves(folder: Path, data: dict[str, Any]) -> str:
     if found.status != BAD_INPUT:
         in_balance(document(found))
     return WORDS[found.status]
+
+
+def solves_shapes(folder: Path, data: dict[str, Any]) -> str:
+    """A scene with shapes is refused in a line, or its lattice solved; what converges is in balance."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            scene = scenes.Scene.model_validate(data)
+            grid = grid_of(scene.sheet, 5)
+            found = lumped.solve(
+                scene,
+                lumped.calibrate(scene.sheet, scene.material, grid, cells=lumped.sections_of(scene, grid)),
+            )
+            moved = found.displacement(scene.probe_points())
+        except (scenes.BadInput, ValidationError) as refused:
+            assert str(refused)
+            return "refused"
+    if found.status is not scenes.Status.CONVERGED:
+        return "not converged"
+    assert np.isfinite(moved).all() and found.balance is not None and found.balance.holds
+    return "done"
 
 
 def obeys(folder: Path, asked: Sequence[str]) -> str:

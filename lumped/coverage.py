@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, Support
+from sheetbench.scenes import Scene, Support, held_axes
 from sheetbench.scenes.patches import boxes_of, shares_of
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.supports import place
@@ -16,7 +17,7 @@ from sheetbench.scenes.supports import place
 if TYPE_CHECKING:
     from shapely import Geometry
 
-HALF = 0.5 - 1e-9  # of what a mass stands for, from which on a support holds it
+HELD = 0.4  # of a mass's surroundings, of which a support that takes more holds it too
 
 
 def part_of(scene: Scene, shape: Shape | None) -> Geometry:
@@ -55,20 +56,43 @@ def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.n
     return out
 
 
+def held_crossings(lines: tuple[Lines, Lines], shape: Shape) -> np.ndarray:
+    """Which crossings of lines a support in a shape holds, (ny, nx): those inside, and those of whose
+    surroundings, half a cell each way, it takes a part."""
+    x, y = (side.at for side in lines)
+    around = (np.concatenate([at[:1], 0.5 * (at[1:] + at[:-1]), at[-1:]]) for at in (x, y))
+    inside = shape.contains(np.stack(np.meshgrid(x, y), axis=-1))
+    return np.asarray(inside | (shares_of(shape.area, *around) > HELD))
+
+
+def clamped_stiffness(scene: Scene, lines: tuple[Lines, Lines]) -> np.ndarray:
+    """How many times as stiff cells are whose rims a support cuts, (rows, columns).
+
+    The held masses nearest to a support's rim are not on it. What bends there is what is free of a cell, and
+    what is free of the one beside it if all masses of that are held: f cells long, 1/f times as stiff.
+    """
+    factor = np.ones((len(lines[1].widths), len(lines[0].widths)))
+    for support in scene.supports:
+        shape = place(support)
+        if shape is None or held_axes(support) != (0, 1, 2):
+            continue
+        covered = shares_of(shape.area, *(side.at for side in lines))
+        held = held_crossings(lines, shape)
+        whole = held[:-1, :-1] & held[:-1, 1:] & held[1:, :-1] & held[1:, 1:]
+        left = np.pad(np.where(whole, 1.0 - covered, 0.0), 1)
+        free = 1.0 - covered + left[:-2, 1:-1] + left[2:, 1:-1] + left[1:-1, :-2] + left[1:-1, 2:]
+        factor[~whole] /= free[~whole]
+    return factor
+
+
 def held_columns(lattice: Lattice, support: Support, name: str = "support") -> np.ndarray:
-    """Mass numbers that a support holds, by columns (m, layers): those of its edge, or those in its shape and
-    those for half of whose surroundings it stands. Raises BadInput for a shape that holds none."""
+    """Mass numbers that a support holds, by columns (m, layers): those of its edge, or those in or nearest to
+    its shape. Raises BadInput for a shape that holds none."""
     shape = place(support)
     if shape is None:
         return lattice.edge_columns(support.edge)
-    around = (
-        np.concatenate([side.at[:1], 0.5 * (side.at[1:] + side.at[:-1]), side.at[-1:]])
-        for side in lattice.lines
-    )
     columns = lattice.columns()
-    inside = shape.contains(lattice.positions[columns[:, :, 0], :2]) | (
-        shares_of(shape.area, *around) >= HALF
-    )
+    inside = held_crossings(lattice.lines, shape)
     inside[np.isin(columns[:, :, 0], lattice.absent_masses)] = False
     if not inside.any():
         grid = "x".join(map(str, lattice.grid[:2]))

@@ -20,12 +20,13 @@ Source: Kohn and Vogelius, Int. J. Solids Struct. 20 (1984), plates whose thickn
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
 
 from lumped import plies
+from lumped.coverage import clamped_stiffness
 from lumped.grid_lines import Lines, grid_lines
 from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, require_uniform
 from sheetbench.scenes.cells import NUMBERS
@@ -110,12 +111,15 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | No
     """The sections of the cells of a scene's sheet; None of one that is the same all over and in all
     directions. A cell that the outline cuts has its share of what all of it would have."""
     lines = grid_lines(scene.sheet, grid, grading)
-    whole = _as_if_whole(scene, grid, lines)
-    if not scene.pierced:
+    whole, clamped = _as_if_whole(scene, grid, lines), clamped_stiffness(scene, lines)
+    cut = bool(np.any(np.abs(clamped - 1.0) > APART))
+    if not (scene.pierced or cut):
         return whole
     if whole is None:
         whole = of_cells(Cells.of(scene.sheet, scene.material), grid)
-    return _times(whole, shares_of(scene.region, lines[0].at, lines[1].at))
+    if cut:
+        whole = replace(_times(whole, clamped), per_area=whole.per_area)
+    return _times(whole, shares_of(scene.region, lines[0].at, lines[1].at)) if scene.pierced else whole
 
 
 def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> Section | None:

@@ -128,7 +128,7 @@ def test_loads_where_a_shape_says():
 
 
 def test_a_clamp_on_a_part_is_a_shorter_sheet():
-    """Its side on a line of the grid: what it holds is rigid."""
+    """Its side on a line of the grid or not: what it holds is rigid."""
     grip = {"kind": "clamped", "where": {"rectangle": {"x": (0.0, 0.05), "y": (0.0, 0.1)}}}
     held = sheet(support=[grip], probes={"P": (0.2, 0.05)})
     short = sheet(probes={"P": (0.15, 0.05)}).replace(length_x=0.15, probes={"P": (0.15, 0.05)})
@@ -138,6 +138,13 @@ def test_a_clamp_on_a_part_is_a_shorter_sheet():
     assert solution.displacement([[0.2, 0.05]]) == pytest.approx(expected, rel=1e-3)
     assert list(solution.reactions) == ["support 1"]
     assert solution.reactions["support 1"][2] == pytest.approx(0.01 * mass_of(held))
+    for side in (0.042, 0.0465):  # nearer to the one line or to the other
+        grip["where"]["rectangle"]["x"] = (0.0, side)
+        scene = sheet(support=[grip], probes={"P": (0.2, 0.05)})
+        short = sheet().replace(length_x=0.2 - side, probes={"P": (0.2 - side, 0.05)})
+        springs = lumped.calibrate(short.sheet, short.material, (27, 17, 2))
+        expected = lumped.solve(short, springs, linear=True).displacement(short.probe_points())[0, 2]
+        assert deflections(scene, 17)[0, 2] == pytest.approx(expected, rel=0.005)
     small = {"kind": "clamped", "where": {"circle": {"centre": (0.006, 0.006), "radius": 1e-3}}}
     with pytest.raises(BadInput, match=r"support 1.where: circle .* holds no mass of a grid of 17x9"):
         lumped.solve(sheet(support=[small]), calibrated(held, 9))

@@ -40,9 +40,14 @@ def main() -> None:
             scene = IMAGES.parents[1] / "examples" / "rubber" / f"{name.removeprefix('rubber-')}.toml"
             answer = sb.compare(scene, grid=17, reference="solid", elements=elements)
             keep(answer.report(), "comparison.png", Path(folder), name)
-        settling = sb.load("two-edges-settling")
-        run = Simulation(sb.simulate(settling, 1.0), settling)
-        keep(run.report(), "history.png", Path(folder), "settling")
+        film = IMAGES.parents[1] / "examples" / "air" / "film.toml"
+        for moved, duration, error, name in (
+            ("two-edges-settling", 1.0, None, "settling"),
+            (film, 2.0, 1e-6, "film-in-air"),
+        ):
+            scene = sb.load(moved)
+            run = Simulation(sb.simulate(scene, duration, error=error), scene)
+            keep(run.report(), "history.png", Path(folder), name)
 
 
 def keep(answer: Report, drawn: str, folder: Path, name: str) -> None:

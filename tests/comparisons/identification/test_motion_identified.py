@@ -14,7 +14,7 @@ import lumped
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, read
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History, Relaxation, Scene, load
+from sheetbench.scenes import Air, History, Relaxation, Scene, load
 from sheetbench.scenes.parameters import parameter, put
 
 TRUTH = load("one-edge-clamped").replace(loss_factor=0.12, frequency=3.0)
@@ -47,6 +47,16 @@ def test_young_and_loss_factor_from_a_decay_with_noise(seeds: range) -> None:
             assert high - low < 0.15 * true
             held[name] += low <= true <= high
     assert min(held.values()) >= 0.9 * len(seeds), held
+
+
+def test_the_drag_of_the_air_from_a_decay() -> None:
+    truth = load("one-edge-clamped").replace(air=Air(drag=30.0))
+    measured = decay(lattice_run(truth, 0.5), 0.5, 0.01, 0, 40)
+    found = identify(truth.replace(air=Air(drag=10.0)), measured, "drag", grid=(3, 3))
+    low, high = found.unknowns["drag"].interval
+    assert low <= 30.0 <= high and high - low < 0.1 * 30.0
+    with pytest.raises(BadInput, match="'drag': the scene has no"):
+        identify(truth.replace(air=None), measured, "drag")
 
 
 def test_a_reference_follows_a_measured_motion() -> None:

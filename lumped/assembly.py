@@ -156,8 +156,9 @@ class Assembly:
         share: float = 1.0,
         scale: float = 1.0,
         inertia: np.ndarray = NO_INERTIA,
+        extrapolated: bool = False,
     ) -> np.ndarray:
         """Return scale × blocks (b, 3, 3) [N/m] of the tangent at u, with the stresses given or the share of
         those at u, and of the stiffness the material part and this share of the rest (`lumped.springs.laws`);
-        on the diagonal `inertia` (n,) [N/m] beside it."""
-        return self.all_families.tangent(u, stresses or NO_STRESSES, share, scale, inertia)
+        on the diagonal `inertia` (n,) [N/m] beside it; extrapolated: whether the stresses are `advance`'s."""
+        return self.all_families.tangent(u, stresses or NO_STRESSES, share, scale, inertia, extrapolated)

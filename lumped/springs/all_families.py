@@ -20,7 +20,7 @@ from lumped.lattice import Lattice
 from lumped.pattern import Pattern
 from lumped.rest import Rest, rest_of
 from lumped.springs import cells, links
-from lumped.springs.cell_laws import COUPLED, FACE, RUBBER, AreaAndStrains
+from lumped.springs.cell_laws import COUPLED, FACE, RUBBER, AreaAndStrains, measures
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import Cells, Dampers, DirectionalLinks, Family, Links
 from lumped.springs.links import LinkArrays
@@ -48,7 +48,7 @@ class Blocks(NamedTuple):
 
 
 Stresses = tuple[np.ndarray, ...]  # four, as `Springs`
-NO_STRESSES: Stresses = (np.empty(0), *3 * (np.empty((0, 3)),))
+NO_STRESSES: Stresses = (np.empty(0), *3 * (np.empty((0, 4)),))
 NO_INERTIA = np.empty(0)
 
 
@@ -101,14 +101,15 @@ class AllFamilies:
         share: float = 1.0,
         scale: float = 1.0,
         inertia: np.ndarray = NO_INERTIA,
+        extrapolated: bool = False,
     ) -> np.ndarray:
         """Return scale × the blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
-        springs' own where they are empty, and with M + share (D − M); inertia: (n,) [N/m] on the
-        diagonal."""
+        springs' own where they are empty, and with M + share (D − M); inertia: (n,) [N/m] on the diagonal;
+        extrapolated: whether the stresses are those that `advance` predicts."""
         pattern = self._pattern
         where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
         blocks: np.ndarray = tangent(
-            np.ascontiguousarray(u), stress, share, scale, inertia, self.springs, where
+            np.ascontiguousarray(u), stress, extrapolated, share, scale, inertia, self.springs, where
         )
         for family in self._others:
             apart = np.zeros_like(blocks)
@@ -156,11 +157,11 @@ def advance(
         for q in range(3):
             after[i, q] = u[i, q] + step[i, q]
             length = max(length, abs(step[i, q]))
-    none = np.empty((0, 3))
+    none = np.empty((0, 4))
     stresses: Stresses = np.empty(0), none, none, none
     if predict:
         stresses = (
-            links.extrapolated(u, step, springs.links),
+            links.extrapolated(u, step, springs.links, measures(springs.layers.law) == 3),
             cells.extrapolated(u, step, springs.layers),
             cells.extrapolated(u, step, springs.middle),
             cells.extrapolated(u, step, springs.faces),
@@ -172,6 +173,7 @@ def advance(
 def tangent(
     u: np.ndarray,
     stress: Stresses,
+    extrapolated: bool,
     share: float,
     scale: float,
     inertia: np.ndarray,
@@ -182,10 +184,11 @@ def tangent(
     springs' own where they are empty, and with M + share (D − M), and on the diagonal `inertia` (n,) [N/m].
     It is symmetric: what is above the diagonal is copied."""
     blocks = np.zeros((where.total, 3, 3))
-    links.add_tangent(u, springs.links, stress[0], share, NUMBA_TRUE, blocks)
-    cells.add_tangent(u, springs.layers, stress[1], share, NUMBA_TRUE, blocks)
-    cells.add_tangent(u, springs.middle, stress[2], share, NUMBA_TRUE, blocks)
-    cells.add_tangent(u, springs.faces, stress[3], share, NUMBA_TRUE, blocks)
+    strain = extrapolated and measures(springs.layers.law) == 3
+    links.add_tangent(u, springs.links, stress[0], strain, share, NUMBA_TRUE, blocks)
+    cells.add_tangent(u, springs.layers, stress[1], extrapolated, share, NUMBA_TRUE, blocks)
+    cells.add_tangent(u, springs.middle, stress[2], extrapolated, share, NUMBA_TRUE, blocks)
+    cells.add_tangent(u, springs.faces, stress[3], extrapolated, share, NUMBA_TRUE, blocks)
     if scale != 1.0:
         entries = blocks.ravel()
         for e in range(len(entries)):

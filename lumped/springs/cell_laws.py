@@ -16,7 +16,7 @@ from numba import njit
 from numba.extending import overload
 
 from lumped.springs import laws
-from lumped.springs.laws import Constants, Four, Memory, Six, Three
+from lumped.springs.laws import Constants, Four, Memory, Six, Three, times_six
 
 
 class AreaAndStrains(NamedTuple):
@@ -68,6 +68,16 @@ def stiffness_of_coupled(
     """Return M + share (D − M) of `coupled`, its 11 22 33 12 13 23; nothing of s."""
     six, none = laws.stiffness_of_area_and_strains(d, g, area, memory, share, k)
     return (six[0], six[1], six[2], six[3] + k[4], six[4] + k[5], six[5] + k[6]), none
+
+
+@njit(cache=True, error_model="numpy")
+def extrapolated_coupled(
+    d: Four, g: Three, area: float, memory: Memory, stress: Four, k: Constants, rate: Four
+) -> Four:
+    """Return what is extrapolated of the area and the strains, with the couplings' part of the strains'."""
+    p = laws.extrapolated_area_and_strains(d, g, area, memory, stress, k, rate)
+    e1, e2, e3 = d[0] + rate[0], d[1] + rate[1], d[2] + rate[2]
+    return p[0] + k[4] * e2 + k[5] * e3, p[1] + k[4] * e1 + k[6] * e3, p[2] + k[5] * e1 + k[6] * e2, p[3]
 
 
 @njit(cache=True, error_model="numpy")
@@ -141,6 +151,8 @@ def _thirteen(k: np.ndarray, c: int) -> Constants:
 class Law:
     """tag: of its loops; respond: (½, δg and s, g at rest, area, constants) → energy, what its stiffness
     takes, stress; stiffness: (δg and s, g, area, that, share, constants) → M + share (D − M) of g, and of s;
+    extrapolate: (δg and s, g, area, that, stress, constants, their rate) → what a linearisation predicts, and
+    of_extrapolated: (δg and s, g, that, it) → that and the stress, where stress itself is not linear in it;
     mean_stress: (of two states, g, area, constants) → the stress whose work is the energy stored; constants:
     (array, cell) → a cell's; measures: 3, or 4 with s; any_strain: whether it means something at any strain;
     parts:
@@ -156,6 +168,8 @@ class Law:
     any_strain: bool
     parts: Callable[..., dict[str, np.ndarray]]
     examples: tuple[tuple[float, ...], ...]
+    extrapolate: Callable[..., Any] | None = None
+    of_extrapolated: Callable[..., Any] | None = None
 
 
 ENERGIES = {  # of an exported cell with the constants k1, k2, …; see the README of an export
@@ -185,6 +199,8 @@ AREA_AND_STRAINS = Law(
     False,
     lambda stiffness, _others, _area: {"area": stiffness[:, :1], "strain": stiffness[:, 1:]},
     ((-30.0, 200.0, 150.0, 80.0),),
+    laws.extrapolated_area_and_strains,
+    laws.area_and_strains_of_extrapolated,
 )
 COUPLED = Law(
     Coupled,
@@ -196,6 +212,8 @@ COUPLED = Law(
     False,
     lambda k, others, _area: {"area": k[:, :1], "strain": k[:, 1:], "coupling": others},
     ((-30.0, 200.0, 150.0, 80.0, 60.0, -50.0, 40.0),),
+    extrapolated_coupled,
+    laws.area_and_strains_of_extrapolated,
 )
 RUBBER = Law(
     Rubber,
@@ -238,6 +256,16 @@ def stiffness(tag: Tag, d: Four, g: Three, area: float, memory: Any, share: floa
     return _OF[type(tag)].stiffness(d, g, area, memory, share, k)
 
 
+def extrapolate(
+    tag: Tag, d: Four, g: Three, area: float, memory: Any, stress: Four, k: Constants, rate: Four
+) -> Any:
+    """Return what the linearisation predicts after a rate of g and s: S + D ġ unless the law has its own."""
+
+
+def of_extrapolated(tag: Tag, d: Four, g: Three, memory: Any, predicted: Four) -> Any:
+    """Return what `stiffness` takes, and the stress, of what has been predicted."""
+
+
 def mean_stress(tag: Tag, start: Four, end: Four, g: Three, area: float, k: Constants) -> Any:
     """Return the stress over a step whose work is the energy stored."""
     return _OF[type(tag)].mean_stress(start, end, g, area, k)
@@ -263,6 +291,35 @@ def _respond(tag: Any, half: Any, d: Any, g: Any, area: Any, k: Any) -> Any:
 def _stiffness(tag: Any, d: Any, g: Any, area: Any, memory: Any, share: Any, k: Any) -> Any:
     function = _OF[tag.instance_class].stiffness
     return lambda tag, d, g, area, memory, share, k: function(d, g, area, memory, share, k)
+
+
+@overload(extrapolate, strict=False)
+def _extrapolate(tag: Any, d: Any, g: Any, area: Any, memory: Any, stress: Any, k: Any, rate: Any) -> Any:
+    law = _OF[tag.instance_class]
+    function, derivative = law.extrapolate, law.stiffness
+    if function is not None:
+        return lambda tag, d, g, area, memory, stress, k, rate: function(d, g, area, memory, stress, k, rate)
+
+    def linear(tag, d, g, area, memory, stress, k, rate):  # type: ignore[no-untyped-def]  # S + D ġ
+        six, more = derivative(d, g, area, memory, 1.0, k)
+        by_g = times_six(six, (rate[0], rate[1], rate[2]))
+        by_s = more[0] * rate[0] + more[1] * rate[1] + more[2] * rate[2] + more[3] * rate[3]
+        return (
+            stress[0] + by_g[0] + more[0] * rate[3],
+            stress[1] + by_g[1] + more[1] * rate[3],
+            stress[2] + by_g[2] + more[2] * rate[3],
+            stress[3] + by_s,
+        )
+
+    return linear
+
+
+@overload(of_extrapolated, strict=False)
+def _of_extrapolated(tag: Any, d: Any, g: Any, memory: Any, predicted: Any) -> Any:
+    function = _OF[tag.instance_class].of_extrapolated
+    if function is None:
+        return lambda tag, d, g, memory, predicted: (memory, predicted)
+    return lambda tag, d, g, memory, predicted: function(d, g, memory, predicted)
 
 
 @overload(mean_stress, strict=False)

@@ -10,11 +10,11 @@ dW/dg, D = d²W/dg² and the change δ of g,
     forces      f_a = 2 S₁ a + S₃ b,   f_b = 2 S₂ b + S₃ a,   f_q = 2 S₄ q
     tangent     δf_a = 2 S₁ δa + S₃ δb + 2 a δS₁ + b δS₃,   δS = D δg,   δf_b and δf_q likewise.
 
-The tangent takes S as an argument of its own: that at u, an extrapolated one S + D ġ, its nonnegative part,
-none. Dampers have the stress M ġ (`lumped.springs.laws`), of area and strains whatever the law; of it the
-derivative by the displacement is unsymmetric.
+The tangent takes S as an argument of its own: that at u, an extrapolated one (`lumped.springs.links`), its
+nonnegative part, none. Dampers have the stress M ġ (`lumped.springs.laws`), of area and strains whatever the
+law; of it the derivative by the displacement is unsymmetric.
 
-Arrays: stress (c, 3) or (c, 4) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
+Arrays: stress (c, 4) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
 """
 
 from __future__ import annotations
@@ -25,8 +25,17 @@ import numpy as np
 from numba import njit
 
 from lumped.springs.cell_blocks import add_blocks, add_warped_blocks, both, by_sides, by_warp, to_diagonals
-from lumped.springs.cell_laws import Tag, constants, mean_stress, measures, respond, stiffness
-from lumped.springs.laws import Four, Six, Three, Vector, dot, less, plus, times
+from lumped.springs.cell_laws import (
+    Tag,
+    constants,
+    extrapolate,
+    mean_stress,
+    measures,
+    of_extrapolated,
+    respond,
+    stiffness,
+)
+from lumped.springs.laws import Four, Six, Three, Vector, dot, less, plus, times, times_six
 
 HALF = 0.5
 NO_CHANGE = (0.0, 0.0, 0.0, 0.0)
@@ -98,16 +107,6 @@ def measure(u: np.ndarray, cells: CellArrays, c: int) -> tuple[Four, Three, tupl
 def rate(a: Vector, b: Vector, va: Vector, vb: Vector) -> Three:
     """ġ of sides a, b that move with va, vb."""
     return 2.0 * dot(a, va), 2.0 * dot(b, vb), dot(a, vb) + dot(b, va)
-
-
-@njit(cache=True, error_model="numpy")
-def times_six(d: Six, x: Three) -> Three:
-    """A symmetric matrix times a vector."""
-    return (
-        d[0] * x[0] + d[3] * x[1] + d[4] * x[2],
-        d[3] * x[0] + d[1] * x[1] + d[5] * x[2],
-        d[4] * x[0] + d[5] * x[1] + d[2] * x[2],
-    )
 
 
 @njit(cache=True, error_model="numpy")
@@ -186,20 +185,16 @@ def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
 
 @njit(cache=True, error_model="numpy")
 def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarray:
-    """Stress S + D ġ that the linearisation at u predicts after a step (n, 3) [m], (c, measures) [N/m]."""
-    out = np.empty((len(cells.nodes), measures(cells.law)))
+    """Return what the linearisation at u predicts after a step (n, 3) [m], (c, 4), as the law has it."""
+    out = np.empty((len(cells.nodes), 4))
     for c in range(len(cells.nodes)):
         d, g, (a, b, q) = measure(u, cells, c)
         k, area = constants(cells.law, c), cells.area[c]
         _, memory, s = respond(cells.law, HALF, d, g, area, k)
-        six, more = stiffness(cells.law, d, g, area, memory, 1.0, k)
         va, vb, vq = changes(step, cells.nodes, c)
-        moved, warped = rate(a, b, va, vb), 2.0 * dot(q, vq)
-        out[c, 0], out[c, 1], out[c, 2] = plus((s[0], s[1], s[2]), times_six(six, moved))
-        if measures(cells.law) == 4:
-            for e in range(3):
-                out[c, e] += more[e] * warped
-            out[c, 3] = s[3] + dot((more[0], more[1], more[2]), moved) + more[3] * warped
+        r1, r2, r3 = rate(a, b, va, vb)
+        moved = extrapolate(cells.law, d, g, area, memory, s, k, (r1, r2, r3, 2.0 * dot(q, vq)))
+        out[c, 0], out[c, 1], out[c, 2], out[c, 3] = moved
     return out
 
 
@@ -225,26 +220,38 @@ def _material(cells: CellArrays, c: int, now: Three) -> Six:
 
 @njit(cache=True, error_model="numpy")
 def add_tangent(
-    u: np.ndarray, cells: CellArrays, stress: np.ndarray, share: float, lower: bool, blocks: np.ndarray
+    u: np.ndarray,
+    cells: CellArrays,
+    stress: np.ndarray,
+    extrapolated: bool,
+    share: float,
+    lower: bool,
+    blocks: np.ndarray,
 ) -> None:
     """Add the tangent of every cell with this stress, or with the share of its own where `stress` is empty,
-    and with M + share (D − M), to the 3×3 blocks; lower: to those on and below the diagonal alone."""
+    and with M + share (D − M), to the 3×3 blocks; with what is `extrapolated` D − M is that of it. lower: to
+    those on and below the diagonal alone."""
     in_diagonals, of_warp = np.empty((4, 9)), np.empty((3, 9))
     own = len(stress) == 0
     for c in range(len(cells.nodes)):
         d, g, (a, b, q) = measure(u, cells, c)
         k, area = constants(cells.law, c), cells.area[c]
         _, memory, s = respond(cells.law, HALF, d, g, area, k)
-        three = times(share, (s[0], s[1], s[2])) if own else (stress[c, 0], stress[c, 1], stress[c, 2])
+        if own:
+            s = share * s[0], share * s[1], share * s[2], share * s[3]
+        else:
+            s = stress[c, 0], stress[c, 1], stress[c, 2], stress[c, 3]
+        if extrapolated:
+            memory, s = of_extrapolated(cells.law, d, g, memory, s)
         six, more = stiffness(cells.law, d, g, area, memory, share, k)
         rows = (
             by_sides((six[0], six[3], six[4]), a, b),
             by_sides((six[3], six[1], six[5]), a, b),
             by_sides((six[4], six[5], six[2]), a, b),
         )
-        to_diagonals(three, a, b, rows, in_diagonals)
+        to_diagonals((s[0], s[1], s[2]), a, b, rows, in_diagonals)
         if measures(cells.law) == 4:
-            by_warp(share * s[3] if own else stress[c, 3], more, a, b, q, of_warp)
+            by_warp(s[3], more, a, b, q, of_warp)
             add_warped_blocks(in_diagonals, of_warp, cells.slots[c], lower, blocks)
         else:
             add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], lower, blocks)

@@ -52,13 +52,10 @@ class Family(ABC):
         self.loops.add_average_forces(start, end, self.arrays, force)
 
     def stresses(self, u: np.ndarray) -> np.ndarray:
-        """Return the stress of every spring, (m,) of links, (m, 3) of cells [N/m]."""
-        return self.extrapolated(u, np.zeros_like(u))
-
-    def extrapolated(self, u: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Return the stresses that the linearisation at u predicts after `step`."""
-        predicted: np.ndarray = self.loops.extrapolated(u, step, self.arrays)
-        return predicted
+        """Return the stress of every spring, (m, 1) of links, (m, 4) of cells [N/m]."""
+        stress, change, none = np.zeros((3, len(self), self.measures))
+        self.loops.add_remembering_forces(u, self.arrays, 0.0, none, stress, change, np.zeros_like(u))
+        return stress
 
     @abstractmethod
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
@@ -70,7 +67,7 @@ class Family(ABC):
     ) -> None:
         """Add the tangent with this stress, and M + share (D − M), to the 3×3 blocks [N/m], or to those on
         and below the diagonal."""
-        self.loops.add_tangent(u, self.arrays, stress, share, lower, blocks)
+        self.loops.add_tangent(u, self.arrays, stress, False, share, lower, blocks)
 
     @abstractmethod
     def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
@@ -139,7 +136,7 @@ class Links(Family):
 
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
         """Return the stresses of stretched links."""
-        return np.maximum(self.stresses(u), 0.0)
+        return np.maximum(self.stresses(u)[:, 0], 0.0)
 
     def elongations(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
         """Return the elongation of every link, or what is linear in u of it, (m,) [m]."""
@@ -208,11 +205,7 @@ class Cells(Family):
     others: np.ndarray | None = None
 
     loops: ClassVar[Any] = cells
-
-    @property
-    def no_stress(self) -> np.ndarray:  # type: ignore[override]
-        """Stresses of no cell."""
-        return _NO_STRESS[self.law.measures]
+    no_stress: ClassVar[np.ndarray] = np.empty((0, 4))
 
     @cached_property
     def constants(self) -> np.ndarray:
@@ -287,6 +280,3 @@ class Cells(Family):
         """Return the springs or dampers, of a linear law, with so many times their stiffness."""
         others = None if self.others is None else factor * self.others
         return replace(self, stiffness=factor * self.stiffness, others=others)
-
-
-_NO_STRESS = {count: np.empty((0, count)) for count in (3, 4)}

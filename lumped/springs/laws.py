@@ -74,6 +74,16 @@ def dot(a: Vector, b: Vector) -> float:
 
 
 @njit(cache=True, error_model="numpy")
+def times_six(d: Six, x: Three) -> Three:
+    """A symmetric matrix times a vector."""
+    return (
+        d[0] * x[0] + d[3] * x[1] + d[4] * x[2],
+        d[3] * x[0] + d[1] * x[1] + d[5] * x[2],
+        d[4] * x[0] + d[5] * x[1] + d[2] * x[2],
+    )
+
+
+@njit(cache=True, error_model="numpy")
 def elongation(
     half: float, change: float, square: float, rest_length: float, k: float
 ) -> tuple[float, float, float, float]:
@@ -136,6 +146,27 @@ def stiffness_of_area_and_strains(
 
 
 @njit(cache=True, error_model="numpy")
+def extrapolated_area_and_strains(
+    d: Four, g: Three, area: float, memory: tuple[float, float], stress: Four, q: Constants, rate: Four
+) -> Four:
+    """Return q₁ δg₁₁, q₂ δg₂₂, q₃ δg₁₂ and ½ q₀ (A − A₀), each linear in the rate of g."""
+    now = math.sqrt(memory[1])
+    grown = (g[1] + d[1]) * rate[0] + (g[0] + d[0]) * rate[1] - 2.0 * (g[2] + d[2]) * rate[2]
+    by_area = 0.5 * q[0] * (now - area + 0.5 * grown / now)
+    return q[1] * (d[0] + rate[0]), q[2] * (d[1] + rate[1]), q[3] * (d[2] + rate[2]), by_area
+
+
+@njit(cache=True, error_model="numpy")
+def area_and_strains_of_extrapolated(
+    d: Four, g: Three, memory: tuple[float, float], p: Four
+) -> tuple[tuple[float, float], Four]:
+    """Return t and A², which `stiffness_of_area_and_strains` takes, and S of what has been extrapolated."""
+    t = p[3] / math.sqrt(memory[1])
+    s = p[0] + t * (g[1] + d[1]), p[1] + t * (g[0] + d[0]), p[2] - 2.0 * t * (g[2] + d[2]), 0.0
+    return (t, memory[1]), s
+
+
+@njit(cache=True, error_model="numpy")
 def mean_area_and_strains(d0: Four, d1: Four, g: Three, area: float, q: Constants) -> Four:
     """The stress over a step from δg = d0 to d1 whose work is the energy stored in it: of the strains the
     mean, of the area ½ q₀ ((A₀ + A₁)/2 − A) n̄/(½ (A₀ + A₁)), n̄ the mean: A² is quadratic in g, so that the
@@ -175,24 +206,18 @@ def of_couplings(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarr
 def less_logarithm(x: float, logarithm: float) -> float:
     """x − ln(1 + x), no digits lost where x is small; logarithm: ln(1 + x)."""
     if abs(x) < 3e-3:
-        return (
-            x
-            * x
-            * (1.0 / 2.0 - x * (1.0 / 3.0 - x * (1.0 / 4.0 - x * (1.0 / 5.0 - x * (1.0 / 6.0 - x / 7.0)))))
-        )
+        fourth = 1.0 / 4.0 - x * (1.0 / 5.0 - x * (1.0 / 6.0 - x / 7.0))
+        return x * x * (1.0 / 2.0 - x * (1.0 / 3.0 - x * fourth))
     return x - logarithm
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
-def of_trace(x: float, c10: float, c20: float, c30: float, limit: float) -> Four:
+def of_trace(x: float, k: Constants) -> Four:
     """f − c₁₀ x, f′ − c₁₀, f″ and f‴; not a number from Gent's limit on."""
+    c10, c20, c30, limit = k[4], k[6], k[7], k[9]
     if limit == 0.0:
-        return (
-            x * x * (c20 + x * c30),
-            x * (2.0 * c20 + 3.0 * x * c30),
-            2.0 * c20 + 6.0 * x * c30,
-            6.0 * c30,
-        )
+        rise, second = x * (2.0 * c20 + 3.0 * x * c30), 2.0 * c20 + 6.0 * x * c30
+        return x * x * (c20 + x * c30), rise, second, 6.0 * c30
     left = 1.0 - x / limit if x < limit else math.nan
     second = c10 / (limit * left * left)
     return (
@@ -204,13 +229,11 @@ def of_trace(x: float, c10: float, c20: float, c30: float, limit: float) -> Four
 
 
 @njit(cache=True, error_model="numpy")
-def logarithm_of_thickness(
-    growth: float, excess: float, c10: float, c01: float, c20: float, c30: float, volume: float, limit: float
-) -> tuple[float, float]:
+def logarithm_of_thickness(growth: float, excess: float, k: Constants) -> tuple[float, float]:
     """ln θ and θ − 1, from growth, ln A, and excess, T − 2: Halley's method, of third order, from what small
-    strains have; with a limit from no further than half of what it leaves. volume: Λ."""
-    volume, trace = 0.25 * volume, 2.0 + excess
-    lame = volume + c01 + 2.0 * c20 + (c10 / limit if limit != 0.0 else 0.0)  # ¼ λ
+    strains have; with a limit from no further than half of what it leaves."""
+    c10, c01, volume, limit, trace = k[4], k[5], 0.25 * k[8], k[9], 2.0 + excess
+    lame = volume + c01 + of_trace(0.0, k)[2]  # ¼ λ
     x, theta, thinning, step = -lame / (lame + c10 + c01) * growth, 1.0, 0.0, 0.0
     most = limit + 1.0 - excess
     for _ in range(30):
@@ -218,7 +241,7 @@ def logarithm_of_thickness(
             x = math.log(0.5 * most)
         thinning = math.expm1(x)
         theta = 1.0 + thinning
-        _, f1, f2, f3 = of_trace(excess + thinning, c10, c20, c30, limit)
+        _, f1, f2, f3 = of_trace(excess + thinning, k)
         value = f1 + thinning * (c10 + f1) + c01 * (excess + thinning * trace) + volume * (growth + x)
         pulls = theta * (c10 + f1 + c01 * trace)
         slope = pulls + theta * theta * f2 + volume
@@ -241,9 +264,9 @@ def rubber(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[f
     change = e1 + e2 + product  # of A
     sheared = k[12] * d[2]
     excess, growth = e1 + e2, math.log1p(change)
-    x, thinning = logarithm_of_thickness(growth, excess, k[4], k[5], k[6], k[7], k[8], k[9])
+    x, thinning = logarithm_of_thickness(growth, excess, k)
     theta, volume, c01 = 1.0 + thinning, growth + x, k[5]
-    f0, f1, _, _ = of_trace(excess + thinning, k[4], k[6], k[7], k[9])
+    f0, f1, _, _ = of_trace(excess + thinning, k)
     f1 += k[4]
     curved = less_logarithm(change, growth) + less_logarithm(thinning, x)
     stored = f0 + k[4] * (curved - product) + c01 * (curved + curved - product + thinning * excess)
@@ -299,7 +322,7 @@ def _stiffness_of_membrane(d: Four, g: Three, area: float, memory: Memory, k: Co
     theta, volume = 1.0 + thinning, 0.25 * k[8]
     c11, c22 = 1.0 + (d[0] + d[3] / 12.0) / g[0], 1.0 + (d[1] + d[3] / 12.0) / g[1]
     trace = c11 + c22
-    _, f1, f2, _ = of_trace(trace + theta - 3.0, k[4], k[6], k[7], k[9])
+    _, f1, f2, _ = of_trace(trace + theta - 3.0, k)
     m = -theta * (k[4] + f1 + c01 * trace)
     b = volume - m
     n = 1.0 / (b + theta * theta * f2)

@@ -3,9 +3,11 @@
 A link joins two masses; its measure is g = r·r of their relative position r = d₀ + du, d₀ at rest, and what
 it stores is a law of g (`lumped.springs.laws`). With S = dW/dg, D = d²W/dg², its ends are pulled by ± 2 S r;
 the tangent is 2 S I + 4 D r rᵀ. The change of g, (2 d₀ + du)·du, loses no digits where du is small. The
-tangent takes S as an argument of its own: that at u, an extrapolated one S + D ġ (Magisano, Leonetti and
-Garcea 2017), its positive part, none. Dampers have the stress M ġ, ġ = 2 r·dv; of it the derivative by the
-displacement, 2 M ġ I + 4 M r (dv − ġ r/g)ᵀ, is unsymmetric.
+tangent takes S as an argument of its own: that at u, its positive part, none, or what the linearisation
+predicts (Magisano, Leonetti and Garcea 2017). What is linear in a step then is the strain ε of an energy ½ k
+ε², here the elongation: with S + D ġ instead a cantilever took one correction more, a chain five, for after a
+large rotation all links are stretched for a moment, and D with them. Dampers have the stress M ġ, ġ = 2 r·dv;
+of it the derivative by the displacement, 2 M ġ I + 4 M r (dv − ġ r/g)ᵀ, is unsymmetric.
 
 The per-direction law of Habibi et al., F_q = k_q Δ_q (1 − L/r), has unequal stiffness along x, y and z; no
 energy, hence no stress to extrapolate, and an unsymmetric tangent.
@@ -106,13 +108,18 @@ def elongations(u: np.ndarray, links: LinkArrays) -> np.ndarray:
 
 
 @njit(cache=True, error_model="numpy")
-def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays) -> np.ndarray:
-    """Stress S + D ġ that the linearisation at u predicts after a step (n, 3) [m], (m,) [N/m]."""
+def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: bool) -> np.ndarray:
+    """What the linearisation at u predicts after a step (n, 3) [m], (m,): ½ k e [N] of the elongation e; else
+    the stress S + D ġ, which goes with that of rubber, links along whose sides its cells take off again."""
     out = np.empty(len(links.nodes))
     for m in range(len(links.nodes)):
         change, square, r = measure(u, links.nodes, links.offset, m)
         _, stress, material, rest = elongation(HALF, change, square, links.rest_length[m], links.constants[m])
-        out[m] = stress + (material + rest) * 2.0 * dot(r, difference(step, links.nodes, m))
+        along = 2.0 * dot(r, difference(step, links.nodes, m))
+        if strain:
+            out[m] = (stress + material * along) * np.sqrt(square)
+        else:
+            out[m] = stress + (material + rest) * along
     return out
 
 
@@ -131,17 +138,27 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, fo
 
 @njit(cache=True, error_model="numpy")
 def add_tangent(
-    u: np.ndarray, links: LinkArrays, stress: np.ndarray, share: float, lower: bool, blocks: np.ndarray
+    u: np.ndarray,
+    links: LinkArrays,
+    stress: np.ndarray,
+    extrapolated: bool,
+    share: float,
+    lower: bool,
+    blocks: np.ndarray,
 ) -> None:
     """Add the tangent of every link with this stress, or with the share of its own where `stress` is empty,
-    and with M + share (D − M), to the 3×3 blocks; lower: to those on and below the diagonal alone."""
+    and with M + share (D − M), to the 3×3 blocks; with what is `extrapolated` D − M is that of it. lower: to
+    those on and below the diagonal alone."""
     flat = blocks.reshape(-1, 9)
     own = len(stress) == 0
     for m in range(len(links.nodes)):
         change, square, r = measure(u, links.nodes, links.offset, m)
         _, at_u, material, rest = elongation(HALF, change, square, links.rest_length[m], links.constants[m])
-        across = 2.0 * (share * at_u if own else stress[m])
-        _add_blocks(flat, links.slots, m, across, times(4.0 * (material + share * rest), r), r, lower)
+        s, curved = share * at_u if own else stress[m], share * rest
+        if extrapolated:
+            s /= np.sqrt(square)
+            curved = -0.5 * s / square
+        _add_blocks(flat, links.slots, m, 2.0 * s, times(4.0 * (material + curved), r), r, lower)
 
 
 @njit(cache=True, error_model="numpy")

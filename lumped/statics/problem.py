@@ -119,7 +119,8 @@ class Problem:
 
     def tangent(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> np.ndarray:
         """Blocks of the tangent of the residual, loads included."""
-        return self._with_loads(self.assembly.tangent(u, stresses), u, load_factor)
+        blocks = self.assembly.tangent(u, stresses, extrapolated=stresses is not None)
+        return self._with_loads(blocks, u, load_factor)
 
     def nonnegative_tangent(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """Return blocks of the tangent less what could make that of the springs indefinite."""

@@ -38,6 +38,8 @@ def test_extrapolated_stresses_are_the_linearisation():
     slope = (flat(u + h * direction, rest) - flat(u - h * direction, rest)) / (2 * h)
     change = flat(u, direction) - flat(u, rest)
     assert np.allclose(change, slope, atol=1e-6 * np.abs(slope).max())
+    at_once = assembly.tangent(u, assembly.all_families.extrapolated(u, rest), extrapolated=True)
+    assert np.allclose(at_once, assembly.tangent(u), rtol=0.0, atol=1e-12 * np.abs(at_once).max())
 
 
 def test_energies_by_name_add_up_to_the_energy():

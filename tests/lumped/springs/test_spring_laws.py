@@ -172,7 +172,7 @@ def test_forces_of_cells_of_any_rest_shape_are_the_energys_gradient(name):
         slope = (energy(u + step) - energy(u - step)) / (2 * h)
         assert slope == pytest.approx(force[i], rel=1e-6, abs=1e-7 * np.abs(force).max())
     blocks = np.zeros((16, 3, 3))
-    cells.add_tangent(u, cell, np.empty((0, 3)), 1.0, False, blocks)
+    cells.add_tangent(u, cell, np.empty((0, 4)), False, 1.0, False, blocks)
     tangent = blocks.reshape(4, 4, 3, 3).transpose(0, 2, 1, 3).reshape(12, 12)
     numeric = np.empty((12, 12))
     for column, i in enumerate(np.ndindex(*u.shape)):

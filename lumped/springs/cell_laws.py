@@ -16,7 +16,7 @@ from numba import njit
 from numba.extending import overload
 
 from lumped.springs import laws
-from lumped.springs.laws import Constants, Four, Memory, Six, Three, times_six
+from lumped.springs.laws import Constants, Four, Memory, Six, Three
 
 
 class AreaAndStrains(NamedTuple):
@@ -145,6 +145,16 @@ def _thirteen(k: np.ndarray, c: int) -> Constants:
         k[c, 0], k[c, 1], k[c, 2], k[c, 3], k[c, 4], k[c, 5], k[c, 6], k[c, 7], k[c, 8], k[c, 9], k[c, 10],
         k[c, 11], k[c, 12],
     )  # fmt: skip
+
+
+@njit(cache=True, error_model="numpy")
+def times_six(d: Six, x: Three) -> Three:
+    """A symmetric matrix times a vector."""
+    return (
+        d[0] * x[0] + d[3] * x[1] + d[4] * x[2],
+        d[3] * x[0] + d[1] * x[1] + d[5] * x[2],
+        d[4] * x[0] + d[5] * x[1] + d[2] * x[2],
+    )
 
 
 @dataclass(frozen=True)

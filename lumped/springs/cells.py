@@ -34,8 +34,9 @@ from lumped.springs.cell_laws import (
     of_extrapolated,
     respond,
     stiffness,
+    times_six,
 )
-from lumped.springs.laws import Four, Six, Three, Vector, dot, less, plus, times, times_six
+from lumped.springs.laws import Four, Six, Three, Vector, dot, less, plus, times
 
 HALF = 0.5
 NO_CHANGE = (0.0, 0.0, 0.0, 0.0)

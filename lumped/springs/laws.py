@@ -74,16 +74,6 @@ def dot(a: Vector, b: Vector) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def times_six(d: Six, x: Three) -> Three:
-    """A symmetric matrix times a vector."""
-    return (
-        d[0] * x[0] + d[3] * x[1] + d[4] * x[2],
-        d[3] * x[0] + d[1] * x[1] + d[5] * x[2],
-        d[4] * x[0] + d[5] * x[1] + d[2] * x[2],
-    )
-
-
-@njit(cache=True, error_model="numpy")
 def elongation(
     half: float, change: float, square: float, rest_length: float, k: float
 ) -> tuple[float, float, float, float]:

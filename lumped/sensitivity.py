@@ -32,11 +32,11 @@ from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import Factor
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene, Status, require_static
-from sheetbench.scenes.parameters import parameter, put
+from sheetbench.scenes.parameters import FIBRES, parameter, put
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
-CALIBRATED_FROM = ("young", "poisson", "thickness")  # what springs are found from
-STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5}  # 1/m and rad, of parameters that may be zero
+CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
+STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
 
 
 @dataclass(frozen=True)

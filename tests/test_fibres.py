@@ -7,11 +7,13 @@ from commands import one_line, run
 import fem_reference
 import lumped
 import lumped.plies
+import sheetbench as sb
 from comparisons.external.answer import refusal
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from fem_reference.surface import plies
 from sheetbench.scenes import Material, SceneError, Status, load
 from sheetbench.scenes.orthotropy import Ply
+from sheetbench.scenes.parameters import parameter
 
 PLAIN = load("two-edges-clamped")
 YOUNG, POISSON = PLAIN.material.young, PLAIN.material.poisson
@@ -154,6 +156,36 @@ def test_lattice_and_shell_agree_on_laminates(layers):
     assert np.abs(found - shell).max() < 0.02 * np.abs(shell).max()
 
 
+def test_springs_of_the_material_alone_are_not_those_of_a_laminate():
+    scene = with_fibres(**FIBRES)
+    springs = lumped.calibrate(scene.sheet, scene.material, 5)
+    assert lumped.solve(scene, springs).status is Status.CONVERGED
+    with pytest.raises(ValueError, match=r"layer: the calibration consistent .* cells=lumped.sections_of"):
+        lumped.solve(scene.replace(layers=CROSS), springs)
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+def test_identify_finds_moduli_and_the_angle_of_fibres(model, tmp_path):
+    """From a lattice's own answer; of a shell, from a shell's."""
+    true = with_fibres(load("one-edge-clamped"), **FIBRES, angle=0.4)
+    at = np.array([[0.188 * i / 3.0, 0.188 * j / 3.0] for i in (1, 2, 3) for j in range(4)])
+    solution = lumped.solve(true, lattice(true, 5)) if model == "lumped" else answer(true, model)
+    file = tmp_path / "measured.csv"
+    rows = np.column_stack([at, solution.displacement(at)])
+    np.savetxt(file, rows, delimiter=",", header="x,y,ux,uy,uz", comments="")
+    guess = with_fibres(load("one-edge-clamped"), **{**FIBRES, "young_1": 40e6}, angle=0.6)
+    size = {"grid": 5} if model == "lumped" else {"elements": 4}
+    found = sb.identify(guess, file, ["young_1", "angle"], model=model, refine=False, **size)
+    assert found.unknowns["young_1"].value == pytest.approx(54.5e6, rel=1e-3)
+    assert found.unknowns["angle"].value == pytest.approx(0.4, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ["poisson", "young_3"])
+def test_unknowns_that_fibres_do_not_have_are_refused(name):
+    with pytest.raises(ValueError, match=f"'{name}'"):
+        parameter(with_fibres(**FIBRES), name)
+
+
 @pytest.mark.parametrize(
     ("layers", "said"),
     [
@@ -222,7 +254,6 @@ def test_verbs_that_know_fibres(fabric, verb, options, capsys):
         ("advise", [], "advise"),
         ("stability", [], "stability"),
         ("live", ["--no-browser"], "live"),
-        ("identify", ["--measured", "measured.csv", "--unknown", "young"], "identify"),
         ("calibrate", ["--grid", "5", "--export", "lattice"], "an export"),
         ("calibrate", ["--method", "uniform"], "calibration 'uniform'"),
         ("compare", ["--law", "biot"], "the shell's law 'biot'"),

@@ -53,6 +53,7 @@ from lumped import identifiability
 from sheetbench.choices import REFERENCES
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, Scene, SpringTable, require_plain, require_static, scene_of
+from sheetbench.scenes.orthotropy import FIBRES
 
 __all__ = ["NotReached", "identify"]
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold
@@ -117,7 +118,8 @@ def identify(
     """
     scene = scene_of(scene)
     require_static(scene)
-    require_plain(scene, "identify")
+    if scene.drawn_by != FIBRES:
+        require_plain(scene, "identify")
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
     names = [names] if isinstance(names, str) else names
     unknowns = tuple(unknown(scene, name) for name in names)

@@ -26,7 +26,8 @@ class Calibration(Answer):
     (A, S [N/m], D [N·m]; S is asked as MacNeal's S* of the grid), of unequal cells that of the one that
     misses it most; remarks: what the method could not meet; masses: how the sheet's mass is shared out
     (`lumped.masses`) when it vibrates or moves; grading: of the grid's lines (`lumped.grid_lines`); half:
-    the axes along which they end at a plane of symmetry; cells: their sections, where they differ.
+    the axes along which they end at a plane of symmetry; cells: their sections, where they differ or
+    have fibres; of_material: whether those are of the material alone, without what a scene has beside.
     """
 
     file_name = "calibration"
@@ -40,6 +41,7 @@ class Calibration(Answer):
     grading: Graded = 0.0
     half: tuple[bool, bool] = (False, False)
     cells: Section | None = None
+    of_material: bool = False
 
     @property
     def present(self) -> np.ndarray | None:

@@ -101,7 +101,8 @@ def consistent_interior(
     Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.
     """
-    if cells is None and material.kind == "orthotropic":
+    of_material = cells is None and material.kind == "orthotropic"
+    if of_material:
         cells = Cells.of(sheet, material)
     if isinstance(cells, Cells):
         cells = sections.of_cells(cells, grid)
@@ -118,7 +119,8 @@ def consistent_interior(
         springs = None
     if springs is None:
         springs = bounded_least_squares(sheet, material, grid, layer_distance)
-    return report("consistent-interior", sheet, material, grid, springs, grading, cells)
+    found = report("consistent-interior", sheet, material, grid, springs, grading, cells)
+    return replace(found, of_material=of_material)
 
 
 def _by_cell(

@@ -55,6 +55,7 @@ from sheetbench.scenes import (
     scene_of,
 )
 from sheetbench.scenes.material import limit_note
+from sheetbench.scenes.orthotropy import FIBRES
 
 STRETCH = "largest in-plane link strain"
 UNKNOWN = "stability not known: the tangent's factors do not tell how many eigenvalues are negative"
@@ -142,7 +143,8 @@ def build_problem(
     """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
     supports and loads serve again where they are on the same lattice. Raises BadInput if no mass is left to
     move, and for springs of cells that are all alike where the scene's are not."""
-    if calibration.cells is None:
+    fibres_alone = calibration.of_material and scene.drawn_by == FIBRES
+    if (calibration.cells is None or calibration.of_material) and not fibres_alone:
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
         require_alike(scene, f"the calibration {calibration.method}", instead)
     couple = partial(Coupling, scene) if scene.actuators else None

@@ -1,6 +1,7 @@
 """The parameters of a scene by name: where each sits, its unit and what it may be.
 
 young, poisson, density, damping_time, damping_rate   of the material
+young_1, young_2, poisson_12, shear_12, angle, …      of a material with fibres; young scales all its moduli
 loss_factor                                           of the material, with its frequency or its band
 share_N, time_N                                       of the material's branch N of [[material.relaxation]]
 thickness                                             of the sheet
@@ -13,18 +14,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import inf
+from math import inf, pi
 from typing import Any
 
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes.actuators import Chain
+from sheetbench.scenes.material import Material
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.supports import LARGEST_TILT, Clamped, Curved
 
 MATERIAL = {"young": "Pa", "poisson": "", "density": "kg/m³", "damping_time": "s", "damping_rate": "1/s"}
 MATERIAL |= {"loss_factor": ""}
+FIBRES = {"young_1": "Pa", "young_2": "Pa", "poisson_12": "", "shear_12": "Pa", "shear_13": "Pa"}
+FIBRES |= {"shear_23": "Pa", "angle": "rad"}
 BRANCH = {"share": ("", 1.0), "time": ("s", inf)}  # unit and upper bound
-NAMES = (*MATERIAL, "share_N", "time_N", "thickness", "curvature_EDGE", "tilt_EDGE", "drag")
+NAMES = (*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "curvature_EDGE", "tilt_EDGE", "drag")
 
 
 @dataclass(frozen=True)
@@ -40,6 +44,8 @@ class Parameter:
 
 def parameter(scene: Scene, name: str) -> Parameter:
     """The parameter of this name. Raises BadInput where the scene has none."""
+    if name in FIBRES or (name == "poisson" and scene.material.kind == "orthotropic"):
+        return _of_fibres(scene.material, name)
     if name in MATERIAL:
         low, high = (-0.99, 0.4999) if name == "poisson" else (0.0, inf)
         if getattr(scene.material, name) is None:
@@ -69,6 +75,20 @@ def parameter(scene: Scene, name: str) -> Parameter:
     raise BadInput(f"'{name}': not a parameter of a scene; choose from {', '.join(NAMES)}")
 
 
+def _of_fibres(material: Material, name: str) -> Parameter:
+    value = getattr(material, name) if name in FIBRES else None
+    if value is None:
+        given = [key for key in FIBRES if getattr(material, key) is not None]
+        raise BadInput(
+            f"'{name}': the scene's material has none; of fibres it has {', '.join(given) or 'none'}"
+        )
+    most = {"poisson_12": (material.young_1 or 1.0) / (material.young_2 or 1.0), "angle": pi**2}.get(
+        name, 0.0
+    )
+    bounds = (-(0.999 * most**0.5), 0.999 * most**0.5) if most else (0.0, inf)
+    return Parameter(name, FIBRES[name], value, *bounds)
+
+
 def put(scene: Scene, name: str, value: float) -> Scene:
     """The scene with a parameter at another value. Raises BadInput where it has none of this name, and
     SceneError where the value cannot be."""
@@ -80,7 +100,7 @@ def put(scene: Scene, name: str, value: float) -> Scene:
 
 
 def _with(scene: Scene, name: str, value: float) -> Scene:
-    if name in MATERIAL:
+    if name in MATERIAL or name in FIBRES:
         return scene.replace(material=scene.material.replace(**{name: value}))
     if name == "drag" and scene.air is not None:
         return scene.replace(air=scene.air.replace(drag=value))

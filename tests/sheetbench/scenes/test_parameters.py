@@ -85,6 +85,7 @@ def test_a_scene_s_document_is_the_scene():
         "material",
         "gravity",
         "patch",
+        "layer",
         "cutout",
         "support",
         "actuator",

@@ -34,6 +34,7 @@ import numpy as np
 from comparisons.models.grids import scene_grid
 from comparisons.models.layers import layers
 from comparisons.models.spec import Lattice
+from comparisons.report.plan import inside
 from sheetbench.choices import EXTRAPOLATED
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grid import LAYERS, Grid
@@ -134,11 +135,13 @@ def largest_stretch(scene: Scene, solution: Solution, grid: Grid) -> float:
     lines and diagonals."""
     lines = [np.linspace(0.0, a, n) for a, n in zip(scene.sheet.lengths, grid[:2], strict=True)]
     flat = np.stack([*np.meshgrid(*lines, indexing="ij"), np.zeros([len(line) for line in lines])], axis=-1)
-    moved = flat + solution.displacement(flat[..., :2].reshape(-1, 2)).reshape(flat.shape)
+    plan = flat[..., :2].reshape(-1, 2)
+    there, moved = inside(scene, plan), np.full_like(flat, np.nan)
+    moved.reshape(-1, 3)[there] = flat.reshape(-1, 3)[there] + solution.displacement(plan[there])
     on, to, all_ = slice(1, None), slice(None, -1), slice(None)
     ways = [((on, all_), (to, all_)), ((all_, on), (all_, to)), ((on, on), (to, to)), ((on, to), (to, on))]
     found = []
     for one, other in ways:
         rest, now = (np.linalg.norm(at[one] - at[other], axis=-1) for at in (flat, moved))
-        found.append(float(np.max(now / rest)) - 1.0)
+        found.append(float(np.nanmax(now / rest)) - 1.0)
     return max(found)

@@ -13,7 +13,7 @@ import numpy as np
 from comparisons.models.grading import choice_notes
 from comparisons.modes.damping import ModeDamping, mode_damping
 from comparisons.modes.kinds import kinds
-from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
+from comparisons.modes.pairing import CELLS, Pair, assurance, matched, on_cells
 from comparisons.report.plan import plan_mesh
 from comparisons.report.vtk import write_mesh
 from sheetbench.answers.answer import Answer
@@ -102,8 +102,7 @@ class Spectra(Answer, Sequence[Spectrum]):
     @cached_property
     def _sampled(self) -> tuple[np.ndarray, ...]:
         """Shapes (count, n, 3) of every model on equal plan cells."""
-        plan = cell_centres(self.scene.sheet)
-        return tuple(spectrum.shapes(plan) for spectrum in self)
+        return tuple(on_cells(self.scene, spectrum.shapes) for spectrum in self)
 
     @cached_property
     def kinds(self) -> tuple[str | None, ...]:

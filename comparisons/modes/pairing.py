@@ -10,14 +10,15 @@ by an orthogonal Procrustes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from sheetbench.scenes import Sheet
+from comparisons.report.plan import inside
+from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.grid import near_square
 
 CELLS = 32  # plan cells along the shorter side; the tenth mode has some five half-waves
@@ -58,6 +59,16 @@ def cell_centres(sheet: Sheet) -> np.ndarray:
         for count, length in zip(near_square(sheet, CELLS), sheet.lengths, strict=True)
     ]
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+
+
+def on_cells(scene: Scene, shapes: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """Shapes (count, n, 3), a function of plan points, at those centres, zero where there is no sheet."""
+    plan = cell_centres(scene.sheet)
+    there = inside(scene, plan)
+    found = shapes(plan[there])
+    out = np.zeros((len(found), len(plan), 3))
+    out[:, there] = found
+    return out
 
 
 def assurance(shapes: np.ndarray, others: np.ndarray, frequencies: np.ndarray) -> np.ndarray:

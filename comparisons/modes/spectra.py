@@ -24,7 +24,7 @@ from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
 from comparisons.modes.expected import expected_errors
-from comparisons.modes.pairing import cell_centres
+from comparisons.modes.pairing import on_cells
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
@@ -124,8 +124,8 @@ def _with_expected(model: Resolved[Lattice], first: Spectrum) -> Spectrum:
         fine = _lattice(resolve(model.scene, spec, "modes"), len(first.frequencies), "deformed")
     except NoEquilibrium:
         return first
-    plan, cells = cell_centres(model.scene.sheet), [prod(n - 1 for n in g[:2]) for g in (finer, model.grid)]
-    both = [(one.frequencies, one.shapes(plan)) for one in (first, fine)]
+    cells = [prod(n - 1 for n in g[:2]) for g in (finer, model.grid)]
+    both = [(one.frequencies, on_cells(model.scene, one.shapes)) for one in (first, fine)]
     return replace(first, expected=tuple(expected_errors(both[0], both[1], cells[0] / cells[1])))
 
 

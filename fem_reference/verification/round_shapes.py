@@ -1,0 +1,162 @@
+"""Sheets with round rims: a disc clamped at its hub, its frequencies, and a strip with a hole, pulled.
+
+    bending      w = q r⁴/64D + C₁ + C₂ r² + C₃ ln r + C₄ r² ln r  of a thin disc held for r ≤ b, free at a
+    frequencies  W = A J_n + B Y_n + C I_n + D K_n of λ r/a,  f = λ² √(D/ρh)/2πa²
+    strip        largest stress at the hole over the mean beside it far away, by the hole's share of the width
+
+The constants are those of w = w′ = 0 at b and of no moment and no effective shear force at a. The stress at
+the rim of a hole goes along it, σ = E ε, and ε is that of the rim's side: the stretch of a mid-node.
+Sources: Timoshenko & Woinowsky-Krieger, Theory of Plates and Shells (1959), art. 17; Leissa, Vibration of
+Plates, NASA SP-160 (1969), ch. 2; Howland, Phil. Trans. R. Soc. A 229 (1930) 49–86, of a strip with a hole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.special import iv, ivp, jv, jvp, kv, kvp, yv, yvp
+
+from fem_reference import solve
+from fem_reference.plate import statics as plate
+from fem_reference.surface.loads import Line
+from fem_reference.surface.materials import bending_stiffness
+from fem_reference.surface.mesh import mesh_of, nodes_of
+from fem_reference.verification.rows import THEORY, Row, absolutely, relatively
+from fem_reference.vibration import modes
+from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet
+from sheetbench.scenes.loads import AreaLoad
+from sheetbench.scenes.region import Cutout
+from sheetbench.scenes.shapes import Circle, Shape
+
+TOLERANCE, OF_FREQUENCY, OF_ORDER = 5e-3, 1e-2, 0.3
+ELEMENTS, ACROSS = 32, 32  # of the disc, of the strip's width
+RADIUS, HUB, THICK, LOAD = 1.0, 0.3, 2e-3, 0.1
+STEEL = Material(young=200e9, poisson=1.0 / 3.0, density=8000.0)
+HOWLAND = {0.2: 3.14, 0.5: 4.32}  # by the hole's diameter over the strip's width
+CORNERS = 512
+
+
+def disc() -> Scene:
+    """Clamped at its hub under a force per area."""
+    turn = 2.0 * np.pi * np.arange(CORNERS) / CORNERS
+    outline = RADIUS * (1.0 + np.column_stack([np.cos(turn), np.sin(turn)]))
+    hub = Circle(centre=(RADIUS, RADIUS), radius=HUB)
+    return Scene(
+        name="disc",
+        sheet=Sheet(2.0 * RADIUS, 2.0 * RADIUS, THICK, outline=tuple((x, y) for x, y in outline.tolist())),
+        material=STEEL,
+        supports=(Clamped.model_validate({"where": Shape(circle=hub)}),),
+        loads=(AreaLoad((0.0, 0.0, LOAD)),),
+        probes={"P1": (2.0 * RADIUS, RADIUS)},
+    )
+
+
+def bending(case: str) -> Iterator[Row]:
+    """The deflection of the rim, and the order in which plate and shell come to it."""
+    scene = disc()
+    expected = deflection_at_rim()
+    for model in ("plate", "shell"):
+        coarse, fine = (
+            float(solve(scene, model, elements=n).displacement(scene.probe_points())[0, 2])
+            for n in (ELEMENTS // 4, ELEMENTS)
+        )
+        mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
+        quantity, source = "deflection of the rim [m]", "Timoshenko 1959, art. 17"
+        yield relatively(case, quantity, mesh, expected, source, fine, TOLERANCE)
+        order = 0.5 * float(np.log2(abs((coarse - expected) / (fine - expected))))
+        yield absolutely(case, f"order from {ELEMENTS // 4} elements on", mesh, 2.0, THEORY, order, OF_ORDER)
+
+
+def frequencies(case: str) -> Iterator[Row]:
+    """The lowest of every number of nodal diameters up to 2."""
+    scene, scale = disc(), np.sqrt(_rigidity() / (STEEL.density * THICK)) / (2.0 * np.pi * RADIUS**2)
+    for model in ("plate", "shell"):
+        found = modes(scene, model, ELEMENTS, count=5).frequencies / scale
+        for diameters, computed in zip(
+            (1, 0, 2), (found[:2].mean(), found[2], found[3:5].mean()), strict=True
+        ):
+            quantity = f"λ² with {diameters} nodal diameters"
+            mesh, expected = f"{model} {ELEMENTS} × {ELEMENTS}", frequency(diameters)
+            yield relatively(case, quantity, mesh, expected, "Leissa 1969, ch. 2", computed, OF_FREQUENCY)
+
+
+def strip_with_hole(case: str) -> Iterator[Row]:
+    """The largest stress at the hole over the mean one far away."""
+    for share, published in HOWLAND.items():
+        quantity, mesh = f"stress at a hole of {share:g} of the width", f"plate {ACROSS} across"
+        yield relatively(case, quantity, mesh, published, "Howland 1930", concentration(share), TOLERANCE)
+
+
+def _rigidity() -> float:
+    return float(bending_stiffness(STEEL, THICK)[0, 0])
+
+
+def deflection_at_rim() -> float:
+    """w [m] at a."""
+    nu, a, b = STEEL.poisson, RADIUS, HUB
+
+    def moment(first: float, second: float, r: float) -> float:
+        return second + nu / r * first
+
+    def terms(r: float) -> np.ndarray:
+        """w, w′, M/−D and (Δw)′ of q r⁴/64D and of 1, r², ln r, r² ln r."""
+        log = np.log(r)
+        w = [r**4, 1.0, r**2, log, r**2 * log]
+        first = [4 * r**3, 0.0, 2 * r, 1 / r, r * (2 * log + 1)]
+        second = [12 * r**2, 0.0, 2.0, -1 / r**2, 2 * log + 3]
+        shear = [32 * r, 0.0, 0.0, 0.0, 4 / r]
+        return np.array([w, first, [moment(f, s, r) for f, s in zip(first, second, strict=True)], shear])
+
+    at_hub, at_rim = terms(b), terms(a)
+    rows, load = np.vstack([at_hub[:2], at_rim[2:]]), LOAD / (64.0 * _rigidity())
+    constants = np.linalg.solve(rows[:, 1:], -load * rows[:, 0])
+    return float(load * at_rim[0, 0] + at_rim[0, 1:] @ constants)
+
+
+def frequency(diameters: int) -> float:
+    """λ² of the lowest mode with so many nodal diameters."""
+    n, nu, b = diameters, STEEL.poisson, HUB / RADIUS
+    kinds = ((jv, jvp, -1.0), (yv, yvp, -1.0), (iv, ivp, 1.0), (kv, kvp, 1.0))
+
+    def determinant(k: float) -> float:
+        columns = []
+        for value, slope, sign in kinds:  # Δ W = sign k² W
+            w, first = value(n, k), k * slope(n, k)
+            moment = sign * k**2 * w - (1.0 - nu) * (first - n**2 * w)
+            shear = sign * k**3 * slope(n, k) + (1.0 - nu) * n**2 * (w - first)
+            columns.append([value(n, k * b), k * slope(n, k * b), moment, shear])
+        matrix = np.array(columns).T
+        return float(np.linalg.det(matrix / np.abs(matrix).max(axis=1, keepdims=True)))
+
+    at = np.linspace(0.5, 6.0, 200)
+    values = np.array([determinant(k) for k in at])
+    first = int(np.flatnonzero(np.sign(values[1:]) != np.sign(values[:-1]))[0])
+    return float(brentq(determinant, at[first], at[first + 1]) ** 2)
+
+
+def concentration(share: float) -> float:
+    """Largest stress at a hole of so much of a strip's width, over the mean one far away."""
+    width, length, pull = 1.0, 3.0, 1e3
+    middle = (0.5 * length, 0.5 * width)
+    scene = Scene(
+        name="strip",
+        sheet=Sheet(length, width, 1e-2),
+        material=STEEL,
+        cutouts=(Cutout(shape=Shape(circle=Circle(centre=middle, radius=0.5 * share * width))),),
+        supports=(Clamped("x0"),),
+        loads=(EdgeLoad("x1", (pull, 0.0, 0.0)),),
+        probes={"P1": (length, 0.5)},
+    )
+    mesh = mesh_of(scene, ACROSS, graded=True)
+    solution = plate.solve_on(mesh, scene)
+    nodes, elements = nodes_of(mesh)
+    line = Line.along(mesh, mesh.boundary_facets(), nodes[elements])
+    sides = nodes[elements[line.elements[:, None], line.sides]]
+    near = np.linalg.norm(sides[:, 1] - middle, axis=1) < 0.51 * share * width
+    ends = sides[near][:, [0, 2]]
+    moved = solution.displacement(ends.reshape(-1, 2))[:, :2].reshape(ends.shape)
+    step = np.diff(ends, axis=1)[:, 0]
+    along = np.sum(np.diff(moved, axis=1)[:, 0] * step, axis=1) / np.sum(step**2, axis=1)
+    return float(STEEL.young * along.max() * 1e-2 / pull)

@@ -1,5 +1,7 @@
 """Sheets that are not the same all over, in every model and verb: cut up, in closed form, refused."""
 
+from pathlib import Path
+
 import meshio
 import numpy as np
 import pytest
@@ -113,6 +115,25 @@ def test_lattice_and_shell_agree_on_stiff_parts(shape, off):
         for each in (lumped.solve(scene, springs), fem_reference.solve(scene, "shell", elements=16))
     )
     assert np.abs(found - shell).max() < off * np.abs(shell).max()
+
+
+EXAMPLES = Path(__file__).parents[1] / "examples" / "drawn"
+
+
+@pytest.mark.parametrize(
+    ("name", "across", "off"),
+    [("kirigami-strip", 17, 0.02), ("pouch", 17, 0.02), ("ray-fin", 17, 0.04), ("gripper-finger", 17, 0.04)],
+)
+def test_lattice_and_shell_agree_on_outlines_and_cutouts(name, across, off):
+    """The scenes of examples/drawn with 17 masses on the shorter side: rims along the axes, and others."""
+    scene = load(EXAMPLES / f"{name}.toml")
+    nx = round((across - 1) * scene.sheet.length_x / scene.sheet.length_y) + 1
+    grid = (nx, across, 2)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid, cells=lumped.sections_of(scene, grid))
+    found, shell = lumped.solve(scene, springs), fem_reference.solve(scene, "shell", elements=10)
+    assert found.status is shell.status is Status.CONVERGED and found.balance.holds
+    moved, expected = (each.displacement(scene.probe_points()) for each in (found, shell))
+    assert np.abs(moved - expected).max() < off * np.abs(expected).max()
 
 
 def test_springs_of_a_uniform_sheet_are_refused():

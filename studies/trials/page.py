@@ -88,6 +88,7 @@ WHY = {  # what the numbers do not say by themselves; each with the command that
         "`stretch_compliance` c is as stiff as 1/(c + (1/m₁ + 1/m₂) dt²): at usual steps the step and the "
         "masses decide, not c. It replaces the mesh by one of its own, and a probe is the nearest particle; "
         "there is no force on a single particle.",
+        "Its start takes half a minute: the other scenes were not run for want of time.",
     ),
 }
 

@@ -17,7 +17,7 @@ from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from fem_reference.pulled_strip import curving, laws_of, pulled
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.scenes import Solution
+from sheetbench.scenes import Sheet, Solution
 from sheetbench.scenes.summary import few
 
 UNSAID = 1e-3  # without an error bar
@@ -29,8 +29,9 @@ RUBBER, OFF = "neo-hookean", 0.02  # the law of soft sheets that name none, and 
 
 
 def of_lattice(lattice: Resolved[Lattice]) -> float:
-    """c of a lattice on its scene's sheet, pulled one way."""
-    scene, sheet, material = lattice.scene, lattice.scene.sheet, lattice.scene.material
+    """c of a lattice on a rectangle of its scene's sides and material, pulled one way."""
+    scene, material = lattice.scene, lattice.scene.material
+    sheet = Sheet(scene.sheet.length_x, scene.sheet.length_y, scene.sheet.thickness)
     corner, softness = np.array([sheet.lengths]), []
     for pull in PULLS:
         strip = pulled((pull * material.young * sheet.thickness, 0.0), sheet, material)

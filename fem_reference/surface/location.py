@@ -1,7 +1,8 @@
 """Where a plan point lies: the element that holds it and its local coordinates, edges and corners included.
 
 Solves x(ξ) = Σ N_i(ξ) x_i, scikit-fem's map of a straight-sided or biquadratic quadrilateral, by Newton's
-method in every element whose bounding box holds the point, and keeps the first in which ξ lies inside.
+method in every element whose bounding box holds the point, and keeps the first of those whose own points
+come nearest to it: in a distorted one that is foreign to the point the method may end anywhere.
 """
 
 from __future__ import annotations
@@ -35,15 +36,15 @@ def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         x = points[start : start + block].T  # (2, b)
         above, below = x[:, :, None] >= low[:, None] - slack, x[:, :, None] <= high[:, None] + slack
         point, candidate = np.nonzero(np.all(above & below, axis=0))
-        xi = _invert(mesh, candidate, x[:, point])
-        outside = np.maximum(np.abs(xi - 0.5).max(axis=0) - 0.5, 0.0)
+        xi, outside = _invert(mesh, candidate, x[:, point])
+        outside /= (high - low).max(axis=0)[candidate]
         order = np.lexsort((candidate, np.maximum(outside, SLACK), point))
         point, candidate, xi, outside = point[order], candidate[order], xi[:, order], outside[order]
         first = np.ones(len(point), dtype=bool)
         first[1:] = point[1:] != point[:-1]
         first &= outside <= (SLACK if nodes.shape[1] == 4 else BULGE)
         element[start + point[first]] = candidate[first]
-        local[:, start + point[first]] = np.clip(xi[:, first], 0.0, 1.0)
+        local[:, start + point[first]] = xi[:, first]
     if np.any(element < 0):
         x, y = points[np.argmax(element < 0)]
         raise BadInput(f"plan point ({x:g}, {y:g}) is off the sheet")
@@ -70,8 +71,9 @@ def _shares(
     return element, shape(*place)[0]
 
 
-def _invert(mesh: MeshQuad, elements: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Scikit-fem's local coordinates 0 ≤ ξ ≤ 1, (2, n), of x (2, n) in the elements (n,)."""
+def _invert(mesh: MeshQuad, elements: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Scikit-fem's local coordinates 0 ≤ ξ ≤ 1, (2, n), of x (2, n) in the elements (n,), and how far from x
+    they are, (n,) [m]."""
     mapping = mesh.mapping()
     xi = np.full_like(x, 0.5)
     for _ in range(_NEWTON):
@@ -79,4 +81,5 @@ def _invert(mesh: MeshQuad, elements: np.ndarray, x: np.ndarray) -> np.ndarray:
         inverse = mapping.invDF(xi[:, :, None], tind=elements)[:, :, :, 0]
         # A foreign element of the bounding box must not send Newton away.
         xi = np.clip(xi - np.einsum("abn,bn->an", inverse, gap), -1.0, 2.0)
-    return xi
+    xi = np.clip(xi, 0.0, 1.0)
+    return xi, np.linalg.norm(mapping.F(xi[:, :, None], tind=elements)[:, :, 0] - x, axis=0)

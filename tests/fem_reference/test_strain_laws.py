@@ -194,6 +194,15 @@ def test_links_along_a_square_lattices_sides_and_diagonals_bend_as_derived() -> 
     assert found == pytest.approx(1.0 / 3.0, rel=0.1)
 
 
+def test_a_lattice_has_its_law_whatever_is_cut_from_its_sheet() -> None:
+    sheet = Sheet(length_x=0.1, length_y=0.1, thickness=0.005)
+    fin = sheet.replace(outline=[(0.0, 0.0), (0.1, 0.03), (0.1, 0.07), (0.0, 0.1)])  # edge y0 is a point
+    whole = pulled((1.0, 0.0), sheet)
+    cut = Scene("fin", fin, whole.material, supports=[{"edge": "x0", "kind": "clamped"}])
+    c, own = (strain_law.of_lattice(resolve(scene, Lattice(5))) for scene in (cut, whole))
+    assert c == pytest.approx(own, rel=1e-6)
+
+
 def test_compare_says_what_is_due_to_laws_of_strain() -> None:
     scene = pulled((200.0, 0.0))
     found = compare(scene, grid=5, calibration="consistent", elements=4)

@@ -8,6 +8,7 @@ import shapely
 from skfem import Basis, ElementQuad2
 
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
+from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import nodes_of
 from fem_reference.surface.outlined import quadrilaterals
 
@@ -57,3 +58,15 @@ def test_away_from_borders_elements_are_squares():
     mesh = quadrilaterals(*PLANS["square"], (0.025, 0.025))
     assert mesh.nelements == 64
     assert np.allclose(np.unique(np.round(mesh.p[0, : mesh.nvertices], 12)), np.linspace(0.0, 0.2, 9))
+
+
+@pytest.mark.parametrize("plan", ["annulus", "fin with a stiff root", "four holes"])
+def test_a_point_is_found_where_its_element_has_it(plan):
+    region, inner = PLANS[plan]
+    mesh = quadrilaterals(region, inner, (0.0125, 0.0125), False)
+    points = np.random.default_rng(0).uniform(0.0, 0.2, (2000, 2))
+    points = points[shapely.contains_xy(region.buffer(-1e-4), *points.T)]
+    element, place = locate(mesh, points)
+    back = mesh.mapping().F(0.5 * (place + 1.0)[:, :, None], tind=element)[:, :, 0].T
+    curved = mesh.doflocs[:, mesh.dofs.element_dofs].shape[1] > 4
+    assert np.allclose(back, points, rtol=0.0, atol=0.0125 * (0.05 if curved else 1e-8))

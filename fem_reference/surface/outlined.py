@@ -22,6 +22,7 @@ from skfem import MeshQuad, MeshQuad2
 
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from fem_reference.surface.mesh_points import (
+    NEAR,
     Sides,
     Size,
     borders_between_corners,
@@ -268,7 +269,9 @@ def _biquadratic(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray, unit: np.
     straight = at.copy()
     order = np.argsort(keys)
     facets = order[np.searchsorted(keys[order], _keys(ends, mesh.nvertices))]
-    at[curved.dofs.facet_dofs[0, facets]] = places
+    middles = curved.dofs.facet_dofs[0, facets]
+    bent = np.abs(places - straight[middles]).max(axis=1) > NEAR  # not by rounding of the vertices alone
+    at[middles[bent]] = places[bent]
     for _ in range(2):
         at[nodes[:, 8]] = 0.5 * at[nodes[:, 4:8]].sum(axis=1) - 0.25 * at[nodes[:, :4]].sum(axis=1)
         area = np.linalg.det(jacobians(at[nodes], AT_GAUSS[1]))

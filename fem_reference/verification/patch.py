@@ -1,4 +1,4 @@
-"""Patch tests: under a constant stress the inner nodes of a distorted mesh are in balance.
+"""Patch tests: under a constant stress the inner nodes of distorted meshes are in balance.
 
 Each model's nodes are put where a state of constant strain has them; what is asked is the largest unbalanced
 force inside over the largest on the rim: zero but for rounding. Plate: constant stretch and curvature,
@@ -20,6 +20,7 @@ from fem_reference.shell.state import State as ShellState
 from fem_reference.solid import statics as solid
 from fem_reference.solid.structure import State as SolidState
 from fem_reference.surface.mesh import rectangle
+from fem_reference.surface.outlined import quadrilaterals
 from fem_reference.verification.rows import EXACT, Row, absolutely
 from sheetbench.scenes import Material, Scene, Sheet
 
@@ -42,10 +43,11 @@ def rows(case: str) -> Iterator[Row]:
         "shell": {"finite stretch": _shell_stretch, "constant curvature": _shell_curvature},
         "solid": {"finite deformation": _solid_deformation},
     }
-    for model, checks in states.items():
-        for state, unbalanced in checks.items():
-            mesh = f"{model} {ELEMENTS} × {ELEMENTS}, distorted"
-            yield absolutely(case, f"unbalanced, {state}", mesh, 0.0, EXACT, unbalanced(), ROUNDING)
+    for name, mesh in (("distorted", distorted()), ("that follow a line", following())):
+        for model, checks in states.items():
+            for state, unbalanced in checks.items():
+                said = f"{model} {mesh.nelements} elements, {name}"
+                yield absolutely(case, f"unbalanced, {state}", said, 0.0, EXACT, unbalanced(mesh), ROUNDING)
 
 
 def distorted() -> MeshQuad:
@@ -54,6 +56,14 @@ def distorted() -> MeshQuad:
     inner, points = mesh.interior_nodes(), mesh.p.copy()
     points[:, inner] += MOVED / ELEMENTS * np.random.default_rng(1).uniform(-1.0, 1.0, (2, len(inner)))
     return MeshQuad(points, mesh.t).with_boundaries(mesh.boundaries)
+
+
+def following() -> MeshQuad:
+    """A mesh of the sheet that follows an oblique line across it."""
+    import shapely
+
+    square, line = shapely.box(0.0, 0.0, 1.0, 1.0), shapely.LineString([(0.0, 0.3), (1.0, 0.7)])
+    return quadrilaterals(square, line, (0.25, 0.25), True)
 
 
 def _inside_over_rim(forces: np.ndarray, plan: np.ndarray) -> float:
@@ -66,23 +76,23 @@ def _plate(fields: np.ndarray, model: plate.Plate) -> np.ndarray:
     return (plate.stiffness_matrix(SCENE, model) @ fields.ravel()).reshape(-1, 5)
 
 
-def _plate_stretch() -> float:
-    model = plate.Plate.on(distorted())
+def _plate_stretch(mesh: MeshQuad) -> float:
+    model = plate.Plate.on(mesh)
     fields = np.zeros((model.basis.N, 5))
     fields[:, :2] = model.nodes @ STRETCH.T
     return _inside_over_rim(_plate(fields, model)[:, :2], model.nodes)
 
 
-def _plate_curvature() -> float:
-    model = plate.Plate.on(distorted())
+def _plate_curvature(mesh: MeshQuad) -> float:
+    model = plate.Plate.on(mesh)
     fields = np.zeros((model.basis.N, 5))
     fields[:, 2] = -0.5 * np.einsum("na,ab,nb->n", model.nodes, CURVATURE, model.nodes)
     fields[:, 3:] = model.nodes @ CURVATURE
     return _inside_over_rim(_plate(fields, model)[:, 2:], model.nodes)
 
 
-def _shell_stretch() -> float:
-    structure, nodes = shell.discretise(distorted(), SCENE)
+def _shell_stretch(mesh: MeshQuad) -> float:
+    structure, nodes = shell.discretise(mesh, SCENE)
     turn = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
     change = np.zeros((2, len(nodes), 3))
     flat = np.column_stack([nodes, np.zeros(len(nodes))])
@@ -92,8 +102,8 @@ def _shell_stretch() -> float:
     return _inside_over_rim(structure.forces(ShellState(change), 0.0).residual[0], nodes)
 
 
-def _shell_curvature() -> float:
-    structure, nodes = shell.discretise(distorted(), SCENE)
+def _shell_curvature(mesh: MeshQuad) -> float:
+    structure, nodes = shell.discretise(mesh, SCENE)
     change = np.zeros((2, len(nodes), 3))
     change[0, :, 2] = -0.5 * SMALL * np.einsum("na,ab,nb->n", nodes, CURVATURE, nodes)
     change[1, :, :2] = SMALL * nodes @ CURVATURE
@@ -101,8 +111,8 @@ def _shell_curvature() -> float:
     return _inside_over_rim(np.column_stack([residual[0, :, 2], residual[1, :, :2]]), nodes)
 
 
-def _solid_deformation() -> float:
-    structure = solid.discretise(distorted(), SCENE)
+def _solid_deformation(mesh: MeshQuad) -> float:
+    structure = solid.discretise(mesh, SCENE)
     gradient = np.eye(3)
     gradient[:2, :2] += STRETCH
     gradient[2, 2] = 1.05

@@ -156,6 +156,12 @@ def drawn(tmp_path_factory):
     return str(path)
 
 
+@pytest.mark.parametrize("calibration", ["auto", "consistent"])
+def test_compare_knows_supports_where_a_shape_says(calibration, capsys):
+    asked = ["--lumped", "5", "--elements", "4", "--no-pictures", "--calibration", calibration]
+    assert run("compare", str(EXAMPLES / "gripper-finger.toml"), *asked) == 0, capsys.readouterr().err
+
+
 SMALL = ["--lumped", "5", "--elements", "4", "--no-pictures"]
 
 

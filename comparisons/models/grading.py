@@ -23,6 +23,7 @@ from sheetbench.scenes import EDGES, Clamped, Scene
 from sheetbench.scenes.grading import Graded, Grading, of_settings, towards
 from sheetbench.scenes.grid import LAYERS
 from sheetbench.scenes.summary import few
+from sheetbench.scenes.supports import place
 
 GRADED = 0.3  # what `auto` grades by towards all edges
 ONE_SIDED = 0.5  # and towards the one that holds the sheet
@@ -94,6 +95,7 @@ def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[Graded, str]:
     layer = min(found)
     width, held = layer.width, scene.supports
     one_sided = not (layer.bent_edge or scene.actuators) and len(held) == 1 and isinstance(held[0], Clamped)
+    one_sided = one_sided and place(held[0]) is None
     side = scene.sheet.lengths[EDGES[held[0].edge].normal_axis] if one_sided else min(scene.sheet.lengths)
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
     cells = f"{few(width / cell)} cells of {1e3 * cell:.3g} mm where all are alike"

@@ -53,7 +53,7 @@ def method_for(scene: Scene) -> tuple[str, str]:
         return "neo-hookean", f"q a/(E h) = {strain:.2g} is above {STRETCHED:g}: it stretches as rubber may"
     held = {support.edge for support in scene.supports}
     known = all(isinstance(s, Clamped | Hinged | Curved) and s.motion is None for s in scene.supports)
-    if scene.actuators or not held or not known:
+    if scene.actuators or not held or not known or scene.shaped_by:
         return CALIBRATION, "the usual one, for edges that are not simply clamped, hinged or bent"
     if scene.material.poisson > INCOMPRESSIBLE:
         return MEMBRANE, f"ν = {scene.material.poisson:g} is above {INCOMPRESSIBLE:g}"

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.scenes import EDGES, EdgeLoad, PointLoad, Pressure, Scene
-from sheetbench.scenes.supports import held_axes
+from sheetbench.scenes.supports import held_axes, place
 
 
 @dataclass(frozen=True)
@@ -80,6 +80,7 @@ def scales(scene: Scene) -> Scales:
 def span(scene: Scene) -> float:
     """Return how far the sheet reaches from the edges that hold it across its plane [m]."""
     sheet, across = scene.sheet, 2
-    held = [support.edge for support in scene.supports if across in held_axes(support)]
+    on_edges = [support for support in scene.supports if place(support) is None]
+    held = [support.edge for support in on_edges if across in held_axes(support)]
     held += [actuator.edge for actuator in scene.actuators]
     return min((sheet.lengths[EDGES[edge].normal_axis] for edge in held), default=min(sheet.lengths))

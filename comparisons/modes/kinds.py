@@ -15,6 +15,7 @@ import numpy as np
 
 from sheetbench.scenes import Scene
 from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.supports import place
 
 BENDING, TWIST, ACROSS, IN_PLANE = "bending", "twist", "bending across", "in plane"
 STILL = 0.05  # of the largest |g|: a change of sign below it is the discretisation's
@@ -46,7 +47,7 @@ def _kind(shape: np.ndarray, axis: int | None) -> str:
 
 
 def _axis(scene: Scene) -> int | None:
-    held = {"xy".index(support.edge[0]) for support in scene.supports}
+    held = {"xy".index(support.edge[0]) for support in scene.supports if place(support) is None}
     if len(held) == 1:
         return held.pop()
     return None if held else int(np.argmax(scene.sheet.lengths))

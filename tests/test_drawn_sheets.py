@@ -198,6 +198,14 @@ SHAPED = {
 }
 
 
+@pytest.mark.parametrize("word", ["cutout", "support.where"])
+def test_plate_and_shell_begin_to_move_alike(word):
+    scene = load("one-edge-clamped").replace(probes={}, **SHAPED[word])
+    found = [fem_reference.simulate(scene, model, 2e-3, elements=2) for model in ("plate", "shell")]
+    ends = [np.array([probe[-1] for probe in history.probes.values()]) for history in found]
+    assert np.abs(ends[1]).max() > 0.0 and np.allclose(*ends, rtol=0.0, atol=0.01 * np.abs(ends[1]).max())
+
+
 @pytest.mark.parametrize("word", SHAPED)
 def test_references_agree_on_shapes(word):
     """Of a stiff sheet, which bends little; a clamp within the sheet has a layer in the solid, as wide as the

@@ -31,7 +31,7 @@ from fem_reference.solid.element import Bricks
 from fem_reference.surface.loads import Follower
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene
-from sheetbench.scenes.supports import held_axes
+from sheetbench.scenes.supports import held_axes, named
 from sheetbench.scenes.tables import PiecewiseLinear
 
 Loaded = tuple[np.ndarray, list[Follower]]  # dead nodal forces (n, 3) and follower loads
@@ -78,15 +78,15 @@ class Moving(ABC):
 
     def __init__(self, scene: Scene):
         self.memory = Memory(scene.material.branches)
-        supports = tuple(support.replace(motion=None) for support in scene.supports)
+        supports = tuple(support.model_copy(update={"motion": None}) for support in scene.supports)
         self.still = at_rest(scene.replace(loads=(), gravity=None, supports=supports))
         self._air = scene.air
         self.tau, self.alpha = scene.material.dashpot_time, scene.material.damping_rate
         self.dead: list[tuple[np.ndarray, Factor]] = []
         self.followers: list[tuple[Follower, Factor]] = []
         self._motions = [
-            (str(s.edge), held_axes(s), PiecewiseLinear(s.motion.time, s.motion.displacement))
-            for s in scene.supports
+            (name, held_axes(s), PiecewiseLinear(s.motion.time, s.motion.displacement))
+            for name, s in named(scene.supports).items()
             if s.motion is not None
         ]
 

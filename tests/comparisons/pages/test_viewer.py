@@ -10,7 +10,7 @@ import pytest
 from browser import browser, colours, opened, pixels  # noqa: F401
 
 from comparisons.browser import sheets, viewer
-from comparisons.report.vtk import plan_mesh
+from comparisons.report.plan import plan_mesh
 from sheetbench.scenes import EdgeLoad, FieldMesh, PointLoad, Pressure, load
 
 SOURCE = Path(viewer.__file__).parent / "source"
@@ -56,11 +56,11 @@ def test_a_fine_regular_surface_shows_its_shape_by_nine_lines(cells, lines):
 def options() -> dict:
     """Two sheets of 8 × 8 cells, one of which moves, and a lattice of two masses a side."""
     scene = load("two-edges-clamped")
-    flat = plan_mesh(scene.sheet, 8)
+    flat = plan_mesh(scene, 8)
     bent = np.zeros_like(flat.points)
     bent[:, 2] = -0.02 * (flat.points[:, 0] * flat.points[:, 1]) / 0.188**2
     flat.point_data["displacement"] = bent
-    square = plan_mesh(scene.sheet, 1)
+    square = plan_mesh(scene, 1)
     square.point_data["displacement"] = np.zeros((4, 3))
     links = [("line", np.array([[0, 1], [1, 3], [3, 2], [2, 0], [0, 3]]))]
     lattice = FieldMesh(square.points, links, square.point_data)
@@ -132,7 +132,7 @@ def test_arrows_of_point_loads():
     small, large = (
         PointLoad(at=at, force=(0, 0, f)) for at, f in (((0.1, 0.1), 1e-4), ((0.188, 0.09), -2.0))
     )
-    mesh = plan_mesh(scene.sheet, 4)
+    mesh = plan_mesh(scene, 4)
     still = np.zeros_like(mesh.points)
     weak, strong = sheets.forces(mesh.points, still, scene.replace(loads=(small, large)))
     assert strong["at"] == [0.188, 0.09, 0.0] and strong["along"] == pytest.approx([0, 0, -0.16 * 0.188])
@@ -146,7 +146,7 @@ def test_arrows_of_point_loads():
 def test_arrows_of_edge_loads_and_pressures():
     """Along the edge; all over the sheet, along the normal that it has where it is turned about y."""
     scene = load("two-edges-clamped")
-    mesh, turn = plan_mesh(scene.sheet, 4), 0.7
+    mesh, turn = plan_mesh(scene, 4), 0.7
     x, size = mesh.points[:, 0], 0.188
     turned = np.column_stack([x * (np.cos(turn) - 1.0), np.zeros_like(x), x * np.sin(turn)])
     pulled = EdgeLoad("x1", force_per_length=(3.0, 0.0, 0.0))

@@ -10,10 +10,18 @@ import numpy as np
 from comparisons.external.bricks import Bricks
 from comparisons.external.plugins import Model
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, Scene, Solution, Status
+from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, History, Scene, Solution, Status
+from sheetbench.scenes.kinematics import bent_or_tilted
 from sheetbench.scenes.orthotropy import FIBRES
 
+SUBSTEPS = 8  # of a motion between two samples
 BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"
+
+
+class Sampled(Protocol):
+    """A mesh whose nodal displacements (n, 3) have values (p, 3) at plan points (p, 2) [m]."""
+
+    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray: ...
 
 
 @runtime_checkable
@@ -74,6 +82,54 @@ def refusal(scene: Scene, chains: str, moments: str, laws: Collection[str] = (),
             'supports that move are not handed over: a clamp may be written as an actuator, kind = "motion"'
         )
     return ""
+
+
+def refusal_of_motion(scene: Scene) -> str:
+    """Return why a scene's motion is not handed over, "" if it is."""
+    material, loads = scene.material, [*filter(None, [scene.gravity]), *scene.loads]
+    if material.dashpot_time or material.damping_rate or material.branches.times:
+        return "its steps in time have no dampers: leave damping_time, damping_rate and relaxation out"
+    if scene.air is not None:
+        return "its steps in time have no drag: leave [air] out"
+    if any(load.history is not None for load in loads):
+        return "loads with a history are not handed over"
+    if scene.motions() or bent_or_tilted(scene.supports, scene.sheet):
+        return "edges that are driven, or bent or turned before the sheet moves, are not handed over"
+    return ""
+
+
+def moved(
+    label: str,
+    integrator: str,
+    scene: Scene,
+    settings: Mapping[str, Any],
+    mesh: Sampled,
+    times: np.ndarray,
+    found: np.ndarray,
+    note: str,
+    unknowns: int,
+    seconds: tuple[float, float],
+) -> History:
+    """Return the History of nodal displacements (t, n, 3) [m] at `times` (t,) [s] after a start at rest, of
+    SUBSTEPS steps each; note: why it stopped early, "" if it did not; seconds: set-up and solve."""
+    still = np.zeros((1, *found.shape[1:]))
+    at_probes = np.array([mesh.sample(u, scene.probe_points()) for u in (*still, *found)])
+    return History(
+        label=label,
+        integrator=integrator,
+        settings=dict(settings),
+        status=Status.DIVERGED if note else Status.CONVERGED,
+        message=note,
+        time=np.concatenate([[0.0], times]),
+        probes=dict(zip(scene.probes, np.swapaxes(at_probes, 0, 1), strict=True)),
+        energies={},
+        reactions={},
+        actuators={},
+        steps=SUBSTEPS * len(found),
+        setup_seconds=seconds[0],
+        solve_seconds=seconds[1],
+        extra={"unknowns": unknowns},
+    )
 
 
 def solution_on_bricks(

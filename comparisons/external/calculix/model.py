@@ -18,18 +18,24 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.external.answer import BRICK_MOMENTS, refusal, require, solution_on_bricks
+from comparisons.external.answer import (
+    BRICK_MOMENTS,
+    SUBSTEPS,
+    moved,
+    refusal,
+    refusal_of_motion,
+    require,
+    solution_on_bricks,
+)
 from comparisons.external.bricks import GRADINGS, Bricks
 from comparisons.external.calculix import results
 from comparisons.external.calculix.deck import INCOMPRESSIBLE, LAWS, Steps, deck
 from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import History, Scene, Solution, Status
-from sheetbench.scenes.kinematics import bent_or_tilted
 from sheetbench.scenes.orthotropy import Ply, impossible_in_space
 
 PROGRAM, JOB = "ccx", "sheet"
-STEPS = 8  # of a motion between two samples
 SAYS_ITS_VERSION = 201  # its exit status after `ccx -v`
 
 CHAINS = "actuators are not supported: it has no joint with a rest angle between rigid bodies"
@@ -93,38 +99,34 @@ class CalculiX:
         Raises BadInput without the program, and for scenes and settings that it does not take.
         """
         require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
+        note = refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, True) or _of_volume(scene, settings["linear"])
+        if settings["linear"]:
+            note = note or "linear = true: is for statics"
+        if note := note or refusal_of_motion(scene):
+            raise BadInput(f"calculix: {note}")
         program = shutil.which(PROGRAM)
         if program is None:
             raise BadInput(f"model = 'calculix': needs {self.needs}")
-        note = refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, True) or _of_volume(scene, settings["linear"])
-        if note := note or _of_motion(scene, settings["linear"]):
-            raise BadInput(f"calculix: {note}")
         began = perf_counter()
         bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
         nodes, _ = bricks.weights(scene.probe_points())
         count = max(1, round(duration / every))
-        steps = Steps(float(duration) / count / STEPS, float(duration), STEPS, np.unique(nodes))
+        steps = Steps(float(duration) / count / SUBSTEPS, float(duration), SUBSTEPS, np.unique(nodes))
         text = deck(scene, bricks, False, steps)
         ready = perf_counter()
         times, found, _, note = _carried_out(program, text, settings["time_limit"], bricks)
         ended = perf_counter()
-        still = np.zeros((1, *bricks.positions.shape))
-        moved = np.array([bricks.sample(u, scene.probe_points()) for u in (*still, *found)])
-        return History(
-            label=f"{self.called} {' × '.join(map(str, bricks.shape))} bricks",
-            integrator="HHT",
-            settings={**settings, "elements": list(bricks.shape[:2]), "every": duration / count},
-            status=Status.CONVERGED if not note and len(found) == count else Status.DIVERGED,
-            message=note,
-            time=np.concatenate([[0.0], times]),
-            probes=dict(zip(scene.probes, np.swapaxes(moved, 0, 1), strict=True)),
-            energies={},
-            reactions={},
-            actuators={},
-            steps=STEPS * len(found),
-            setup_seconds=ready - began,
-            solve_seconds=ended - ready,
-            extra={"unknowns": bricks.positions.size},
+        return moved(
+            f"{self.called} {' × '.join(map(str, bricks.shape))} bricks",
+            "HHT",
+            scene,
+            {**settings, "elements": list(bricks.shape[:2]), "every": duration / count},
+            bricks,
+            times,
+            found,
+            note if note or len(found) == count else "it stopped before the end",
+            bricks.positions.size,
+            (ready - began, ended - ready),
         )
 
 
@@ -143,22 +145,6 @@ def _carried_out(
         except Failed as error:
             why = f"CalculiX: {error}"
         return times, found, results.iterations(_read(folder, "sta")), why
-
-
-def _of_motion(scene: Scene, linear: bool) -> str:
-    """Return why a scene's motion is not handed over, "" if it is."""
-    material, loads = scene.material, [*filter(None, [scene.gravity]), *scene.loads]
-    if linear:
-        return "linear = true: is for statics"
-    if material.dashpot_time or material.damping_rate or material.branches.times:
-        return "its steps in time have no dampers: leave damping_time, damping_rate and relaxation out"
-    if scene.air is not None:
-        return "its steps in time have no drag: leave [air] out"
-    if any(load.history is not None for load in loads):
-        return "loads with a history are not handed over"
-    if bent_or_tilted(scene.supports, scene.sheet):
-        return "edges that are bent or turned before it moves are not handed over"
-    return ""
 
 
 def _of_volume(scene: Scene, linear: bool) -> str:

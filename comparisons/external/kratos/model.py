@@ -20,13 +20,14 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.external.answer import refusal
+from comparisons.external.answer import SUBSTEPS, moved, refusal, refusal_of_motion
 from comparisons.external.kratos.problem import Triangles, problem
 from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
-from sheetbench.scenes import FieldMesh, Scene, Solution, Status
+from sheetbench.scenes import FieldMesh, History, Scene, Solution, Status
 
 STEPS = (1, 4, 16)
+BEGINS = 1e-3  # of a motion's steps, its first: the load acts from t = 0 on, the acceleration after a step
 PACKAGES = (
     "KratosMultiphysics",
     "KratosStructuralMechanicsApplication",
@@ -61,12 +62,7 @@ class Kratos:
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
         """Return the static answer. Raises BadInput without Kratos or for settings it cannot use."""
-        elements = settings["elements"]
-        if type(elements) is not int or elements < 1:
-            raise BadInput(f"elements = {elements!r}: a whole number along the shorter side, at least 1")
-        if self.version() is None:
-            raise BadInput(f"model = 'kratos': needs {self.needs}")
-        mesh = Triangles.of(scene.sheet, elements)
+        mesh = self._mesh(scene, settings["elements"])
         note = refusal(scene, CHAINS, MOMENTS)
         displacement, load_factor, iterations = np.zeros_like(mesh.positions), 0.0, 0
         began, seconds, status = perf_counter(), 0.0, Status.REFUSED
@@ -88,7 +84,7 @@ class Kratos:
         held = 0 if note else int(given["held"].sum())
         return Solution(
             model=self.name,
-            label=f"{self.called} {' × '.join(map(str, mesh.shape))} × 2 triangles",
+            label=self._label(mesh),
             settings={**settings, "elements": list(mesh.shape)},
             status=status,
             unknowns=2 * displacement.size - held,
@@ -102,6 +98,50 @@ class Kratos:
             load_factor=load_factor,
             remarks=(note,) if note else (),
         )
+
+    def simulate(
+        self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
+    ) -> History:
+        """Return the motion over `duration` [s] from rest, sampled every so often [s], without energies.
+
+        Raises BadInput without Kratos, and for scenes and settings that it does not take.
+        """
+        if note := refusal(scene, CHAINS, MOMENTS) or refusal_of_motion(scene):
+            raise BadInput(f"kratos: {note}")
+        mesh = self._mesh(scene, settings["elements"])
+        began, count = perf_counter(), max(1, round(duration / every))
+        even = duration / (count * SUBSTEPS) * np.arange(1, count * SUBSTEPS + 1)
+        times = np.concatenate([[BEGINS * even[0]], even])
+        given = problem(scene, mesh, np.ones(len(times)), times)
+        found, seconds, note = np.zeros((0, *mesh.positions.shape)), 0.0, "Kratos: a step did not converge"
+        try:
+            answer = _solved(given, settings["time_limit"])
+            found, seconds = answer["displacement"][SUBSTEPS::SUBSTEPS], float(answer["seconds"])
+        except Failed as error:
+            note = f"Kratos: {error}"
+        return moved(
+            self._label(mesh),
+            "Bossak",
+            scene,
+            {**settings, "elements": list(mesh.shape), "every": duration / count},
+            mesh,
+            times[SUBSTEPS::SUBSTEPS][: len(found)],
+            found,
+            "" if len(found) == count else note,
+            2 * mesh.positions.size - int(given["held"].sum()),
+            (perf_counter() - began - seconds, seconds),
+        )
+
+    def _mesh(self, scene: Scene, elements: Any) -> Triangles:
+        """Return the mesh. Raises BadInput without Kratos, and for what is no number of elements."""
+        if type(elements) is not int or elements < 1:
+            raise BadInput(f"elements = {elements!r}: a whole number along the shorter side, at least 1")
+        if self.version() is None:
+            raise BadInput(f"model = 'kratos': needs {self.needs}")
+        return Triangles.of(scene.sheet, elements)
+
+    def _label(self, mesh: Triangles) -> str:
+        return f"{self.called} {' × '.join(map(str, mesh.shape))} × 2 triangles"
 
 
 def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:

@@ -88,8 +88,10 @@ class Triangles:
         return np.einsum("pk,pkc->pc", weights, displacement[nodes])
 
 
-def problem(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the arrays that `comparisons.external.kratos.process` reads."""
+def problem(
+    scene: Scene, mesh: Triangles, load_factors: np.ndarray, times: np.ndarray | None = None
+) -> dict[str, np.ndarray]:
+    """Return the arrays that `comparisons.external.kratos.process` reads; times [s] of a motion's steps."""
     held, value = _held(scene, mesh, load_factors)
     material, none = scene.material, np.zeros(3)
     return {
@@ -102,7 +104,7 @@ def problem(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> dict[str
         "held": held,
         "value": value,
         "load_factors": load_factors,
-    }
+    } | ({} if times is None else {"times": times})
 
 
 def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

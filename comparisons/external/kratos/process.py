@@ -2,9 +2,11 @@
 
 Apart from ours, for Kratos prints as it is imported, and a fault in it takes its process down. Reads arrays
 of the file PROBLEM (`comparisons.external.kratos.problem`), and leaves in ANSWER displacement (n, 3) [m], the
-load factor of the last step that converged, and the number of iterations, each one factorisation.
+load factor of the last step that converged, and the number of iterations, each one factorisation; of a
+problem with `times` the displacement after every step, (steps, n, 3).
 
-Newton's method at rising load factors, from where the last one ended.
+Newton's method at rising load factors, from where the last one ended; in time by Wood, Bossak and
+Zienkiewicz's method from rest.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ import numpy as np
 CORRECTION = 1e-8  # of the displacement, with which a step ends: the residual is rounding by then
 ITERATIONS = 25  # of a step
 COMPONENTS = "XYZ"
+BOSSAK = -0.05  # α of its steps in time
 
 
 def solve(problem: Any) -> dict[str, Any]:
@@ -29,6 +32,9 @@ def solve(problem: Any) -> dict[str, Any]:
     part = kratos.Model().CreateModelPart("sheet", 2)
     part.ProcessInfo[kratos.DOMAIN_SIZE] = 3
     for variable in (kratos.DISPLACEMENT, kratos.ROTATION, kratos.REACTION, kratos.REACTION_MOMENT):
+        part.AddNodalSolutionStepVariable(variable)
+    rates = (kratos.VELOCITY, kratos.ACCELERATION, kratos.ANGULAR_VELOCITY, kratos.ANGULAR_ACCELERATION)
+    for variable in rates:
         part.AddNodalSolutionStepVariable(variable)
     for variable in (kratos.VOLUME_ACCELERATION, mechanics.POINT_LOAD, mechanics.SURFACE_LOAD):
         part.AddNodalSolutionStepVariable(variable)
@@ -63,10 +69,14 @@ def solve(problem: Any) -> dict[str, Any]:
         nodes[node].Fix(moving[unknown])
     from KratosMultiphysics import python_linear_solver_factory as factory
 
+    times = problem.get("times")
+    scheme = kratos.ResidualBasedIncrementalUpdateStaticScheme()
+    if times is not None:
+        scheme = kratos.ResidualBasedBossakDisplacementScheme(BOSSAK)
     parameters = kratos.Parameters('{"solver_type": "LinearSolversApplication.sparse_lu"}')
     strategy = kratos.ResidualBasedNewtonRaphsonStrategy(
         part,
-        kratos.ResidualBasedIncrementalUpdateStaticScheme(),
+        scheme,
         kratos.DisplacementCriteria(CORRECTION, 1e-15),
         kratos.ResidualBasedBlockBuilderAndSolver(factory.ConstructSolver(parameters)),
         ITERATIONS,
@@ -78,8 +88,9 @@ def solve(problem: Any) -> dict[str, Any]:
     strategy.Initialize()
     reached, iterations, began = 0.0, 0, perf_counter()
     answer = np.zeros_like(problem["positions"])
+    moved = []
     for step, load_factor in enumerate(problem["load_factors"].tolist(), 1):
-        part.CloneTimeStep(float(step))
+        part.CloneTimeStep(float(step if times is None else times[step - 1]))
         part.ProcessInfo[kratos.STEP] = step
         acceleration = kratos.Array3([load_factor * float(c) for c in problem["acceleration"]])
         for node in nodes:
@@ -101,8 +112,11 @@ def solve(problem: Any) -> dict[str, Any]:
             break
         reached = load_factor
         answer = np.array([list(node.GetSolutionStepValue(kratos.DISPLACEMENT)) for node in nodes])
+        if times is not None:
+            moved.append(answer)
     seconds = perf_counter() - began
-    return {"displacement": answer, "load_factor": reached, "iterations": iterations, "seconds": seconds}
+    answers = answer if times is None else np.array(moved).reshape(-1, *answer.shape)
+    return {"displacement": answers, "load_factor": reached, "iterations": iterations, "seconds": seconds}
 
 
 if __name__ == "__main__":

@@ -43,7 +43,7 @@ def blocks_out_of_force(text: str) -> list[str]:
 def test_every_block_of_a_new_scene_can_be_put_in_force() -> None:
     text = template("mine", SHEET, MATERIAL)
     blocks = blocks_out_of_force(text)
-    assert len(blocks) == 9
+    assert len(blocks) == 10
     plain = Scene(**tomllib.loads(text))
     assert plain.supports == (Clamped(edge="x0"),) and plain.sheet == SHEET and plain.material == MATERIAL
     added: list[Any] = []

@@ -124,7 +124,8 @@ def left_over(
 
 def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
     """Of all loads but those on areas, which are the mesh's own."""
-    scene = scene.replace(loads=[load for load in scene.loads if not isinstance(load, AreaLoad)])
+    others = tuple(load for load in scene.loads if not isinstance(load, AreaLoad))
+    scene = scene.model_copy(update={"loads": others})
     mass = float(surface.masses(scene).sum())
     if not surface.own:
         return dead_force(scene, None if scene.uniform and not scene.pierced else mass)

@@ -11,7 +11,6 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from sheetbench.scenes import PiecewiseLinear
 
@@ -174,6 +173,8 @@ def filling(region: BaseGeometry, borders: Sequence[LineString], sides: Sides, s
     away = shapely.distance(shapely.points(points), shapely.multilinestrings(borders)) > clear
     points, clear = points[away], clear[away]
     kept = np.ones(len(points), bool)
+    from scipy.spatial import KDTree  # plain rectangles need not wait for it
+
     for first, second in sorted(KDTree(points).query_pairs(clear.max(initial=0.0))):
         if kept[first] and np.linalg.norm(points[first] - points[second]) < clear[second]:
             kept[second] = False

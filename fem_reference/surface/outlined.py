@@ -17,7 +17,6 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import Delaunay
 from skfem import MeshQuad, MeshQuad2
 
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
@@ -87,6 +86,7 @@ def _triangles(
 ) -> tuple[np.ndarray, np.ndarray, Sides]:
     """All points, the triangles (m, 3) of the region counter-clockwise, and the sides, some halved."""
     import shapely
+    from scipy.spatial import Delaunay
 
     for _ in range(ROUNDS):
         every = np.concatenate([points, inside])

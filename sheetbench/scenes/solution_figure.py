@@ -47,6 +47,7 @@ def compose(solution: Solution, style: FigureStyle = PLAIN) -> Figure:
 def _holes(points: np.ndarray, quads: np.ndarray) -> bool:
     """Whether the cells, of a layer, leave a part of the rectangle around them open."""
     a, b, c, d = np.moveaxis(points[quads][:, :, :2], 1, 0)
-    area = 0.5 * np.abs(np.cross(c - a, d - b))
+    (ax, ay), (bx, by) = (c - a).T, (d - b).T
+    area = 0.5 * np.abs(ax * by - ay * bx)
     levels = len(np.unique(np.round(points[quads[:, 0], 2], 12)))
     return bool(area.sum() / levels < (1.0 - 1e-6) * np.prod(np.ptp(points[:, :2], axis=0)))

@@ -135,7 +135,8 @@ class Frozen(BaseModel, frozen=True):
 
     def replace(self, **values: Any) -> Self:
         """Return a copy with other values for some keys. Raises SceneError for what makes no sense."""
-        kept = {name: getattr(self, name) for name in type(self).model_fields}
+        fields = type(self).model_fields.items()
+        kept = {name: value for name, one in fields if (value := getattr(self, name)) is not one.default}
         return type(self)(**{**kept, **values})
 
     @classmethod

@@ -3,7 +3,16 @@
 import numpy as np
 import pytest
 
-from sheetbench.scenes import BadInput, Scene, SceneError, Sheet, dead_force, free_rigid_motions, load
+from sheetbench.scenes import (
+    BadInput,
+    Clamped,
+    Scene,
+    SceneError,
+    Sheet,
+    dead_force,
+    free_rigid_motions,
+    load,
+)
 from sheetbench.scenes.patches import mass_of, shares_of
 from sheetbench.scenes.region import edge_length
 from sheetbench.scenes.words import in_words
@@ -137,3 +146,10 @@ def test_a_rectangle_as_outline_is_the_rectangle():
     assert scene.region.area == pytest.approx(0.02) and scene.probes == fin(None, (), scene.supports).probes
     with pytest.raises(BadInput, match="outline"):
         Sheet(0.2, 0.1, 0.003, outline=corners[:2])
+
+
+def test_a_support_where_a_shape_says_is_replaced_as_one_at_an_edge() -> None:
+    bolt = Clamped(where={"circle": {"centre": (0.05, 0.05), "radius": 0.01}})
+    wider = {"circle": {"centre": (0.05, 0.05), "radius": 0.02}}
+    assert bolt.replace(where=wider) == Clamped(where=wider)
+    assert bolt.replace(edge="x0", where=None) == Clamped("x0")

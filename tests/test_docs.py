@@ -1,5 +1,6 @@
 """The documentation: the tutorial runs as written; commands, scenes and links name what exists."""
 
+import pkgutil
 import re
 import shlex
 import shutil
@@ -71,3 +72,10 @@ def test_scenes_of_the_documentation_load(tmp_path: Path) -> None:
     (text,) = [t for _, t in blocks(ROOT / "docs/first-steps.md", "toml") if "[sheet]" in t]
     path.write_text(text, encoding="utf-8")
     scenes.require_static(scenes.load(path))
+
+
+@pytest.mark.parametrize("page", sorted((ROOT / "docs/api").glob("*.md")), ids=lambda page: page.stem)
+def test_the_reference_of_the_python_interface_names_what_exists(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    for name in re.findall(r"auto(?:module|class|function):: (\S+)$", text, re.M):
+        pkgutil.resolve_name(name if "." in name or name in sys.modules else f"sheetbench.{name}")

@@ -26,6 +26,7 @@ source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb", ".rst": "restructuredtex
 exclude_patterns = ["_build", "examples/*.ipynb"]  # of the gallery: downloads
 html_theme = "furo"
 html_title = "sheetbench"
+smartquotes_action = "qe"  # quotes and ellipses; an option's two dashes stay
 templates_path: list[str] = []
 
 myst_heading_anchors = 3

@@ -26,19 +26,20 @@ def _page(verb: str, command: Any) -> str:
     options = [p for p in command.params if p.param_type_name == "option"]
     usage = " ".join(["sheetbench", verb, *(_argument(a) for a in arguments), "[OPTIONS]"])
     lines = [f"# {verb}", "", "```sh", usage, "```", "", command.help or "", ""]
-    lines += ["| option | value | unless given | |", "| --- | --- | --- | --- |"]
+    lines += ["| option | |", "| --- | --- |"]
     for option in options:
-        names = ", ".join(f"`{name}`" for name in [*option.opts, *option.secondary_opts])
-        default = option.default
-        shown = "" if default in (None, False, True) or callable(default) else f"`{_text(default)}`"
-        value = "" if option.is_flag else f"`{option.metavar or option.type.name.upper()}`"
-        lines.append(f"| {names} | {value} | {shown} | {_cell(getattr(option, 'help', None))} |")
+        value = "" if option.is_flag else f" {option.metavar or option.type.name.upper()}"
+        names = ", ".join(f"`{name}{value}`" for name in [*option.opts, *option.secondary_opts])
+        default, said = option.default, _cell(getattr(option, "help", None))
+        if default not in (None, False, True) and not callable(default) and "efault:" not in said:
+            said += f" Default: `{_text(default)}`."
+        lines.append(f"| {names} | {said} |")
     return "\n".join([*lines, ""])
 
 
 def _argument(argument: Any) -> str:
     name = argument.metavar or argument.name.upper()
-    return name if argument.required else f"[{name}]"
+    return name if argument.required or name.startswith("[") else f"[{name}]"
 
 
 def _text(default: Any) -> str:

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from sheetbench.scenes.actuators import Chain
-from sheetbench.scenes.loads import AreaLoad, EdgeLoad, PointLoad
+from sheetbench.scenes.loads import Pressure
 from sheetbench.scenes.patches import mass_of
-from sheetbench.scenes.region import area_in, edge_length
+from sheetbench.scenes.region import edge_length, resultant
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.sheet import EDGES
 
@@ -102,10 +102,6 @@ def dead_force(
         mass += sum(c.line_density * sides[c.edge] for c in scene.actuators if isinstance(c, Chain))
         total += mass * np.array(scene.gravity.last_acceleration)
     for load in scene.loads:
-        if isinstance(load, PointLoad):
-            total += load.last_factor * np.array(load.force)
-        elif isinstance(load, EdgeLoad):
-            total += load.last_factor * sides[load.edge] * np.array(load.force_per_length)
-        elif isinstance(load, AreaLoad):
-            total += load.last_factor * area_in(scene, load.where) * np.array(load.force_per_area)
+        if not isinstance(load, Pressure):
+            total += load.last_factor * resultant(scene, load, sides.get(getattr(load, "edge", "")))
     return total

@@ -12,15 +12,15 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from sheetbench.scenes import orthotropy
-from sheetbench.scenes.material import Material, Modulus
-from sheetbench.scenes.orthotropy import Ply, in_own_axes
-from sheetbench.scenes.quantities import Finite, Frozen, Number, Positive, Unit
+from sheetbench.scenes.material import Material
+from sheetbench.scenes.orthotropy import Fibres, Modulus, Ply, in_own_axes
+from sheetbench.scenes.quantities import Finite, Number, Positive, Unit
 from sheetbench.scenes.sheet import Sheet
 
 ROUNDING = 1e-9  # of the thickness
 
 
-class Layer(Frozen):
+class Layer(Fibres):
     """A ply: thickness, the angle of its fibres, and constants that are not the material's."""
 
     thickness: Annotated[Positive, Unit("m")]
@@ -31,18 +31,6 @@ class Layer(Frozen):
     """Young's modulus of an isotropic layer, with poisson."""
     poisson: Annotated[Finite, Field(gt=-1.0, lt=0.5)] | None = Field(default=None, kw_only=True)
     """Poisson's ratio of an isotropic layer."""
-    young_1: Modulus | None = Field(default=None, kw_only=True)
-    """Young's modulus along its fibres, with young_2, poisson_12 and shear_12."""
-    young_2: Modulus | None = Field(default=None, kw_only=True)
-    """Young's modulus across them, in the plane."""
-    poisson_12: Number | None = Field(default=None, kw_only=True)
-    """How much it contracts along 2 where it is pulled along 1; its square is below young_1/young_2."""
-    shear_12: Modulus | None = Field(default=None, kw_only=True)
-    """Shear modulus in the plane."""
-    shear_13: Modulus | None = Field(default=None, kw_only=True)
-    """Transverse shear modulus along 1; shear_12 unless given."""
-    shear_23: Modulus | None = Field(default=None, kw_only=True)
-    """Transverse shear modulus along 2; shear_12 unless given."""
     density: Annotated[Positive, Unit("kg/m³")] | None = Field(default=None, kw_only=True)
     """The material's unless given."""
 

@@ -76,4 +76,5 @@ class Pressure(Loading):
     """The part that is loaded; the whole sheet unless given."""
 
 
-Load = Annotated[PointLoad | EdgeLoad | AreaLoad | Pressure, Field(discriminator="kind")]
+AnyLoad = PointLoad | EdgeLoad | AreaLoad | Pressure
+Load = Annotated[AnyLoad, Field(discriminator="kind")]

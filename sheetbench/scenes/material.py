@@ -32,7 +32,8 @@ from pydantic import Field, model_validator
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes import orthotropy
-from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, Number, Positive, Unit
+from sheetbench.scenes.orthotropy import Fibres, Modulus
+from sheetbench.scenes.quantities import Finite, NonNegative, Number, Positive, Unit
 from sheetbench.scenes.relaxation import Branches, Relaxation, constant_loss
 from sheetbench.scenes.units import converted
 
@@ -78,11 +79,10 @@ WORDS: Mapping[str, Words] = {
 }
 STRESSES = ("c1", "c2", "c3", "shear")
 CONSTANTS = (*STRESSES, "limit")
-Modulus = Annotated[Positive, Unit("Pa")]
 LARGEST_LOSS = 2.0  # of a loss factor: rubber in its transition
 
 
-class Material(Frozen):
+class Material(Fibres):
     """Elasticity, density, viscous damping and relaxation; of rubber a law with its constants, of a sheet
     with fibres those along and across them (`sheetbench.scenes.orthotropy`).
 
@@ -117,18 +117,6 @@ class Material(Frozen):
     kind: Literal["isotropic", "orthotropic"] = Field(default="isotropic", kw_only=True)
     """Of an orthotropic sheet, one with fibres, the constants along axis 1 and across it are given; young and
     poisson are left out."""
-    young_1: Modulus | None = Field(default=None, kw_only=True)
-    """Young's modulus along axis 1, that of the fibres: orthotropic."""
-    young_2: Modulus | None = Field(default=None, kw_only=True)
-    """Young's modulus across them, in the plane: orthotropic."""
-    poisson_12: Number | None = Field(default=None, kw_only=True)
-    """How much it contracts along 2 where it is pulled along 1; its square is below young_1/young_2."""
-    shear_12: Modulus | None = Field(default=None, kw_only=True)
-    """Shear modulus in the plane: orthotropic."""
-    shear_13: Modulus | None = Field(default=None, kw_only=True)
-    """Transverse shear modulus along 1; shear_12 unless given."""
-    shear_23: Modulus | None = Field(default=None, kw_only=True)
-    """Transverse shear modulus along 2; shear_12 unless given."""
     young_3: Modulus | None = Field(default=None, kw_only=True)
     """Young's modulus through the thickness, which solids alone ask for; young_2 unless given."""
     poisson_13: Number | None = Field(default=None, kw_only=True)

@@ -13,11 +13,13 @@ Source: R. M. Jones, Mechanics of Composite Materials (1999), 2.3 and 2.4.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
+from pydantic import Field
 
 from sheetbench.errors import BadInput
+from sheetbench.scenes.quantities import Frozen, Number, Positive, Unit
 from sheetbench.scenes.units import converted
 
 if TYPE_CHECKING:
@@ -29,6 +31,24 @@ KEYS = (*NEEDED, "shear_13", "shear_23", "young_3", "poisson_13", "poisson_23", 
 KIND = "kind = 'orthotropic'"
 FIBRES = f"material.{KIND}"
 LARGEST_POISSON = 0.49  # of the isotropic material that stands for one with fibres
+Modulus = Annotated[Positive, Unit("Pa")]
+
+
+class Fibres(Frozen):
+    """The constants of a material or a layer with fibres, in its plane and across it."""
+
+    young_1: Modulus | None = Field(default=None, kw_only=True)
+    """Young's modulus along axis 1, that of the fibres: orthotropic."""
+    young_2: Modulus | None = Field(default=None, kw_only=True)
+    """Young's modulus across them, in the plane: orthotropic."""
+    poisson_12: Number | None = Field(default=None, kw_only=True)
+    """How much it contracts along 2 where it is pulled along 1; its square is below young_1/young_2."""
+    shear_12: Modulus | None = Field(default=None, kw_only=True)
+    """Shear modulus in the plane: orthotropic."""
+    shear_13: Modulus | None = Field(default=None, kw_only=True)
+    """Transverse shear modulus along 1; shear_12 unless given."""
+    shear_23: Modulus | None = Field(default=None, kw_only=True)
+    """Transverse shear modulus along 2; shear_12 unless given."""
 
 
 class Ply(NamedTuple):

@@ -12,9 +12,8 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
-from sheetbench.scenes.loads import AreaLoad, EdgeLoad, PointLoad, Pressure
 from sheetbench.scenes.material import Material
-from sheetbench.scenes.region import area_in, edge_length
+from sheetbench.scenes.region import resultant
 from sheetbench.scenes.sheet import Gravity, Sheet
 from sheetbench.scenes.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
 from sheetbench.scenes.summary import few
@@ -108,26 +107,14 @@ def _strains(scene: Scene) -> list[str]:
             f"the weight alone stretches the sheet: ρ g a/E = {_three_digits(weight)}, and above "
             f"{heaviest:g} {'no linear model means anything' if law is None else 'rubber tears'}"
         )
-    pull = sum(_size(load, scene) for load in scene.loads) / (young * sheet.thickness * min(sheet.lengths))
+    whole = sum(abs(load.last_factor) * hypot(*resultant(scene, load)) for load in scene.loads)
+    pull = whole / (young * sheet.thickness * min(sheet.lengths))
     if pull > strongest:
         warnings.append(
             f"the loads are {_three_digits(pull)} times E · thickness · shorter side and would tear the "
             "sheet; forces are in N, forces per length in N/m, pressures in Pa"
         )
     return warnings
-
-
-def _size(load: PointLoad | EdgeLoad | AreaLoad | Pressure, scene: Scene) -> float:
-    """The force of a load [N], in the end."""
-    if isinstance(load, PointLoad):
-        force = hypot(*load.force)
-    elif isinstance(load, EdgeLoad):
-        force = hypot(*load.force_per_length) * edge_length(scene, load.edge)
-    elif isinstance(load, AreaLoad):
-        force = hypot(*load.force_per_area) * area_in(scene, load.where)
-    else:
-        force = abs(load.value) * area_in(scene, load.where)
-    return force * abs(load.last_factor)
 
 
 def _three_digits(value: float) -> str:

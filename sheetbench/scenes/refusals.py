@@ -124,31 +124,27 @@ def _unit(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None
     return None
 
 
+ALLOWED = {  # by pydantic's types of fault
+    "float_type": "a number",
+    "finite_number": "finite",
+    "int_type": "a whole number",
+    "string_type": "text, in quotes",
+    "greater_than": "greater than {gt:g}",
+    "greater_than_equal": "{ge:g} or more",
+    "less_than": "less than {lt:g}",
+    "less_than_equal": "{le:g} or less",
+    "too_large": "{largest:g} or less in magnitude",
+    "too_small": "{smallest:g} or more",
+}
+
+
 def _allowed(fault: str, facts: dict[str, Any]) -> str:
-    """What a number, a text or a list must be; the types of fault are pydantic's."""
+    """What a number, a text or a list must be."""
+    if fault in ALLOWED:
+        return f"must be {ALLOWED[fault].format(**facts)}"
     match fault:
-        case "float_type":
-            return "must be a number"
-        case "finite_number":
-            return "must be finite"
-        case "int_type":
-            return "must be a whole number"
-        case "string_type":
-            return "must be text, in quotes"
         case "string_too_short":
             return "must not be empty"
-        case "greater_than":
-            return f"must be greater than {facts['gt']:g}"
-        case "greater_than_equal":
-            return f"must be {facts['ge']:g} or more"
-        case "less_than_equal":
-            return f"must be {facts['le']:g} or less"
-        case "too_large":
-            return f"must be {facts['largest']:g} or less in magnitude"
-        case "too_small":
-            return f"must be {facts['smallest']:g} or more"
-        case "less_than":
-            return f"must be less than {facts['lt']:g}"
         case "too_short":
             return f"must have at least {_entries(facts['min_length'])}, not {facts['actual_length']}"
         case "too_long":

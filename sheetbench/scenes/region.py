@@ -8,8 +8,10 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from sheetbench.errors import Impossible
-from sheetbench.scenes.loads import EdgeLoad, PointLoad
+from sheetbench.scenes.loads import AnyLoad, AreaLoad, EdgeLoad, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint
 from sheetbench.scenes.shapes import APART, Shape
 from sheetbench.scenes.sheet import EDGES, Sheet
@@ -87,14 +89,28 @@ def area_in(scene: Scene, shape: Shape | None) -> float:
     return float((scene.region if shape is None else scene.region.intersection(shape.area)).area)
 
 
+def resultant(scene: Scene, load: AnyLoad, length: float | None = None) -> np.ndarray:
+    """The force (3,) [N] of a load in full, a pressure's on the flat sheet; length: of its edge [m] as a
+    model has it."""
+    if isinstance(load, PointLoad):
+        return np.array(load.force)
+    if isinstance(load, EdgeLoad):
+        return (edge_length(scene, load.edge) if length is None else length) * np.array(load.force_per_length)
+    per_area = load.force_per_area if isinstance(load, AreaLoad) else (0.0, 0.0, load.value)
+    return area_in(scene, load.where) * np.array(per_area)
+
+
+def marked(scene: Scene) -> dict[str, PlanPoint]:
+    """Plan points [m] of probes and point loads, by their keys."""
+    loads = {f"load {n}.at": each.at for n, each in enumerate(scene.loads, 1) if isinstance(each, PointLoad)}
+    return {f"probes.{name}": point for name, point in scene.probes.items()} | loads
+
+
 def misplaced(scene: Scene) -> str:
     """Why something is held, loaded or probed where there is no sheet; "" where nothing is."""
     import shapely
 
-    for key, point in {
-        **{f"probes.{name}": point for name, point in scene.probes.items()},
-        **{f"load {n}.at": each.at for n, each in enumerate(scene.loads, 1) if isinstance(each, PointLoad)},
-    }.items():
+    for key, point in marked(scene).items():
         if scene.region.distance(shapely.Point(point)) > APART * max(scene.sheet.lengths):
             return f"{key} = {list(point)} m: there is no sheet, by its outline or a cutout"
     shapes = {name: place(support) for name, support in named(scene.supports).items()}

@@ -7,13 +7,14 @@ once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads`
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 from warnings import warn
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.errors import Implausible
 from sheetbench.scenes import corners, region, summary
@@ -21,7 +22,7 @@ from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreemen
 from sheetbench.scenes.air import Air
 from sheetbench.scenes.anchors import held_twice
 from sheetbench.scenes.layers import Layer, misfit
-from sheetbench.scenes.loads import AreaLoad, Load, PointLoad
+from sheetbench.scenes.loads import AreaLoad, Load
 from sheetbench.scenes.material import Material
 from sheetbench.scenes.orthotropy import FIBRES
 from sheetbench.scenes.patches import Patch, mismatched, misplaced
@@ -36,6 +37,10 @@ from sheetbench.scenes.words import in_words
 if TYPE_CHECKING:
     from shapely import Polygon
 
+LISTS = {  # by their keys in Python: those in a file, where each entry is a table
+    "layers": "layer", "patches": "patch", "cutouts": "cutout", "supports": "support", "loads": "load",
+    "actuators": "actuator",
+}  # fmt: skip
 OURS = {"sheetbench", "lumped", "fem_reference", "comparisons", "studies"}
 
 
@@ -45,6 +50,8 @@ class Scene(Frozen):
     Lists are tuples; in TOML they are [[support]], [[load]], [[actuator]].
     """
 
+    model_config = ConfigDict(alias_generator=lambda key: LISTS.get(key, key))
+
     name: str = Field(min_length=1)
     """A short name, for tables and messages."""
     title: str = Field(default="", kw_only=True)
@@ -53,31 +60,21 @@ class Scene(Frozen):
     """The flat, stress-free sheet."""
     material: Material
     """What the sheet is made of."""
-    layers: tuple[Layer, ...] = Field(
-        default=(), validation_alias="layer", serialization_alias="layer", kw_only=True
-    )
+    layers: tuple[Layer, ...] = Field(default=(), kw_only=True)
     """Plies of a laminate, from the lower face up, symmetric about the middle; none for one material."""
-    patches: tuple[Patch, ...] = Field(
-        default=(), validation_alias="patch", serialization_alias="patch", kw_only=True
-    )
+    patches: tuple[Patch, ...] = Field(default=(), kw_only=True)
     """Parts of the sheet with a thickness or a material of their own; where they overlap later ones win."""
-    cutouts: tuple[Cutout, ...] = Field(
-        default=(), validation_alias="cutout", serialization_alias="cutout", kw_only=True
-    )
+    cutouts: tuple[Cutout, ...] = Field(default=(), kw_only=True)
     """Holes and notches: parts of the plan where there is no sheet."""
     gravity: Gravity | None = None
     """The sheet's weight; without this table the sheet is weightless."""
     air: Air | None = Field(default=None, kw_only=True)
     """Still air, which resists where the sheet moves along its normal; without this table there is none."""
-    supports: tuple[Support, ...] = Field(
-        default=(), validation_alias="support", serialization_alias="support"
-    )
+    supports: tuple[Support, ...] = ()
     """How edges are held, at most one support an edge, and parts of the sheet."""
-    loads: tuple[Load, ...] = Field(default=(), validation_alias="load", serialization_alias="load")
+    loads: tuple[Load, ...] = ()
     """Forces, moments and pressures, which add up."""
-    actuators: tuple[Actuator, ...] = Field(
-        default=(), validation_alias="actuator", serialization_alias="actuator"
-    )
+    actuators: tuple[Actuator, ...] = ()
     """What moves edges that have no support."""
     springs: SpringTable | None = None
     """The lattice's own spring constants, as `sheetbench calibrate --toml` writes them; no other model reads
@@ -122,41 +119,32 @@ class Scene(Frozen):
 
     @model_validator(mode="after")
     def _consistent(self) -> Scene:
-        for name, point in self.probes.items():
-            if not self._on_sheet(point):
-                raise ValueError(f"probes.{name} = {list(point)} is off the sheet, {self._extent()}")
-        for number, load in enumerate(self.loads, start=1):
-            if isinstance(load, PointLoad) and not self._on_sheet(load.at):
-                raise ValueError(f"load {number}.at = {list(load.at)} is off the sheet, {self._extent()}")
-        if self.patches and (wrong := misplaced(self.patches, self.sheet)):
-            raise ValueError(f"patch {wrong}")
-        if self.shaped_by and (wrong := region.misplaced(self)):
+        if wrong := next((f"{key}{reason}" for key, reason in self._conflicts() if reason), None):
             raise ValueError(wrong)
-        if self.layers and not self.homogeneous:
-            raise ValueError(f"layer: a laminate is the same all over, without {self.varied_by}")
-        if self.layers and (wrong := misfit(self.layers, self.sheet, self.material)):
-            raise ValueError(f"layer: {wrong}")
-        if wrong := mismatched(self.patches, self.material):
-            raise ValueError(f"patch {wrong}")
-        if self.material.law is not None and self.springs is not None:
-            raise ValueError(
-                f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"
-            )
-        if reason := contradiction(self.supports):
-            raise ValueError(f"support: {reason}")
-        if reason := disagreement(self.actuators, {support.edge for support in self.supports}):
-            raise ValueError(f"actuator: {reason}")
-        if reason := held_twice(self.actuators, self.supports):
-            raise ValueError(f"actuator {reason}")
-        if reason := corners.conflict(self.actuators, self.supports, self.sheet):
-            raise ValueError(f"actuator: {reason}")
         return self
 
-    def _on_sheet(self, point: PlanPoint) -> bool:
-        return all(0.0 <= c <= length for c, length in zip(point, self.sheet.lengths, strict=True))
-
-    def _extent(self) -> str:
-        return f"which is 0 ≤ x ≤ {self.sheet.length_x:g} m, 0 ≤ y ≤ {self.sheet.length_y:g} m"
+    def _conflicts(self) -> Iterator[tuple[str, str | None]]:
+        """Yield what does not go together, key and reason, no reason where it does."""
+        for key, (x, y) in region.marked(self).items():
+            lx, ly = self.sheet.lengths
+            on = 0.0 <= x <= lx and 0.0 <= y <= ly
+            extent = f"which is 0 ≤ x ≤ {lx:g} m, 0 ≤ y ≤ {ly:g} m"
+            yield f"{key} = ", None if on else f"{[x, y]} is off the sheet, {extent}"
+        if self.patches:
+            yield "patch ", misplaced(self.patches, self.sheet)
+        if self.shaped_by:
+            yield "", region.misplaced(self)
+        if self.layers:
+            varied = None if self.homogeneous else self.varied_by
+            yield "layer: ", varied and f"a laminate is the same all over, without {varied}"
+            yield "layer: ", misfit(self.layers, self.sheet, self.material)
+        yield "patch ", mismatched(self.patches, self.material)
+        law = None if self.springs is None else self.material.law
+        yield "springs: ", law and f"of a material with law = '{law}' they are calibrated; leave one out"
+        yield "support: ", contradiction(self.supports)
+        yield "actuator: ", disagreement(self.actuators, {support.edge for support in self.supports})
+        yield "actuator ", held_twice(self.actuators, self.supports)
+        yield "actuator: ", corners.conflict(self.actuators, self.supports, self.sheet)
 
     def replace(self, **values: Any) -> Scene:
         """Return a copy with other values for some keys, those of its sheet and material too.

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
 from sheetbench.scenes.air import Air
 from sheetbench.scenes.layers import Layer
-from sheetbench.scenes.loads import AreaLoad, EdgeLoad, PointLoad, Pressure
+from sheetbench.scenes.loads import AnyLoad, AreaLoad, PointLoad, Pressure
 from sheetbench.scenes.material import CONSTANTS, Material
 from sheetbench.scenes.orthotropy import Ply
 from sheetbench.scenes.patches import Patch, mass_of
 from sheetbench.scenes.quantities import PlanPoint
-from sheetbench.scenes.region import area_in, edge_length
+from sheetbench.scenes.region import area_in, resultant
 from sheetbench.scenes.rigid_motions import free_rigid_motions
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.sheet import EDGES, Sheet
@@ -23,8 +23,6 @@ from sheetbench.scenes.tables import FactorTable
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
-
-Load = PointLoad | EdgeLoad | AreaLoad | Pressure
 
 
 def in_words(scene: Scene) -> list[tuple[str, str]]:
@@ -200,23 +198,19 @@ def _bent(curvature: float, sheet: Sheet, edge: str) -> str:
     return f"bent to a radius of {_mm(1.0 / abs(curvature))} mm, {turned:.3g}° in all, its ends {way}"
 
 
-def _load(load: Load, scene: Scene) -> str:
-    sheet = scene.sheet
-    history = _over_time(load.history)
+def _load(load: AnyLoad, scene: Scene) -> str:
+    history, whole = _over_time(load.history), hypot(*resultant(scene, load))
     if isinstance(load, PointLoad):
-        return f"{_vector(load.force, 'N')} at {_point(load.at)} mm{_on_edges(load.at, sheet)}{history}"
+        return f"{_vector(load.force, 'N')} at {_point(load.at)} mm{_on_edges(load.at, scene.sheet)}{history}"
     if isinstance(load, Pressure):
         way = "along the normal, at first +z" if load.value > 0.0 else "against the normal, at first −z"
-        whole = abs(load.value) * area_in(scene, load.where)
         where = _in(load.where)
         return f"pressure of {abs(load.value):g} Pa {way}{where}; {whole:.3g} N on the flat sheet{history}"
     if isinstance(load, AreaLoad):
-        whole = area_in(scene, load.where) * hypot(*load.force_per_area)
         return f"{_vector(load.force_per_area, 'N/m²')}, {whole:.3g} N in all{_in(load.where)}{history}"
     parts = []
     if any(load.force_per_length):
-        in_all = edge_length(scene, load.edge) * hypot(*load.force_per_length)
-        parts.append(f"{_vector(load.force_per_length, 'N/m')} ({in_all:.3g} N in all)")
+        parts.append(f"{_vector(load.force_per_length, 'N/m')} ({whole:.3g} N in all)")
     if load.moment_per_length:
         way = "up" if load.moment_per_length > 0.0 else "down"
         parts.append(f"a moment of {abs(load.moment_per_length):g} N·m/m that turns what is outside it {way}")

@@ -163,8 +163,9 @@ def compare(
 
     lattice: a `Lattice`, or its flat keywords: 9 masses along the shorter side unless given. reference: an
     `Elements`, or "plate", "shell" or "solid" with elements, 16 unless given and 8 in motion, and law of
-    strain. uncertainty: find the reference's error bar too. At rest: companion, others, and symmetry, branch
-    and linear of the lattice, see `comparisons.comparison.comparison.compare`; in motion: every, frames, see
+    strain. uncertainty: find the reference's error bar too. others: models shown beside both. At rest:
+    companion, and symmetry, branch and linear of the lattice, as of
+    `comparisons.comparison.comparison.compare`; in motion: every, frames, as of
     `comparisons.motion.comparison.compare_motion`. Raises SceneError for a scene without an answer, BadInput
     for choices that do not exist or do not go together; a solve that fails is a status.
     """
@@ -172,9 +173,10 @@ def compare(
     if duration is not None:
         from comparisons.motion.comparison import compare_motion
 
-        if others or not companion:
-            raise BadInput("others, companion: are for statics; leave them out with a duration")
+        if not companion:
+            raise BadInput("companion: is for statics; leave it out with a duration")
         both |= {"uncertainty": uncertainty is not False, "every": every, "frames": frames}
+        both |= {"others": others}
         return compare_motion(scene, duration, lattice, reference, **both)
     from comparisons.comparison.comparison import compare
 

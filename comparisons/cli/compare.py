@@ -67,11 +67,11 @@ def command(
     from sheetbench import scenes
     from sheetbench.errors import BadInput
 
+    models = {"--reference": reference, **({"--model": " ".join(model)} if model else {})}
     if duration is not None:
         from comparisons.motion.comparison import compare_motion
 
-        statics: dict[str, object] = {"--symmetry": symmetry, "--model": model, "--branch": branch != "path"}
-        statics |= {"--export": export}
+        statics = {"--symmetry": symmetry, "--branch": branch != "path", "--export": export}
         for option, value in statics.items():
             if value:
                 raise BadInput(f"{option}: is for statics; leave it out with --duration")
@@ -79,8 +79,7 @@ def command(
             raise BadInput("--animate: needs --out, a folder to draw into, without --no-pictures")
         moving = scenes.load(scene)
         chosen = None if elements is None else parse_elements(elements)
-        run = {"--duration": duration, "--reference": reference}
-        with output.open(scene=moving, variant=run) as out:
+        with output.open(scene=moving, variant={"--duration": duration, **models}) as out:
             for name in ("lumped", reference, "difference") if output.out is not None else ():
                 out.reserve(f"{name}/")
             both = compare_motion(
@@ -91,6 +90,7 @@ def command(
                 elements=chosen,
                 law=law,
                 uncertainty=uncertainty is not False,
+                others=model or (),
                 frames=FRAMES if output.out is not None else 0,
                 store=out.reserve("runs/"),
             )
@@ -101,8 +101,7 @@ def command(
     loaded = load_static(scene)
     size = parse_elements(elements or str(ELEMENTS))
     named = lattice.calibration is not None or lattice.k is not None
-    models = {"--reference": reference, "--calibration": "named" if named else "open"}
-    models |= {"--model": " ".join(model)} if model else {}
+    models |= {"--calibration": "named" if named else "open"}
     with output.open(scene=loaded, variant=models) as out:
 
         def keep(solution: scenes.Solution) -> None:

@@ -11,14 +11,12 @@ from comparisons.cli.options import Calibration, Large, option
 from comparisons.cli.verb import CampaignOptions, OutputOptions
 from sheetbench.choices import REFERENCES
 
-RESTING = {"lumped": "9,13,17", "plate": "8,12,16", "shell": "8,12,16", "solid": "6,8,12"}
-MOVING = {"lumped": "9,17", "plate": "4,8", "shell": "4,8", "solid": "2,4", "": "4,8"}  # "": external codes
+SIZES = {"lumped": "9,13,17", "plate": "8,12,16", "shell": "8,12,16", "solid": "6,8,12"}
 
 
 def _sizes(what: str, name: str, *names: str) -> Any:
     """The option of a model's sizes."""
-    usual = f"{RESTING[name]}; {MOVING[name]} with --duration"
-    return option(f"{what} along the shorter side, in rising order. Default: {usual}.", "N,N,N", *names)
+    return option(f"{what} along the shorter side, in rising order. Default: {SIZES[name]}.", "N,N,N", *names)
 
 
 def command(
@@ -37,18 +35,7 @@ def command(
         option("External codes, with commas, or FILE.py:OBJECT; default: all that are installed.", "NAMES"),
     ] = None,
     meshes: Annotated[
-        str | None,
-        option(
-            f"Elements of external codes. Default: each code's own; {MOVING['']} with --duration.", "N,N,N"
-        ),
-    ] = None,
-    duration: Annotated[
-        float | None,
-        option(
-            "Compare the motion of one scene over this time instead, each model on the finest of its meshes.",
-            "S",
-            unit="s",
-        ),
+        str | None, option("Elements of external codes. Default: each code's own.", "N,N,N")
     ] = None,
     large: Large = False,
     *,
@@ -61,32 +48,15 @@ def command(
     """
     from comparisons.crosscheck.candidates import candidates, load_scenes
     from comparisons.crosscheck.crosscheck import crosscheck
-    from comparisons.crosscheck.motion import crosscheck_motion
     from comparisons.external.installed import find_codes
     from comparisons.models.spec import items
-    from sheetbench.answers.answer import Answer
-    from sheetbench.errors import BadInput, NoEquilibrium
-    from sheetbench.scenes import load
 
     codes = find_codes(None if judges is None else items(judges))
-    usual = RESTING if duration is None else MOVING
     given = dict(zip(("lumped", *REFERENCES), (grid, plate, shell, solid), strict=True))
-    sizes = {name: usual[name] if text is None else text for name, text in given.items()}
-    meshes = usual.get("") if meshes is None else meshes
+    sizes = {name: SIZES[name] if text is None else text for name, text in given.items()}
     models = candidates(sizes.pop("lumped"), lattice.spec.but(calibration=calibration), sizes, codes, meshes)
-    if duration is not None and len(scenes) > 1:
-        raise BadInput(f"--duration: one scene, not {len(scenes)}")
-    chosen = load_scenes(scenes) if duration is None else [load(*scenes)]
-    about: dict[str, Any] = {"scenes": [scene.document() for scene in chosen]}
-    about |= {} if duration is None else {"duration": duration}
-    with output.open(about=about) as out:
+    chosen = load_scenes(scenes)
+    with output.open(about={"scenes": [scene.document() for scene in chosen]}) as out:
         with out.campaign(campaign) as run:
-            checked: Answer
-            if duration is None:
-                checked = crosscheck(chosen, **run, models=models, codes=codes)
-            else:
-                try:
-                    checked = crosscheck_motion(chosen[0], duration, **run, models=models, codes=codes)
-                except NoEquilibrium as error:
-                    out.stop(f"no motion to compare: {error}")
+            checked = crosscheck(chosen, **run, models=models, codes=codes)
         out.show(checked)

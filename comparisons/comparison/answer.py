@@ -71,7 +71,7 @@ class Comparison(Answer):
         return self.solutions[1]
 
     @property
-    def converged(self) -> bool:
+    def succeeded(self) -> bool:
         """Whether the chosen lattice and the reference both reached a stable equilibrium."""
         return all(solution.status is Status.CONVERGED for solution in self.solutions[:2])
 
@@ -274,11 +274,6 @@ class Comparison(Answer):
     def choices(self) -> dict[str, Any]:
         """Return the settings of every model."""
         return {solution.model: solution.settings for solution in self.solutions}
-
-    @property
-    def succeeded(self) -> bool:
-        """Whether the chosen lattice and the reference both reached a stable equilibrium."""
-        return self.converged
 
     def complaints(self) -> list[str]:
         """Return a sentence for every model that did not converge: what happened and what can be done; and

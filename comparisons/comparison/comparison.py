@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -20,7 +20,7 @@ from comparisons.models.keywords import StaticKeywords
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import has_room
 from comparisons.models.solve import solve
-from comparisons.models.spec import Elements, Lattice, Spec, parse
+from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
 from comparisons.report.work import Progress, silent
 from comparisons.runs.load import average
 from comparisons.runs.load import warnings as doubts
@@ -79,7 +79,7 @@ def compare(
         models[COMPANION] = resolve(scene, spec.but(calibration="uniform", grading=None))
     for other in others:
         beside = resolve(scene, parse(other) if isinstance(other, str) else other)
-        models[_unlike(shown_name(beside.spec.model), models)] = beside
+        models[unlike(shown_name(beside.spec.model), models)] = beside
     solutions = []
     for name, model in models.items():
         solutions.append(solve(model, name))
@@ -113,11 +113,6 @@ def compare(
     return Comparison(
         scene, answers, bar, laws, disagreement, expected, known, other_branch, busy, law_chosen
     )
-
-
-def _unlike(name: str, taken: Collection[str]) -> str:
-    """Return the name, or with the first number after it that makes it a new one."""
-    return next(n for n in (name, *(f"{name}-{i}" for i in range(2, len(taken) + 3))) if n not in taken)
 
 
 def load_static(scene: str | Path) -> Scene:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Any, ClassVar, Self
 
@@ -285,6 +285,11 @@ def parse(text: str) -> Spec:
             )
         settings[key] = _value(value)
     return spec_of(name, settings)
+
+
+def unlike(name: str, taken: Collection[str]) -> str:
+    """Return the name, or with the first number after it that makes it a new one."""
+    return next(n for n in (name, *(f"{name}-{i}" for i in range(2, len(taken) + 3))) if n not in taken)
 
 
 def items(text: str | None) -> list[str]:

@@ -7,7 +7,7 @@ of a README's, 480 pixels wide and below a megabyte.
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from comparisons.comparison.figure import HEIGHTS, colour_bar
-from comparisons.motion.frames import Frame, Surface, frames, surfaces
+from comparisons.motion.frames import Frame, frames
 from comparisons.report import offscreen
 from comparisons.report.plan import plan_mesh
 from comparisons.report.stage import Stage
@@ -33,30 +33,20 @@ SURFACE_LINES = 8  # cells drawn on a reference's sheet along its shorter side
 PER_SECOND, MOST = 8, 34  # frames a second, and at most
 
 
-def animate(scene: Scene, history: History, paths: Sequence[Path]) -> None:
-    """Write the frames to every path, as GIF or MP4 by its suffix; an MP4 needs ffmpeg. Raises NoPicture
-    without off-screen drawing."""
+def animate(scene: Scene, histories: Sequence[History], paths: Sequence[Path]) -> None:
+    """Write the frames of runs, several side by side in one view under their labels, to every path, as GIF or
+    MP4 by its suffix; an MP4 needs ffmpeg. Raises NoPicture without off-screen drawing."""
     if impossible := offscreen.why_not():
         raise NoPicture(impossible)
-    _write(paths, _images(scene, [frames(history)]))
-
-
-def animate_both(scene: Scene, histories: Mapping[str, History], paths: Sequence[Path]) -> None:
-    """Write the frames of several models, side by side in one view; the rest as `animate`."""
-    if impossible := offscreen.why_not():
-        raise NoPicture(impossible)
-    both = [frames(one) if "lattice" in one.extra else surfaces(one) for one in histories.values()]
-    _write(paths, _images(scene, both, [one.label for one in histories.values()]))
-
-
-def _write(paths: Sequence[Path], images: list[Image.Image]) -> None:
+    labels = [history.label for history in histories] if len(histories) > 1 else [""]
+    images = _images(scene, [frames(history) for history in histories], labels)
     for path in paths:
         with whole(path) as partial:
             (_write_mp4 if path.suffix == ".mp4" else _write_gif)(partial, images)
 
 
 def _images(
-    scene: Scene, runs: Sequence[Sequence[tuple[float, Frame | Surface]]], labels: Sequence[str] = ("",)
+    scene: Scene, runs: Sequence[Sequence[tuple[float, Frame]]], labels: Sequence[str]
 ) -> list[Image.Image]:
     """A page a moment, of frames of one run or of several at the same times; labels: what each is called."""
     moments = list(zip(*runs, strict=False))
@@ -72,22 +62,19 @@ def _images(
     speed = (moments[-1][0][0] - moments[0][0][0]) * PER_SECOND / max(len(moments) - 1, 1)
     images = []
     for moment in moments:
-        views = []
-        for (_, frame), label in zip(moment, labels, strict=True):
-            view = _view(scene, frame, limits, seen, len(moment))
-            views.append((view, label))
-        said = f"t = {moment[0][0]:.3f} s   (shown at {speed:.2g} × real time)"
-        images.append(_page(scene, views, said, limits))
+        views = [_view(scene, frame, limits, seen, len(moment)) for _, frame in moment]
+        caption = f"t = {moment[0][0]:.3f} s   (shown at {speed:.2g} × real time)"
+        images.append(_page(scene, list(zip(views, labels, strict=True)), caption, limits))
     return images
 
 
 def _view(
-    scene: Scene, frame: Frame | Surface, limits: tuple[float, float], seen: np.ndarray, beside: int
+    scene: Scene, frame: Frame, limits: tuple[float, float], seen: np.ndarray, beside: int
 ) -> np.ndarray:
     """The pixels of a sheet, of so many beside each other."""
     held: Any = frame
     stage = Stage(scene, held, 1.0, pixels=round(1.5 * WIDTH * PER_INCH / beside))
-    if isinstance(frame, Frame):
+    if frame.of_lattice:
         stage.lattice(frame.mesh, 1e3 * frame.mesh.point_data["displacement"][:, 2], limits, HEIGHTS)
     else:
         plan = plan_mesh(scene).points[:, :2]
@@ -98,7 +85,7 @@ def _view(
 
 
 def _page(
-    scene: Scene, views: Sequence[tuple[np.ndarray, str]], said: str, limits: tuple[float, float]
+    scene: Scene, views: Sequence[tuple[np.ndarray, str]], caption: str, limits: tuple[float, float]
 ) -> Image.Image:
     """Views with their labels, under the title and the time, over the colour bar."""
     title = plain(scene.title or scene.name, width=72)
@@ -116,7 +103,7 @@ def _page(
                 (number + 0.5) * share, bottom / height, label, ha="center", va="bottom", fontsize=6.5
             )
         figure.text(0.02, 1.0 - 0.04 / height, title, va="top")
-        figure.text(0.02, 1.0 - (top - 0.15) / height, said, va="top", fontsize=6.5)
+        figure.text(0.02, 1.0 - (top - 0.15) / height, caption, va="top", fontsize=6.5)
         bar = figure.add_axes((0.25, 0.28 / height, 0.5, 0.07 / height))
         colour_bar(figure, bar, HEIGHTS, limits, "$u_z$  [mm]")
         canvas = FigureCanvasAgg(figure)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from comparisons.models.grading import choice_notes
-from comparisons.motion import frames
+from comparisons.motion.frames import write_frames
 from comparisons.motion.history import left_out
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Film, Picture, Write
@@ -49,13 +50,12 @@ class Simulation(Answer):
         if self.animate:
             formats = ("gif", "mp4") if shutil.which("ffmpeg") else ("gif",)
             film = "comparisons.motion.animation:animate"
-            pictures.append(Film("animation", film, (self.scene, self.history), formats=formats))
+            pictures.append(Film("animation", film, (self.scene, [self.history]), formats=formats))
         return pictures
 
     def files(self) -> dict[str, Write]:
         """All samples, and the sheet at some moments."""
-        series: Write = lambda path: frames.write_series(path, frames.frames(self.history))  # noqa: E731
-        return {**self.history.files(), "frames.pvd": series}
+        return {**self.history.files(), "frames.pvd": partial(write_frames, history=self.history)}
 
     def notes(self) -> list[str]:
         """What was chosen, and what the history says."""

@@ -9,26 +9,28 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Unpack
 
 import numpy as np
 
+from comparisons.external import plugins
 from comparisons.models import sizes
 from comparisons.models.context import context, in_context
 from comparisons.models.grids import Elements as Count
 from comparisons.models.keywords import LatticeKeywords
-from comparisons.models.resolve import resolve
+from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import simulate
-from comparisons.models.spec import Elements, Lattice
+from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unlike
 from comparisons.motion.comparison_answer import MotionComparison
-from comparisons.motion.measures import difference
+from comparisons.motion.measures import largest
+from comparisons.motion.run import require_motion
 from comparisons.report import amounts
 from comparisons.report.work import Pace, Progress, Work, silent
 from sheetbench.choices import REFERENCE
-from sheetbench.scenes import AnyScene, History, Scene, Status, scene_of
+from sheetbench.scenes import AnyScene, History, Scene, scene_of
 
 ELEMENTS = 8  # of a moving reference along the shorter side
 LONGER = 8.0  # error of a step: steps twice as long
@@ -47,6 +49,7 @@ def compare_motion(
     elements: Count | None = None,
     law: str | None = None,
     uncertainty: bool = True,
+    others: Sequence[Spec | str] = (),
     every: float | None = None,
     frames: int = 0,
     store: Path | None = None,
@@ -57,75 +60,61 @@ def compare_motion(
     """Move a scene's sheet for `duration` [s] with the lattice and with a reference, from rest.
 
     elements: 8 along the shorter side unless given. uncertainty: move the reference twice more, on elements
-    twice as large and with steps twice as long. every [s]: distance of samples, 1/100 of the lowest period
-    unless given. frames: whole displacements to keep. store: a folder in which every run has one to stream
-    to; runs that were stopped go on from there. progress: told what is being done, how large it is and how
-    long it may take. Raises BadInput as `compare` and `simulate` do, and for what no reference moves.
+    twice as large and with steps twice as long. others: models that move it too, external codes and plug-ins
+    among them. every [s]: distance of samples, 1/100 of the lowest period unless given. frames: whole
+    displacements to keep. store: a folder in which every run of ours has one to stream to; runs that were
+    stopped go on from there. progress: told what is being done, how large it is and how long it may take.
+    Raises BadInput as `compare` and `simulate` do, and for a model that does not move the scene.
     """
-    import fem_reference
-
     asked = scene_of(scene)
-    judge = Elements.given(reference, {"elements": elements, "law": law})
-    judge = judge.but(count=ELEMENTS) if judge.count is None else judge
-    resolve(asked, judge)
+    finest = Elements.given(reference, {"elements": elements, "law": law})
+    finest = finest.but(count=ELEMENTS) if finest.count is None else finest
+    beside = [parse(one) if isinstance(one, str) else one for one in others]
+    for one in (finest, *beside):
+        require_motion(asked, one)
     model = resolve(asked, Lattice.given(lattice, keywords), "motion")
-    name, along = judge.kind, tuple(sizes.along(asked, judge)[:2])
 
-    def folder(name: str, *of: Any) -> Path | None:
-        """Where a run with these settings is kept."""
-        if store is None:
-            return None
-        text = json.dumps([asked.document(), duration, every, frames, of], sort_keys=True, default=str)
-        return store / f"{name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
-
-    def told(doing: str, begin: Work) -> Callable[[float], None]:
-        pace = Pace(duration)
-        context().progress(begin)
+    def moved(of: Resolved[Any], doing: str, spacing: float | None, **settings: Any) -> History:
+        """A run, kept in a folder of its own by its settings where there is a store."""
+        spec, pace, size = of.spec, Pace(duration), None
+        if isinstance(spec, Elements):
+            steps, each = _expected_steps(asked, duration), sizes.size(asked, spec)
+            size = each and replace(each, seconds=steps * SOLVES * each.seconds)
+        context().progress(Work(doing, size))
 
         def reached(time: float) -> None:
             left = pace.left(time) if time >= EVEN * duration else None
             soon = "" if left is None else f", {amounts.duration(left)} left"
             context().progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
 
-        return reached
+        if not isinstance(spec, External):
+            question = [asked.document(), duration, spacing, spec.model, of.settings, settings]
+            text = json.dumps(question, sort_keys=True, default=str)
+            kept = store and store / f"{spec.model}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
+            settings |= {"progress": reached, "store": kept}
+        return simulate(of, duration, every=spacing, **settings)
 
-    def moved(counts: tuple[int, ...], name: str, spacing: float, **settings: Any) -> History:
-        doing = f"moving the {name}"
-        steps = _expected_steps(asked, duration)
-        each = sizes.size(asked, judge.but(count=counts))
-        expected = each and replace(each, seconds=steps * SOLVES * each.seconds)
-        watch = told(doing, Work(f"{doing}, some {amounts.count(steps)} steps", expected))
-        return fem_reference.simulate(
-            asked,
-            judge.kind,
-            duration,
-            elements=counts,
-            every=spacing,
-            store=folder(judge.kind, spacing, counts, judge.options, settings),
-            progress=watch,
-            **judge.options,
-            **settings,
-        )
-
-    fem_reference.require_moving(asked, name)
-    watch = told("moving the lattice", Work("moving the lattice"))
-    kept = folder("lumped", model.settings)
-    own = simulate(model, duration, every=every, frames=frames, store=kept, progress=watch)
-    spacing = own.settings["every"]
-    truth = moved(along, name, spacing, frames=frames)
+    own = moved(model, "moving the lattice", every, frames=frames)
+    histories, spacing = {model.spec.model: own}, own.settings["every"]
+    for one in beside:
+        name = unlike(plugins.shown_name(one.model), (*histories, finest.kind))
+        histories[name] = moved(resolve(asked, one, "motion"), f"moving the {name}", spacing)
+    named = f"moving the {finest.kind}"
+    truth = moved(resolve(asked, finest), named, spacing, frames=frames)
     bars: dict[str, float | None] = {}
-    if uncertainty and truth.status is Status.CONVERGED:
-        longer = moved(along, f"{name} in longer steps", spacing, error=LONGER * truth.settings["error"])
+    if uncertainty and truth.succeeded:
+        error = LONGER * truth.settings["error"]
+        longer = moved(resolve(asked, finest), f"{named} in longer steps", spacing, error=error)
         bars = {"mesh": None, "step": _largest(longer, truth)}
-        if min(along) > 1:
-            half = (along[0] // 2, along[1] // 2)
-            coarse = moved(half, f"{name} on larger elements", spacing)
-            bars["mesh"] = _largest(coarse, truth)
-    return MotionComparison(asked, {model.spec.model: own, name: truth}, bars)
+        along = sizes.along(asked, finest)
+        if min(along[:2]) > 1:
+            half = resolve(asked, finest.but(count=(along[0] // 2, along[1] // 2)))
+            bars["mesh"] = _largest(moved(half, f"{named} on larger elements", spacing), truth)
+    return MotionComparison(asked, {**histories, finest.kind: truth}, bars)
 
 
 def _largest(one: History, other: History) -> float | None:
-    return difference(one, other)["largest"] if one.status is Status.CONVERGED else None
+    return largest(one, other) if one.succeeded else None
 
 
 def _expected_steps(scene: Scene, duration: float) -> int:

@@ -2,39 +2,66 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
+from comparisons.models.spec import Lattice
 from comparisons.motion import frames
-from comparisons.motion.frames import Frame
-from comparisons.motion.measures import difference, leading, measured_alike
+from comparisons.motion.measures import Measures, difference, leading, measured_alike
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Film, Picture, Write
-from sheetbench.answers.table import Column, Table, number
-from sheetbench.scenes import FieldMesh, History, Scene, Status
+from sheetbench.answers.table import NUMBER, PERCENT, SECONDS, Column, Table, number
+from sheetbench.scenes import FieldMesh, History, Scene
 from sheetbench.scenes.measured_history import COMPONENTS
+
+WHOLE = ("of", "largest", "rms", "peak", "period", "phase", "decay")  # of two motions' difference
+
+
+@dataclass(frozen=True)
+class DifferenceRow:
+    """How far a motion is from the reference's at a probe, or at all and in its measures."""
+
+    of: str
+    probe: str
+    largest: Annotated[float, PERCENT("z.2f")]
+    rms: Annotated[float, PERCENT("z.2f")]
+    peak: Annotated[float | None, PERCENT("z.2f")] = None
+    period: Annotated[float | None, PERCENT("z.2f")] = None
+    phase: Annotated[float | None, PERCENT("z.2f")] = None
+    decay: Annotated[float | None, NUMBER("z.4f")] = None
+
+
+@dataclass(frozen=True)
+class RunRow:
+    """What a run took; the model's name stands at the start of the label."""
+
+    model: Annotated[str, Column(detail=True)]
+    label: str
+    integrator: str
+    status: str
+    steps: Annotated[int, NUMBER("d")]
+    setup_seconds: Annotated[float, SECONDS(".2f", "set-up")]
+    solve_seconds: Annotated[float, SECONDS(".2f", "time")]
 
 
 @dataclass(frozen=True, repr=False)
 class MotionComparison(Answer):
-    """Histories by model, the lattice's first, the reference's last; codes: of which program's version some
-    are; left_out, failed: why models were refused, or did not reach their end, a sentence each; uncertainty:
-    how far the reference may be off by its mesh and by its steps, as `largest` and `rms` are measured; None
-    where it was not asked; animate: draw the sheets moving, side by side."""
+    """Histories by model, the lattice's first, the reference's last.
+
+    uncertainty: how far the reference may be off by its mesh and by its steps, as `largest` and `rms` are
+    measured, None where a run of it did not end; animate: draw the sheets moving, side by side.
+    """
 
     file_name = "motion"
     scene: Scene
     histories: dict[str, History]
     uncertainty: dict[str, float | None] = field(default_factory=dict)
     animate: bool = False
-    codes: dict[str, str] = field(default_factory=dict)
-    left_out: tuple[str, ...] = ()
-    failed: tuple[str, ...] = ()
 
     @property
     def reference(self) -> str:
@@ -42,10 +69,14 @@ class MotionComparison(Answer):
         return list(self.histories)[-1]
 
     @property
-    def converged(self) -> bool:
+    def succeeded(self) -> bool:
         """Whether all runs reached their end."""
-        ends = (history.status is Status.CONVERGED for history in self.histories.values())
-        return not self.failed and all(ends)
+        return all(history.succeeded for history in self.histories.values())
+
+    @property
+    def _with_frames(self) -> dict[str, History]:
+        """Histories that kept whole displacements."""
+        return {name: one for name, one in self.histories.items() if len(one.extra.get("frames", ()))}
 
     @property
     def differences(self) -> list[dict[str, Any]]:
@@ -61,7 +92,6 @@ class MotionComparison(Answer):
         truth = self.histories[self.reference]
         return {
             "scene": self.scene.document(),
-            "failed": self.failed,
             "motion": {
                 "time": truth.time,
                 "probes": {name: history.probes for name, history in self.histories.items()},
@@ -100,53 +130,40 @@ class MotionComparison(Answer):
 
     def figures(self) -> tuple[Picture, ...]:
         drawn = Picture("motion", "comparisons.motion.comparison_figure:compose", (self,))
-        film = "comparisons.motion.animation:animate_both"
-        return (drawn, Film("both", film, (self.scene, self.histories))) if self.animate else (drawn,)
+        moving = [*self._with_frames.values()]
+        film = Film("both", "comparisons.motion.animation:animate", (self.scene, moving))
+        return (drawn, film) if self.animate else (drawn,)
 
     def notes(self) -> list[str]:
         own = (f"{name}: {note}" for name, history in self.histories.items() for note in history.notes())
-        versions = (f"{name} {version}" for name, version in self.codes.items())
-        return [*_bars(self), *versions, *self.left_out, *own]
+        return [*_bars(self), *own]
 
     def complaints(self) -> list[str]:
-        ends = (f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints())
-        return [*self.failed, *ends]
+        return [f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints()]
 
     def files(self) -> dict[str, Write]:
-        """Samples of every model, and where frames were kept sheets at some moments."""
+        """Return samples of every model and, where frames were kept, sheets at some moments."""
         found: dict[str, Write] = {
-            f"{name}.csv": partial(_write_samples, found=self, name=name) for name in self.histories
+            f"{name}.csv": partial(_write_samples, history=history)
+            for name, history in self.histories.items()
         }
-        if all(len(history.extra.get("frames", ())) for history in self.histories.values()):
-            found |= {f"{n}.pvd": partial(_write_frames, found=self, name=n) for n in self.histories}
+        for name, history in self._with_frames.items():
+            found[f"{name}.pvd"] = partial(frames.write_frames, history=history)
+        if {Lattice.NAME, self.reference} <= self._with_frames.keys():
             found["difference.pvd"] = partial(_write_difference, found=self)
         return found
 
     def choices(self) -> dict[str, Any]:
         return {name: history.settings for name, history in self.histories.items()}
 
-    @property
-    def succeeded(self) -> bool:
-        return self.converged
-
 
 def _measures(found: MotionComparison) -> Table:
     truth = found.histories[found.reference]
     probe, component = leading(truth)
-    rows = []
-    for name, history in found.histories.items():
-        of = measured_alike(history, truth)[0]
-        rows.append((name, of.peak, of.peak_time, of.period, of.decay, of.damping))
-    columns = (
-        Column("model"),
-        Column("first peak", "m", "mm", 1e3, "z.3f"),
-        Column("at", "s", "ms", 1e3, "z.2f"),
-        Column("period", "s", "ms", 1e3, "z.2f"),
-        Column("decay a period", form="z.4f"),
-        Column("as a damping ratio", "", form="z.4f"),
-    )
+    rows = [replace(measured_alike(one, truth)[0], model=name) for name, one in found.histories.items()]
     caption = f"{COMPONENTS[component]} of {probe}, which moves farthest: first peak, period, log decrement"
-    return Table(caption, columns, tuple(rows), "measures")
+    fields = ("model", "peak", "peak_time", "period", "decay", "damping")
+    return Table.of(Measures, rows, caption, "measures", fields=fields)
 
 
 def _differences(found: MotionComparison) -> Table:
@@ -157,40 +174,23 @@ def _differences(found: MotionComparison) -> Table:
         history = found.histories[d["of"]]
         count = min(len(history.time), len(truth.time))
         for probe, u in history.probes.items():
-            apart = u[:count] - truth.probes[probe][:count]
-            rms = float(np.sqrt(np.mean(np.sum(apart**2, axis=1)))) / scale
-            rows.append((d["of"], probe, float(np.abs(apart).max()) / scale, rms, *[None] * 4))
-        rows.append(
-            (d["of"], "all", *(d[key] for key in ("largest", "rms", "peak", "period", "phase", "decay")))
-        )
-    columns = (
-        Column("of"),
-        Column("probe"),
-        *(Column(name, "", "%", 100.0, "z.2f") for name in ("largest", "rms", "peak", "period", "phase")),
-        Column("decay", form="z.4f"),
-    )
+            off = u[:count] - truth.probes[probe][:count]
+            rms = float(np.sqrt(np.mean(np.sum(off**2, axis=1)))) / scale
+            rows.append(DifferenceRow(d["of"], probe, float(np.abs(off).max()) / scale, rms))
+        rows.append(DifferenceRow(probe="all", **{k: v for k, v in d.items() if k in WHOLE}))
     caption = (
         f"Difference from the {found.reference}: largest and rms of its largest displacement, phase of "
         "a period; decay: difference of the logarithmic decrements"
     )
-    return Table(caption, columns, tuple(rows), "differences")
+    return Table.of(DifferenceRow, rows, caption, "differences")
 
 
 def _runs(found: MotionComparison) -> Table:
-    columns = (
-        Column("model", detail=True),  # labels begin with it
-        Column("label"),
-        Column("integrator"),
-        Column("status"),
-        Column("steps", form="d"),
-        Column("set-up", "s", "s", 1.0, ".2f"),
-        Column("time", "s", "s", 1.0, ".2f"),
-    )
-    rows = [
-        (name, h.label, h.integrator, str(h.status), h.steps, h.setup_seconds, h.solve_seconds)
+    rows = (
+        RunRow(name, h.label, h.integrator, str(h.status), h.steps, h.setup_seconds, h.solve_seconds)
         for name, h in found.histories.items()
-    ]
-    return Table("What it took", columns, tuple(rows), "runs")
+    )
+    return Table.of(RunRow, rows, "What it took", "runs")
 
 
 def _bars(found: MotionComparison) -> list[str]:
@@ -198,11 +198,7 @@ def _bars(found: MotionComparison) -> list[str]:
     known = {name: bar for name, bar in found.uncertainty.items() if bar is not None}
     if not known:
         return []
-    how = {
-        "mesh": "with elements twice as large",
-        "step": "with steps twice as long",
-        "finer": "on the mesh before its finest",
-    }
+    how = {"mesh": "with elements twice as large", "step": "with steps twice as long"}
     parts = (f"{number(100 * bar, '.2g')} % {how[name]}" for name, bar in known.items())
     changes = " and ".join(parts)
     notes = [f"error of the {found.reference} itself: it changes by up to {changes}"]
@@ -215,26 +211,17 @@ def _bars(found: MotionComparison) -> list[str]:
     return notes
 
 
-def _write_samples(path: Path, found: MotionComparison, name: str) -> None:
-    write_text(path, found.histories[name].series().to_csv())
-
-
-def _write_frames(path: Path, found: MotionComparison, name: str) -> None:
-    history = found.histories[name]
-    if "lattice" in history.extra:
-        frames.write_series(path, frames.frames(history))
-    else:
-        frames.write_series(path, [(time, sheet.mesh) for time, sheet in frames.surfaces(history)])
+def _write_samples(path: Path, history: History) -> None:
+    write_text(path, history.series().to_csv())
 
 
 def _write_difference(path: Path, found: MotionComparison) -> None:
     """On the reference's mesh its mid-surface's displacement, and the lattice's less it."""
-    lattice: list[tuple[float, Frame]] = frames.frames(found.histories["lumped"])
-    extra, shown = found.histories[found.reference].extra, []
-    mesh: FieldMesh = extra["mesh"]
-    plan = mesh.points[:, :2]
-    for kept, (time, frame) in zip(extra["frames"], lattice, strict=False):
-        u = extra["sample"](kept, plan)
-        fields = {"displacement": u, "difference": frame.displacement(plan) - u}
-        shown.append((time, FieldMesh(mesh.points, mesh.cells, fields)))
+    both = (frames.frames(found.histories[name]) for name in (Lattice.NAME, found.reference))
+    shown = []
+    for (_, ours), (time, truth) in zip(*both, strict=False):
+        plan = truth.mesh.points[:, :2]
+        u = truth.displacement(plan)
+        fields = {"displacement": u, "difference": ours.displacement(plan) - u}
+        shown.append((time, FieldMesh(truth.mesh.points, truth.mesh.cells, fields)))
     frames.write_series(path, shown)

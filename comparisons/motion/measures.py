@@ -16,10 +16,11 @@ component.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
+from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NUMBER
 from sheetbench.scenes import History
 
 STANDS_OUT = 0.05  # of the range of a component
@@ -28,22 +29,23 @@ STANDS_OUT = 0.05  # of the range of a component
 @dataclass(frozen=True)
 class Measures:
     """peak [m] at peak_time [s]; period [s]; decay: logarithmic decrement a period; last: when the last
-    extremum was that both motions have [s]. None where there are too few extrema."""
+    extremum was that both motions have [s]. None where there are too few extrema. model: whose they are."""
 
-    peak: float | None
-    peak_time: float | None
-    period: float | None
-    decay: float | None
-    last: float | None
+    peak: Annotated[float | None, MILLIMETRES("z.3f", "first peak")] = None
+    peak_time: Annotated[float | None, MILLISECONDS("z.2f", "at")] = None
+    period: Annotated[float | None, MILLISECONDS("z.2f")] = None
+    decay: Annotated[float | None, NUMBER("z.4f", "decay a period")] = None
+    last: float | None = None
+    model: str = ""
 
     @property
-    def damping(self) -> float | None:
+    def damping(self) -> Annotated[float | None, NUMBER("z.4f", "as a damping ratio")]:
         """The damping ratio of the decrement."""
         return None if self.decay is None else float(self.decay / np.hypot(2.0 * np.pi, self.decay))
 
     def as_dict(self) -> dict[str, float | None]:
         """For JSON."""
-        return {key: value for key, value in vars(self).items() if key != "last"}
+        return {key: value for key, value in vars(self).items() if key not in ("last", "model")}
 
 
 def leading(history: History) -> tuple[str, int]:
@@ -71,7 +73,7 @@ def measures(found: np.ndarray, count: int) -> Measures:
     """Of the first `count` extrema (n, 3)."""
     kept = found[:count]
     if count == 0:
-        return Measures(None, None, None, None, None)
+        return Measures()
     period = 2.0 * float(np.diff(kept[:, 0]).mean()) if count > 1 else None
     apart = np.abs(np.diff(kept[:, 1]))
     decay = 2.0 * float(np.log(apart[0] / apart[-1])) / (len(apart) - 1) if count > 2 else None

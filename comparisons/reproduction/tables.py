@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from comparisons.models.grids import Elements
-from comparisons.motion.frames import frames, write_series
+from comparisons.motion.frames import write_frames
 from comparisons.report.vtk import write_solution
 from comparisons.reproduction import findings
 from comparisons.reproduction.answers import ReproducedTest
@@ -72,10 +72,10 @@ class Reproduction(Answer):
     settling: Settling | None = None
 
     @property
-    def converged(self) -> bool:
+    def succeeded(self) -> bool:
         """Whether our own models have answers to what was asked: the seed's lattices need not."""
         runs = self.settling.runs.values() if self.settling is not None else ()
-        return all(one.comparison.converged for one in self.answers) and all(
+        return all(one.comparison.succeeded for one in self.answers) and all(
             run.status is Status.CONVERGED for run in runs
         )
 
@@ -139,10 +139,6 @@ class Reproduction(Answer):
 
     def choices(self) -> dict[str, Any]:
         return {"parts": list(self.parts), "elements": self.elements}
-
-    @property
-    def succeeded(self) -> bool:
-        return self.converged
 
 
 def findings_table(every: Sequence[findings.Finding]) -> Table:
@@ -209,5 +205,5 @@ def _attachments(reproduction: Reproduction) -> dict[str, Write]:
     if reproduction.settling is not None:
         for model, run in reproduction.settling.runs.items():
             files[f"settling-{model}.csv"] = partial(write_text, text=run.series().to_csv())
-            files[f"settling-{model}.pvd"] = partial(write_series, shown=frames(run))
+            files[f"settling-{model}.pvd"] = partial(write_frames, history=run)
     return files

@@ -25,6 +25,7 @@ from lumped.dynamics.runs.run import Run
 from lumped.dynamics.runs.sampling import Sampling
 from lumped.dynamics.system import System
 from lumped.lattice import Weights
+from lumped.mid_surface import MidSurface
 from lumped.statics.fields import field_mesh
 from lumped.statics.solver import build_problem
 from sheetbench.choices import INTEGRATOR
@@ -61,8 +62,9 @@ def simulate(
     load's history does within a step may go unseen, but for `esdirk`, whose adaptive steps may be longer and
     end where a history bends. store: a folder to stream to; a run that was stopped goes on from there, and
     one that is to last longer now goes on, sampled as it was. frames: whole displacements to keep, evenly
-    over the run, in `extra`: "frames" (n, masses, 3), "frame_times" (n,), the "mesh" they belong to and
-    "axes", of each edge with chains the rest places (p, 3) and displacements (n, p, 3) [m] of its axis.
+    over the run, in `extra`: "frames" (n, masses, 3), "frame_times" (n,), the "mesh" they belong to,
+    "sample", which takes one and plan points (p, 2) [m] to displacements (p, 3), and "axes", of each edge
+    with chains the rest places (p, 3) and displacements (n, p, 3) [m] of its axis.
     progress: called with the time reached.
     precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
     `error`).
@@ -159,7 +161,7 @@ def simulate(
                 edge: (rest, whole[:, np.searchsorted(drawn, rows)]) for edge, (rows, rest) in axes.items()
             },
             "frame_times": plan.every * np.array(shown),
-            "lattice": system.assembly.lattice,
+            "sample": lambda u, plan: MidSurface(system.assembly.lattice, plan).of(u),
             "mesh": field_mesh(system.problem.assembly, start.u, np.zeros_like(start.u)),
         },
     )

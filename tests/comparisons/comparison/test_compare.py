@@ -62,7 +62,7 @@ def test_a_partial_answer_is_kept_but_not_measured(scene: Scene, changes: dict) 
     both = Comparison(scene, (partial, fake_solutions.solution(scene, "shell")))
     assert both.error(partial) is None
     assert [d.relative for d in both.differences] == [None] * 4
-    assert not both.converged
+    assert not both.succeeded
     document = json.loads(to_json(both.document()))
     assert document["solutions"][0]["probes"]["P4"][2] == pytest.approx(-0.01)
     (said,) = both.complaints()
@@ -106,13 +106,13 @@ def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(scene: Scene) -> None:
 def test_a_companion_that_fails_does_not_make_the_comparison_fail(scene: Scene) -> None:
     pair = (fake_solutions.solution(scene, "lumped"), fake_solutions.solution(scene, "shell"))
     companion = fake_solutions.solution(scene, "lumped-uniform", status=Status.DIVERGED, load_factor=0.1)
-    assert Comparison(scene, (*pair, companion)).converged
+    assert Comparison(scene, (*pair, companion)).succeeded
 
 
 def test_default_comparison_is_consistent_then_shell_then_uniform(real: Comparison) -> None:
     assert [solution.model for solution in real.solutions] == ["lumped", "shell", "lumped-uniform"]
     assert [s.settings.get("calibration") for s in real.solutions] == ["consistent", None, "uniform"]
-    assert real.converged
+    assert real.succeeded
     assert {(d.of, d.against) for d in real.differences} == {("lumped", "shell"), ("lumped-uniform", "shell")}
 
 

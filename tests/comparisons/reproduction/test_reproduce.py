@@ -48,7 +48,7 @@ def test_the_tables_hold_what_was_published_and_what_we_answer(test_1: Reproduce
     document = found.document()
     assert {"parts", "inputs", "known_faults", "findings", "tests"} == set(document)
     assert document["findings"][0]["finding"].startswith("Our lattice with consistent springs is ")
-    assert found.converged and document["tests"][0]["name"] == "test-1"
+    assert found.succeeded and document["tests"][0]["name"] == "test-1"
     report: Report = found.report()
     table = next(table for table in report.tables if table.name == "test-1")
     assert (
@@ -68,5 +68,5 @@ def test_a_published_lattice_without_an_answer_is_a_complaint_and_no_failure(
     solutions = (*others, replace(last, status=Status.UNSTABLE))
     fallen = replace(test_1, comparison=replace(test_1.comparison, solutions=solutions))
     found = Reproduction(("tables",), 2, answers=(fallen,))
-    assert found.converged
+    assert found.succeeded
     assert [said.partition(": ")[0] for said in found.report().complaints] == ["Test 1, k550-lz17"]

@@ -16,7 +16,7 @@ from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
-from lumped.springs.all_families import NO_INERTIA, NO_STRESSES, AllFamilies, Stresses, families
+from lumped.springs.all_families import NO_INERTIA, NO_STRESSES, AllFamilies, Stresses, springs_of
 from lumped.springs.families import Cells, Links
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
@@ -65,9 +65,9 @@ class Assembly:
             rows, columns = (np.concatenate(part) for part in zip(pairs, own, strict=True))
             self.pattern = Pattern(self.coupling.size, rows, columns)
             self.coupling_slots = self.pattern.slots(*own)
-        self.springs = families(self.lattice, self.pattern, calibration.springs)
+        self.all_families = springs_of(self.lattice, self.pattern, calibration.springs)
+        self.springs = self.all_families.families
         self.links = next(family for family in self.springs if isinstance(family, Links))
-        self.all_families = AllFamilies(self.springs, self.pattern)
         self.precision = precision
         self._rounded: AllFamilies | None = None
         if precision == "single":

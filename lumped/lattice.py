@@ -74,7 +74,7 @@ class CellFamily:
     nodes: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Lattice:
     """Topology and rest geometry. lines: across x and across y; layer_distance: lz [m]; positions: (n, 3)
     [m]; share: (n,) of each mass in the plan area, in mean cells; twisting: the edges along which nothing

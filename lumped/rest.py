@@ -103,26 +103,11 @@ class Rest:
         return Faces(*(np.concatenate(part) for part in zip(*parts, strict=True)))
 
 
-class Itself:
-    """A lattice as a key: the same one, not one like it."""
-
-    def __init__(self, lattice: Lattice):
-        self.lattice = lattice
-
-    def __hash__(self) -> int:
-        return id(self.lattice)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Itself) and self.lattice is other.lattice
-
-
 def rest_of(lattice: Lattice, pattern: Pattern) -> Rest:
     """The springs of a lattice at rest, their blocks of this pattern; of a small one the same every time."""
     if lattice.mass_count > SHARED_UP_TO:
         return Rest(lattice, pattern)
-    return _kept_rest(Itself(lattice), pattern)
+    return _kept_rest(lattice, pattern)
 
 
-@lru_cache(maxsize=16)
-def _kept_rest(itself: Itself, pattern: Pattern) -> Rest:
-    return Rest(itself.lattice, pattern)
+_kept_rest = lru_cache(maxsize=16)(Rest)

@@ -24,7 +24,6 @@ from lumped.actuators.corners import Tie
 from lumped.coverage import held_columns
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, Pattern
-from lumped.rest import Itself
 from sheetbench.numerics.kept import frozen
 from sheetbench.numerics.maps import Rows, csr_arrays
 from sheetbench.numerics.reduced import ReducedSystem, reduced
@@ -128,14 +127,8 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     """The constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a linear
     map of the actuator's rows. Columns of edges moved rigidly are the motion's, not the supports'. Of the
     same supports without actuators on the same small lattice they are the same every time."""
-    if coupling is not None or lattice.mass_count > SHARED_UP_TO:
-        return _constrain(scene.supports, scene.sheet, lattice, coupling)
-    return _kept(tuple(scene.supports), scene.sheet, Itself(lattice))
-
-
-@lru_cache(maxsize=16)
-def _kept(supports: tuple[Support, ...], sheet: Sheet, itself: Itself) -> Constraints:
-    return _constrain(supports, sheet, itself.lattice, None)
+    small = coupling is None and lattice.mass_count <= SHARED_UP_TO
+    return (_kept if small else _constrain)(tuple(scene.supports), scene.sheet, lattice, coupling)
 
 
 def _constrain(
@@ -196,6 +189,9 @@ def _constrain(
             shift[masses, axis] = distance
     frozen(fixed)
     return Constraints(transform, turned, shift, holders, held, fixed, coupling)
+
+
+_kept = lru_cache(maxsize=16)(_constrain)
 
 
 def _selection(free: np.ndarray) -> sp.csr_array:

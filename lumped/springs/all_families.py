@@ -9,7 +9,7 @@ family's own; here they release the interpreter's lock. Springs without an energ
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,10 +17,10 @@ from numba import njit
 
 from lumped import spring_constants as constants
 from lumped.lattice import Lattice
-from lumped.pattern import Pattern
+from lumped.pattern import SHARED_UP_TO, Pattern
 from lumped.rest import Rest, rest_of
 from lumped.springs import cells, links
-from lumped.springs.cell_laws import COUPLED, FACE, RUBBER, AreaAndStrains, measures
+from lumped.springs.cell_laws import AREA_AND_STRAINS, COUPLED, FACE, RUBBER, AreaAndStrains, measures
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import Cells, Dampers, DirectionalLinks, Family, Links
 from lumped.springs.links import LinkArrays
@@ -56,6 +56,7 @@ class AllFamilies:
     """Families of springs together. Displacements and forces are (n, 3) [m], [N]; stresses as `Springs`."""
 
     def __init__(self, families: Sequence[Family], pattern: Pattern):
+        self.families = tuple(families)
         found = {_place(family): family for family in families}
         links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
         self.springs = Springs(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_))
@@ -243,7 +244,7 @@ def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
             every_sides, every_area = (part[: len(part) // every] for part in (sides, area))
             found = constants.of_rubber(springs, every_sides, every_area, twist, lattice.kept)
             stiffness, others = (np.concatenate([each] * every) for each in found)
-            yield Cells(nodes, stiffness, slots, sides, area, ("rubber", ""), False, RUBBER, others)
+            yield Cells(nodes, stiffness, slots, sides, area, ("", "rubber"), False, RUBBER, others)
             continue
         name, strains = constants.of_strains(springs, family.name, len(twist))
         of_area = constants.of_cells(getattr(springs, family.name), len(twist))
@@ -254,10 +255,8 @@ def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
             stiffness, couplings = (
                 np.concatenate([each[lattice.kept]] * every) for each in (stiffness, couplings)
             )
-            if couplings.any():
-                yield Cells(nodes, stiffness, slots, sides, area, (name, ""), False, COUPLED, couplings)
-            else:
-                yield Cells(nodes, stiffness, slots, sides, area, (family.name, name))
+            law, more = (COUPLED, couplings) if couplings.any() else (AREA_AND_STRAINS, None)
+            yield Cells(nodes, stiffness, slots, sides, area, (family.name, name), False, law, more)
 
 
 def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
@@ -273,7 +272,7 @@ def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
         stiffness = np.zeros((len(nodes), 4))
         stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
         others = stiffness[:, 3:] / area[:, None]
-        yield Cells(nodes, stiffness, slots, sides, area, ("face_shear", ""), True, FACE, others)
+        yield Cells(nodes, stiffness, slots, sides, area, ("", "face_shear"), True, FACE, others)
 
 
 FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (
@@ -283,9 +282,17 @@ FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] 
 )
 
 
-def families(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> tuple[Family, ...]:
-    """The springs of a spring set on a lattice, the central links first."""
-    return tuple(family for make in FAMILIES for family in make(lattice, pattern, springs))
+def springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> AllFamilies:
+    """The springs of a spring set on a lattice, the central links first; of a small one the same every
+    time."""
+    return (_kept if lattice.mass_count <= SHARED_UP_TO else _springs_of)(lattice, pattern, springs)
+
+
+def _springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> AllFamilies:
+    return AllFamilies([family for make in FAMILIES for family in make(lattice, pattern, springs)], pattern)
+
+
+_kept = lru_cache(maxsize=16)(_springs_of)
 
 
 def table_dampers(lattice: Lattice, pattern: Pattern, table: DamperSet) -> Dampers:

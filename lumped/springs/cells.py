@@ -175,12 +175,13 @@ def add_remembering_forces(
 
 
 @njit(cache=True, error_model="numpy")
-def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
-    """Energy of every cell, (c,) [J]."""
-    out = np.empty(len(cells.nodes))
+def energies(u: np.ndarray, cells: CellArrays, part: Tag) -> np.ndarray:
+    """Energy of every cell by a part of its law's constants, and by all others, (c, 2) [J]."""
+    out = np.empty((len(cells.nodes), 2))
     for c in range(len(cells.nodes)):
         d, g, _ = measure(u, cells, c)
-        out[c] = respond(cells.law, HALF, d, g, cells.area[c], constants(cells.law, c))[0]
+        out[c, 0] = respond(part, HALF, d, g, cells.area[c], constants(part, c))[0]
+        out[c, 1] = respond(cells.law, HALF, d, g, cells.area[c], constants(cells.law, c))[0] - out[c, 0]
     return out
 
 

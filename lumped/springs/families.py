@@ -70,9 +70,8 @@ class Family(ABC):
         self.loops.add_tangent(u, self.arrays, stress, False, share, lower, blocks)
 
     @abstractmethod
-    def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
-        """Return the energy of every spring, (m,), or of both kinds of springs on every cell, (m, 2) [J], or
-        what is quadratic in u of it."""
+    def energies(self, u: np.ndarray) -> np.ndarray:
+        """Return the energy of every spring, (m,), or of both kinds of springs on every cell, (m, 2) [J]."""
 
     @abstractmethod
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
@@ -138,18 +137,14 @@ class Links(Family):
         """Return the stresses of stretched links."""
         return np.maximum(self.stresses(u)[:, 0], 0.0)
 
-    def elongations(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
-        """Return the elongation of every link, or what is linear in u of it, (m,) [m]."""
-        if linear:
-            a, b = self.nodes.T
-            along: np.ndarray = np.einsum("mq,mq->m", self.offset, u[b] - u[a])
-            return along / self.rest_length
+    def elongations(self, u: np.ndarray) -> np.ndarray:
+        """Return the elongation of every link, (m,) [m]."""
         elongations: np.ndarray = links.elongations(u, self.arrays)
         return elongations
 
-    def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
+    def energies(self, u: np.ndarray) -> np.ndarray:
         """Return ½ k e² of every link."""
-        return 0.5 * self.stiffness * self.elongations(u, linear) ** 2
+        return 0.5 * self.stiffness * self.elongations(u) ** 2
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
         """Return sums by kind of link."""
@@ -178,7 +173,7 @@ class DirectionalLinks(Links):
         """Add the force in the middle of the step, for want of an energy."""
         self.add_force(0.5 * (start + end), force)
 
-    def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
+    def energies(self, u: np.ndarray) -> np.ndarray:
         """Return zero: this law has no energy."""
         return np.zeros(len(self))
 
@@ -195,7 +190,7 @@ class Cells(Family):
     """Springs on the cells of the layers, of the mid-surface or on upright faces: nodes (c, 4, p), stiffness
     (c, 4) of small strains, against the change of area and the Green strains ε1, ε2, γ of the mean sides,
     which dampers in proportion resist; at rest sides (c, 2, 3) [m] and area (c,) [m²]; the names of area
-    springs and of springs against strain, or of all; their law, and what constants it has beside (c, n)."""
+    springs and of all others; their law, and what constants it has beside (c, n)."""
 
     sides: np.ndarray
     area: np.ndarray
@@ -234,41 +229,19 @@ class Cells(Family):
         found = np.where((low < 0.0)[:, None], parts, s[:, :3])
         return np.column_stack([found, np.maximum(s[:, 3:], 0.0)])
 
-    def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
-        """Return the energy of the area spring and of the springs against strain of every cell; of rubber, at
-        any strain, that of the membrane less that of the links along its sides."""
-        if linear:
-            corners = u[self.nodes].mean(axis=2)
-            first, second = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
-            (a, b), (da, db) = np.moveaxis(self.sides, 1, 0), (0.5 * (first - second), 0.5 * (first + second))
-            strains = [(a * da).sum(1), (b * db).sum(1), (a * db + b * da).sum(1)] / np.array(
-                [(a * a).sum(1), (b * b).sum(1), np.sqrt((a * a).sum(1) * (b * b).sum(1))]
-            )
-            squares = np.stack([(strains[0] + strains[1]) ** 2, *strains**2], axis=1)
-            stored = 0.5 * self.area[:, None] * self.stiffness * squares
-            of_strains = stored[:, 1:].sum(axis=1)
-            if self.others is not None and self.law is COUPLED:
-                products = strains[[0, 0, 1]] * strains[[1, 2, 2]]
-                of_strains += self.area * (self.others.T * products).sum(axis=0)
-            return np.stack([stored[:, 0], of_strains], axis=1)
-        if self.law is not AREA_AND_STRAINS:
-            every: np.ndarray = cells.energies(u, self.arrays)
-            return every[:, None]
-        stored = np.zeros((len(self), 2))
-        for column, part in enumerate((slice(0, 1), slice(1, None))):
-            own = np.zeros_like(self.constants)
-            own[:, part] = self.constants[:, part]
-            if own.any():
-                stored[:, column] = cells.energies(u, self.arrays._replace(law=self.law.tag(own)))
+    def energies(self, u: np.ndarray) -> np.ndarray:
+        """Return the energy of the area spring and of all else of every cell; of rubber that of the membrane
+        less that of the links along its sides."""
+        areas = np.zeros_like(self.constants)
+        areas[:, 0] = self.constants[:, 0]
+        stored: np.ndarray = cells.energies(u, self.arrays, self.law.tag(areas))
         return stored
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
         """Return both sums, of the springs that there are."""
         there = self.stiffness[:, 0].any(), self.stiffness[:, 1:].any()
-        if self.law is not AREA_AND_STRAINS:
-            return {self.names[0]: float(energies.sum())}
         sums = zip(self.names, energies.sum(axis=0).tolist(), there, strict=True)
-        return {name: energy for name, energy, has in sums if has}
+        return {name: energy for name, energy, has in sums if name and has}
 
     def damped(self, time: float) -> Dampers:
         """Return dampers of coefficient time [s] × stiffness of small strains."""

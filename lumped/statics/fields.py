@@ -19,6 +19,7 @@ from lumped.lattice import Lattice
 from lumped.springs.families import Cells
 from sheetbench.scenes import FieldMesh
 
+SMALL = 1e-12  # of a displacement: what is left that is not linear in it
 
 class LatticeMesh(FieldMesh):
     """A mesh with its fields that is made when it is first looked at: most answers are asked for a few points
@@ -36,21 +37,22 @@ class LatticeMesh(FieldMesh):
 
 def field_mesh(assembly: Assembly, u: np.ndarray, reactions: np.ndarray, linear: bool = False) -> FieldMesh:
     """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N];
-    rows of actuators after those of the masses are left out. linear: of a
-    solution for small displacements."""
-    links, lattice = assembly.links, assembly.lattice
+    rows of actuators after those of the masses are left out. linear: of a solution for small displacements,
+    of which the springs have a small part."""
+    part = SMALL if linear else 1.0
+    small, links, lattice = part * u, assembly.links, assembly.lattice
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
     quads, masses = len(layer_cells), lattice.mass_count
     cell_energy = np.zeros(quads)
     for family in assembly.springs:
         if isinstance(family, Cells):
-            energy = family.energies(u, linear).sum(axis=1)
+            energy = family.energies(small).sum(axis=1) / part**2
             if family.upright:
                 energy = _links_by_cell(lattice, family.nodes[:, ::2, 0], energy)  # from corner to corner
             layers = quads // len(energy)
             cell_energy += np.tile(energy / layers, layers)
-    elongation = links.elongations(u, linear)
-    link_energy = links.energies(u, linear)
+    elongation = links.elongations(small) / part
+    link_energy = links.energies(small) / part**2
     per_plan_cell = _links_by_cell(lattice, links.nodes, link_energy)
     layers = quads // len(per_plan_cell)
     per_plan_cell += cell_energy.reshape(layers, -1).sum(axis=0)

@@ -32,6 +32,7 @@ from lumped.statics.equilibrium import (
     refine,
 )
 from lumped.statics.faults import broken
+from lumped.statics.fields import SMALL
 from lumped.statics.limits import DEARER, DOUBTFUL, FACTORISATIONS
 from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
@@ -168,7 +169,7 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
     u = predictor(problem, start, 1.0)
     state = replace(start, u=u, load_factor=1.0)
     links = problem.assembly.links
-    if outside := outside_model(scene, link_stretch(links, links.elongations(u, linear=True)), STRETCH):
+    if outside := outside_model(scene, link_stretch(links, links.elongations(SMALL * u)) / SMALL, STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, state, notes=(outside,))
     return Outcome(Status.CONVERGED, state)
 

@@ -1,5 +1,5 @@
-"""What every answer and every sample of a motion is looked at for, as compiled loops: whether links have a
-length left and cells face upwards (`lumped.statics.faults`), how sharply the sheet bends, what rounding its
+"""What every answer and every sample of a motion is looked at for, as compiled loops: which link is shortest
+and which cell faces upwards least (`lumped.statics.faults`), how sharply the sheet bends, what rounding its
 links carry (`lumped.statics.validity`)."""
 
 from __future__ import annotations
@@ -16,16 +16,17 @@ TIED = 1.0 + 1e-9  # of mirror images, which rounding tells apart, the first is 
 
 
 @njit(cache=True)
-def long_enough(
-    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray, share: float
-) -> bool:
-    """Whether every link is longer than a share of its rest length, u: (n, 3) [m]; arrays as in
-    `lumped.springs.links`."""
+def shortest(
+    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray
+) -> tuple[float, int]:
+    """Return the least length of the links as a share of their rest length, and of which; u: (n, 3) [m];
+    arrays as in `lumped.springs.links`."""
+    least, which = np.inf, 0
     for m in range(len(nodes)):
-        square = measure(u, nodes, offset, m)[1]
-        if not square >= (share * rest_length[m]) ** 2:  # also catches nan
-            return False
-    return True
+        square = measure(u, nodes, offset, m)[1] / rest_length[m] ** 2
+        if square < least:
+            least, which = square, m
+    return math.sqrt(least), which
 
 
 @njit(cache=True)
@@ -53,12 +54,16 @@ def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[
 
 
 @njit(cache=True)
-def upright(columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, u: np.ndarray) -> bool:
-    """Return whether the normal of every mid-surface cell points the way that the directors of its corners
-    do; areas (ny − 1, nx − 1) [m²] of the cells, 0 of absent ones, the rest as in `surface`."""
+def least_facing(
+    columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, u: np.ndarray
+) -> tuple[float, int, int]:
+    """Return the least of the normals of the mid-surface's cells times the mean director of their corners,
+    over their area when flat, and the cell (j, i); areas (ny − 1, nx − 1) [m²], 0 of absent ones, the rest as
+    in `surface`."""
     ny, nx, _ = columns.shape
     middle, director = surface(columns, positions, u)
     first, second, mean = np.empty(3), np.empty(3), np.empty(3)
+    least, row, column = np.inf, 0, 0
     for j in range(ny - 1):
         for i in range(nx - 1):
             for q in range(3):
@@ -70,9 +75,9 @@ def upright(columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, u: np
             for q in range(3):
                 r, s = (q + 1) % 3, (q + 2) % 3
                 facing += (first[r] * second[s] - first[s] * second[r]) * mean[q]
-            if areas[j, i] > 0.0 and not 0.125 * facing / areas[j, i] > 0.0:
-                return False
-    return True
+            if areas[j, i] > 0.0 and 0.125 * facing / areas[j, i] < least:
+                least, row, column = 0.125 * facing / areas[j, i], j, i
+    return least, row, column
 
 
 @njit(cache=True)

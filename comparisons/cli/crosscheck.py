@@ -8,15 +8,17 @@ import typer
 
 from comparisons.cli.lattice_options import SpringOptions
 from comparisons.cli.options import Calibration, Large, option
-from comparisons.cli.verb import CampaignOptions, OutputOptions
-from sheetbench.choices import REFERENCES
+from comparisons.cli.verb import CampaignOptions, PictureOptions
+from sheetbench.choices import REFERENCE, REFERENCES
 
 SIZES = {"lumped": "9,13,17", "plate": "8,12,16", "shell": "8,12,16", "solid": "6,8,12"}
+MOVING = {"lumped": "9,17", "plate": "4,8", "shell": "4,8", "solid": "2,4", "meshes": "4,8"}
 
 
 def _sizes(what: str, name: str, *names: str) -> Any:
     """The option of a model's sizes."""
-    return option(f"{what} along the shorter side, in rising order. Default: {SIZES[name]}.", "N,N,N", *names)
+    usual = f"{SIZES[name]}; {MOVING[name]} with --duration"
+    return option(f"{what} along the shorter side, in rising order. Default: {usual}.", "N,N,N", *names)
 
 
 def command(
@@ -35,12 +37,24 @@ def command(
         option("External codes, with commas, or FILE.py:OBJECT; default: all that are installed.", "NAMES"),
     ] = None,
     meshes: Annotated[
-        str | None, option("Elements of external codes. Default: each code's own.", "N,N,N")
+        str | None,
+        option(
+            f"Elements of external codes. Default: each code's own; {MOVING['meshes']} with --duration.",
+            "N,N,N",
+        ),
+    ] = None,
+    duration: Annotated[
+        float | None,
+        option(
+            "Compare the motion of one scene over this time instead, each model on the finest of its meshes.",
+            "S",
+            unit="s",
+        ),
     ] = None,
     large: Large = False,
     *,
     campaign: CampaignOptions,
-    output: OutputOptions,
+    output: PictureOptions,
 ) -> None:
     """Compare models with external finite-element codes, each with its mesh convergence.
 
@@ -49,12 +63,29 @@ def command(
     from comparisons.crosscheck.candidates import candidates, load_scenes
     from comparisons.crosscheck.crosscheck import crosscheck
     from comparisons.external.installed import find_codes
-    from comparisons.models.spec import items
+    from comparisons.models.spec import Elements, Lattice, items
+    from comparisons.motion.comparison import compare_motion
+    from sheetbench.errors import BadInput
+    from sheetbench.scenes import load
 
     codes = find_codes(None if judges is None else items(judges))
+    usual = SIZES if duration is None else MOVING
     given = dict(zip(("lumped", *REFERENCES), (grid, plate, shell, solid), strict=True))
-    sizes = {name: SIZES[name] if text is None else text for name, text in given.items()}
+    sizes = {name: usual[name] if text is None else text for name, text in given.items()}
+    meshes = usual.get("meshes") if meshes is None else meshes
     models = candidates(sizes.pop("lumped"), lattice.spec.but(calibration=calibration), sizes, codes, meshes)
+    if duration is not None:
+        finest = {name: of[-1] for name, of in models.items()}
+        own, shell_spec = finest.pop(Lattice.NAME, None), finest.pop(REFERENCE, None)
+        if len(scenes) > 1 or not isinstance(own, Lattice) or not isinstance(shell_spec, Elements):
+            raise BadInput("--duration: one scene, a lattice, and a shell that others are measured against")
+        scene = load(*scenes)
+        with output.open(scene=scene, variant={"--duration": duration}) as out:
+            others, kept = list(finest.values()), out.reserve("runs/")
+            out.show(
+                compare_motion(scene, duration, own, shell_spec, others=others, leave_out=True, store=kept)
+            )
+        return
     chosen = load_scenes(scenes)
     with output.open(about={"scenes": [scene.document() for scene in chosen]}) as out:
         with out.campaign(campaign) as run:

@@ -12,8 +12,6 @@ VERBS = {
 OPTIONS = {
     ("compare", "--auto"): "'sheetbench advise SCENE' chooses a model and prints the command that solves it",
     ("compare", "--tolerance"): "give it to 'sheetbench advise SCENE', which prints the command to run",
-    ("crosscheck", "--duration"): "'sheetbench compare SCENE --duration S --model NAME' moves external codes "
-    "too, as calculix:elements=6",
     ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout; "
     "'sheetbench stability SCENE --vary NAME' those of your sheet",
     ("stability", "--full"): "'sheetbench study stability --full' has the published maps, in a checkout",

@@ -30,6 +30,7 @@ from comparisons.motion.run import require_motion
 from comparisons.report import amounts
 from comparisons.report.work import Pace, Progress, Work, silent
 from sheetbench.choices import REFERENCE
+from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, History, Scene, scene_of
 
 ELEMENTS = 8  # of a moving reference along the shorter side
@@ -50,6 +51,7 @@ def compare_motion(
     law: str | None = None,
     uncertainty: bool = True,
     others: Sequence[Spec | str] = (),
+    leave_out: bool = False,
     every: float | None = None,
     frames: int = 0,
     store: Path | None = None,
@@ -61,8 +63,9 @@ def compare_motion(
 
     elements: 8 along the shorter side unless given. uncertainty: move the reference twice more, on elements
     twice as large and with steps twice as long. others: models that move it too, external codes and plug-ins
-    among them. every [s]: distance of samples, 1/100 of the lowest period unless given. frames: whole
-    displacements to keep. store: a folder in which every run of ours has one to stream to; runs that were
+    among them; leave_out: without those that refuse the scene, which are said. every [s]: distance of
+    samples, 1/100 of the lowest period unless given. frames: whole displacements to keep. store: a folder
+    in which every run of ours has one to stream to; runs that were
     stopped go on from there. progress: told what is being done, how large it is and how long it may take.
     Raises BadInput as `compare` and `simulate` do, and for a model that does not move the scene.
     """
@@ -70,8 +73,14 @@ def compare_motion(
     finest = Elements.given(reference, {"elements": elements, "law": law})
     finest = finest.but(count=ELEMENTS) if finest.count is None else finest
     beside = [parse(one) if isinstance(one, str) else one for one in others]
+    left_out: dict[str, str] = {}
     for one in (finest, *beside):
-        require_motion(asked, one)
+        try:
+            require_motion(asked, one)
+        except BadInput as refusal:
+            if one is finest or not leave_out:
+                raise
+            left_out[one.model] = str(refusal)
     model = resolve(asked, Lattice.given(lattice, keywords), "motion")
 
     def moved(of: Resolved[Any], doing: str, spacing: float | None, **settings: Any) -> History:
@@ -96,9 +105,14 @@ def compare_motion(
 
     own = moved(model, "moving the lattice", every, frames=frames)
     histories, spacing = {model.spec.model: own}, own.settings["every"]
-    for one in beside:
+    for one in (one for one in beside if one.model not in left_out):
         name = unlike(plugins.shown_name(one.model), (*histories, finest.kind))
-        histories[name] = moved(resolve(asked, one, "motion"), f"moving the {name}", spacing)
+        try:
+            histories[name] = moved(resolve(asked, one, "motion"), f"moving the {name}", spacing)
+        except BadInput as refusal:
+            if not leave_out:
+                raise
+            left_out[one.model] = str(refusal)
     named = f"moving the {finest.kind}"
     truth = moved(resolve(asked, finest), named, spacing, frames=frames)
     bars: dict[str, float | None] = {}
@@ -110,7 +124,7 @@ def compare_motion(
         if min(along[:2]) > 1:
             half = resolve(asked, finest.but(count=(along[0] // 2, along[1] // 2)))
             bars["mesh"] = _largest(moved(half, f"{named} on larger elements", spacing), truth)
-    return MotionComparison(asked, {**histories, finest.kind: truth}, bars)
+    return MotionComparison(asked, {**histories, finest.kind: truth}, bars, left_out)
 
 
 def _largest(one: History, other: History) -> float | None:

@@ -54,13 +54,15 @@ class MotionComparison(Answer):
     """Histories by model, the lattice's first, the reference's last.
 
     uncertainty: how far the reference may be off by its mesh and by its steps, as `largest` and `rms` are
-    measured, None where a run of it did not end; animate: draw the sheets moving, side by side.
+    measured, None where a run of it did not end; left_out: why models refused the scene; animate: draw the
+    sheets moving, side by side.
     """
 
     file_name = "motion"
     scene: Scene
     histories: dict[str, History]
     uncertainty: dict[str, float | None] = field(default_factory=dict)
+    left_out: dict[str, str] = field(default_factory=dict)
     animate: bool = False
 
     @property
@@ -136,7 +138,8 @@ class MotionComparison(Answer):
 
     def notes(self) -> list[str]:
         own = (f"{name}: {note}" for name, history in self.histories.items() for note in history.notes())
-        return [*_bars(self), *own]
+        left_out = (f"{name} is left out: {why}" for name, why in self.left_out.items())
+        return [*_bars(self), *left_out, *own]
 
     def complaints(self) -> list[str]:
         return [f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints()]

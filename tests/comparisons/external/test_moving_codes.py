@@ -5,10 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import run
+from commands import one_line, run
 
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.calculix.model import CalculiX
+from comparisons.external.felupe import MODEL as FELUPE
 from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.kratos.model import Kratos
 from sheetbench.scenes import Air, BadInput, EdgeMotion, FactorTable, Gravity, Relaxation, Status, load
@@ -33,6 +34,32 @@ def test_another_code_swings_as_the_shell(code: CalculiX | Kratos, elements: int
     assert of[code.name]["energies"] == {}
     rows = (tmp_path / f"{code.name}.csv").read_text().splitlines()
     assert "kinetic" not in rows[0] and len(rows) == len(found["motion"]["time"]) + 1
+
+
+def test_crosscheck_moves_the_finest_of_each_model_and_leaves_out_what_refuses(tmp_path: Path) -> None:
+    file = tmp_path / "driven.toml"
+    SWING.replace(supports=(), actuators=(DRIVEN,)).save(file)
+    asked = ("--duration", "0.004", "--lumped", "3,4", "--shell", "1,2", "--plate", "", "--solid", "")
+    names = [code.name for code in (CALCULIX, KRATOS, FELUPE) if code.version() is not None]
+    out = tmp_path / "out"
+    assert (
+        run("crosscheck", str(file), *asked, "--judges", ",".join(names), "--out", str(out), "--no-pictures")
+        == 0
+    )
+    found = json.loads((out / "motion.json").read_text())
+    assert [one["label"] for one in found["solutions"]] == ["lumped 4×4×2 consistent", "shell 2 × 2"]
+    said = (out / "motion.md").read_text()
+    assert all(f"{name} is left out: " in said for name in names)
+
+
+@pytest.mark.parametrize(
+    "asked", [("one-edge-clamped", "two-edges-clamped"), ("one-edge-clamped", "--shell", "")]
+)
+def test_a_crosscheck_of_motions_is_of_one_scene_and_with_a_shell(
+    asked: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("crosscheck", "one-edge-clamped", *asked, "--duration", "0.1") == 2
+    assert "--duration: one scene, a lattice, and a shell" in one_line(capsys)
 
 
 @pytest.mark.parametrize("code", [CALCULIX, KRATOS])

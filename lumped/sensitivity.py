@@ -12,19 +12,22 @@ relative error is of order 1e-8.
 
 Parameters: the spring constants of `scenes.SpringSet` by name (axial_x, axial_y, … where a direction has its
 own), layer_distance; young, poisson, density, thickness (springs calibrated again by the same method);
-curvature_EDGE, of the curved support or the actuator on that edge; tilt_EDGE, of the clamp on it.
+curvature_EDGE, of the curved support or the actuator on that edge; tilt_EDGE, of the clamp on it;
+patchN.young, … (`scenes.parameters`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from lumped import spring_constants as constants
 from lumped.calibration import CLOSED, Calibration
 from lumped.mid_surface import MidSurface
+from lumped.sections import sections_of
 from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve_path
@@ -37,6 +40,7 @@ from sheetbench.scenes.parameters import FIBRES, parameter, put
 STEP = 1e-4  # of a parameter, for the difference of residuals
 CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
 STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
+PATCH = "patch"  # with which names of a patch's constants begin
 
 
 @dataclass(frozen=True)
@@ -118,7 +122,8 @@ def rates(
     """Value of a parameter, the derivative of the unbalanced force by it at free unknowns that stay as at u
     (n, 3), supports' movement included, and dg/dθ (n, 3)."""
     value, low, high = _value(scene, calibration, name)
-    step = next((h for kind, h in STEP_OF.items() if name.startswith(kind)), STEP * abs(value))
+    own = name.partition(".")[2] if name.startswith(PATCH) else name
+    step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
     sides = []
@@ -148,13 +153,13 @@ def _changed(
     if not _of_scene(name):
         return scene, calibration.with_constant(name, value)
     changed = put(scene, name, value)
-    if name not in CALIBRATED_FROM:
+    if name not in CALIBRATED_FROM and not name.startswith(PATCH):
         return changed, calibration
     return (changed, calibrate(changed)) if calibrate is not None else _recalibrated(changed, calibration)
 
 
 def _of_scene(name: str) -> bool:
-    return name in (*CALIBRATED_FROM, "density") or name.startswith(tuple(STEP_OF))
+    return name in (*CALIBRATED_FROM, "density") or name.startswith((*STEP_OF, PATCH))
 
 
 def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibration]:
@@ -163,6 +168,8 @@ def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibr
         raise BadInput(
             f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
         )
-    graded = {"grading": calibration.grading} if calibration.grading else {}
+    own: dict[str, Any] = {"grading": calibration.grading} if calibration.grading else {}
+    if (cells := sections_of(scene, calibration.grid, calibration.grading)) is not None:
+        own["cells"] = cells
     method = CLOSED[calibration.method]
-    return scene, method.make(scene.sheet, scene.material, calibration.grid, **graded)
+    return scene, method.make(scene.sheet, scene.material, calibration.grid, **own)

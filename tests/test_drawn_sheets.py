@@ -224,10 +224,6 @@ def test_references_agree_on_shapes(word):
 @pytest.mark.parametrize(
     ("verb", "options", "who"),
     [
-        ("advise", [], "advise"),
-        ("stability", [], "stability"),
-        ("live", ["--no-browser"], "live"),
-        ("identify", ["--measured", "measured.csv", "--unknown", "young"], "identify"),
         ("calibrate", ["--grid", "5", "--export", "lattice"], "an export"),
         ("calibrate", ["--method", "uniform"], "calibration 'uniform'"),
         ("compare", ["--calibration", "fit-static"], "calibration 'fit-static'"),

@@ -27,7 +27,7 @@ from comparisons.models.spec import Lattice, Spec
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
 from sheetbench.errors import BadInput
-from sheetbench.scenes import AnyScene, require_plain, require_static, scene_of
+from sheetbench.scenes import AnyScene, require_static, scene_of
 from sheetbench.scenes.grid import MASSES
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
@@ -60,7 +60,6 @@ def advise(
     """
     scene = scene_of(scene)
     require_static(scene)
-    require_plain(scene, "advise")
     asked = Lattice.given(lattice, keywords)
     probing = Probing(scene, asked if calibration is None else asked.but(calibration=calibration))
     sizes = scales(scene)

@@ -33,12 +33,10 @@ def command(
     from comparisons.live.panel import Panel
     from comparisons.models.resolve import resolve
     from sheetbench.errors import BadInput
-    from sheetbench.scenes import require_plain
 
     if not 0 <= port <= 65535:
         raise BadInput(f"--port = {port}: from 0 to 65535")
     loaded = load_static(scene)
-    require_plain(loaded, "live")
     meant = resolve(loaded, lattice.spec).spec
     panel = Panel(loaded, elements, meant.but(grid=lattice.grid))
 

@@ -52,8 +52,8 @@ from comparisons.report.work import Progress, silent
 from lumped import identifiability
 from sheetbench.choices import REFERENCES
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import AnyScene, Scene, SpringTable, require_plain, require_static, scene_of
-from sheetbench.scenes.orthotropy import FIBRES
+from sheetbench.scenes import AnyScene, Scene, SpringTable, require_static, scene_of
+from sheetbench.scenes.region import off_sheet
 
 __all__ = ["NotReached", "identify"]
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold
@@ -118,8 +118,6 @@ def identify(
     """
     scene = scene_of(scene)
     require_static(scene)
-    if scene.drawn_by != FIBRES:
-        require_plain(scene, "identify")
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
     names = [names] if isinstance(names, str) else names
     unknowns = tuple(unknown(scene, name) for name in names)
@@ -263,6 +261,23 @@ def _check(measured: Measured, question: _Question) -> None:
             f"offset = {question.offset:g} m: of a cloud's points from the mid-surface; displacements are "
             "the mid-surface's"
         )
+    if question.scene.pierced:
+        _require_on_sheet(measured, question.scene)
     count = int(measured.measured.sum()) if isinstance(measured, Displacements) else len(measured.points)
     if count <= len(names):
         raise BadInput(f"{count} measured numbers cannot give intervals of {len(names)} unknowns")
+
+
+def _require_on_sheet(measured: Measured, scene: Scene) -> None:
+    """Raise BadInput for a point where there is no sheet, and for a cloud of a sheet that is no rectangle."""
+    if isinstance(measured, Surface):
+        raise BadInput(
+            f"{measured.source}: points of the surface are fitted to that of a whole rectangle; of a sheet "
+            "with an outline or cutouts give displacements of marked points, x,y,ux,uy,uz"
+        )
+    for row, point in enumerate(measured.points.tolist()):
+        if off_sheet(scene, (point[0], point[1])):
+            raise BadInput(
+                f"{measured.name_of(row)}: x, y = {point[0]:g}, {point[1]:g}: there is no sheet, by its "
+                "outline or a cutout"
+            )

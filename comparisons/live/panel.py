@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
-from math import isfinite
+from math import isfinite, pi
 from typing import Any, NoReturn
 
 from comparisons.browser.sheets import free_side, outline
@@ -25,6 +25,7 @@ from sheetbench.scenes.parameters import parameter, put
 MASSES_CAP, ELEMENTS_CAP = 33, 16  # along the side of a square sheet, and as many in all on any other
 ELEMENTS = 8  # unless given: a shell of 8 × 8 elements answers in a tenth of a second
 OWN = "scene"  # the calibration's name where the scene brings its own [springs]
+FORCES = ("force", "force_per_length", "force_per_area")
 SETTINGS = ("grid", "grading", "elements", "k")  # sliders of the models, not of the scene
 
 
@@ -155,9 +156,17 @@ def _refuse(message: str) -> NoReturn:
 
 
 def _of_scene(scene: Scene) -> Iterator[Slider]:
-    young, thickness = scene.material.young, scene.sheet.thickness
-    yield Slider("young", "Young's modulus E", "MPa", 1e-6, young / 30, young * 30, young, logarithmic=True)
-    yield Slider("poisson", "Poisson's ratio ν", "", 1.0, 0.0, 0.495, scene.material.poisson)
+    material, thickness = scene.material, scene.sheet.thickness
+    if material.kind == "orthotropic":
+        for key, label in (("young_1", "along"), ("young_2", "across")):
+            yield _modulus(scene, key, f"Young's modulus {label} the fibres")
+        yield Slider("angle", "Angle of the fibres", "°", 180.0 / pi, -pi, pi, material.angle or 0.0)
+    else:
+        yield _modulus(scene, "young", "Young's modulus E")
+        yield Slider("poisson", "Poisson's ratio ν", "", 1.0, 0.0, 0.495, material.poisson)
+    for number, patch in enumerate(scene.patches, start=1):
+        if "young" in patch.own:
+            yield _modulus(scene, f"patch{number}.young", f"E of patch {number}")
     thickest = min(4 * thickness, 0.5 * min(scene.sheet.lengths))
     thin = (thickness / 4, max(thickest, thickness))
     yield Slider("thickness", "Thickness h", "mm", 1e3, *thin, thickness, logarithmic=True)
@@ -178,6 +187,11 @@ def _of_scene(scene: Scene) -> Iterator[Slider]:
             continue
         most = max(2 * abs(bent.value), 1.5 / min(scene.sheet.lengths))
         yield Slider(bent.name, f"Curvature of edge {edge}", "1/m", 1.0, -most, most, bent.value)
+
+
+def _modulus(scene: Scene, name: str, label: str) -> Slider:
+    value = parameter(scene, name).value
+    return Slider(name, label, "MPa", 1e-6, value / 30, value * 30, value, logarithmic=True)
 
 
 def _of_models(scene: Scene, elements: int, lattice: Lattice) -> Iterator[Slider]:
@@ -209,7 +223,12 @@ def most(sheet: Sheet, cap: int) -> int:
 
 def _calibrations(scene: Scene) -> dict[str, dict[str, Any]]:
     """Those that take no fit, the usual one first; whether they can be graded, and whether they take k."""
-    closed = {name: method for name, method in CALIBRATIONS.items() if not method.fitted}
+    differing = not scene.uniform or scene.pierced
+    closed = {
+        name: method
+        for name, method in CALIBRATIONS.items()
+        if not method.fitted and ("cells" in method.takes or not differing)
+    }
     found = {
         name: {"said": m.summary, "graded": "grading" in m.takes, "k": "k" in m.takes}
         for name, m in closed.items()
@@ -236,7 +255,7 @@ def _loads(scene: Scene, name: str, factor: float) -> Scene:
 
 def _times(load: Any, factor: float) -> Any:
     """Return a load with all its forces, moments or pressures times a factor."""
-    given = {name: getattr(load, name) for name in ("force", "force_per_length") if hasattr(load, name)}
+    given = {name: getattr(load, name) for name in FORCES if hasattr(load, name)}
     vectors = {name: tuple(factor * f for f in force) for name, force in given.items()}
     numbers = ("moment_per_length", "value")
     scalars = {name: factor * getattr(load, name) for name in numbers if hasattr(load, name)}

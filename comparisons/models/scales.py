@@ -1,7 +1,7 @@
 """Dimensionless numbers of a scene: slenderness, load and strain.
 
     slenderness   h/a, a the shorter side
-    load number   q a³/D, q the load per area (weight; point and edge loads spread over the sheet) and
+    load number   q a³/D, q the load per area (weight; other loads spread over the whole sheet) and
                   D = E h³/12(1 − ν²): a strip held at one end would slope by about a sixth of it, in radians
     strain        q a/(E h), how much the load would stretch a strip that it hangs from
     normal load   the part of q that bends a flat sheet: along its normal, pressure and moments
@@ -17,7 +17,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sheetbench.scenes import EDGES, EdgeLoad, PointLoad, Pressure, Scene
+from sheetbench.scenes import EDGES, EdgeLoad, Scene
+from sheetbench.scenes.region import area_in, edge_length, resultant
 from sheetbench.scenes.supports import held_axes, place
 
 
@@ -48,7 +49,7 @@ def scales(scene: Scene) -> Scales:
     """Return the scales of a scene."""
     sheet, material = scene.sheet, scene.material
     reach = span(scene)
-    side, area = min(sheet.lengths), float(np.prod(sheet.lengths))
+    side, area = min(sheet.lengths), area_in(scene, None)
     rigidity = material.young * sheet.thickness**3 / (12.0 * (1.0 - material.poisson**2))
     load = normal = 0.0
     if scene.gravity is not None:
@@ -56,15 +57,10 @@ def scales(scene: Scene) -> Scales:
         load, normal = float(np.linalg.norm(per_area)), abs(float(per_area[2]))
     for acting in scene.loads:
         factor = abs(acting.last_factor)
-        if isinstance(acting, PointLoad):
-            force = factor * np.asarray(acting.force) / area
-        elif isinstance(acting, EdgeLoad):
-            length = sheet.lengths[EDGES[acting.edge].along_axis]
-            force = factor * np.asarray(acting.force_per_length) * length / area
-            turning = factor * abs(acting.moment_per_length) * length / area / side
+        force = factor * resultant(scene, acting) / area
+        if isinstance(acting, EdgeLoad):
+            turning = factor * abs(acting.moment_per_length) * edge_length(scene, acting.edge) / area / side
             load, normal = load + turning, normal + turning
-        elif isinstance(acting, Pressure):
-            force = np.array([0.0, 0.0, factor * acting.value])
         load, normal = load + float(np.linalg.norm(force)), normal + abs(float(force[2]))
     return Scales(
         slenderness=sheet.thickness / side,

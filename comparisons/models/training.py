@@ -54,7 +54,7 @@ def fitted(
     """Springs fitted to the shell on the training scenes, which have this sheet and material; computed once a
     process. Raises BadInput for a training scene without a static answer that the method could use."""
     chosen = training_scenes(sheet, material) if training is None else training
-    texts = tuple(scene.model_dump_json(by_alias=True) for scene in chosen)
+    texts = tuple(scene.model_dump_json(by_alias=True, exclude_none=True) for scene in chosen)
     learnt = _frequencies if method == "fit-modal" else _displacements
     for scene, text in zip(chosen, texts, strict=True):
         shell = size(scene, Elements("shell", ELEMENTS))

@@ -35,8 +35,11 @@ from comparisons.stability.rows import Row
 from comparisons.tradeoff.motion import explicit_limit, shortest_period
 from sheetbench.choices import INTEGRATORS, REFERENCE
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Scene, Status, require_plain
+from sheetbench.scenes import Scene, Status
+from sheetbench.scenes.layers import Layer
+from sheetbench.scenes.orthotropy import MODULI
 from sheetbench.scenes.parameters import put
+from sheetbench.scenes.patches import Patch
 from sheetbench.scenes.tables import FactorTable, Loading
 
 FACTORS = {
@@ -53,6 +56,7 @@ FINE, PERIODS, SAMPLES = (
     3.0,
     40,
 )  # steps a period of the midpoint rule; length of a run; samples a period
+PARTS = ("patches", "layers")
 VARIED = (*FACTORS, "grid", "damping", "time-step")
 
 
@@ -90,7 +94,6 @@ def stability(
     """
     for name in varied:
         require_choice("vary", name, VARIED)
-    require_plain(scene, "stability")
     resolve(scene, lattice, "motion")
     resolve(scene, Elements(reference, elements))
     maker = _Maker(scene, lattice, reference, elements)
@@ -190,16 +193,27 @@ class _Maker:
 
 
 def scaled(scene: Scene, name: str, factor: float) -> Scene:
-    """Return the scene with its load, thickness or Young's modulus times a factor. Raises BadInput where it
-    cannot be."""
+    """Return the scene with its load, thickness or moduli times a factor, those of patches and layers too.
+    Raises BadInput where it cannot be."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # extremes are implausible
         if name == "young":
-            return put(scene, "young", factor * scene.material.young)
+            parts = {key: tuple(_stiffer(each, factor) for each in getattr(scene, key)) for key in PARTS}
+            return put(scene, "young", factor * scene.material.young).replace(**parts)
         if name == "slenderness":
-            return put(scene, "thickness", factor * scene.sheet.thickness)
+            patches = [
+                patch.replace(thickness=factor * patch.thickness) if patch.thickness else patch
+                for patch in scene.patches
+            ]
+            return put(scene, "thickness", factor * scene.sheet.thickness).replace(patches=tuple(patches))
         acting = {"loads": tuple(_times(load, factor) for load in scene.loads)}
         return scene.replace(gravity=scene.gravity and _times(scene.gravity, factor), **acting)
+
+
+def _stiffer(part: Patch | Layer, factor: float) -> Patch | Layer:
+    """Return a patch or a layer, its own moduli times a factor."""
+    own = {key: factor * part.own[key] for key in ("young", *MODULI) if key in part.own}
+    return part.replace(**own) if own else part
 
 
 def _times(acting: Loading, factor: float) -> Any:

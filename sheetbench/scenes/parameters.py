@@ -4,7 +4,8 @@ young, poisson, density, damping_time, damping_rate   of the material
 young_1, young_2, poisson_12, shear_12, angle, …      of a material with fibres; young scales all its moduli
 loss_factor                                           of the material, with its frequency or its band
 share_N, time_N                                       of the material's branch N of [[material.relaxation]]
-thickness                                             of the sheet
+thickness                                             of the sheet; its tapers and layers go with it
+patchN.young, poisson, density, thickness, angle      of the scene's Nth [[patch]], where that has its own
 curvature_EDGE                                        of the curved support, or of the chains, on an edge
 tilt_EDGE                                             of the clamp on an edge
 drag                                                  of the air
@@ -28,7 +29,11 @@ MATERIAL |= {"loss_factor": ""}
 FIBRES = {"young_1": "Pa", "young_2": "Pa", "poisson_12": "", "shear_12": "Pa", "shear_13": "Pa"}
 FIBRES |= {"shear_23": "Pa", "angle": "rad"}
 BRANCH = {"share": ("", 1.0), "time": ("s", inf)}  # unit and upper bound
-NAMES = (*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "curvature_EDGE", "tilt_EDGE", "drag")
+TAPERS = ("taper_x", "taper_y")
+PATCH = {"young": "Pa", "poisson": "", "density": "kg/m³", "thickness": "m", "angle": "rad"}
+NAMES = (*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE")
+NAMES += ("drag",)
+BOUNDS = {"poisson": (-0.99, 0.4999), "angle": (-0.999 * pi, 0.999 * pi)}  # others: above 0
 
 
 @dataclass(frozen=True)
@@ -47,18 +52,19 @@ def parameter(scene: Scene, name: str) -> Parameter:
     if name in FIBRES or (name == "poisson" and scene.material.kind == "orthotropic"):
         return _of_fibres(scene.material, name)
     if name in MATERIAL:
-        low, high = (-0.99, 0.4999) if name == "poisson" else (0.0, inf)
         if getattr(scene.material, name) is None:
             raise BadInput(
                 f"'{name}': the scene's material has none; give a first guess, with frequency or band"
             )
-        return Parameter(name, MATERIAL[name], getattr(scene.material, name), low, high)
+        return Parameter(name, MATERIAL[name], getattr(scene.material, name), *BOUNDS.get(name, (0.0, inf)))
     if name == "thickness":
         return Parameter(name, "m", scene.sheet.thickness, 0.0, min(scene.sheet.lengths))
     if name == "drag":
         if scene.air is None:
             raise BadInput("'drag': the scene has no [air]; give a first guess there")
         return Parameter(name, "", scene.air.drag, 0.0, inf)
+    if (patch := _patch_of(name)) is not None:
+        return _of_patch(scene, name, *patch)
     kind, _, edge = name.partition("_")
     if kind in BRANCH and edge.isdecimal():
         if not 1 <= int(edge) <= len(scene.material.relaxation):
@@ -82,11 +88,28 @@ def _of_fibres(material: Material, name: str) -> Parameter:
         raise BadInput(
             f"'{name}': the scene's material has none; of fibres it has {', '.join(given) or 'none'}"
         )
-    most = {"poisson_12": (material.young_1 or 1.0) / (material.young_2 or 1.0), "angle": pi**2}.get(
-        name, 0.0
-    )
-    bounds = (-(0.999 * most**0.5), 0.999 * most**0.5) if most else (0.0, inf)
+    bounds = BOUNDS.get(name, (0.0, inf))
+    if name == "poisson_12":
+        most = 0.999 * ((material.young_1 or 1.0) / (material.young_2 or 1.0)) ** 0.5
+        bounds = -most, most
     return Parameter(name, FIBRES[name], value, *bounds)
+
+
+def _patch_of(name: str) -> tuple[int, str] | None:
+    """The number of the patch and the key that a name like patch1.young has, None of another name."""
+    patch, _, key = name.partition(".")
+    number = patch.removeprefix("patch")
+    return (int(number), key) if patch != number and number.isdecimal() and key in PATCH else None
+
+
+def _of_patch(scene: Scene, name: str, number: int, key: str) -> Parameter:
+    if not 1 <= number <= len(scene.patches):
+        raise BadInput(f"'{name}': the scene has {len(scene.patches)} patches")
+    value = scene.patches[number - 1].own.get(key)
+    if value is None:
+        raise BadInput(f"'{name}': patch {number} has no {key} of its own; give a first guess there")
+    most = min(scene.sheet.lengths) if key == "thickness" else inf
+    return Parameter(name, PATCH[key], value, *BOUNDS.get(key, (0.0, most)))
 
 
 def put(scene: Scene, name: str, value: float) -> Scene:
@@ -105,7 +128,11 @@ def _with(scene: Scene, name: str, value: float) -> Scene:
     if name == "drag" and scene.air is not None:
         return scene.replace(air=scene.air.replace(drag=value))
     if name == "thickness":
-        return scene.replace(sheet=scene.sheet.replace(thickness=value))
+        return _as_thick(scene, value / scene.sheet.thickness)
+    if (patch := _patch_of(name)) is not None:
+        patches = list(scene.patches)
+        patches[patch[0] - 1] = patches[patch[0] - 1].replace(**{patch[1]: value})
+        return scene.replace(patches=tuple(patches))
     kind, _, edge = name.partition("_")
     if kind in BRANCH:
         branches = list(scene.material.relaxation)
@@ -118,6 +145,14 @@ def _with(scene: Scene, name: str, value: float) -> Scene:
         supports=_changed(scene.supports, bent, curvature=value),
         actuators=_changed(scene.actuators, bent, curvature=value),
     )
+
+
+def _as_thick(scene: Scene, factor: float) -> Scene:
+    """The scene with its sheet so many times as thick, tapers and layers too."""
+    sheet = scene.sheet
+    tapers = {name: tuple(factor * h for h in ends) for name in TAPERS if (ends := getattr(sheet, name))}
+    layers = tuple(layer.replace(thickness=factor * layer.thickness) for layer in scene.layers)
+    return scene.replace(sheet=sheet.replace(thickness=factor * sheet.thickness, **tapers), layers=layers)
 
 
 def _curvature(scene: Scene, edge: str) -> float:

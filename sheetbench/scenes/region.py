@@ -106,12 +106,17 @@ def marked(scene: Scene) -> dict[str, PlanPoint]:
     return {f"probes.{name}": point for name, point in scene.probes.items()} | loads
 
 
+def off_sheet(scene: Scene, point: PlanPoint) -> bool:
+    """Whether there is no sheet at a plan point [m]."""
+    from shapely import Point
+
+    return bool(scene.region.distance(Point(point)) > APART * max(scene.sheet.lengths))
+
+
 def misplaced(scene: Scene) -> str:
     """Why something is held, loaded or probed where there is no sheet; "" where nothing is."""
-    import shapely
-
     for key, point in marked(scene).items():
-        if scene.region.distance(shapely.Point(point)) > APART * max(scene.sheet.lengths):
+        if off_sheet(scene, point):
             return f"{key} = {list(point)} m: there is no sheet, by its outline or a cutout"
     shapes = {name: place(support) for name, support in named(scene.supports).items()}
     shapes |= {f"load {n}": getattr(load, "where", None) for n, load in enumerate(scene.loads, start=1)}

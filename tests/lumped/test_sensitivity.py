@@ -9,8 +9,17 @@ from lumped import spring_constants as constants
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, EdgeLoad, PointLoad
 from sheetbench.scenes.parameters import put
+from sheetbench.scenes.patches import Patch
 
 GRID = (7, 7)
+DRAWN = {
+    "sheet": scenes.Sheet(0.188, 0.188, 0.003, taper_x=(0.003, 0.002)),
+    "patches": (
+        Patch(shape={"circle": {"centre": (0.1, 0.1), "radius": 0.05}}, young=9e7, density=900.0),
+        Patch(shape={"rectangle": {"x": (0.0, 0.03), "y": (0.0, 0.188)}}, thickness=0.004, poisson=0.3),
+    ),
+}
+OF_PATCHES = ("patch1.young", "patch1.density", "patch2.thickness", "patch2.poisson")
 MOMENT = EdgeLoad(edge="x1", moment_per_length=0.2)  # follows the sheet
 
 
@@ -19,7 +28,9 @@ def scene_of(name, **changes):
 
 
 def springs_of(scene, grid=GRID, method="consistent"):
-    return lumped.calibrate(scene.sheet, scene.material, grid, method)
+    cells = lumped.sections_of(scene, (*grid, 2))
+    own = {} if cells is None else {"cells": cells}
+    return lumped.calibrate(scene.sheet, scene.material, grid, method, **own)
 
 
 def slope(solve, points, value, h):
@@ -62,6 +73,7 @@ def held(tilt):
         ("curved-edge", {}, "curvature_x0", 1e-3),
         *(("one-edge-clamped", {"supports": held(tilt)}, "tilt_x0", 1e-3) for tilt in (0.0, 0.1, -0.7)),
         ("one-edge-clamped", {"gravity": None, "loads": (MOMENT,)}, "young", None),
+        *(("one-edge-clamped", DRAWN, name, None) for name in (*OF_PATCHES, "thickness")),
     ],
 )
 def test_parameters_of_a_scene(base, changes, name, h):

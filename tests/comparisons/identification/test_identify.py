@@ -15,7 +15,12 @@ from comparisons.identification import surface
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, Surface, read
 from comparisons.identification.prediction import NotReached
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, Lattice
 from sheetbench import scenes
+from sheetbench.errors import BadInput
+from sheetbench.scenes.parameters import put
 from sheetbench.scenes.seed import seed_displacements
 
 SCENE = scenes.load("two-edges-clamped")
@@ -72,6 +77,30 @@ def test_the_grids_own_error_is_told():
     assert 0.002 < 1.0 - young.value / TRUE < 0.015
     assert abs(young.refined - TRUE) < 0.7 * abs(young.value - TRUE)
     assert any("on cells half as large" in said for said in found.warnings)
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+def test_constants_of_patches_are_found_again(model):
+    """Of a sheet with a hole, from the model's own answer."""
+    stiff, thin = (
+        {"shape": {"rectangle": {"x": x, "y": (0.0, 0.188)}}} for x in ((0.0, 0.06), (0.12, 0.188))
+    )
+    hole = {"shape": {"rectangle": {"x": (0.08, 0.1), "y": (0.06, 0.12)}}}
+    true = scenes.load("one-edge-clamped").replace(
+        cutouts=[hole], patches=[{**stiff, "young": 2e8}, {**thin, "thickness": 0.002}]
+    )
+    guess = put(put(true, "patch1.young", 1.5e8), "patch2.thickness", 0.0022)
+    at = POINTS[(POINTS[:, 0] < 0.08) | (POINTS[:, 0] > 0.1)]
+    spec = Lattice(4) if model == "lumped" else Elements("shell", 4)
+    measured = Displacements(at, solve(resolve(true, spec)).displacement(at))
+    size = {"grid": 4} if model == "lumped" else {"elements": 4}
+    found = identify(guess, measured, ["patch1.young", "patch2.thickness"], model=model, refine=False, **size)
+    assert found.unknowns["patch1.young"].value == pytest.approx(2e8, rel=1e-3)
+    assert found.unknowns["patch2.thickness"].value == pytest.approx(0.002, rel=1e-3)
+    with pytest.raises(BadInput, match=r"row 0, .* x, y = 0.09, 0.09: there is no sheet"):
+        identify(guess, Displacements(np.array([[0.09, 0.09]]), np.full((1, 3), 1e-3)), grid=4)
+    with pytest.raises(BadInput, match="of a sheet with an outline or cutouts give displacements"):
+        identify(guess, Surface(np.ones((9, 3)) * 1e-3), grid=4)
 
 
 def test_two_unknowns_through_the_lattice(truth):

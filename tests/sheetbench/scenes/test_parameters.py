@@ -10,7 +10,10 @@ from sheetbench.scenes.parameters import parameter, put
 SCENE = scenes.load("one-edge-clamped")
 CHAIN = {"edge": "x1", "segments": 4, "bending_stiffness": 0.01, "line_density": 0.05, "radius": 1e-3}
 RICH = SCENE.replace(
-    supports=(Curved(edge="x1", curvature=2.0),), actuators=(Chain(**{**CHAIN, "edge": "y0"}, curvature=1.0),)
+    supports=(Curved(edge="x1", curvature=2.0),),
+    actuators=(Chain(**{**CHAIN, "edge": "y0"}, curvature=1.0),),
+    taper_x=(0.003, 0.0015),
+    patches=[{"shape": {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}, "young": 1e8, "thickness": 0.004}],
 )
 VALUES = {
     "young": 1e6,
@@ -22,6 +25,8 @@ VALUES = {
     "curvature_x1": -3.0,
     "curvature_y0": 4.0,
     "tilt_x0": 0.2,
+    "patch1.young": 1e6,
+    "patch1.thickness": 0.001,
 }
 
 
@@ -49,6 +54,9 @@ def test_a_pair_of_one_curvature_changes_together_and_one_of_two_is_refused():
         ("mass", "not a parameter of a scene; choose from young, poisson"),
         ("tilt_y1", "edge 'y1' has no clamp"),
         ("curvature_x0", "edge 'x0' has no support or actuator of one curvature"),
+        ("patch2.young", "'patch2.young': the scene has 1 patch"),
+        ("patch1.poisson", "patch 1 has no poisson of its own; give a first guess there"),
+        ("patch1.angel", "not a parameter of a scene"),
     ],
 )
 def test_what_a_scene_does_not_have_is_refused(name, said):

@@ -23,6 +23,7 @@ from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Status, free_rigid_motions, require_no_branches
+from sheetbench.scenes.supports import named
 
 STRETCH, WARP, TURN = 0.02, 0.05, 2.0  # of the imposed states: strain, height over length, rad in all
 
@@ -89,8 +90,9 @@ class State:
 @dataclass(frozen=True)
 class Description:
     """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
-    (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: [Pa], on the cells
-    `pressed` (c, 4, p) of the mid-surface; notes: what of the scene is not in here."""
+    (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
+    `pressed` (c, 4, p) of the mid-surface; notes: what of the scene is not in here. Masses of no cell, which
+    an outline or cutouts leave, are left out."""
 
     index: np.ndarray
     positions: np.ndarray
@@ -100,7 +102,7 @@ class Description:
     cells: tuple[CellTable, ...]
     holds: tuple[Hold, ...]
     dead: np.ndarray
-    pressure: float
+    pressure: np.ndarray
     pressed: np.ndarray
     couples: tuple[Couple, ...]
     states: tuple[State, ...]
@@ -125,11 +127,10 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     nx, ny, layers = lattice.grid
     j, i, k = (at.ravel() for at in np.meshgrid(*map(np.arange, (ny, nx, layers)), indexing="ij"))
     moments, pressures = problem.loads.at_time(None)
-    pressure = float(pressures[0])  # of a plain sheet all alike
-    pressed = lattice.mid_cells
+    pressed = pressures != 0.0
     couples = tuple(c for edge, moment, turn in moments for c in _couples(edge, turn * moment))
     states, why = _states(scene, calibration, assembly)
-    return Description(
+    found = Description(
         index=np.stack([i, j, k], axis=1),
         positions=lattice.positions,
         mass=masses(scene, lattice, calibration.masses, calibration.cells),
@@ -138,11 +139,45 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         cells=tuple(_cells(scene, assembly)),
         holds=_holds(problem),
         dead=_constant(problem.loads),
-        pressure=pressure,
-        pressed=pressed if pressure else pressed[:0],
+        pressure=pressures[pressed],
+        pressed=lattice.mid_cells[pressed],
         couples=couples,
         states=states,
         notes=(*_left_out(scene), *why),
+    )
+    return _without(found, lattice.absent_masses) if len(lattice.absent_masses) else found
+
+
+def _without(found: Description, absent: np.ndarray) -> Description:
+    """The description without some masses, the others numbered on from 0."""
+    there = np.ones(len(found.mass), dtype=bool)
+    there[absent] = False
+    new = np.cumsum(there) - 1
+
+    def several(masses: tuple[int, ...]) -> tuple[int, ...]:
+        return tuple(new[list(masses)].tolist())
+
+    return replace(
+        found,
+        **{name: getattr(found, name)[there] for name in ("index", "positions", "mass", "dead")},
+        links=replace(found.links, masses=new[found.links.masses]),
+        cells=tuple(replace(table, corners=new[table.corners]) for table in found.cells),
+        holds=tuple(replace(h, masses=several(h.masses)) for h in found.holds if there[h.masses[0]]),
+        pressed=new[found.pressed],
+        couples=tuple(
+            replace(
+                c,
+                top=int(new[c.top]),
+                bottom=int(new[c.bottom]),
+                before=several(c.before),
+                after=several(c.after),
+            )
+            for c in found.couples
+        ),
+        states=tuple(
+            replace(state, displacement=state.displacement[there], force=state.force[there])
+            for state in found.states
+        ),
     )
 
 
@@ -261,9 +296,13 @@ def _rolled(lattice: Lattice) -> np.ndarray:
 
 def _left_out(scene: Scene) -> tuple[str, ...]:
     """What of the scene these arrays do not say."""
-    moving = [support.edge for support in scene.supports if support.motion is not None]
+    moving = [
+        name if support.edge is None else f"the support on edge {name}"
+        for name, support in named(scene.supports).items()
+        if support.motion is not None
+    ]
     courses = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
-    said = [f"the support on edge {edge} moves over time; here it is where it ends" for edge in moving]
+    said = [f"{name} moves over time; here it is where it ends" for name in moving]
     if any(load.history is not None for load in courses):
         said.append("loads change over time in this scene; here they have their last values")
     return tuple(said)

@@ -32,6 +32,9 @@ NAMES = {  # and what they are
     "strain_rest": "(s,) rest area [m2]",
     "strain_stiffness": "(s, 3) of e1, e2, g [N/m]",
     "strain_damping": "(s, 3) [N s/m]",
+    "coupling_corners": "(f, 4, p) as area_corners",
+    "coupling_rest": "(f,) rest area [m2]",
+    "coupling_stiffness": "(f, 3) of e1 e2, e1 g, e2 g [N/m]",
     "rubber_corners": "(r, 4, p) as area_corners",
     "rubber_rest": "(r,) rest area [m2]",
     "rubber_stiffness": "(r, 8) c10, c01, c20, c30, volume [N/m], limit [-], two of the sides [N/m]",
@@ -42,7 +45,7 @@ NAMES = {  # and what they are
     "hold_axis": "(h,) along 0 = x, 1 = y, 2 = z",
     "hold_displacement": "(h,) [m]",
     "load": "(n, 3) dead forces [N]",
-    "pressure": "[Pa] on the cells pressed",
+    "pressure": "(c,) [Pa] on each of the cells pressed",
     "pressed_corners": "(c, 4, p) as area_corners",
     "couple_masses": "(e, 2) top and bottom of an edge's column",
     "couple_before": "(e, p) masses of the column before it",
@@ -68,7 +71,7 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
         "hold_axis": np.array([hold.axis for hold in lattice.holds], dtype=int),
         "hold_displacement": np.array([hold.displacement for hold in lattice.holds]),
         "load": lattice.dead,
-        "pressure": np.array(lattice.pressure),
+        "pressure": lattice.pressure,
         "pressed_corners": lattice.pressed,
         "couple_masses": np.array([(c.top, c.bottom) for c in lattice.couples], dtype=int).reshape(-1, 2),
         "couple_before": _repeated([couple.before for couple in lattice.couples], layers),
@@ -80,7 +83,7 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
             for name in ("displacement", "force", "energy")
         },
     }
-    for kind, components in (("area", 1), ("strain", 3), ("rubber", 8), ("face", 1)):
+    for kind, components in (("area", 1), ("strain", 3), ("coupling", 3), ("rubber", 8), ("face", 1)):
         cells = [table for table in lattice.cells if table.kind == kind]
         corners = [np.repeat(t.corners, layers // t.corners.shape[2], axis=2) for t in cells]
         found[f"{kind}_corners"] = np.concatenate([np.empty((0, 4, layers), dtype=int), *corners])

@@ -14,12 +14,12 @@ from comparisons.export.arrays import arrays
 from comparisons.export.mujoco import to_mjcf
 from comparisons.export.page import page
 from comparisons.export.sofa import to_sofa
-from comparisons.export.tables import tables
+from comparisons.export.tables import plan, tables
 from comparisons.runs.folder import Folder
 from sheetbench.answers.files import write_text
 from sheetbench.errors import require_choice
 from sheetbench.files import whole
-from sheetbench.scenes import Scene, require_plain
+from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
     from lumped import Calibration, Description
@@ -59,7 +59,6 @@ def export(
 
     for name in simulators:
         require_choice("--for", name, SIMULATORS)
-    require_plain(scene, "an export")
     lattice = lumped.describe(scene, calibration)
     own = {SIMULATORS[name].file: SIMULATORS[name].write(lattice, scene) for name in simulators}
     target = Folder(
@@ -71,7 +70,8 @@ def export(
         overwrite=overwrite,
         option="--export",
     )
-    texts = {**tables(lattice), "README.md": page(lattice, scene, calibration, own), **own}
+    differing = {} if scene.uniform and not scene.pierced else {"plan.csv": plan(lattice, scene)}
+    texts = {**tables(lattice), **differing, "README.md": page(lattice, scene, calibration, own), **own}
     for name, text in texts.items():
         target.write(name, partial(write_text, text=text))
     values = arrays(lattice)

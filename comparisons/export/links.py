@@ -30,7 +30,7 @@ def require_links(lattice: Description, simulator: str, means: bool) -> None:
             f"--for {simulator}: hinged and held edges hold the mean of their layers, which has no plain "
             "form there; clamped and curved edges only"
         )
-    if lattice.pressure or lattice.couples:
+    if len(lattice.pressure) or lattice.couples:
         raise BadInput(f"--for {simulator}: pressure and edge moments follow the sheet; dead loads only")
 
 

@@ -9,10 +9,17 @@ from comparisons.export.arrays import NAMES
 from comparisons.runs.manifest import version
 from sheetbench.answers.escape import markdown
 from sheetbench.scenes import Scene
+from sheetbench.scenes.words import in_words
 
 if TYPE_CHECKING:
     from lumped import Calibration, Description
 
+PLAN = (
+    "- `plan.csv`: what each cell of the plan is made of in its middle, the number of its patch, and its "
+    "share that is on the sheet; its springs and masses have that already.\n"
+)
+OWN = ("material", "layer", "patch", "cutout")  # lines of a scene in words
+MISSING = "Masses beyond the outline and in cutouts are left out; `i`, `j`, `k` are places on the grid.\n"
 PAGE = """\
 # {title}
 
@@ -37,6 +44,8 @@ supports and loads balance at rest.
   strains e1 = (|A|² − |A0|²)/(2 |A0|²), e2 = (|B|² − |B0|²)/(2 |B0|²), g = A·B/a0. E = ½ (k1 e1² + k2 e2² +
   k3 g²) a0. With t = (k1 e1, k2 e2, k3 g) the gradient by A is P = a0 (t1 A/|A0|² + t3 B/a0), by B it is Q
   = a0 (t2 B/|B0|² + t3 A/a0); on corners 1 to 4 it is ½ (−P − Q), ½ (P − Q), ½ (P + Q), ½ (Q − P).
+- kind `coupling`, of fibres: strains as above, E = (k1 e1 e2 + k2 e1 g + k3 e2 g) a0 and t = (k1 e2 + k2 g,
+  k1 e1 + k3 g, k2 e1 + k3 e2).
 - kind `rubber`: a membrane of rubber. With A and B as above, q = corner 1 − 2 + 3 − 4, C11 = (|A|² +
   |q|²/12)/|A0|², C22 = (|B|² + |q|²/12)/|B0|², C12 = A·B/a0, T = C11 + C22, D = C11 C22 − C12², x = T + θ
   − 3 and c10, c01, c20, c30, v, limit = k1 … k6 it stores W a0, W = f + c01 (D + θ T − 3) − (c10 + 2 c01)
@@ -69,7 +78,7 @@ dragged by {rate:g} 1/s × its mass × its velocity.
   columns a top mass, a bottom mass, and the columns before and after them: with D from bottom to top and t
   the unit vector from the mean of the one before to that of the one after, F = M (t × D)/|D|² on the top
   and −F on the bottom mass.
-{notes}
+{plan}{notes}
 ## The same as arrays
 
 `lattice.npz` (NumPy) and `lattice.mat` (MATLAB, Octave: add 1 to numbers of masses), p = {layers}:
@@ -84,12 +93,13 @@ Programs in NumPy, MATLAB and C++ that read this folder and solve it, of rubber 
 def page(lattice: Description, scene: Scene, calibration: Calibration, others: Iterable[str] = ()) -> str:
     """Return the README, in Markdown; others: names of files of the same lattice for one simulator each."""
     nx, ny, layers = calibration.grid
-    sheet, material = scene.sheet, scene.material
+    sheet = scene.sheet
+    own = [f"{name}: {text}" for name, text in in_words(scene) if name.split()[0] in OWN]
+    missing = MISSING if len(lattice.mass) < nx * ny * layers else ""
     about = (
         f"{nx} × {ny} × {layers} masses of a sheet of {sheet.length_x:g} × {sheet.length_y:g} × "
-        f"{sheet.thickness:g} m, E = {material.young:g} Pa, ν = {material.poisson:g}, "
-        f"ρ = {material.density:g} kg/m³, springs by the calibration {calibration.method}. "
-        f"Written by sheetbench {version()}."
+        f"{sheet.thickness:g} m, springs by the calibration {calibration.method}; "
+        f"{markdown('; '.join(own))}. {missing}Written by sheetbench {version()}."
     )
     notes = "".join(f"- Not in here: {markdown(note)}\n" for note in lattice.notes)
     return PAGE.format(
@@ -98,6 +108,7 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
         states=" and ".join(f"`{state.name}` ({state.meaning})" for state in lattice.states),
         rate=lattice.damping_rate,
         layers=layers,
+        plan="" if scene.uniform and not scene.pierced else PLAN,
         notes=notes + "".join(f"\nThe same lattice for one simulator: `{name}`.\n" for name in others),
         arrays="\n".join(f"- `{name}` {markdown(note)}" for name, note in NAMES.items()),
     )

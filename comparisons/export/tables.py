@@ -12,6 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sheetbench.scenes import Scene
+from sheetbench.scenes.patches import composition_at, shares_of
+
 if TYPE_CHECKING:
     from lumped import Description
 
@@ -68,7 +71,10 @@ def tables(lattice: Description) -> dict[str, str]:
         ),
         "supports.csv": _csv(
             ["edge", "masses", "component", "displacement"],
-            ([h.edge, _joined(h.masses), AXES[h.axis], h.displacement] for h in lattice.holds),
+            (
+                [h.edge.replace(" ", "_"), _joined(h.masses), AXES[h.axis], h.displacement]
+                for h in lattice.holds
+            ),
         ),
         "loads.csv": _csv(
             ["number", "fx", "fy", "fz"],
@@ -91,10 +97,22 @@ def tables(lattice: Description) -> dict[str, str]:
     }
 
 
+def plan(lattice: Description, scene: Scene) -> str:
+    """Return the table of the plan's cells: place of the first corner on the grid, middle [m], the share that
+    is on the sheet, and what the sheet is made of there."""
+    x, y = (np.unique(lattice.positions[:, axis]) for axis in (0, 1))
+    share = shares_of(scene.region, x, y)
+    rows, columns = np.nonzero(share)
+    middle = np.column_stack([0.5 * (x[1:] + x[:-1])[columns], 0.5 * (y[1:] + y[:-1])[rows]])
+    found = composition_at(scene, middle)
+    values = [columns, rows, *middle.T, share[rows, columns], *found.values()]
+    return _csv(["i", "j", "x", "y", "share", *found], zip(*(each.tolist() for each in values), strict=True))
+
+
 def _followers(lattice: Description) -> Iterable[list[Any]]:
     """Loads that follow the sheet: pressed cells, and the couples of edges by their four groups of masses."""
-    for corners in lattice.pressed.tolist():
-        yield ["pressure", *map(_joined, corners), lattice.pressure]
+    for corners, pressure in zip(lattice.pressed.tolist(), lattice.pressure.tolist(), strict=True):
+        yield ["pressure", *map(_joined, corners), pressure]
     for couple in lattice.couples:
         yield [
             "moment",

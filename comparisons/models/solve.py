@@ -23,7 +23,8 @@ from comparisons.report.work import Work
 from sheetbench.clock import now
 from sheetbench.scenes import FieldMesh, History, Iteration, Scene, Solution, load
 from sheetbench.scenes.grading import mirrored
-from sheetbench.scenes.patches import constants_at
+from sheetbench.scenes.patches import composition_at
+from sheetbench.scenes.region import share_of
 
 Watch = Callable[[Iteration], None]  # called once an iteration
 
@@ -51,16 +52,21 @@ def solve(model: Resolved[Any], name: str = "") -> Solution:
     preparing = now() - began
     solution = _solve(model, watch)
     spent = solution.setup_seconds + preparing
-    drawn = solution.mesh if scene.uniform else _with_constants(solution.mesh, scene)
+    drawn = solution.mesh
+    if not scene.uniform or scene.pierced:
+        drawn = _with_composition(drawn, scene)
     named = name or solution.model
     return replace(solution, model=named, setup_seconds=spent, points=dict(scene.probes), mesh=drawn)
 
 
-def _with_constants(mesh: FieldMesh, scene: Scene) -> FieldMesh:
-    """Return the mesh with what each of its cells is made of, as its middle is."""
-    middles = [mesh.points[nodes, :2].mean(axis=1) for _, nodes in mesh.cells]
-    found = [constants_at(scene, at).arrays(at.shape[:1]).by_name() for at in middles]
+def _with_composition(mesh: FieldMesh, scene: Scene) -> FieldMesh:
+    """Return the mesh with what each of its cells is made of, as its middle is, and what share of a
+    quadrilateral lies on the sheet."""
+    places = [mesh.points[nodes, :2] for _, nodes in mesh.cells]
+    found = [composition_at(scene, at.mean(axis=1)) for at in places]
     of_cells = {name: [one[name] for one in found] for name in found[0]}
+    if scene.pierced:
+        of_cells["share"] = [share_of(scene, at) for at in places]
     return FieldMesh(mesh.points, mesh.cells, mesh.point_data, {**mesh.cell_data, **of_cells})
 
 

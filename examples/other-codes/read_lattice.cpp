@@ -44,12 +44,15 @@ Field gradient(const std::vector<Spring>& springs, const Field& start, const Fie
     auto [k1, k2, k3, k4, k5, k6, k7, k8] = s.k;
     V a = of(now, s.a), b = of(now, s.b), q = of(now, s.q), a0 = of(start, s.a), b0 = of(start, s.b), c = cross(a, b);
     V by_a, by_b, by_q;
-    double aa = dot(a0, a0), bb = dot(b0, b0), t3 = k3 * dot(a, b) / s.rest, cc = dot(c, c);
+    double aa = dot(a0, a0), bb = dot(b0, b0), cc = dot(c, c);
+    double e1 = (dot(a, a) / aa - 1) / 2, e2 = (dot(b, b) / bb - 1) / 2, e3 = dot(a, b) / s.rest;
     double sides = sqrt(dot(a, a) * bb), sheared = s.rest * k1 * dot(a, b) / (sides * sides);  // of a face
     if (s.kind == "link") by_a = k1 * (1 - s.rest / sqrt(dot(a, a))) * a;
     if (s.kind == "area") c = k1 / 2 * (0.5 / s.rest - 1 / sqrt(cc)) * c, by_a = cross(b, c), by_b = cross(c, a);
-    if (s.kind == "strain") by_a = k1 / 2 * (dot(a, a) / aa - 1) * s.rest / aa * a + t3 * b;
-    if (s.kind == "strain") by_b = k2 / 2 * (dot(b, b) / bb - 1) * s.rest / bb * b + t3 * a;
+    double t1 = k1 * e1, t2 = k2 * e2, t3 = k3 * e3;
+    if (s.kind == "coupling") t1 = k1 * e2 + k2 * e3, t2 = k1 * e1 + k3 * e3, t3 = k2 * e1 + k3 * e2;
+    if (s.kind == "strain" || s.kind == "coupling")
+      by_a = t1 * s.rest / aa * a + t3 * b, by_b = t2 * s.rest / bb * b + t3 * a;
     if (s.kind == "rubber") rubber(s, a, b, q, aa, bb, by_a, by_b, by_q);
     if (s.kind == "face") by_b = sheared * a, by_a = sheared * (b + -dot(a, b) / dot(a, a) * a);
     for (auto [m, w] : s.a) add(w * by_a, m, g);

@@ -5,7 +5,7 @@ function read_lattice(folder, steps)
   if nargin < 1, error('usage: read_lattice(''DIR'', steps)'); end
   if nargin < 2, steps = 1; end
   lattice = load([folder '/lattice.mat']);
-  if lattice.pressure ~= 0 || ~isempty(lattice.couple_moment), error('dead loads only'); end
+  if ~isempty(lattice.pressure) || ~isempty(lattice.couple_moment), error('dead loads only'); end
   along = differences(lattice);
   largest = 0;
   for state = 1:numel(lattice.state_energy)
@@ -24,7 +24,7 @@ function along = differences(lattice)
   of = speye(size(lattice.positions, 1));
   ends = double(lattice.link_masses) + 1;  % numbers count from 0 in the file
   along.link = of(ends(:, 2), :) - of(ends(:, 1), :);
-  for kind = {'area', 'strain', 'rubber', 'face'}
+  for kind = {'area', 'strain', 'coupling', 'rubber', 'face'}
     corners = double(lattice.([kind{1} '_corners'])) + 1;
     [first, second, warp, p] = deal(0, 0, 0, size(corners, 3));
     for mass = 1:p  % a corner is the mean of one mass or several
@@ -47,12 +47,17 @@ function g = gradient_of(lattice, along, u)
   turned = 0.5 * lattice.area_stiffness .* (0.5 ./ lattice.area_rest - 1 ./ sqrt(sum(c .^ 2, 2))) .* c;
   g = g + along.area{1}' * cross(d2, turned, 2) + along.area{2}' * cross(turned, d1, 2);
 
-  [over_a, over_b, k, a0] = deal(along.strain{3:4}, lattice.strain_stiffness, lattice.strain_rest);
-  [a, b, aa, bb] = deal(over_a * x, over_b * x, sum((over_a * rest) .^ 2, 2), sum((over_b * rest) .^ 2, 2));
-  t1 = k(:, 1) .* (sum(a .^ 2, 2) ./ aa - 1) / 2;
-  t2 = k(:, 2) .* (sum(b .^ 2, 2) ./ bb - 1) / 2;
-  t3 = k(:, 3) .* sum(a .* b, 2) ./ a0;
-  g = g + over_a' * (t1 .* a0 ./ aa .* a + t3 .* b) + over_b' * (t2 .* a0 ./ bb .* b + t3 .* a);
+  for kind = {'strain', 'coupling'}
+    k = lattice.([kind{1} '_stiffness']);
+    if isempty(k), continue; end
+    [over_a, over_b, a0] = deal(along.(kind{1}){3:4}, lattice.([kind{1} '_rest']));
+    [a, b, aa, bb] = deal(over_a * x, over_b * x, sum((over_a * rest) .^ 2, 2), sum((over_b * rest) .^ 2, 2));
+    e = [(sum(a .^ 2, 2) ./ aa - 1) / 2, (sum(b .^ 2, 2) ./ bb - 1) / 2, sum(a .* b, 2) ./ a0];
+    t = k .* e;
+    if strcmp(kind{1}, 'coupling'), t = k(:, [1 1 2]) .* e(:, [2 1 1]) + k(:, [2 3 3]) .* e(:, [3 3 2]); end
+    g = g + over_a' * (t(:, 1) .* a0 ./ aa .* a + t(:, 3) .* b);
+    g = g + over_b' * (t(:, 2) .* a0 ./ bb .* b + t(:, 3) .* a);
+  end
   if ~isempty(lattice.rubber_rest), g = g + of_rubber(lattice, along, rest, x); end
 end
 

@@ -12,7 +12,7 @@ def differences(lattice):
     """Matrices that take positions (n, 3) to the vectors that springs see: along links, across cells."""
     of = np.eye(len(lattice["positions"]))
     found = {"link": of[lattice["link_masses"][:, 1]] - of[lattice["link_masses"][:, 0]]}
-    for kind in ("area", "strain", "rubber", "face"):
+    for kind in ("area", "strain", "coupling", "rubber", "face"):
         corner = of[lattice[f"{kind}_corners"]].mean(axis=2)  # of one mass or several
         found[kind] = corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]
         found[f"{kind}_warp"] = corner[:, 0] - corner[:, 1] + corner[:, 2] - corner[:, 3]
@@ -36,13 +36,17 @@ def gradient(lattice, along, u):
     energy += 0.5 * np.sum(k * strain**2 * a0)
     turned = 0.5 * k * strain * c / np.sqrt(dot(c, c))
     g += first.T @ np.cross(d2, turned) + second.T @ np.cross(turned, d1)
-    k, a0, (first, second) = lattice["strain_stiffness"], lattice["strain_rest"][:, None], along["strain"]
-    over_a, over_b = (first - second) / 2, (first + second) / 2
-    a, b, aa, bb = over_a @ x, over_b @ x, *(dot(side @ rest, side @ rest) for side in (over_a, over_b))
-    e = np.hstack([(dot(a, a) / aa - 1) / 2, (dot(b, b) / bb - 1) / 2, dot(a, b) / a0])
-    t1, t2, t3 = np.hsplit(k * e, 3)
-    energy += 0.5 * np.sum(k * e**2 * a0)
-    g += over_a.T @ (t1 * a0 / aa * a + t3 * b) + over_b.T @ (t2 * a0 / bb * b + t3 * a)
+    for kind in ("strain", "coupling"):
+        k, a0, (first, second) = lattice[f"{kind}_stiffness"], lattice[f"{kind}_rest"][:, None], along[kind]
+        over_a, over_b = (first - second) / 2, (first + second) / 2
+        a, b, aa, bb = over_a @ x, over_b @ x, *(dot(side @ rest, side @ rest) for side in (over_a, over_b))
+        e = np.hstack([(dot(a, a) / aa - 1) / 2, (dot(b, b) / bb - 1) / 2, dot(a, b) / a0])
+        t = k * e
+        if kind == "coupling":
+            t = k[:, [0, 0, 1]] * e[:, [1, 0, 0]] + k[:, [1, 2, 2]] * e[:, [2, 2, 1]]
+        energy += 0.5 * np.sum(t * e * a0)
+        t1, t2, t3 = np.hsplit(t, 3)
+        g += over_a.T @ (t1 * a0 / aa * a + t3 * b) + over_b.T @ (t2 * a0 / bb * b + t3 * a)
     return energy + rubber(lattice, along, x, g) + faces(lattice, along, x, g), g
 
 
@@ -121,7 +125,7 @@ if __name__ == "__main__":
     if len(sys.argv) not in (2, 3):
         sys.exit("usage: python read_lattice.py DIR [STEPS]")
     lattice = dict(np.load(f"{sys.argv[1]}/lattice.npz"))
-    if lattice["pressure"] or len(lattice["couple_moment"]):
+    if len(lattice["pressure"]) or len(lattice["couple_moment"]):
         sys.exit("this reader knows dead loads only")
     along, states, forces = differences(lattice), lattice["state_displacement"], lattice["state_force"]
     found = np.array([gradient(lattice, along, state)[1] for state in states])

@@ -93,6 +93,16 @@ def constants_at(scene: Scene, points: np.ndarray) -> Constants:
     return found
 
 
+def composition_at(scene: Scene, points: np.ndarray) -> dict[str, np.ndarray]:
+    """Return what the sheet is made of at plan points (…, 2) [m]: the number of its patch, 0 for none, and
+    the constants by their names, (…) each."""
+    patch = np.zeros(points.shape[:-1])
+    for number, each in enumerate(scene.patches, start=1):
+        patch[each.shape.contains(points)] = number
+    found = constants_at(scene, points).arrays(points.shape[:-1]).by_name()
+    return {"patch": patch, **found} if scene.patches else found
+
+
 def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
     """Write a patch's own constants into arrays."""
     for name, value in own.items():

@@ -9,6 +9,9 @@ from commands import one_line, run
 
 import fem_reference
 import lumped
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Lattice
 from sheetbench.scenes import Scene, Sheet, Status, load
 
 LENGTH, WIDTH, THICK, YOUNG, FORCE = 0.2, 0.02, 3e-3, 5e6, 1e-6
@@ -185,8 +188,15 @@ def test_files_say_what_each_cell_is_made_of(drawn, tmp_path):
     assert run("compare", drawn, *SMALL, "--out", str(tmp_path / "out")) == 0
     for model in ("lumped", "shell"):
         (file,) = (tmp_path / "out").rglob(f"{model}*.vtu")
-        young = np.concatenate(meshio.read(file).cell_data["young"])
-        assert set(young) == {54.5e6, 1e9}
+        young, patch = (np.concatenate(meshio.read(file).cell_data[key]) for key in ("young", "patch"))
+        assert set(young) == {54.5e6, 1e9} and set(patch[young == 1e9]) == {1.0}
+
+
+def test_cells_of_a_lattice_know_their_share_of_the_sheet():
+    scene = load("one-edge-clamped").replace(cutouts=[{"shape": CUT[1]["shape"]}])
+    mesh = solve(resolve(scene, Lattice(6))).mesh
+    share = mesh.cell_data["share"][1]
+    assert share.sum() * (0.188 / 5) ** 2 == pytest.approx(2.0 * scene.region.area) and share.min() < 0.9
 
 
 SHAPED = {
@@ -224,7 +234,6 @@ def test_references_agree_on_shapes(word):
 @pytest.mark.parametrize(
     ("verb", "options", "who"),
     [
-        ("calibrate", ["--grid", "5", "--export", "lattice"], "an export"),
         ("calibrate", ["--method", "uniform"], "calibration 'uniform'"),
         ("compare", ["--calibration", "fit-static"], "calibration 'fit-static'"),
     ],

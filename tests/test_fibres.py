@@ -251,7 +251,6 @@ def test_verbs_that_know_fibres(fabric, verb, options, capsys):
 @pytest.mark.parametrize(
     ("verb", "options", "who"),
     [
-        ("calibrate", ["--grid", "5", "--export", "lattice"], "an export"),
         ("calibrate", ["--method", "uniform"], "calibration 'uniform'"),
         ("compare", ["--law", "biot"], "the shell's law 'biot'"),
     ],

@@ -60,12 +60,12 @@ def solve(model: Resolved[Any], name: str = "") -> Solution:
 
 
 def _with_composition(mesh: FieldMesh, scene: Scene) -> FieldMesh:
-    """Return the mesh with what each of its cells is made of, as its middle is, and what share of a
-    quadrilateral lies on the sheet."""
+    """Return the mesh with what each of its cells is made of, as its middle is, and what share of a lattice's
+    lies on the sheet."""
     places = [mesh.points[nodes, :2] for _, nodes in mesh.cells]
     found = [composition_at(scene, at.mean(axis=1)) for at in places]
     of_cells = {name: [one[name] for one in found] for name in found[0]}
-    if scene.pierced:
+    if scene.pierced and mesh.cells[0][0] == "line":
         of_cells["share"] = [share_of(scene, at) for at in places]
     return FieldMesh(mesh.points, mesh.cells, mesh.point_data, {**mesh.cell_data, **of_cells})
 

@@ -32,10 +32,11 @@ from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import cross
+from fem_reference.surface.borders import borders_of
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_at
-from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of, nodes_of
+from fem_reference.surface.mesh import Elements, divisions, field_mesh, has_lines, mesh_of, nodes_of
 from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
@@ -119,7 +120,8 @@ def _runs(
 ) -> list[_Run]:
     """The run on a mesh of so many elements, then those on coarser ones that it has begun with."""
     few = coarse_start.coarse(counts, scene)
-    begun = [] if few is None else _runs(scene, few, section, law, graded, progress, coarse_start.ENOUGH)
+    rows = graded and has_lines(borders_of(scene))  # those along an outline are half of a coarse mesh
+    begun = [] if few is None else _runs(scene, few, section, law, rows, progress, coarse_start.ENOUGH)
     near = begun[0] if begun and coarse_start.plain(begun[0].path) else None
     mesh = mesh_of(scene, counts, graded)
     return [_run(mesh, scene, section, law, graded, progress, near, limit, buckled), *begun]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 CORNER = np.pi / 9.0  # by which a border turns at a corner; where it turns by less it is a curve
-TURN, MOST_TURN = np.pi / 4.0, np.pi / 3.0  # of a curve from one vertex of the triangles to the next
+TURN = np.pi / 4.0  # of a curve from one vertex of the triangles to the next
 GROWTH = 0.5  # of sizes, with the distance
 SMALLEST, NARROWEST = 1.0 / 256.0, 1.0 / 32.0  # by turns and by gaps
 GRID, NEAR = 1e-9, 1e-7  # of rounding; within which points are on the sheet
@@ -71,7 +71,8 @@ class Size(NamedTuple):
     @classmethod
     def of(cls, region: BaseGeometry, borders: Sequence[LineString], coarse: float) -> Size:
         """By how borders turn, and how close across the sheet they are to others that they do not touch; both
-        are divided more finely by finer meshes; coarse: how much larger elements are than usual ones."""
+        are divided more finely by finer meshes; coarse: how much larger elements are than usual ones, at
+        most 1."""
         import shapely
 
         places, sizes = [], []
@@ -80,14 +81,12 @@ class Size(NamedTuple):
             turning, radii = _radii(border)
             along = np.concatenate([even, turning])
             at = shapely.line_interpolate_point(border, along)
-            own = np.minimum(
-                1.0, min(coarse * TURN, MOST_TURN) * np.append(np.full(len(even), np.inf), radii)
-            )
+            own = np.minimum(1.0, coarse * TURN * np.append(np.full(len(even), np.inf), radii))
             for other in borders:
                 if not border.touches(other) and other is not border:
                     across = shapely.shortest_line(at, other)
                     middle = shapely.line_interpolate_point(across, 0.5, normalized=True)
-                    gap = np.maximum(min(coarse, 1.0) * shapely.length(across), NARROWEST)
+                    gap = np.maximum(coarse * shapely.length(across), NARROWEST)
                     near = gap < own
                     near[near] = shapely.contains(region, middle[near])
                     own[near] = gap[near]
@@ -156,7 +155,8 @@ def filling(region: BaseGeometry, borders: Sequence[LineString], sides: Sides, s
     """Inner points (n, 2): a row along borders, then corners of a quadtree's cells."""
     import shapely
 
-    inner = np.flatnonzero(sides.span[:, 0] > 0.0)
+    closed = np.array([border.is_closed for border in borders])
+    inner = np.flatnonzero((sides.span[:, 0] > 0.0) | closed[sides.border])
     on, along = sides.border[inner], sides.span[inner, 0]
     step = 1e-3 * np.ptp(sides.span[inner], axis=1)
     at, tangent = (

@@ -40,6 +40,7 @@ SKEW = np.pi / 4.0  # by which corners of two triangles that are joined may diff
 SKEWEST = np.pi / 3.0  # likewise, where rows along the rim do not make it worse
 FLAT = 1e-6  # of a triangle's longest side squared: area of one between points of a straight border
 LAYERS = (0.12, 0.4)  # of the row along the rim, where it is cut
+HALVINGS = 2  # of these, where elements beside it would be too skew
 TIP = 0.5  # of a rim's vertex: least 2 (1 − cos of the angle)
 LEAST_AREA = 0.02  # of an element, from point to point, below which its sides are left straight
 ROUNDS, SWEEPS = 12, 6  # of halving sides, of moving vertices
@@ -61,7 +62,8 @@ def quadrilaterals(
     unit = 2.0 * np.array(spacing)
     region, inner = (affinity.scale(part, *(1.0 / unit), origin=(0.0, 0.0)) for part in (region, inner))
     borders = borders_between_corners(region, inner)
-    size = Size.of(region, borders, USUAL / np.min(np.ptp(np.reshape(region.bounds, (2, 2)), axis=0)))
+    across = np.min(np.ptp(np.reshape(region.bounds, (2, 2)), axis=0))
+    size = Size.of(region, borders, min(1.0, USUAL / across))
     points, sides = divided(borders, size)
     points, triangles, sides = _triangles(
         region, borders, sides, points, filling(region, borders, sides, size)
@@ -230,10 +232,12 @@ def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[Mesh
         meets = count[one] > 0.0
         step, away = at[other[meets]] - at[one[meets]], move[one[meets]]
         move[one[meets]] = step * (np.sum(away**2, axis=1) / np.sum(away * step, axis=1))[:, None]
-    allowed = np.maximum(_worst(at, mesh.t.T), SKEWEST)
-    for _ in range(ROUNDS):
-        move[_worst(at + LAYERS[-1] * move, mesh.t.T) > allowed + 1e-9] *= 0.5
-    in_middle = move[ends].mean(axis=1)
+    allowed, share = np.maximum(_worst(at, mesh.t.T), SKEWEST), np.ones(len(at))
+    for _ in range(HALVINGS):
+        share[_worst(at + LAYERS[-1] * share[:, None] * move, mesh.t.T) > allowed + 1e-9] *= 0.5
+    move *= share[:, None]
+    in_middle, bulge = move[ends].mean(axis=1), places - at[ends].mean(axis=1)
+    in_middle[on_rim] -= share[ends[on_rim]].mean(axis=1)[:, None] * bulge[on_rim]  # rows straighten inwards
     fresh = np.full(len(at), -1)
     fresh[vertices] = np.arange(len(vertices))
     rows = [len(at) + fresh[ends[on_rim]] + len(vertices) * row for row in range(len(LAYERS))] + [

@@ -1,8 +1,8 @@
 """The fronts of a sparse symmetric matrix whose unknowns lie in a plane, by nested dissection.
 
-The cells that share unknowns are halved across their longer extent, again and again, and an unknown is
-eliminated in the smallest part that holds all its cells. A part's front is the dense matrix of its own
-unknowns and of those on its border (see `multifrontal`).
+The cells that share unknowns are cut in two, along x or y where the sides share the fewest, again and again,
+and an unknown is eliminated in the smallest part that holds all its cells. A part's front is the dense matrix
+of its own unknowns and of those on its border (see `multifrontal`).
 Source: George, SIAM J. Numer. Anal. 10 (1973) 345; Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302.
 """
 
@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
+from scipy.sparse import csr_array
 
 LEAF = 128  # unknowns of its cells, together, up to which a part of more than two is not halved
 
@@ -52,137 +53,149 @@ class Fronts(NamedTuple):
 def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: Cells) -> Fronts:
     """The fronts of a symmetric matrix by compressed rows, both triangles and the whole diagonal. Raises
     ValueError where an entry of the diagonal is missing."""
-    leaf = max(2, LEAF // cells.unknowns.shape[1])
-    found = _fronts(columns, starts, cells.unknowns, *_dissected(cells.places, leaf))
-    if np.any(found.diagonal < 0):
+    size, leaf = len(starts) - 1, max(2, LEAF // cells.unknowns.shape[1])
+    line, parts, halves = _dissected(cells, size, leaf)
+    at, column = np.nonzero(cells.unknowns[line] >= 0)
+    unknown = cells.unknowns[line[at], column]
+    low, high = np.zeros(size, np.int64), np.zeros(size, np.int64)
+    low[unknown[::-1]], high[unknown] = at[::-1], at  # of several the last one counts
+    owner = np.full(size, len(parts) - 1)
+    while True:
+        one, two = halves[owner].T
+        below = np.where(parts[one, 1] > high, one, np.where(parts[two, 0] <= low, two, -1))
+        if np.all(below < 0):
+            break
+        owner = np.where(below < 0, owner, below)
+    order = np.argsort(owner, kind="stable")
+    place = np.argsort(order)
+    own = np.bincount(owner, minlength=len(parts))
+    first = np.cumsum(own) - own
+
+    above = np.full(len(parts), -1)
+    above[halves[halves >= 0]] = np.nonzero(halves >= 0)[0]
+    leaves = np.flatnonzero(halves[:, 0] < 0)
+    of_cells = np.repeat(leaves, np.diff(parts[leaves])[:, 0])[at]
+    having = csr_array((np.ones(len(at), bool), (place[unknown], of_cells)), shape=(size, len(parts)))
+    width = np.zeros(len(parts), np.int64)
+    _climb(having.indices, having.indptr, above, owner[order], width, np.empty(0, np.int64))
+    begin = np.append(0, np.cumsum(width))
+    rows = np.empty(begin[-1], np.int64)
+    _climb(having.indices, having.indptr, above, owner[order], begin[:-1].copy(), rows)
+    left = np.append((width - own) ** 2, 0)
+    waiting = np.cumsum(left[:-1] - left[halves].sum(axis=1))
+    kept = np.append(0, np.cumsum(own * width))
+    target, source, entries, diagonal = _targets(columns, starts, order, place, own, first, rows, begin)
+    if np.any(diagonal < 0):
         raise ValueError("the pattern lacks a part of its diagonal")
-    return found
+    widest, most = int(width.max()), int(waiting.max())
+    return Fronts(
+        order, own, first, rows, begin, halves, target, source, entries, diagonal, kept, widest, most
+    )  # fmt: skip
 
 
-def _dissected(places: np.ndarray, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _dissected(cells: Cells, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Cells in line (m,), parts (F, 2) as ranges of the line, and every part's halves (F, 2), −1 for none;
     parts in the order of a walk that ends at each part after its halves. leaf: cells in a part that is not
     halved."""
-    line, count = np.arange(len(places)), 1
-    parts, halves = [np.array([[0, len(places)]])], [np.full((1, 2), -1)]
-    while (split := np.flatnonzero(np.diff(parts[-1])[:, 0] > leaf)).size:  # a generation at once
-        start, end = parts[-1][split].T
-        size = end - start
-        first = np.cumsum(size) - size
-        at = np.arange(size.sum()) + np.repeat(start - first, size)
-        here = places[line[at]]
-        extent = np.maximum.reduceat(here, first) - np.minimum.reduceat(here, first)
-        along = np.repeat(extent[:, 0] < extent[:, 1], size)
-        of_part = np.repeat(np.arange(len(split)), size)
-        line[at] = line[at[np.lexsort((np.where(along, here[:, 1], here[:, 0]), of_part))]]
-        middle = (start + end) // 2
-        halves[-1][split] = count + np.arange(2 * len(split)).reshape(-1, 2)
-        parts.append(np.column_stack([start, middle, middle, end]).reshape(-1, 2))
-        halves.append(np.full(parts[-1].shape, -1))
-        count += len(parts[-1])
-    every, below = np.concatenate(parts), np.concatenate(halves)
-    walk = np.lexsort((-every[:, 0], every[:, 1]))
+    orders = np.argsort(cells.places, axis=0, kind="stable").T.copy()
+    parts, halves = _halved(cells.unknowns, orders, size, leaf)
+    walk = np.lexsort((-parts[:, 0], parts[:, 1]))
     number = np.append(np.argsort(walk), -1)
-    return line, every[walk], number[below[walk]]
+    return orders[0], parts[walk], number[halves[walk]]
 
 
 @njit(cache=True)
-def _fronts(
+def _halved(cells: np.ndarray, orders: np.ndarray, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray]:
+    """Parts (F, 2) and their halves (F, 2) of cells (m, k), whose orders along x and y (2, m) become those
+    within parts. Each is cut along one of them where unknowns that the sides share, of `size`, and one more
+    (for where there are none), over the square of the product of the sides' cells, are the fewest."""
+    m, k, count = len(cells), cells.shape[1], 1
+    parts, halves = np.zeros((2 * m, 2), np.int64), np.full((2 * m, 2), -1)
+    first, last, seen = np.zeros(size, np.int64), np.zeros(size, np.int64), np.full(size, -1)
+    second, aside = np.zeros(m, np.int64), np.zeros(m, np.int64)
+    parts[0, 1] = m
+    for f in range(2 * m):
+        start, end = parts[f, 0], parts[f, 1]
+        if end - start <= leaf:  # beyond the last part too, where nothing is
+            continue
+        least, along, cut = np.inf, 0, 0
+        for axis in range(2):
+            for i in range(start, end):
+                for j in range(k):
+                    u = cells[orders[axis, i], j]
+                    if u >= 0:
+                        if seen[u] != 2 * f + axis:
+                            seen[u], first[u] = 2 * f + axis, i
+                        last[u] = i
+            shared = 0
+            for i in range(start, end - 1):
+                for j in range(k):
+                    u = cells[orders[axis, i], j]
+                    if u >= 0:
+                        shared += (first[u] == i) - (last[u] == i)
+                cost = (shared + 1.0) / ((i + 1.0 - start) * (end - 1.0 - i)) ** 2
+                if cost < least:
+                    least, along, cut = cost, axis, i + 1
+        for i in range(start, end):
+            second[orders[along, i]] = i >= cut
+        for axis in range(2):
+            moved = 0
+            for i in range(start, end):
+                cell = orders[axis, i]
+                if second[cell]:
+                    aside[moved] = cell
+                    moved += 1
+                else:
+                    orders[axis, i - moved] = cell
+            for i in range(moved):
+                orders[axis, cut + i] = aside[i]
+        halves[f, 0], halves[f, 1] = count, count + 1
+        parts[count, 0], parts[count, 1] = start, cut
+        parts[count + 1, 0], parts[count + 1, 1] = cut, end
+        count += 2
+    return parts[:count], halves[:count]
+
+
+@njit(cache=True)
+def _climb(
+    leaf: np.ndarray, ends: np.ndarray, above: np.ndarray, owner: np.ndarray, at: np.ndarray, rows: np.ndarray
+) -> None:
+    """Count the unknowns of every part `at` (F,), and put their places into rows from there on if it has any.
+
+    A part has those of its cells' unknowns that it or one above it eliminates. leaf: parts of the cells that
+    have the unknown at each place, from `ends` (n + 1,) on; above: what each part is a half of; owner: the
+    part that eliminates the unknown at each place."""
+    seen = np.full(len(above), -1)
+    for p in range(len(owner)):
+        for t in range(ends[p], ends[p + 1]):
+            f = leaf[t]
+            while seen[f] != p:
+                seen[f] = p
+                if len(rows):
+                    rows[at[f]] = p
+                at[f] += 1
+                if f == owner[p]:
+                    break
+                f = above[f]
+
+
+@njit(cache=True)
+def _targets(
     columns: np.ndarray,
     starts: np.ndarray,
-    cells: np.ndarray,
-    line: np.ndarray,
-    parts: np.ndarray,
-    halves: np.ndarray,
-) -> Fronts:
-    size, count = len(starts) - 1, len(parts)
-    above, leaf = np.full(count, -1), np.empty(len(line), np.int64)
-    for f in range(count):
-        for h in range(2):
-            if halves[f, h] >= 0:
-                above[halves[f, h]] = f
-        if halves[f, 0] < 0:
-            leaf[parts[f, 0] : parts[f, 1]] = f
-    low, high = np.full(size, len(line)), np.full(size, -1)
-    for at in range(len(line)):
-        for u in cells[line[at]]:
-            if u >= 0:
-                low[u], high[u] = min(low[u], at), max(high[u], at)
-    owner, own = np.empty(size, np.int64), np.zeros(count, np.int64)
-    for u in range(size):
-        f = leaf[low[u]]
-        while parts[f, 1] <= high[u]:
-            f = above[f]
-        owner[u] = f
-        own[f] += 1
-    first, next_one = np.zeros(count, np.int64), np.zeros(count, np.int64)
-    for f in range(1, count):
-        first[f] = next_one[f] = first[f - 1] + own[f - 1]
-    order, place = np.empty(size, np.int64), np.empty(size, np.int64)
-    for u in range(size):
-        place[u] = next_one[owner[u]]
-        order[place[u]] = u
-        next_one[owner[u]] += 1
-
-    # unknowns of a front: its own, and those of its cells or halves that are eliminated later
-    begin = np.zeros(count + 1, np.int64)
-    rows = np.empty(64 * size + 64, np.int64)
-    seen = np.full(size, -1)
-    for f in range(count):
-        end = begin[f]
-        need = end + own[f]
-        for h in range(2):
-            if halves[f, h] >= 0:
-                need += begin[halves[f, h] + 1] - begin[halves[f, h]]
-        need += (parts[f, 1] - parts[f, 0]) * cells.shape[1] if halves[f, 0] < 0 else 0
-        if need > len(rows):
-            longer = np.empty(2 * need, np.int64)
-            longer[:end] = rows[:end]
-            rows = longer
-        for i in range(own[f]):
-            rows[end] = first[f] + i
-            end += 1
-        last, border = first[f] + own[f], end
-        if halves[f, 0] < 0:
-            for at in range(parts[f, 0], parts[f, 1]):
-                for u in cells[line[at]]:
-                    if u >= 0 and place[u] >= last and seen[place[u]] != f:
-                        seen[place[u]] = f
-                        k = end
-                        while k > border and rows[k - 1] > place[u]:
-                            rows[k] = rows[k - 1]
-                            k -= 1
-                        rows[k] = place[u]
-                        end += 1
-        else:  # both halves' borders are in order
-            i, j = begin[halves[f, 0]] + own[halves[f, 0]], begin[halves[f, 1]] + own[halves[f, 1]]
-            end_i, end_j = begin[halves[f, 0] + 1], begin[halves[f, 1] + 1]
-            while i < end_i or j < end_j:
-                row = rows[i] if j == end_j or (i < end_i and rows[i] <= rows[j]) else rows[j]
-                i += i < end_i and rows[i] == row
-                j += j < end_j and rows[j] == row
-                if row >= last:
-                    rows[end] = row
-                    end += 1
-        begin[f + 1] = end
-
-    widest, waiting, most = 0, 0, 0
-    kept, entries = np.zeros(count + 1, np.int64), np.zeros(count + 1, np.int64)
-    for f in range(count):
-        width = begin[f + 1] - begin[f]
-        widest = max(widest, width)
-        kept[f + 1] = kept[f] + own[f] * width
-        for h in range(2):
-            if halves[f, h] >= 0:
-                waiting -= (begin[halves[f, h] + 1] - begin[halves[f, h]] - own[halves[f, h]]) ** 2
-        waiting += (width - own[f]) ** 2
-        most = max(most, waiting)
-
-    lower = (len(columns) + size) // 2
+    order: np.ndarray,
+    place: np.ndarray,
+    own: np.ndarray,
+    first: np.ndarray,
+    rows: np.ndarray,
+    begin: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Of `Fronts`: target, source, entries, diagonal (−1 where it is missing)."""
+    lower = (len(columns) + len(order)) // 2
     target, source = np.empty(lower, np.int32), np.empty(lower, np.int32)
-    diagonal = np.full(size, -1)
-    local, filled = np.empty(size, np.int64), 0
-    for f in range(count):
+    entries, diagonal = np.zeros(len(own) + 1, np.int64), np.full(len(order), -1)
+    local, filled = np.empty(len(order), np.int64), 0
+    for f in range(len(own)):
         width = begin[f + 1] - begin[f]
         for i in range(width):
             local[rows[begin[f] + i]] = i
@@ -196,7 +209,4 @@ def _fronts(
                     source[filled] = at
                     filled += 1
         entries[f + 1] = filled
-    rows = rows[: begin[count]].copy()
-    return Fronts(
-        order, own, first, rows, begin, halves, target, source, entries, diagonal, kept, widest, most
-    )  # fmt: skip
+    return target, source, entries, diagonal

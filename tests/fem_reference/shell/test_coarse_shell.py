@@ -45,6 +45,13 @@ def test_three_factorisations_lead_from_the_coarse_equilibrium_with_its_membrane
     assert fem_reference.solve(scene, elements=8).iterations == coarse.iterations + 4
 
 
+def test_a_sheet_with_a_hole_begins_at_a_coarse_mesh_without_rows_along_the_rim():
+    hole = {"shape": {"circle": {"centre": (0.11, 0.1), "radius": 0.03}}}
+    scene = scenes.load("two-edges-clamped").replace(cutouts=[hole])
+    coarse = fem_reference.solve(scene, elements=2, graded=False)
+    assert fem_reference.solve(scene, elements=8).iterations == coarse.iterations + 3
+
+
 @pytest.mark.parametrize(
     "where, name, value",
     [

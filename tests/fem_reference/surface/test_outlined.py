@@ -7,11 +7,12 @@ import pytest
 import shapely
 from skfem import Basis, ElementQuad2
 
-from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
+from fem_reference.surface.biquadratic import AT_GAUSS, jacobians, shape
 from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import nodes_of
 from fem_reference.surface.outlined import quadrilaterals
 
+AT_NODES = shape(*(2.0 * ElementQuad2.doflocs.T - 1.0))
 NONE = shapely.MultiLineString()
 PLATE, FIN = shapely.box(0.0, 0.0, 0.2, 0.2), shapely.Polygon([(0, 0), (0.2, 0.06), (0.2, 0.14), (0, 0.2)])
 
@@ -43,6 +44,8 @@ def test_elements_fill_the_plan_and_stand_upright(plan, count, graded):
     nodes, elements = nodes_of(mesh)
     area = np.linalg.det(jacobians(nodes[elements], AT_GAUSS[1]))
     assert area.min() > 0.0
+    at_nodes = np.linalg.det(jacobians(nodes[elements], AT_NODES[1]))
+    assert np.all(at_nodes.min(axis=1) > 0.05 * at_nodes.max(axis=1))  # squeezed ones had 1e-4
     assert Basis(mesh, ElementQuad2()).dx.sum() == pytest.approx(region.area, rel=1e-3 / count)
     rim = np.unique(mesh.facets[:, mesh.boundary_facets()])
     assert shapely.distance(region.boundary, shapely.points(nodes[rim])).max() < 1e-9

@@ -26,7 +26,7 @@ def system(nx: int, ny: int, unknowns: int, seed: int = 0) -> tuple[csr_matrix, 
     return matrix, Cells(pattern.cells, np.stack([x, y], axis=1) * rng.uniform(1.0, 3.0, 2))
 
 
-@pytest.mark.parametrize("shape", [(1, 1, 3), (2, 1, 1), (5, 4, 2), (1, 13, 5), (12, 12, 5), (6, 5, 31)])
+@pytest.mark.parametrize("shape", [(1, 1, 3), (2, 1, 1), (5, 4, 2), (1, 13, 5), (12, 12, 5), (7, 7, 31)])
 def test_factors_by_fronts_solve(shape: tuple[int, int, int]) -> None:
     matrix, cells = system(*shape)
     b = np.random.default_rng(1).normal(size=matrix.shape[0])
@@ -35,8 +35,19 @@ def test_factors_by_fronts_solve(shape: tuple[int, int, int]) -> None:
 
 
 def test_fronts_wide_enough_for_blocks_are_tested() -> None:
-    matrix, cells = system(6, 5, 31)
+    matrix, cells = system(7, 7, 31)
     assert fronts_of(matrix.indices, matrix.indptr, cells).widest > 2 * multifrontal.WIDE
+
+
+def test_parts_are_cut_where_they_share_few_unknowns_and_not_cell_by_cell() -> None:
+    """Two squares of cells and a neck between them, an unknown a corner; most of one square is held."""
+    x, y = (a.ravel() for a in np.meshgrid(np.arange(27), np.arange(8), indexing="ij"))
+    there = (x < 8) | (x > 10) | (y == 4)
+    corners = np.stack([9 * (x + i) + y + j for i in (0, 1) for j in (0, 1)], axis=1)[there]
+    number = np.unique(np.where(corners < 9 * 20, corners, -1), return_inverse=True)[1].reshape(-1, 4) - 1
+    fronts = Pattern(number, size=number.max() + 1, places=np.column_stack([x, y])[there]).fronts
+    assert 2 in fronts.own  # the neck's; halves of equally many cells have a column of nine between them
+    assert len(fronts.own) < len(number) / 8
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
@@ -72,7 +83,7 @@ def test_the_inertia_of_a_matrix_that_is_not_positive_definite_is_told() -> None
         assert each @ factor.solve(b) == pytest.approx(b)
 
 
-@pytest.mark.parametrize("shape", [(5, 4, 2), (12, 12, 5), (6, 5, 31)])
+@pytest.mark.parametrize("shape", [(5, 4, 2), (12, 12, 5), (7, 7, 31)])
 def test_factors_with_signs_are_those_of_the_eigenvalues_or_refused(shape: tuple[int, int, int]) -> None:
     """Shifted to the middle of its spectrum a matrix is as indefinite as can be."""
     matrix, cells = system(*shape)

@@ -49,6 +49,8 @@ def solve(
     scene = scene_of(scene)
     if scene.material.law is not None and "law" in options(model):
         asked.setdefault("law", scene.material.law)
+    if scene.sheet.mesh is not None and "graded" in options(model):
+        asked.setdefault("graded", False)
     check(model, asked)
     solver = _solver(model)
     if "progress" in signature(solver).parameters:

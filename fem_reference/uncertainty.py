@@ -137,14 +137,17 @@ def estimate(
 ) -> Uncertainty:
     """Bars of answers (n, k) on two or three meshes of rising size.
 
-    layers: what each of the meshes misses of it, nothing unless given; own_order: the elements'. Raises
-    BadInput for other numbers.
+    layers: what each of the meshes misses of it, nothing unless given; own_order: the elements'. Of meshes of
+    one size, as ¾ and ½ of few elements are, the first counts. Raises BadInput for other numbers.
     """
     if len(answers) not in (2, 3) or len(answers) != len(sizes):
         raise BadInput(f"{len(answers)} answers on {len(sizes)} meshes: two or three of both are needed")
-    if any(later <= earlier for earlier, later in pairwise(sizes)):
-        raise BadInput(f"mesh sizes {list(sizes)} must rise: the finest mesh comes first")
     layers = layers or [NOTHING] * len(sizes)
+    first = [i for i, size in enumerate(sizes) if size not in sizes[:i]]
+    answers, sizes = [answers[i] for i in first], [sizes[i] for i in first]
+    layers = [layers[i] for i in first]
+    if len(sizes) < 2 or any(later <= earlier for earlier, later in pairwise(sizes)):
+        raise BadInput(f"mesh sizes {list(sizes)} must rise: the finest mesh comes first")
     fine, step = answers[0], answers[0] - answers[1]
     ratio = sizes[1] / sizes[0]
     spread = np.max(answers, axis=0) - np.min(answers, axis=0)

@@ -20,7 +20,7 @@ from sheetbench.answers.table import Column, Table
 from sheetbench.choices import CALIBRATION, ELEMENTS
 from sheetbench.errors import Implausible
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
-from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.grid import elements_of
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.words import in_words
 
@@ -107,5 +107,11 @@ def _lattice(scene: Scene) -> str:
 
 
 def _shell(scene: Scene) -> str:
-    nx, ny = near_square(scene.sheet, ELEMENTS)
-    return f"{nx} × {ny} elements (--elements; --reference plate or solid)"
+    nx, ny = elements_of(scene.sheet, ELEMENTS)
+    if (own := scene.sheet.mesh) is not None:
+        mesh = (
+            f"the mesh's {len(own.quads)} elements (--elements {ELEMENTS}; {2 * ELEMENTS} cuts each in four"
+        )
+    else:
+        mesh = f"{nx} × {ny} elements (--elements"
+    return f"{mesh}; --reference plate or solid)"

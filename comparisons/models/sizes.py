@@ -17,7 +17,7 @@ from comparisons.models.symmetry import cut_axes
 from comparisons.report import amounts
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Sheet
-from sheetbench.scenes.grid import grid_of, near_square
+from sheetbench.scenes.grid import elements_of, grid_of
 from sheetbench.scenes.size import Size
 
 
@@ -88,7 +88,7 @@ def _sized(sheet: Sheet, spec: Spec, number: int) -> list[int]:
     """Return the same for so many along the shorter side, as they are asked for by one number."""
     if _is_lattice(spec):
         return list(grid_of(sheet, number))
-    return [*near_square(sheet, number), *_layers(spec)]
+    return [*elements_of(sheet, number), *_layers(spec)]
 
 
 def _is_lattice(spec: Spec) -> bool:

@@ -77,7 +77,7 @@ def assemble(
     outcomes: Sequence[Finished],
 ) -> Tradeoff:
     """The trade-off of finished runs: the reference on meshes from fine to coarse, and the rows."""
-    weights, truth = timing.field_points(scene.sheet)[1], judged[0]
+    weights, truth = timing.field_points(scene)[1], judged[0]
     rows = tuple(
         measured_row(scene, run, outcome, *_errors(outcome, truth, weights))
         for run, outcome in zip(asked, outcomes, strict=True)

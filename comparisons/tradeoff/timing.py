@@ -19,10 +19,11 @@ from comparisons.models.context import running
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve, warm
 from comparisons.models.spec import Spec, spec_of
+from comparisons.report.plan import inside
 from comparisons.runs import load, manifest
 from comparisons.runs.campaign import Run
 from comparisons.runs.peak_memory import with_peak_memory
-from sheetbench.scenes import Scene, Sheet, Solution, Status
+from sheetbench.scenes import Scene, Solution, Status
 
 SETTLED, MOST = 0.1, 25
 GAUSS_POINTS = 24  # along each side, for norms over the sheet
@@ -86,15 +87,17 @@ def measure(
         "peak_memory_bytes": memory,
         "bar": None if solution.bar is None else error(probes + solution.bar(points), probes),
         "probes": dict(zip(asked.probes, probes, strict=True)),
-        "field": solution.displacement(field_points(asked.sheet)[0]),
+        "field": solution.displacement(field_points(asked)[0]),
         "load_average": load.average(),
         "machine": manifest.machine(),
         "versions": {"sheetbench": manifest.version(), **manifest.versions()},
     }
 
 
-def field_points(sheet: Sheet) -> tuple[np.ndarray, np.ndarray]:
-    """Gauss points (n, 2) [m] over the sheet and their shares (n,) of its area."""
+def field_points(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """Gauss points (n, 2) [m] of the rectangle that lie on the sheet, and their shares (n,) of its area."""
     at, weight = np.polynomial.legendre.leggauss(GAUSS_POINTS)
-    x, y = np.meshgrid(*(0.5 * (1.0 + at) * length for length in sheet.lengths), indexing="ij")
-    return np.column_stack([x.ravel(), y.ravel()]), np.outer(weight, weight).ravel() / 4.0
+    x, y = np.meshgrid(*(0.5 * (1.0 + at) * length for length in scene.sheet.lengths), indexing="ij")
+    points, weights = np.column_stack([x.ravel(), y.ravel()]), np.outer(weight, weight).ravel()
+    there = inside(scene, points)
+    return points[there], weights[there] / weights[there].sum()

@@ -8,7 +8,7 @@ import numpy as np
 
 from sheetbench.scenes import Scene
 from sheetbench.scenes.cells import Constants
-from sheetbench.scenes.shapes import APART
+from sheetbench.scenes.shapes import APART, Shape
 from sheetbench.scenes.supports import place
 
 if TYPE_CHECKING:
@@ -49,15 +49,20 @@ class Borders(NamedTuple):
 def borders_of(scene: Scene) -> Borders | None:
     """Return the borders in a scene's plan, None of a whole rectangle without any: patches that are made of
     what the sheet is made of have none."""
-    places = [place(support) for support in scene.supports]
-    places += [getattr(load, "where", None) for load in scene.loads]
-    shapes = [shape for shape in places if shape is not None]
-    shapes += [patch.shape for patch in scene.patches] if _differ(scene) else []
+    shapes = shapes_of(scene)
     if not (shapes or scene.pierced):
         return None
     import shapely
 
     return Borders(scene.region, shapely.union_all([shape.area.boundary for shape in shapes]))
+
+
+def shapes_of(scene: Scene) -> list[Shape]:
+    """Return the shapes whose borders count."""
+    places = [place(support) for support in scene.supports]
+    places += [getattr(load, "where", None) for load in scene.loads]
+    shapes = [shape for shape in places if shape is not None]
+    return [*shapes, *(patch.shape for patch in scene.patches)] if _differ(scene) else shapes
 
 
 def _differ(scene: Scene) -> bool:

@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from skfem import Dofs, ElementQuad2, MeshQuad
 
-from fem_reference.surface.borders import Borders, borders_of
+from fem_reference.surface.borders import Borders, borders_of, shapes_of
 from fem_reference.surface.outlined import LAYERS, quadrilaterals
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import EDGES, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric
-from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.grid import MESH, elements_of
+from sheetbench.scenes.plan_mesh import divided
 from sheetbench.scenes.shapes import Shape
 
 if TYPE_CHECKING:
@@ -27,15 +28,16 @@ if TYPE_CHECKING:
 Elements = int | tuple[int, int]
 
 # A nine-node element drawn as four bilinear quadrilaterals; local nodes: 4 corners, 4 mid-sides, centre.
+BESIDE = 0.03  # of a shape's area, that a round one lacks between straight sides, 16 or more around
 _QUARTERS = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
 
 
 def divisions(sheet: Sheet, elements: Elements) -> tuple[int, int]:
-    """Elements along x and y: a pair as given, or that many along the shorter side and near-square ones.
+    """Elements along x and y: a pair as given, or as `sheetbench.scenes.grid.elements_of` counts them.
 
     Raises BadInput for fewer than one element.
     """
-    counts = elements if isinstance(elements, tuple) else near_square(sheet, elements)
+    counts = elements if isinstance(elements, tuple) else elements_of(sheet, elements)
     if min(counts) < 1:
         raise BadInput(f"elements = {elements}: at least one element along each side")
     return counts
@@ -110,14 +112,49 @@ def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float
 
     Sides of elements lie on the borders of shapes. Where all of these lie along the axes, lines that lie near
     them are moved there, and there are more lines where there are fewer than borders; else see `outlined`.
+    A sheet's own mesh is taken where it has as many elements, as it is or with each cut into 4, 16, …; none
+    of its meshes has thinner rows along rims.
     """
     counts, lengths = divisions(scene.sheet, elements), scene.sheet.lengths
+    graded = graded and scene.sheet.mesh is None
+    if (own := _own(scene.sheet, counts)) is not None:
+        _require_borders(scene, own)
+        return _with_edges(own, lengths)
     borders = borders_of(scene)
     if borders is None or borders.along_axes:
         mesh = _tensor(*lines_of(scene, counts, graded, reach), *lengths)
         return _with_edges(_within(mesh, borders.region), lengths) if borders and scene.pierced else mesh
     spacing = lengths[0] / counts[0], lengths[1] / counts[1]
     return _with_edges(quadrilaterals(*borders, spacing, graded), lengths)
+
+
+def _own(sheet: Sheet, counts: tuple[int, int]) -> MeshQuad | None:
+    """The sheet's own mesh, its elements cut into as many as the counts ask for; None for other numbers."""
+    if sheet.mesh is None:
+        return None
+    cuts = max(0, round(np.log2(min(counts) / min(elements_of(sheet, MESH)))))
+    if elements_of(sheet, MESH << cuts) != counts:
+        return None
+    points, quads = sheet.mesh.arrays
+    for _ in range(cuts):
+        points, quads = divided(points, [quads])
+    return MeshQuad(np.ascontiguousarray(points.T), np.ascontiguousarray(quads.T))
+
+
+def _require_borders(scene: Scene, mesh: MeshQuad) -> None:
+    """Raise BadInput for a shape on whose border the sides of elements do not lie, nor nearly so."""
+    import shapely
+
+    elements = shapely.polygons(mesh.p[:, mesh.t].transpose(2, 1, 0))
+    for shape in shapes_of(scene):
+        taken = shapely.area(elements[shape.contains(mesh.p[:, mesh.t].mean(axis=1).T)]).sum()
+        area = shape.area.intersection(scene.region).area
+        if abs(taken - area) > BESIDE * area:
+            raise BadInput(
+                f"sheet.mesh: its sides do not lie on the border of the {shape.in_words()}: elements of "
+                f"{1e4 * taken:.4g} cm² have their middles there, of the sheet {1e4 * area:.4g} cm² are; "
+                "mesh the part by itself"
+            )
 
 
 def has_lines(borders: Borders | None) -> bool:
@@ -129,7 +166,7 @@ def lines_of(
     scene: Scene, counts: tuple[int, int], graded: bool, reach: float = 1.0
 ) -> tuple[np.ndarray, np.ndarray]:
     """The lines of that mesh: their x and their y [m]; where it has none, equally far apart."""
-    borders = borders_of(scene)
+    borders, graded = borders_of(scene), graded and scene.sheet.mesh is None
     if not has_lines(borders):
         x, y = _lines(scene.sheet, counts, False, _cuts(scene))
         return (_with_rows(x), _with_rows(y)) if graded else (x, y)

@@ -54,6 +54,9 @@ def load(scene: str | Path) -> Scene:
         raise SceneError(f"{scene}: not a scene: tables or lists within each other without end") from None
     except ValueError:  # from `int`, which TOMLDecodeError does not cover
         raise SceneError(f"{scene}: not a scene: a number of more digits than can be read") from None
+    sheet = data.get("sheet")
+    if isinstance(sheet, dict) and isinstance(sheet.get("mesh"), str):
+        sheet["mesh"] = str(path.parent / sheet["mesh"])
     try:
         loaded = Scene.model_validate(data)
     except ValidationError as error:

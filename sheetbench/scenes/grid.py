@@ -16,6 +16,7 @@ from sheetbench.scenes.sheet import Sheet
 
 Grid = tuple[int, int, int]
 LAYERS = 2
+MESH = 16  # the usual number of elements (`sheetbench.choices`), which stands for a sheet's own mesh
 MASSES = 9  # along the shorter side, unless something else is asked for
 
 
@@ -24,6 +25,14 @@ def near_square(sheet: Sheet, cells: int) -> tuple[int, int]:
     shorter = min(sheet.lengths)
     along_x, along_y = (max(cells, round(cells * length / shorter)) for length in sheet.lengths)
     return along_x, along_y
+
+
+def elements_of(sheet: Sheet, elements: int) -> tuple[int, int]:
+    """Elements along x and y: so many along the shorter side and near-square ones; of a sheet with a mesh of
+    its own so many sixteenths of that mesh's: 16 stands for the mesh as it is."""
+    if sheet.mesh is None:
+        return near_square(sheet, elements)
+    return near_square(sheet, max(1, round(elements * sheet.mesh.across / MESH)))
 
 
 def grid_of(sheet: Sheet, masses: int | Sequence[int] = MASSES) -> Grid:

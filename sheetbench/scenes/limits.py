@@ -39,7 +39,7 @@ _WORDS = {
     _LAYERS: "layers laminate laminates ply plies lamina",
     _HOLE: "hole holes cutouts cut cuts slit slits notch notches",
     _UNIFORM: "patches region regions inclusion inclusions stiffener stiffeners magnet magnets",
-    _OUTLINE: "contour mesh diameter",
+    _OUTLINE: "contour diameter",
     _FIBRES: "young_x young_y young_z poisson_xy poisson_yx poisson_21 shear_xy orthotropic orthotropy "
     "anisotropic fibre fibres fiber fibers fibre_angle fiber_angle",
     _RUBBER: "laws hyperelastic neo_hookean ogden yeoh gent c10 c01 c20 c30",

@@ -59,6 +59,9 @@ def markdown() -> str:
                     inside = resolved(schema, entries)
                     parts += [f"### [[{key}.{inner}]]\n", f"{inside['description']}\n"]
                     parts.append(_keys_table(inside, schema))
+            if "mesh" in table["properties"]:
+                inside = branches(schema, table["properties"]["mesh"])[-1]
+                parts += ["### sheet.mesh\n", f"{inside['description']}\n", _keys_table(inside, schema)]
             if "shape" in table["properties"]:
                 parts += _shapes(table["properties"]["shape"], schema)
     parts.append(OVER_TIME)

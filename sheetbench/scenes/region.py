@@ -39,6 +39,10 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
     plan: Any = shapely.box(0.0, 0.0, *sheet.lengths)
     if sheet.outline is not None:
         plan = shapely.Polygon(sheet.outline)
+    elif sheet.mesh is not None:
+        if cutouts:
+            raise ValueError("cutout 1: beside sheet.mesh; the holes of a sheet with a mesh are the mesh's")
+        plan = sheet.mesh.area
     neck = NECK * min(sheet.lengths)
     for number, cutout in enumerate(cutouts, start=1):
         left = plan.difference(cutout.shape.area)
@@ -48,7 +52,8 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
         plan = left
     inner = plan.buffer(-0.5 * neck)
     if (count := 0 if inner.is_empty else shapely.get_num_geometries(inner)) != 1:
-        what = "cutout: they leave" if cutouts else "sheet.outline: it encloses"
+        drawn = "sheet.mesh: it covers" if sheet.mesh is not None else "sheet.outline: it encloses"
+        what = "cutout: they leave" if cutouts else drawn
         parts = f"{count} parts that hang together at points at most" if count else "no part"
         raise ValueError(f"{what} {parts}; a sheet is one piece")
     if plan.geom_type != "Polygon":  # slivers beside it

@@ -104,7 +104,7 @@ class Scene(Frozen):
             try:
                 sheet = Sheet.model_validate(data["sheet"])
                 cutouts = [Cutout.model_validate(c) for c in data.get("cutout") or data.get("cutouts") or ()]
-                plan = region.region(sheet, tuple(cutouts)) if cutouts or sheet.outline else None
+                plan = region.region(sheet, tuple(cutouts)) if cutouts or sheet.drawn else None
             except ValueError:
                 return data  # the sheet's own fault is the one to report
             supports = _edges(data.get("support") or data.get("supports") or ())
@@ -114,7 +114,7 @@ class Scene(Frozen):
             probes = default_probes(sheet, [edge for edge, _ in supports], held)
             if plan is not None:
                 probes = {name: region.nearest(plan, point) for name, point in probes.items()}
-            data = {**data, "probes": probes}
+            data = {**data, "probes": probes, "sheet": sheet}
         return data
 
     @model_validator(mode="after")
@@ -219,7 +219,7 @@ class Scene(Frozen):
     @property
     def pierced(self) -> bool:
         """Whether the sheet is no whole rectangle."""
-        return bool(self.cutouts) or self.sheet.outline is not None
+        return bool(self.cutouts) or self.sheet.drawn
 
     @cached_property
     def region(self) -> Polygon:
@@ -231,6 +231,7 @@ class Scene(Frozen):
         """The words by which it is no whole rectangle held and loaded at edges, at points or all over."""
         words = {
             "sheet.outline": self.sheet.outline is not None,
+            "sheet.mesh": self.sheet.mesh is not None,
             "cutout": bool(self.cutouts),
             "support.where": any(place(support) is not None for support in self.supports),
             "load.where": any(getattr(load, "where", None) is not None for load in self.loads),

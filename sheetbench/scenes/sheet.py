@@ -9,14 +9,16 @@ from __future__ import annotations
 from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
+from sheetbench.scenes.plan_mesh import PlanMesh, read_mesh
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Positive, Unit, Vector3
 from sheetbench.scenes.shapes import APART, crossing
 from sheetbench.scenes.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
 Length = Annotated[Positive, Unit("m")]
+MeshLike = Annotated[PlanMesh, BeforeValidator(read_mesh, json_schema_input_type=str | PlanMesh)]
 Taper = Annotated[tuple[Positive, Positive], Unit("m")]
 
 
@@ -61,6 +63,10 @@ class Sheet(Frozen):
     )
     """Corners [x, y] in turn of a sheet that is no rectangle: length_x and length_y are the sides of the
     rectangle around it, which begins at x = 0 and y = 0."""
+    mesh: MeshLike | None = Field(default=None, kw_only=True)
+    """In place of `outline`: a mesh file that meshio reads, as "fin.msh", relative to the scene's file. Its
+    triangles and quadrilaterals [m] in the plane z = 0 are what plate, shell and solid solve on, its boundary
+    is the outline, with its holes."""
 
     @model_validator(mode="after")
     def _thinner_than_wide(self) -> Sheet:
@@ -78,16 +84,26 @@ class Sheet(Frozen):
                 )
             if ends is not None and max(ends) > min(self.lengths):
                 raise ValueError(f"{name} = [{ends[0]:g}, {ends[1]:g}] m is more than the shorter side")
-        if self.outline is not None:
-            for name, length, places in zip("xy", self.lengths, zip(*self.outline, strict=True), strict=True):
+        if self.outline is not None and self.mesh is not None:
+            raise ValueError("outline and mesh: give one of them; the outline of a mesh is its boundary")
+        drawn = {"outline": self.outline, "mesh": None if self.mesh is None else self.mesh.points}
+        for key, corners in drawn.items():
+            if corners is None:
+                continue
+            for name, length, places in zip("xy", self.lengths, zip(*corners, strict=True), strict=True):
                 if max(abs(min(places)), abs(max(places) - length)) > APART * length:
                     raise ValueError(
-                        f"outline: its corners are at {min(places):g} ≤ {name} ≤ {max(places):g} m; they "
+                        f"{key}: its corners are at {min(places):g} ≤ {name} ≤ {max(places):g} m; they "
                         f"have to reach from 0 to length_{name} = {length:g} m"
                     )
-            if wrong := crossing(self.outline):
-                raise ValueError(f"outline: {wrong}")
+        if self.outline is not None and (wrong := crossing(self.outline)):
+            raise ValueError(f"outline: {wrong}")
         return self
+
+    @property
+    def drawn(self) -> bool:
+        """Whether it has an outline or a mesh, and need not be a rectangle."""
+        return self.outline is not None or self.mesh is not None
 
     def thickness_at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Thickness [m] at places x, y [m], without patches."""

@@ -82,6 +82,8 @@ def _outline(scene: Scene) -> str:
         return ""
     outline = scene.sheet.outline
     corners = "" if outline is None else f", a polygon of {len(outline)} corners in it"
+    if scene.sheet.mesh is not None:
+        corners = f", a mesh of {len(scene.sheet.mesh.quads)} quadrilaterals in it"
     return f"{corners}, {1e4 * area_in(scene, None):.4g} cm² in all"
 
 

@@ -129,10 +129,15 @@ def test_memory_is_that_of_the_run(scene: Scene) -> None:
 
 
 def test_field_points_integrate_over_the_sheet(scene: Scene) -> None:
-    points, weights = timing.field_points(scene.sheet)
+    points, weights = timing.field_points(scene)
     assert weights.sum() == pytest.approx(1.0)
     lx, ly = scene.sheet.lengths
     assert weights @ (points[:, 0] ** 3 * points[:, 1]) == pytest.approx(lx**3 * ly / 8)
+    half = scene.replace(sheet=scene.sheet.replace(outline=[(0.0, 0.0), (lx, 0.0), (0.0, ly)]))
+    points, weights = timing.field_points(half)  # which had points where there is no sheet
+    assert weights.sum() == pytest.approx(1.0) and weights @ points == pytest.approx(
+        [lx / 3, ly / 3], rel=0.02
+    )
 
 
 def test_killed_and_resumed_tradeoff_has_all_its_rows(finished: Path) -> None:

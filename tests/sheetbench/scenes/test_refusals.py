@@ -177,7 +177,7 @@ def test_whatever_is_put_in_its_place_the_refusal_is_ours() -> None:
     assert refused > 400
 
 
-WITHOUT_UNIT = {
+WITHOUT_UNIT = {"quads", 
     "grid", "grading", "graded_edges", "poisson", "factor", "components", "support", "load", "actuator",
     "x", "y", "z", "limit", "poisson_12", "poisson_13", "poisson_23", "loss_factor", "relaxation", "share",
     "patch", "cutout", "layer", "drag",

@@ -1,0 +1,65 @@
+"""References on a mesh of one's own: the answer of our mesh, finer and coarser ones, its borders."""
+
+import numpy as np
+import pytest
+
+import fem_reference
+from fem_reference.surface.mesh import mesh_of
+from fem_reference.uncertainty import solve_with_bar
+from sheetbench.scenes import BadInput, Scene, Sheet, Status
+
+ROOT = {"shape": {"rectangle": {"x": (0.0, 0.05), "y": (0.0, 0.1)}}, "young": 1e8}
+
+
+def fin(own=(12, 6), **keys):
+    """A trapezoid with a stiff root; own: meshed by hand, so many elements between straight lines."""
+    across = [np.linspace(0.0, end, n + 1) for end, n in zip((0.2, 1.0), own or (1, 1), strict=True)]
+    x, t = (one.ravel() for one in np.meshgrid(*across))
+    low = 0.1 * x
+    number = np.arange(len(x)).reshape(len(across[1]), -1)
+    quads = np.stack([number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], axis=-1)
+    points = np.column_stack([x, low + (0.1 - 2.0 * low) * t])
+    mesh = {"points": [tuple(p) for p in points], "quads": [tuple(q) for q in quads.reshape(-1, 4).tolist()]}
+    outline = [(0.0, 0.0), (0.2, 0.02), (0.2, 0.08), (0.0, 0.1)]
+    scene = {
+        "name": "fin",
+        "sheet": Sheet(0.2, 0.1, 0.003, **({"mesh": mesh} if own else {"outline": outline})),
+        "material": {"young": 1e7, "poisson": 0.4, "density": 1000.0},
+        "patch": [ROOT],
+        "gravity": {"acceleration": (0.0, 0.0, -9.81)},
+        "support": [{"kind": "clamped", "edge": "x0"}],
+        "probes": {"tip": (0.2, 0.05), "corner": (0.2, 0.08), "middle": (0.1, 0.05)},
+    }
+    return Scene(**{**scene, **keys})
+
+
+@pytest.mark.parametrize(
+    ("model", "own", "ours"), [("plate", (12, 6), 8), ("shell", (12, 6), 8), ("solid", (4, 2), 3)]
+)
+def test_a_mesh_by_hand_gives_the_answer_of_our_mesh_within_their_bars(model, own, ours):
+    by_hand, ours = (
+        solve_with_bar(scene, scene.probe_points(), model, n)
+        for scene, n in ((fin(own), 16), (fin(None), ours))
+    )
+    assert by_hand[0].status is ours[0].status is Status.CONVERGED and by_hand[0].balance.holds
+    size = np.abs(ours[1].answer).max()
+    off = np.abs(by_hand[1].answer - ours[1].answer).max() / size
+    assert off <= by_hand[1].error + ours[1].error < 0.1
+    drawn = 8 if model == "solid" else 4  # cells an element
+    assert len(by_hand[0].mesh.cells[0][1]) == drawn * own[0] * own[1]
+
+
+def test_sixteenths_of_a_mesh_are_it_or_cut_up_or_our_own():
+    meshes = {n: mesh_of(fin(), n) for n in (16, 32, 12)}
+    assert [meshes[n].nelements for n in (16, 32)] == [72, 288]
+    assert np.isclose(meshes[16].p[:, :, None], meshes[32].p[:, None]).all(axis=0).any(axis=1).all()
+    assert 72 * 0.3 < meshes[12].nelements < 72
+    assert {"x0", "x1"} <= set(meshes[16].boundaries) and len(meshes[16].boundaries["x0"]) == 6
+
+
+def test_a_shape_between_the_sides_of_elements_is_refused():
+    askew = {"kind": "clamped", "where": {"circle": {"centre": (0.03, 0.05), "radius": 0.02}}}
+    scene = fin(support=[askew])
+    with pytest.raises(BadInput, match=r"sheet\.mesh: its sides do not lie on the border of the circle"):
+        fem_reference.solve(scene, "shell")
+    assert fem_reference.solve(scene, "plate", elements=12).status is Status.CONVERGED  # a mesh of ours

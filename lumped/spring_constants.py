@@ -97,12 +97,13 @@ def of_rubber(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (c, 4) [N/m] of the small strains of a layer's plan cells that are rubber membranes, less
     that of their axial links, and what else `lumped.springs.laws` takes of them (c, 9). sides (c, 2, 3)
-    [m], area (c,) [m²]; twist: [N/m] that edges add to the shear of all cells, of which `kept` are (c,)."""
+    [m], area (c,) [m²]; twist: [N/m] that edges add to the shear of all cells, of which `kept` are (c,);
+    `shear` is what rims add."""
     count = len(twist)
     shear, volume, c01, c20, c30, limit = (
         of_cells(getattr(springs, name), count)[kept] for name in RUBBER_CONSTANTS
     )
-    twist = twist[kept]
+    twist = (twist + of_cells(springs.shear, count))[kept]
     c10 = 0.5 * shear
     stiffening = 2.0 * c20 + np.divide(c10, limit, out=np.zeros_like(limit), where=limit > 0.0)
     modulus, lame = shear + 2.0 * c01, volume + 4.0 * (c01 + stiffening)

@@ -37,8 +37,8 @@ CALIBRATIONS: dict[str, Method] = {
         "consistent, and matches the bending of cells in their plane", CELL_BY_CELL
     ),
     "consistent-oblique": Method("consistent, and waves oblique to the grid are second order", CELL_BY_CELL),
-    "neo-hookean": Method("layers as neo-Hookean membranes, for rubbers at any strain", GRADED),
-    "hyperelastic": Method("layers as membranes of the material's own law", GRADED),
+    "neo-hookean": Method("layers as neo-Hookean membranes, for rubbers at any strain", CELL_BY_CELL),
+    "hyperelastic": Method("layers as membranes of the material's own law", CELL_BY_CELL),
     "moduli": Method("bounded least squares on the moduli"),
     "fit-static": Method("fitted to displacements", (*GRADED, "targets")),
     "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),

@@ -139,6 +139,46 @@ def test_lattice_and_shell_agree_on_outlines_and_cutouts(name, across, off):
     assert np.abs(moved - expected).max() < off * np.abs(expected).max()
 
 
+def test_rubber_is_cut_and_patched():
+    """In closed form at small strains, a patch ending on a line of the grid; a blown sheet with a hole, which
+    stretches by 6 %, beside the shell; and layers at one distance, which are not those of a taper."""
+    root = {"rectangle": {"x": (0.0, 0.075), "y": (0.0, WIDTH)}}
+    strip_of_two = strip(patches=[{"shape": root, "young": 10.0 * YOUNG}])
+    expected = deflection(lambda x: THICK, lambda x: np.where(x < 0.075, 10.0 * YOUNG, YOUNG))
+    grid = (17, 3, 2)
+    springs = lumped.calibrate(
+        strip_of_two.sheet,
+        strip_of_two.material,
+        grid,
+        "hyperelastic",
+        cells=lumped.sections_of(strip_of_two, grid),
+    )
+    assert lumped.solve(strip_of_two, springs).displacement(TIP)[0, 2] == pytest.approx(expected, rel=0.005)
+    hole = {"shape": {"circle": {"centre": (0.06, 0.04), "radius": 0.01}}}
+    scene = strip(
+        sheet=Sheet(0.12, 0.08, THICK),
+        material={"law": "neo-hookean", "young": 2e6, "poisson": 0.4, "density": 1e3},
+        supports=[{"edge": edge, "kind": "clamped"} for edge in ("x0", "x1", "y0", "y1")],
+        cutouts=[hole],
+        loads=[{"kind": "pressure", "value": 2e3}],
+    )
+    shell = fem_reference.solve(scene, "shell", elements=6, law="neo-hookean")
+    at = [[0.06, 0.06], [0.08, 0.04], [0.03, 0.06]]
+    off = []
+    for n in (9, 17):
+        grid = (3 * (n - 1) // 2 + 1, n, 2)
+        springs = lumped.calibrate(
+            scene.sheet, scene.material, grid, "hyperelastic", cells=lumped.sections_of(scene, grid)
+        )
+        found = lumped.solve(scene, springs)
+        assert found.status is shell.status is Status.CONVERGED and found.balance.holds
+        off.append(np.abs(found.displacement(at) - shell.displacement(at)).max())
+    assert off[1] < 0.01 * np.abs(shell.displacement(at)).max() and off[1] < 0.5 * off[0]
+    tapered = scene.replace(taper_x=(THICK, 2e-3))
+    with pytest.raises(ValueError, match="a lattice of rubber is as thick all over"):
+        lumped.solve(tapered)
+
+
 def test_springs_of_a_uniform_sheet_are_refused():
     scene, _ = STRIPS["tapered"]
     springs = lumped.calibrate(scene.sheet, scene.material, (9, 3))

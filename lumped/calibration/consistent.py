@@ -12,10 +12,9 @@ from lumped import moduli, sections
 from lumped.calibration.calibration import Calibration, plan_spacing
 from lumped.calibration.cell_by_cell import Sides, cell_by_cell
 from lumped.calibration.closed_form import closed_form
-from lumped.calibration.edge_twist import with_edges
 from lumped.calibration.least_squares import bounded_least_squares
 from lumped.calibration.report import report
-from lumped.calibration.rim_twist import with_rims
+from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
 from lumped.sections import Section
 from sheetbench.errors import BadInput
@@ -36,7 +35,7 @@ def consistent(
     Raises BadInput as `consistent_interior`.
     """
     found = consistent_interior(sheet, material, grid, layer_distance, grading, cells)
-    return _with_twist("consistent", sheet, material, found, grading)
+    return replace(with_twist(sheet, material, found), method="consistent")
 
 
 def consistent_membrane(
@@ -52,7 +51,7 @@ def consistent_membrane(
     Raises BadInput as `consistent_interior`.
     """
     found = consistent_interior(sheet, material, grid, layer_distance, grading, cells, gradients=True)
-    return _with_twist("consistent-membrane", sheet, material, found, grading)
+    return replace(with_twist(sheet, material, found), method="consistent-membrane")
 
 
 def consistent_oblique(
@@ -68,17 +67,7 @@ def consistent_oblique(
     Raises BadInput as `consistent_interior`.
     """
     found = consistent_interior(sheet, material, grid, layer_distance, grading, cells, waves=True)
-    return _with_twist("consistent-oblique", sheet, material, found, grading)
-
-
-def _with_twist(
-    method: str, sheet: Sheet, material: Material, found: Calibration, grading: Graded
-) -> Calibration:
-    if found.present is None:
-        springs, notes = with_edges(sheet, found.grid, found.springs, grading, found.cells)
-    else:
-        springs, notes = with_rims(sheet, material, found)
-    return replace(found, method=method, springs=springs, remarks=(*found.remarks, *notes))
+    return replace(with_twist(sheet, material, found), method="consistent-oblique")
 
 
 def consistent_interior(

@@ -19,7 +19,7 @@ from lumped.calibration.report import report
 from lumped.calibration.rubber import hyperelastic, neo_hookean
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
-from lumped.sections import require_alike, sections_of
+from lumped.sections import sections_of
 from sheetbench import choices
 from sheetbench.errors import Impossible
 from sheetbench.scenes import Scene, SpringTable
@@ -106,6 +106,5 @@ def default(scene: Scene) -> Calibration:
         return given(scene)
     grid = grid_of(scene.sheet)
     if scene.material.law is not None:
-        require_alike(scene, "a lattice of rubber")
-        return hyperelastic(scene.sheet, scene.material, grid)
+        return hyperelastic(scene.sheet, scene.material, grid, cells=sections_of(scene, grid))
     return consistent(scene.sheet, scene.material, grid, cells=sections_of(scene, grid))

@@ -12,6 +12,7 @@ has no neighbour along the rim that is cut alike.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -19,10 +20,19 @@ import numpy as np
 from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration, either
 from lumped.calibration.cell_by_cell import kinds_of_cells
-from lumped.calibration.edge_twist import AT_CORNERS, MOST, edge_factor, of_cell
+from lumped.calibration.edge_twist import AT_CORNERS, MOST, edge_factor, of_cell, with_edges
 from sheetbench.scenes import Material, Sheet, SpringSet
 
 ALIKE = 1e-9  # shares of cells that one straight line cuts
+
+
+def with_twist(sheet: Sheet, material: Material, found: Calibration) -> Calibration:
+    """The calibration with the twist of its edges, and of its rims where cells are absent."""
+    if found.present is None:
+        springs, notes = with_edges(sheet, found.grid, found.springs, found.grading, found.cells)
+    else:
+        springs, notes = with_rims(sheet, material, found)
+    return replace(found, springs=springs, remarks=(*found.remarks, *notes))
 
 
 def with_rims(sheet: Sheet, material: Material, found: Calibration) -> tuple[SpringSet, list[str]]:

@@ -15,13 +15,13 @@ bent in its own plane, which mean sides do not see, is the axial links': E h/3L 
 cells' law takes off again where opposite sides are as long. Vertical links keep their length, kz = 8 D/lz²:
 bending does not follow the thinning of a sheet that is stretched. One that is stretched before it bends has
 the layer distance t h/√(L² − 1), t = 1/(λ₁ λ₂) the stretch of its thickness.
-Edges are as in `lumped.calibration.edge_twist`. Cells may differ.
+Edges and rims are as in `lumped.calibration.rim_twist`. Cells may differ, not in thickness: such a one has
+the layers of a sheet with its G h and ν.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
@@ -29,13 +29,16 @@ from lumped import moduli
 from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
 from lumped.calibration.cell_by_cell import Sides, cell_by_cell
 from lumped.calibration.closed_form import diagonals_for_waves, vertical
-from lumped.calibration.edge_twist import with_edges
 from lumped.calibration.report import report
+from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
 from lumped.sections import Section
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
+from sheetbench.scenes.orthotropy import FIBRES
+
+ALIKE = 1e-9  # of D/A, that of one thickness
 
 
 def neo_hookean(
@@ -44,6 +47,7 @@ def neo_hookean(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
+    cells: Section | None = None,
 ) -> Calibration:
     """Neo-Hookean layers with the moduli of the sheet at small strains. Raises BadInput for a material of
     another law."""
@@ -51,7 +55,7 @@ def neo_hookean(
         raise BadInput(
             f"calibration 'neo-hookean': the material's law is '{material.law}'; take 'hyperelastic'"
         )
-    return _rubber("neo-hookean", sheet, material, grid, layer_distance, grading)
+    return _rubber("neo-hookean", sheet, material, grid, layer_distance, grading, cells)
 
 
 def hyperelastic(
@@ -60,9 +64,11 @@ def hyperelastic(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
+    cells: Section | None = None,
 ) -> Calibration:
-    """Layers of the material's law, of a material without one neo-Hooke's."""
-    return _rubber("hyperelastic", sheet, material, grid, layer_distance, grading)
+    """Layers of the material's law, of a material without one neo-Hooke's. Raises BadInput as
+    `neo_hookean`."""
+    return _rubber("hyperelastic", sheet, material, grid, layer_distance, grading, cells)
 
 
 def _rubber(
@@ -72,17 +78,26 @@ def _rubber(
     grid: Grid,
     layer_distance: float | None,
     grading: Graded,
+    cells: Section | None,
 ) -> Calibration:
+    """cells: their sections, where they differ: by a factor, or in Young's modulus and Poisson's ratio. Raise
+    BadInput for other thicknesses, and for fibres, which rubber does not have."""
     layers, energy = grid[2], material.energy
-    thickness = sheet.thickness / layers
+    if material.kind == "orthotropic":
+        raise BadInput(f"calibration '{method}': {FIBRES}: rubber is isotropic; choose consistent")
+    _require_one_thickness(method, cells)
 
     def of_cell(sides: Sides, section: Section, distance: float | None = layer_distance) -> SpringSet:
         lx, ly = sides
         asked = moduli.of_section(section, sides)
-        side = material.young * thickness / 3.0
+        membrane = 0.5 * (asked.membrane[0, 0] + asked.membrane[1, 1])
+        poisson = float(asked.membrane[0, 1] / membrane)
+        # that of a layer whose law is the material's, with the cell's G h
+        thickness = float(0.5 * (1.0 - poisson) * membrane) / (energy.shear * layers)
+        side = 2.0 * (1.0 + poisson) * energy.shear * thickness / 3.0
         square = sheet.thickness**2 / (layers**2 - 1) if distance is None else distance**2
         gap, squares = asked.shear / moduli.shear_gaps(layers), np.array([lx * lx, ly * ly])
-        share = diagonals_for_waves(asked, lx * ly, 7.0 + material.poisson**2)
+        share = diagonals_for_waves(asked, lx * ly, 7.0 + poisson**2)
         diagonal = share * float((gap / squares).min() * squares.sum() / 2.0)
         return SpringSet(
             axial=by_direction(side * ly / lx, side * lx / ly),
@@ -91,7 +106,7 @@ def _rubber(
             cross=0.0,
             cross_diagonal=0.0,
             neo_hookean_shear=2.0 * energy.c10 * thickness,
-            neo_hookean_volume=energy.volume(material.poisson) * thickness,
+            neo_hookean_volume=energy.volume(poisson) * thickness,
             mooney_rivlin=energy.c01 * thickness,
             yeoh_square=energy.c20 * thickness,
             yeoh_cube=energy.c30 * thickness,
@@ -101,10 +116,22 @@ def _rubber(
             layer_distance=math.sqrt(square),
         )
 
-    if grading:
-        springs = cell_by_cell(of_cell, sheet, material, grid, grading, None, layer_distance)
+    if grading or cells is not None:
+        springs = cell_by_cell(of_cell, sheet, material, grid, grading, cells, layer_distance)
     else:
         springs = of_cell(plan_spacing(sheet, grid), Section.of(Constants.of(sheet, material)))
-    springs, notes = with_edges(sheet, grid, springs, grading)
-    found = report(method, sheet, material, grid, springs, grading)
-    return replace(found, remarks=(*found.remarks, *notes))
+    return with_twist(sheet, material, report(method, sheet, material, grid, springs, grading, cells))
+
+
+def _require_one_thickness(method: str, cells: Section | None) -> None:
+    """Raise BadInput where D/A differs: layers are one distance apart, and have no mid-surface to make up for
+    it."""
+    if cells is None:
+        return
+    there = cells.per_area > 0.0
+    squares = cells.bending[there, 0, 0] / cells.membrane[there, 0, 0]
+    if np.ptp(squares) > ALIKE * squares.max():
+        raise BadInput(
+            f"calibration '{method}': a lattice of rubber is as thick all over, and this sheet's thickness "
+            "differs; choose consistent, whose strains are small"
+        )

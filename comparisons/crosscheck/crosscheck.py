@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Unpack
 
 from comparisons.crosscheck.answer import Crosscheck
 from comparisons.crosscheck.convergence import Convergence
@@ -12,8 +12,7 @@ from comparisons.external.installed import InstalledCode
 from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Spec
-from comparisons.runs.campaign import Progress, Run, carry_out
-from comparisons.runs.executors import Pool, processes
+from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from sheetbench.choices import REFERENCES
 from sheetbench.scenes import Scene, Status
@@ -26,11 +25,8 @@ def crosscheck(
     *,
     models: Mapping[str, Sequence[Spec]],
     codes: Sequence[InstalledCode] = (),
-    workers: int = 1,
-    pool: Pool = processes,
-    retry: bool = False,
     large: bool = False,
-    progress: Callable[[Progress], None] = lambda progress: None,
+    **how: Unpack[CampaignKeywords],
 ) -> Crosscheck:
     """Carry out what the store does not have, and return every model's convergence.
 
@@ -48,7 +44,7 @@ def crosscheck(
         for name, of in models.items()
     }
     every = [run for of in runs.values() for run in of]
-    done = carry_out(every, store, workers=workers, pool=pool, retry=retry, progress=progress)
+    done = carry_out(every, store, **how)
     rows = {run.key: _row(run, outcome) for run, outcome in zip(every, done, strict=True)}
     version_of = {name: versions.get(of[0].model) for name, of in models.items()}
     layered = {*REFERENCES, *(one.code.name for one in codes if one.code.layered)}

@@ -45,7 +45,6 @@ from comparisons.models.context import context, in_context
 from comparisons.models.grids import Elements as Count
 from comparisons.models.keywords import LatticeKeywords
 from comparisons.models.resolve import resolve
-from comparisons.models.sizes import along
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.report.work import Progress, silent
@@ -203,7 +202,7 @@ def _of_mesh(question: _Question, fit: Fit, best: Nearest) -> np.ndarray:
     """Return what the mesh does to x at most, by a look at elements twice as large; nan where that is not
     known."""
     assert question.reference is not None
-    elements = along(question.scene, question.reference)[:2]
+    elements = question.reference.counts(question.scene)[:2]
     coarse = (elements[0] + 1) // 2, (elements[1] + 1) // 2
     longer = (prod(elements) / prod(coarse)) ** 0.5
     if longer == 1.0:

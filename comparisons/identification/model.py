@@ -14,7 +14,6 @@ from comparisons.identification.measurements import Displacements, Measured
 from comparisons.identification.prediction import Predictor, lattice, motion, reference
 from comparisons.models.grading import fixed
 from comparisons.models.resolve import Resolved, resolve
-from comparisons.models.sizes import along
 from comparisons.models.spec import Elements, Lattice
 from sheetbench.scenes import History, Scene
 from sheetbench.scenes.grading import as_settings
@@ -63,7 +62,7 @@ def reference_model(model: Resolved[Elements]) -> Model:
     """Return a finite-element reference."""
     import fem_reference
 
-    along_x, along_y = along(model.scene, model.spec)[:2]
+    along_x, along_y = model.spec.counts(model.scene)[:2]
     axes = surface.plan_grid(model.scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
     predict, options = reference(model), model.spec.options
 

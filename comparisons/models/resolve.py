@@ -32,7 +32,7 @@ from sheetbench.choices import (
 )
 from sheetbench.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes import Scene
-from sheetbench.scenes.grid import Grid, near_square
+from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.plausibility import layer_slips
 from sheetbench.scenes.quantities import require_positive
 from sheetbench.scenes.size import Size
@@ -264,14 +264,8 @@ def _check_elements(scene: Scene, spec: Elements) -> None:
     if min(counts) < 1:
         raise BadInput(f"elements = {elements}: at least 1")
     fem_reference.check(spec.kind, spec.options)
-    if spec.symmetry and spec.kind == "solid" and cut_axes(scene, _along(scene, spec), masses=False):
+    if spec.symmetry and spec.kind == "solid" and cut_axes(scene, spec.counts(scene), masses=False):
         raise BadInput("solid: is always solved whole; leave symmetry out")
-
-
-def _along(scene: Scene, spec: Elements) -> tuple[int, int]:
-    """Elements along x and y."""
-    counts = [spec.elements] if isinstance(spec.elements, int) else list(spec.elements)
-    return near_square(scene.sheet, counts[0]) if len(counts) == 1 else (counts[0], counts[1])
 
 
 def _check_external(spec: External) -> None:

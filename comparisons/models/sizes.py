@@ -11,27 +11,22 @@ from math import prod
 
 from comparisons.external import memory
 from comparisons.models.context import context
-from comparisons.models.grids import scene_grid
-from comparisons.models.spec import Elements, External, Lattice, LatticePair, Spec
+from comparisons.models.spec import Spec
 from comparisons.models.symmetry import cut_axes
 from comparisons.report import amounts
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, Sheet
-from sheetbench.scenes.grid import elements_of, grid_of
+from sheetbench.scenes import Scene
 from sheetbench.scenes.size import Size
 
 
 def size(scene: Scene, spec: Spec) -> Size | None:
     """Of what is solved, a half or a quarter of the sheet where symmetry is asked for; of a pair the finer
     lattice, for they are solved one after the other; None of a plug-in."""
-    if isinstance(spec, External):
-        return None
-    counts = along(scene, spec)
-    lattice = _is_lattice(spec)
+    counts = spec.counts(scene)
     if spec.settings.get("symmetry"):
-        for axis in cut_axes(scene, counts[:2], masses=lattice):
-            counts[axis] = (counts[axis] + lattice) // 2
-    return _estimate(spec, counts)
+        for axis in cut_axes(scene, counts[:2], masses=spec.MASSES):
+            counts[axis] = (counts[axis] + spec.MASSES) // 2
+    return _estimate(spec, counts) if counts else None
 
 
 def has_room(scene: Scene, spec: Spec) -> bool:
@@ -50,12 +45,15 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") 
     room, needed = memory.available(), size(scene, spec)
     if room is None or needed is None or needed.memory <= room:
         return
-    counts = "x".join(str(n) for n in along(scene, spec))
-    lattice = _is_lattice(spec)
-    option = option or (f"--{spec.model}" if lattice else "--elements")
-    fitting = _largest(
-        2 if lattice else 1, lambda n: _estimate(spec, _sized(scene.sheet, spec, n)).memory <= room
-    )
+    counts = "x".join(str(n) for n in spec.counts(scene))
+    option = option or (f"--{spec.model}" if spec.MASSES else "--elements")
+    count = "grid" if spec.MASSES else "count"
+
+    def fits(number: int) -> bool:
+        found = _estimate(spec, spec.but(**{count: number}).counts(scene))
+        return found.memory <= room
+
+    fitting = _largest(2 if spec.MASSES else 1, fits)
     advice = f"{option} {fitting} would fit" if fitting else f"take fewer along the longer side, {option} NxM"
     taken, free = amounts.memory(needed.memory), amounts.memory(room)
     raise BadInput(
@@ -67,40 +65,12 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") 
 
 def mesh(scene: Scene, spec: Spec) -> str:
     """Return the masses or elements of a model in words, of the whole sheet; "" of a plug-in."""
-    if isinstance(spec, External):
-        return ""
-    counts = " × ".join(str(n) for n in along(scene, spec))
-    return f"{counts} {'masses' if _is_lattice(spec) else 'elements'}"
-
-
-def along(scene: Scene, spec: Spec) -> list[int]:
-    """Masses (nx, ny, layers), or elements (nx, ny) and bricks through the thickness."""
-    if isinstance(spec, Lattice | LatticePair):
-        return list(scene_grid(scene, spec.grid))
-    assert isinstance(spec, Elements)
-    if isinstance(spec.elements, int):
-        return _sized(scene.sheet, spec, spec.elements)
-    counts = list(spec.elements)
-    return _sized(scene.sheet, spec, counts[0]) if len(counts) == 1 else [*counts, *_layers(spec)]
-
-
-def _sized(sheet: Sheet, spec: Spec, number: int) -> list[int]:
-    """Return the same for so many along the shorter side, as they are asked for by one number."""
-    if _is_lattice(spec):
-        return list(grid_of(sheet, number))
-    return [*elements_of(sheet, number), *_layers(spec)]
-
-
-def _is_lattice(spec: Spec) -> bool:
-    return isinstance(spec, Lattice | LatticePair)
-
-
-def _layers(spec: Spec) -> list[int]:
-    return [spec.layers or 1] if isinstance(spec, Elements) and spec.kind == "solid" else []
+    counts = " × ".join(str(n) for n in spec.counts(scene))
+    return counts and f"{counts} {'masses' if spec.MASSES else 'elements'}"
 
 
 def _estimate(spec: Spec, counts: list[int]) -> Size:
-    if _is_lattice(spec):
+    if spec.MASSES:
         import lumped
 
         return lumped.footprint((counts[0], counts[1], counts[2]))

@@ -16,7 +16,7 @@ from comparisons.external import plugins
 from comparisons.models.context import context
 from comparisons.models.pair import extrapolated
 from comparisons.models.resolve import OURS, Resolved, resolve
-from comparisons.models.sizes import along, mesh
+from comparisons.models.sizes import mesh
 from comparisons.models.spec import Elements, Lattice, LatticePair, spec_of
 from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.report.work import Work
@@ -105,7 +105,7 @@ def _lattice(model: Resolved[Any], spec: Lattice, watch: Watch | None) -> Soluti
 def _elements(scene: Scene, spec: Elements, watch: Watch | None) -> Solution:
     import fem_reference
 
-    counts = along(scene, spec)
+    counts = spec.counts(scene)
     axes = cut_axes(scene, counts, masses=False) if spec.symmetry else []
     for axis in axes:
         counts[axis] //= 2
@@ -126,7 +126,7 @@ def simulate(model: Resolved[Any], duration: float, **settings: Any) -> History:
     if isinstance(spec, Elements):
         import fem_reference
 
-        counts = tuple(along(scene, spec)[:2])
+        counts = tuple(spec.counts(scene)[:2])
         return fem_reference.simulate(scene, spec.kind, duration, elements=counts, **spec.options, **settings)
     if isinstance(spec, Lattice):
         import lumped

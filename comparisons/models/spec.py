@@ -25,7 +25,7 @@ from sheetbench.choices import AUTO, ELEMENTS, EXTRAPOLATED, REFERENCES
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.grading import Graded, Grading
-from sheetbench.scenes.grid import LAYERS
+from sheetbench.scenes.grid import LAYERS, elements_of
 from sheetbench.scenes.quantities import LARGEST
 
 GradingLike = Graded | str | None
@@ -37,7 +37,10 @@ _COUNTS = re.compile(r"\d{1,9}(x\d{1,9})+")
 
 @dataclass(frozen=True)
 class Spec(ABC):
-    """What all specs have in common; its fields are the settings of the model."""
+    """What all specs have in common; its fields are the settings of the model. MASSES: whether its size is a
+    number of masses, and not of elements."""
+
+    MASSES: ClassVar = False
 
     @property
     @abstractmethod
@@ -57,6 +60,11 @@ class Spec(ABC):
     def but(self, **settings: Any) -> Self:
         """Return the same model with other values of some settings."""
         return replace(self, **settings)
+
+    def counts(self, scene: Scene) -> list[int]:
+        """Return masses (nx, ny, layers) on a scene, or elements (nx, ny) and bricks through the thickness;
+        none of a program."""
+        return []
 
     def __str__(self) -> str:
         """Return the text that `parse` reads as this spec."""
@@ -106,10 +114,14 @@ class Lattice(Spec):
     symmetry: bool = False
     branch: str = "path"
     masses: str | None = None
+    MASSES: ClassVar = True
 
     @property
     def model(self) -> str:
         return self.NAME
+
+    def counts(self, scene: Scene) -> list[int]:
+        return list(scene_grid(scene, self.grid))
 
     @classmethod
     def given(cls, lattice: Lattice | None, keywords: Mapping[str, Any]) -> Lattice:
@@ -130,10 +142,14 @@ class LatticePair(Spec):
     grading: GradingLike = None
     linear: bool = False
     symmetry: bool = False
+    MASSES: ClassVar = True
 
     @property
     def model(self) -> str:
         return self.NAME
+
+    def counts(self, scene: Scene) -> list[int]:
+        return list(scene_grid(scene, self.grid))
 
     def lattice(self, grid: GridLike) -> Lattice:
         """Return one of the two lattices."""
@@ -189,6 +205,11 @@ class Elements(Spec):
     def elements(self) -> Count:
         """Along the shorter side, or (nx, ny)."""
         return ELEMENTS if self.count is None else self.count
+
+    def counts(self, scene: Scene) -> list[int]:
+        given = [self.elements] if isinstance(self.elements, int) else list(self.elements)
+        plan = elements_of(scene.sheet, given[0]) if len(given) == 1 else given
+        return [*plan, *([self.layers or 1] if self.kind == "solid" else [])]
 
 
 @dataclass(frozen=True)

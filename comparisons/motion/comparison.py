@@ -120,7 +120,7 @@ def compare_motion(
         error = LONGER * truth.settings["error"]
         longer = moved(resolve(asked, finest), f"{named} in longer steps", spacing, error=error)
         bars = {"mesh": None, "step": _largest(longer, truth)}
-        along = sizes.along(asked, finest)
+        along = finest.counts(asked)
         if min(along[:2]) > 1:
             half = resolve(asked, finest.but(count=(along[0] // 2, along[1] // 2)))
             bars["mesh"] = _largest(moved(half, f"{named} on larger elements", spacing), truth)

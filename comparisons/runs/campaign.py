@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import Any, TypedDict
 
 from comparisons.runs import interrupts
 from comparisons.runs.executors import Pool, Watched, processes, single_threaded
@@ -88,6 +88,19 @@ def campaign(folder: Path) -> Iterator[Store]:
         yield store
 
 
+class CampaignKeywords(TypedDict, total=False):
+    """How runs are carried out, as every function that carries out many takes it.
+
+    workers: processes of those that are not timed; pool: makes them, or a cluster's; retry: run again what
+    failed or was lost before; progress: called as every run begins and ends.
+    """
+
+    workers: int
+    pool: Pool
+    retry: bool
+    progress: Callable[[Progress], None]
+
+
 def carry_out(
     runs: Iterable[Run],
     store: Store,
@@ -97,10 +110,8 @@ def carry_out(
     retry: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> list[Finished]:
-    """Return every run's outcome, in the order of `runs`; those that the store has are not run again.
-
-    retry: but those that failed or were lost are. progress: called as every run begins and ends.
-    """
+    """Return every run's outcome, in the order of `runs`; those that the store has are not run again (see
+    `CampaignKeywords`)."""
     queue = list(runs)
     for run in queue if retry else ():
         store.forget(run.key)

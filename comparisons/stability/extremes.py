@@ -16,9 +16,9 @@ largest displacement.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -27,8 +27,7 @@ from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.motion.run import motion_run
-from comparisons.runs.campaign import Progress, Run, carry_out
-from comparisons.runs.executors import Pool, processes
+from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from comparisons.stability.answer import Stability
 from comparisons.stability.rows import Row
@@ -80,17 +79,14 @@ def stability(
     lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     reference: str = REFERENCE,
     elements: int = 12,
-    workers: int = 1,
-    pool: Pool = processes,
-    retry: bool = False,
     large: bool = False,
-    progress: Callable[[Progress], None] = lambda progress: None,
+    **how: Unpack[CampaignKeywords],
 ) -> Stability:
     """Vary a scene's sheet and solve it by every model, through a campaign's store.
 
     varied: some of `VARIED`. lattice: with what is not varied. elements: of the references, along the shorter
-    side. retry: what failed or was lost before is run again. Raises BadInput for what cannot be varied, for
-    settings that do not go together, and unless `large` for models that take more memory than there is.
+    side. Raises BadInput for what cannot be varied, for settings that do not go together, and unless `large`
+    for models that take more memory than there is.
     """
     for name in varied:
         require_choice("vary", name, VARIED)
@@ -99,7 +95,7 @@ def stability(
     maker = _Maker(scene, lattice, reference, elements)
     cells = [cell for name in VARIED if name in varied for cell in maker.cells(name)]
     runs = [run for cell in cells for run in (cell.run, cell.truth) if run is not None]
-    done = carry_out(runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
+    done = carry_out(runs, store, **how)
     outcomes = {run.key: outcome for run, outcome in zip(runs, done, strict=True)}
     return Stability(scene, reference, maker.period, tuple(_row(cell, outcomes) for cell in cells))
 

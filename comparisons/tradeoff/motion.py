@@ -17,10 +17,10 @@ stability limit instead. Plate, shell and solid keep their steps to an error.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
@@ -29,8 +29,7 @@ from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.motion.measures import largest
 from comparisons.motion.run import history_of, motion_run, require_motion
-from comparisons.runs.campaign import Progress, Run, carry_out
-from comparisons.runs.executors import Pool, processes
+from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff.motion_answer import DynamicTradeoff
 from comparisons.tradeoff.motion_row import measured_row
@@ -64,18 +63,15 @@ def dynamic_tradeoff(
     integrators: Sequence[str] = tuple(sorted(INTEGRATORS)),
     divisions: Sequence[int] = DIVISIONS,
     fine: int = REFERENCE,
-    workers: int = 1,
-    pool: Pool = processes,
-    retry: bool = False,
     large: bool = False,
-    progress: Callable[[Progress], None] = lambda progress: None,
+    **how: Unpack[CampaignKeywords],
 ) -> DynamicTradeoff:
     """Measure every integrator at every step on every lattice, and the other models.
 
     others: plate, shell and solid, or models from outside that move; reference: what all are measured
-    against; fine: steps of the midpoint rule in a period. retry: what failed or was lost before is run again.
-    large: even if it takes more memory than there is. Raises BadInput for an integrator that does not exist
-    and for a model that does not move. A run that diverges is a row with its status.
+    against; fine: steps of the midpoint rule in a period; large: even if it takes more memory than there is.
+    Raises BadInput for an integrator that does not exist and for a model that does not move. A run that
+    diverges is a row with its status.
     """
     import lumped
 
@@ -110,14 +106,13 @@ def dynamic_tradeoff(
             asked += [(run(other, timed=True, error=error), None) for error in ERRORS]
         else:
             asked.append((run(other, timed=True), None))
-    carried = partial(carry_out, store=store, workers=workers, pool=pool, progress=progress)
-    found = carried([*judges, *own, *(one for one, _ in asked)], retry=retry)
+    found = carry_out([*judges, *own, *(one for one, _ in asked)], store, **how)
     judged, found = found[: len(judges)], found[len(judges) :]
     truths, halves, found = found[: len(each)], found[len(each) : len(own)], found[len(own) :]
     finer = 2 * max(divisions)
     while finer <= fine and (unsolved := _unsolved(asked, found)):
         more = [(of_lattice(each[n][0], name, each[n][1] / finer), n) for n, name in unsolved]
-        found += carried([one for one, _ in more])
+        found += carry_out([one for one, _ in more], store, **how)
         asked += more
         finer *= 2
     ordered = sorted(

@@ -12,8 +12,9 @@ rows of a family whose errors are well above the uncertainty.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Unpack
 
 import numpy as np
 
@@ -21,8 +22,7 @@ from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Spec
-from comparisons.runs.campaign import Progress, Run, carry_out
-from comparisons.runs.executors import Pool, processes
+from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import timing
 from comparisons.tradeoff.answer import Tradeoff
@@ -42,18 +42,15 @@ def tradeoff(
     *,
     reference: Elements | None = None,
     repeats: int = 5,
-    workers: int = 1,
-    pool: Pool = processes,
-    retry: bool = False,
     large: bool = False,
     reasons: tuple[str, ...] = (),
-    progress: Callable[[Progress], None] = lambda progress: None,
+    **how: Unpack[CampaignKeywords],
 ) -> Tradeoff:
     """Measure every candidate on a scene, through the campaign's store.
 
     reference: by default the shell with twice as many elements as the finest shell among the candidates, and
-    32 at least. retry: do again what failed in an earlier call. large: even where one takes more memory than
-    there is. reasons: sentences that the report shall give on the candidates.
+    32 at least. large: even where one takes more memory than there is. reasons: sentences that the report
+    shall give on the candidates.
     Raises SceneError for a scene without a static answer and, before anything is solved,
     BadInput for a model or setting that does not exist. A solve that fails is a row with its status.
     """
@@ -64,7 +61,7 @@ def tradeoff(
     resolve(scene, fine)
     judges = [timing.run(scene, fine.but(count=n), timed=False) for n in coarser(fine.elements)]
     asked = [timing.run(scene, candidate, repeats) for candidate in candidates]
-    outcomes = carry_out([*judges, *asked], store, workers=workers, pool=pool, retry=retry, progress=progress)
+    outcomes = carry_out([*judges, *asked], store, **how)
     count = len(judges)
     return replace(assemble(scene, judges, outcomes[:count], asked, outcomes[count:]), reasons=reasons)
 

@@ -11,9 +11,9 @@ scene: the choice as advised beside `ROWS`, whole sheets all of them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Unpack
 
 import numpy as np
 
@@ -22,8 +22,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Spec, lattices, references, spec_of
-from comparisons.runs.campaign import Progress, Run, carry_out
-from comparisons.runs.executors import Pool, processes
+from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.manifest import record
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import timing
@@ -192,12 +191,9 @@ def study(
     count: int = 60,
     compared: int = 20,
     tolerances: tuple[float, ...] = TOLERANCES,
-    workers: int = 1,
-    pool: Pool = processes,
-    retry: bool = False,
     seed: int = SEED,
     elements: int = TRUTH,
-    progress: Callable[[Progress], None] = lambda progress: None,
+    **how: Unpack[CampaignKeywords],
 ) -> Study:
     """The advisor on `count` scenes; on the first `compared` of them its cost beside that of `rows`."""
 
@@ -211,7 +207,7 @@ def study(
             )
             for scene, rest in inputs
         ]
-        return carry_out(wanted, store, workers=workers, pool=pool, retry=retry, progress=progress)
+        return carry_out(wanted, store, **how)
 
     endless, inside, skipped = scenes_at_random(seed), list[tuple[Scene, Finished]](), dict[str, str]()
     while len(inside) < count:
@@ -229,7 +225,7 @@ def study(
     cases = [_case(scene, rest, fine, outcome) for (scene, rest), outcome in zip(inputs, given, strict=True)]
     for scene, outcome in inside[:compared]:
         mine = [case for case in cases if case["scene"] == scene.name and case["choice"] is not None]
-        _compare_costs(scene, outcome, mine, store, progress)
+        _compare_costs(scene, outcome, mine, store, **how)
     return Study(tuple(cases), skipped)
 
 
@@ -254,12 +250,12 @@ def _compare_costs(
     outcome: Finished,
     cases: list[dict[str, Any]],
     store: Store,
-    progress: Callable[[Progress], None],
+    **how: Unpack[CampaignKeywords],
 ) -> None:
     """Adds "cost_ratio" to the cases of a scene: the choice's time over that of the cheapest adequate row."""
     chosen = [spec_of(case["choice"]["model"], case["choice"]["settings"]) for case in cases]
     queue = [timing.run(scene, spec) for spec in [*rows(scene), *chosen]]
-    outcomes = carry_out(queue, store, progress=progress)
+    outcomes = carry_out(queue, store, **how)
     dozen, mine = outcomes[: -len(chosen)], outcomes[-len(chosen) :]
     truth_displacement = np.array(outcome.row["displacement"])
     for case, own in zip(cases, mine, strict=True):

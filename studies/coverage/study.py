@@ -14,16 +14,15 @@ that makes the bars was set on the scenes of other seeds (14, 27 and 53) than `S
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from itertools import islice
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
-from comparisons.runs.campaign import Progress, Run, carry_out
-from comparisons.runs.executors import Pool, processes
+from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
@@ -155,10 +154,7 @@ def coverage(
     meshes: Sequence[int] = MESHES,
     truth: Mapping[str, int] = TRUTH,
     seed: int = SEED,
-    workers: int = 1,
-    pool: Pool = processes,
-    retry: bool = False,
-    progress: Callable[[Progress], None] = lambda progress: None,
+    **how: Unpack[CampaignKeywords],
 ) -> Coverage:
     """Measure the bars of the models on the meshes on `count` drawn scenes, through a campaign's store.
 
@@ -180,9 +176,7 @@ def coverage(
                 for model in models
                 for n in ([truth[model]] if batch is None else batch)
             ]
-            done = carry_out(
-                [run for *_, run in runs], store, workers=workers, pool=pool, retry=retry, progress=progress
-            )
+            done = carry_out([run for *_, run in runs], store, **how)
             for (i, key, _), outcome in zip(runs, done, strict=True):
                 outcomes[i][key] = outcome
         return outcomes

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
+from typing import Unpack
 
 from comparisons.models.grading import parse_grading
 from comparisons.models.sizes import require_room
 from comparisons.models.spec import GradingLike, Lattice
-from comparisons.runs.campaign import Progress, Run, carry_out
-from comparisons.runs.executors import Pool, processes
+from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from comparisons.stability.rows import Row
 from sheetbench.errors import BadInput
@@ -22,16 +22,13 @@ def survey(
     *,
     full: bool = False,
     grading: GradingLike = None,
-    workers: int = 1,
-    pool: Pool = processes,
-    retry: bool = False,
     large: bool = False,
-    progress: Callable[[Progress], None] = lambda progress: None,
+    **how: Unpack[CampaignKeywords],
 ) -> list[Row]:
     """A row per cell of every study, in order; cells that the store has are not measured again.
 
-    full: every cell, the long ones too. grading: of the lattices of the studies whose cells take one. retry:
-    what failed or was lost before is measured again. A cell that raises is a row with its status (`refused`,
+    full: every cell, the long ones too. grading: of the lattices of the studies whose cells take one.
+    A cell that raises is a row with its status (`refused`,
     `failed` or, where it took its process down, `lost`). Raises BadInput, before the first is measured, for a
     grading that is none or that no study takes, and unless `large` for cells that take more memory than there
     is.
@@ -44,7 +41,7 @@ def survey(
     if not large:
         _require_room([cell["masses"] for _, cell in queue if "masses" in cell])
     runs = [Run(study.measure, cell, f"{study.name} {_short(cell)}") for study, cell in queue]
-    outcomes = carry_out(runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
+    outcomes = carry_out(runs, store, **how)
     return [row(study, cell, outcome) for (study, cell), outcome in zip(queue, outcomes, strict=True)]
 
 

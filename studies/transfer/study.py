@@ -15,9 +15,9 @@ moduli on a grid is to be held against the error there; 33 masses a side may be 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -25,8 +25,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models.resolve import resolve, resolve_each
 from comparisons.models.sizes import require_room
 from comparisons.models.spec import Elements, GradingLike, Lattice, lattices
-from comparisons.runs.campaign import Progress, Run, carry_out
-from comparisons.runs.executors import Pool, processes
+from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Table
@@ -96,19 +95,15 @@ def transfer(
     scenes: Sequence[str] | None = None,
     parts: Sequence[str] = PARTS,
     elements: int = 24,
-    workers: int = 1,
-    pool: Pool = processes,
-    retry: bool = False,
     large: bool = False,
-    progress: Callable[[Progress], None] = lambda progress: None,
+    **how: Unpack[CampaignKeywords],
 ) -> Transfer:
     """Carry out the parts asked for, through a campaign's store, and put their rows together.
 
     methods: names of calibrations; grids: masses a side, 4 n + 1, coarsest first; grading: in
     the part "static", of the methods that take one, a number or "auto"; scenes: names of
-    `transfer_scenes`, all of them unless given; elements: of the shell, along a side; retry: what
-    failed or was lost before is run again. Raises BadInput, before the first run, unless `large` for grids or
-    elements that take more memory than there is.
+    `transfer_scenes`, all of them unless given; elements: of the shell, along a side.
+    Raises BadInput, before the first run, unless `large` for what takes more memory than there is.
     """
     chosen = {name: scene for name, scene in transfer_scenes().items() if scenes is None or name in scenes}
     for scene in () if large else chosen.values():
@@ -116,7 +111,7 @@ def transfer(
         require_room(scene, Elements("shell", elements))
     study = _Study(chosen, tuple(methods), tuple(grids), elements, grading)
     study.plan(parts)
-    done = carry_out(study.runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
+    done = carry_out(study.runs, store, **how)
     study.outcomes = dict(zip((run.key for run in study.runs), done, strict=True))
     result = Transfer(study.methods, study.grids, elements)
     for part in parts:

@@ -60,7 +60,7 @@ def test_a_reference_is_a_spec_or_its_name_and_keywords() -> None:
             "masses = gregory: is for modes",
         ),
         (lambda scene: sb.compare(scene, duration=0.1, branch="buckled"), "branch = buckled: is for statics"),
-        (lambda scene: sb.compare(scene, duration=0.1, companion=False), "companion: are for statics"),
+        (lambda scene: sb.compare(scene, duration=0.1, companion=False), "companion: is for statics"),
         (lambda scene: sb.compare(scene, every=0.1), "every, frames: are for motions"),
         (lambda scene: sb.advise(scene, lattice=sb.Lattice(9)), "grid = 9: is chosen here"),
         (lambda scene: sb.solve(scene, sb.External("nosuch")), "model = 'nosuch': unknown"),

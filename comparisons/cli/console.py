@@ -141,17 +141,21 @@ def show(table: Table) -> None:
 
 
 def note(text: str) -> None:
-    """Print a note under the tables, broken between words; a command to copy stays on one line."""
+    """Print a note under the tables, broken between words, further lines indented; a command to copy stays on
+    one line."""
     for line in printable(text, keep="\n").split("\n"):
-        for part in [line] if line.startswith("sheetbench ") else _fitted(line):
+        for part in [line] if line.startswith("sheetbench ") else _fitted(line, indent="  "):
             out.print(Text(part, style="dim"), soft_wrap=True)
 
 
-def _fitted(line: str, console: Console = out) -> list[str]:
-    """Return the line broken between words; a long path stays whole."""
-    import textwrap
+def _fitted(line: str, console: Console = out, indent: str = "") -> list[str]:
+    """Return the line broken between words, further lines behind an indent; a long path stays whole."""
+    from textwrap import TextWrapper
 
-    return textwrap.wrap(line, console.width, break_long_words=False, break_on_hyphens=False) or [""]
+    wrapper = TextWrapper(
+        console.width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    )
+    return wrapper.wrap(line) or [""]
 
 
 def warn(text: str) -> None:

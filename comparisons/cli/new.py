@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sys
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 from warnings import warn
 
 import typer
@@ -15,6 +16,7 @@ from comparisons.cli.options import Density, Poisson, Side, Thickness, Young, op
 if TYPE_CHECKING:
     from sheetbench.scenes import Material, Sheet
 
+Answer = TypeVar("Answer")
 SHEET = {"length_x": 0.3, "length_y": 0.2, "thickness": 0.002}
 MATERIAL = {"young": 1.2e6, "poisson": 0.45, "density": 1100.0}
 USUAL = SHEET | MATERIAL  # unless given or answered
@@ -104,42 +106,37 @@ def _edges(text: str) -> list[str]:
 
 def _answers_from_terminal() -> tuple[dict[str, float], str, float]:
     """Return values, clamped edges and a pressure [Pa] from the terminal, each prompted until it is valid."""
-    from comparisons.cli import console
     from sheetbench import scenes
-    from sheetbench.errors import BadInput
 
-    values: dict[str, Any] = {}
-    for keys, kind in ((SHEET, scenes.Sheet), (MATERIAL, scenes.Material)):
-        while True:
-            answers: dict[str, Any] = {key: _quantity(key, usual) for key, usual in keys.items()}
-            try:
-                kind(**answers)
-            except BadInput as error:
-                console.warn(str(error))
-            else:
-                values |= answers
-                break
-    while True:
-        edges = typer.prompt(
-            f"Clamped edges, of {', '.join(scenes.EDGES)}; several with commas", default="x0"
-        )
-        try:
-            _edges(edges)
-        except BadInput as error:
-            console.warn(str(error))
-        else:
-            return values, edges, _quantity("pressure", 0.0)
+    def described(keys: dict[str, float], kind: Any) -> dict[str, float]:
+        answers = {key: _quantity(key, usual) for key, usual in keys.items()}
+        kind(**answers)  # refuses
+        return answers
+
+    def edges() -> str:
+        question = f"Clamped edges, of {', '.join(scenes.EDGES)}; several with commas"
+        return ",".join(_edges(typer.prompt(question, default="x0")))
+
+    sheet = _until_valid(lambda: described(SHEET, scenes.Sheet))
+    material = _until_valid(lambda: described(MATERIAL, scenes.Material))
+    return sheet | material, _until_valid(edges), _quantity("pressure", 0.0)
 
 
 def _quantity(key: str, usual: float) -> float:
     """Return the answer to a question, in SI units."""
-    from comparisons.cli import console
-    from sheetbench.errors import BadInput
     from sheetbench.scenes.units import quantity
 
     question, unit = QUESTIONS[key]
+    return _until_valid(lambda: quantity(typer.prompt(question, default=f"{usual:g}"), unit))
+
+
+def _until_valid(ask: Callable[[], Answer]) -> Answer:
+    """Return what is answered, asked again as long as that is refused."""
+    from comparisons.cli import console
+    from sheetbench.errors import BadInput
+
     while True:
         try:
-            return quantity(typer.prompt(question, default=f"{usual:g}"), unit)
+            return ask()
         except BadInput as error:
             console.warn(str(error))

@@ -15,6 +15,11 @@ OPTIONS = {
     ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout; "
     "'sheetbench stability SCENE --vary NAME' those of your sheet",
     ("stability", "--full"): "'sheetbench study stability --full' has the published maps, in a checkout",
+    (
+        "verify",
+        "--locking",
+    ): "'--case locking-plate --case locking-shell --case locking-solid' draws the picture",
+    ("verify", "--laws"): "'--case strain-laws' has the table",
     ("verify", "--coverage"): "run 'sheetbench study coverage' in a checkout",
 }
 

@@ -303,9 +303,8 @@ class Comparison(Answer):
         notes, model = [self.laws] if self.laws else [], self.reference.model
         for solution in self.solutions:
             if solution.bar is not None:
-                notes.append(
-                    f"{solution.model}: ± {few(100.0 * (self.bar_of(solution) or 0.0))} % by its grids."
-                )
+                own = few(100.0 * (self.bar_of(solution) or 0.0))
+                notes.append(f"{solution.model}: grid error ± {own} %, from its two grids.")
         if self.bar is None:
             return notes
         notes.append(self.bar.note(model))

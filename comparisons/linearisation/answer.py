@@ -25,7 +25,7 @@ ROUNDING = 1e-6  # of what an input moves most
 EXPLANATION = (
     "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
     "load or gravity",
-    "files: M, C, K, F, F_rate, G, H and ss_A to ss_D in linear.npz and linear.mat",
+    "with --out linear.npz and linear.mat hold M, C, K, F, F_rate, G, H and ss_A to ss_D",
 )
 
 

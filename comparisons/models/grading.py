@@ -74,7 +74,7 @@ def choice_notes(settings: Mapping[str, Any]) -> tuple[str, ...]:
     if why := settings.get("grading_reason"):
         found.append(f"grading {of_settings(settings):g}: {why}")
     if why := settings.get("calibration_reason"):
-        found.append(f"{settings['calibration']}: {why}")
+        found.append(f"calibration {settings['calibration']}: {why}")
     return tuple(found)
 
 
@@ -100,7 +100,7 @@ def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[Graded, str]:
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
     cells = f"{few(width / cell)} cells of {1e3 * cell:.3g} mm where all are alike"
     if width >= NARROW * side:
-        return 0.0, f"{layer}, no narrow layer on a side of {1e3 * side:.3g} mm"
+        return 0.0, f"{layer}, no narrow layer beside a side of {1e3 * side:.3g} mm"
     if cell * RESOLVED < width:
         return 0.0, f"{layer}, {cells}"
     if not one_sided:

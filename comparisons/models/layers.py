@@ -42,7 +42,7 @@ def layers(scene: Scene) -> list[Layer]:
             found.append(Layer(float(width), cause, bent_edge=True))
     if numbers.bending_number > 0.0:  # which a load of 1e-320 Pa has not
         width = min(sheet.lengths) * numbers.bending_number ** (-1.0 / 3.0)
-        cause = f"its load of {numbers.normal_load:.3g} Pa bends the sheet"
+        cause = f"the load of {numbers.normal_load:.3g} Pa bends the sheet"
         found.append(Layer(width, cause, bent_edge=False))
     return found
 

@@ -137,9 +137,12 @@ class MotionComparison(Answer):
         return (drawn, film) if self.animate else (drawn,)
 
     def notes(self) -> list[str]:
-        own = (f"{name}: {note}" for name, history in self.histories.items() for note in history.notes())
+        models: dict[str, list[str]] = {}
+        for name, history in self.histories.items():
+            for note in history.notes():
+                models.setdefault(note, []).append(name)
         left_out = (f"{name} is left out: {why}" for name, why in self.left_out.items())
-        return [*_bars(self), *left_out, *own]
+        return [*_bars(self), *left_out, *(f"{', '.join(names)}: {note}" for note, names in models.items())]
 
     def complaints(self) -> list[str]:
         return [f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints()]

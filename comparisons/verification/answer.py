@@ -8,11 +8,13 @@ from itertools import groupby
 from typing import Annotated, Any
 
 from fem_reference.verification import CASES, Row, run, strain_laws
+from fem_reference.verification.locking import MODELS
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import NUMBER, PERCENT, Table, number
 from sheetbench.choices import STRAIN_LAWS
 
+LAWS = "strain-laws"
 FIELDS = ("case", "quantity", "mesh", "computed", "passed", "published", "relative", "held_to", "source")
 
 
@@ -27,12 +29,9 @@ class LawForce:
 
 @dataclass(frozen=True, repr=False)
 class Verification(Answer):
-    """Rows of expected and computed values; locking: of the locking sweeps, which have a picture; laws: of
-    the laws of strain, which have a table."""
+    """Rows of expected and computed values; locking sweeps have a picture, the laws of strain a table."""
 
     rows: Sequence[Row]
-    locking: bool = False
-    laws: bool = False
 
     file_name = "verification"
 
@@ -65,7 +64,7 @@ class Verification(Answer):
             yield Table.of(Row, rows, title, "verification", fields=FIELDS, details=("case", "mesh"))
 
     def _laws(self) -> list[Table]:
-        if not self.laws:
+        if not any(row.case == LAWS for row in self.rows):
             return []
         poisson = strain_laws.MATERIAL.poisson
         hooke = {"one way": 1.0, "both ways": 1.0 / (1.0 - poisson)}
@@ -91,8 +90,9 @@ class Verification(Answer):
         ]
 
     def figures(self) -> tuple[Picture, ...]:
+        rows = [row for row in self.rows if row.case in MODELS]
         compose = "comparisons.verification.locking:compose"
-        return (Picture("locking", compose, (self.rows,), formats=("png",)),) if self.locking else ()
+        return (Picture("locking", compose, (rows,), formats=("png",)),) if rows else ()
 
 
 def verify(cases: Sequence[str] | None = None) -> Verification:

@@ -23,7 +23,7 @@ from fem_reference.verification import (
     strain_laws,
 )
 from fem_reference.verification.rows import Case, Row
-from sheetbench.errors import BadInput
+from sheetbench.errors import require_choice
 
 CASES: dict[str, Case] = {
     "end-shear": Case("cantilever under an end shear", end_shear.rows),
@@ -65,8 +65,7 @@ def run(
     """
     chosen = tuple(CASES) if names is None else tuple(names)
     for name in chosen:
-        if name not in CASES:
-            raise BadInput(f"case = {name!r}: known are {', '.join(CASES)}")
+        require_choice("case", name, CASES)
     return _rows(chosen, starting)
 
 

@@ -1,7 +1,8 @@
 """A table as lines of text within a width, laid out by rich: every figure is whole, and nothing is cut off.
 
-Headings and prose are broken over lines at spaces. A table that is still too wide stands in blocks one under
-the other, each led by the columns that name the rows. Only a word longer than the width itself is broken.
+Headings and prose are broken over lines at spaces. A table that is still too wide has the names of its groups
+on lines of their own; and if that is not enough it stands in blocks one under the other, each led by the
+columns that name the rows. Only a word longer than the width itself is broken.
 """
 
 from __future__ import annotations
@@ -81,6 +82,8 @@ def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal
     if table.grouped:
         firsts[:] = [text if first else "" for text, first in zip(firsts, new, strict=True)]
     starts = [*(table.grouped and first for first in new[1:]), False][: len(firsts)]
+    if table.grouped and not _fits(strips, width) and _fits(strips[1:], width):
+        return [_under_names(strips, width, starts)]
     naming = next((i for i, c in enumerate(brief.columns) if c.numeric or c.prose), 1)
     while naming < len(strips) - 1 and len({tuple(row[:naming]) for row in shown}) < len(shown):
         naming += 1
@@ -132,6 +135,17 @@ def _heads(strips: list[_Strip], width: int | None) -> list[list[str]]:
         else:
             widths[i], spare = widths[i] + needed, spare - needed
     return [strip.head(w) for strip, w in zip(strips, widths, strict=True)]
+
+
+def _under_names(strips: list[_Strip], width: int | None, starts: list[bool]) -> Block:
+    """Return a table without its first column, every group of rows under a line with its name."""
+    block = _block(strips[1:], width, starts)
+    names, rows = iter(filter(None, strips[0].cells)), list[str]()
+    for line in (block.rule, *block.rows):
+        rows.append(line)
+        if line == block.rule:
+            rows += wrap(next(names), width or UNBOUNDED)
+    return Block(block.head, rows[0], rows[1:])
 
 
 def _block(strips: list[_Strip], width: int | None, starts: list[bool]) -> Block:

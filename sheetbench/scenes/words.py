@@ -71,7 +71,10 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
     sentences.append(("probes", f"{points} mm"))
     free = free_rigid_motions(scene)
     sentences.append(
-        ("at rest", f"not solved: nothing stops {', '.join(free)}" if free else "held: it has an answer")
+        (
+            "at rest",
+            f"not solved: nothing stops {', '.join(free)}" if free else "held: no rigid motion is free",
+        )
     )
     return sentences
 

@@ -38,7 +38,7 @@ def test_auto_says_why(verb, tmp_path, monkeypatch, capsys) -> None:
     others, settings = VERBS[verb]
     scene, value, why = "curved-edge", 0.3, "edge x0, bent by 4 1/m, stretches the sheet within 15.7 mm"
     if verb == "identify":
-        scene, value, why = "one-edge-clamped", 0.0, "its load of 49.4 Pa bends the sheet within 148 mm"
+        scene, value, why = "one-edge-clamped", 0.0, "the load of 49.4 Pa bends the sheet within 148 mm"
     asked = (verb, scene, "--grid", "3", "--grading", "auto", *others)
     assert run(*asked) == 0
     assert f"grading {value:g}: {why}" in " ".join(capsys.readouterr().out.split())

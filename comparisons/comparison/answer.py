@@ -116,21 +116,21 @@ class Comparison(Answer):
                 found.append(Difference(name, solution.model, self.reference.model, off, told_apart))
         return tuple(found)
 
-    def own_bar(self, solution: Solution) -> dict[str, np.ndarray] | None:
-        """Half a length (3,) [m] of the bar at each probe that a solution brings with it, None of most."""
-        if solution.bar is None:
-            return None
-        return dict(zip(self.scene.probes, solution.bar(self.scene.probe_points()), strict=True))
+    @property
+    def bars(self) -> dict[str, np.ndarray]:
+        """Half a length (n, 3) [m] of the bar at the probes, of the models that have one."""
+        points = self.scene.probe_points()
+        known = {} if self.bar is None else {self.reference.model: self.bar.uncertainty.bar}
+        return {s.model: s.bar(points) for s in self.solutions if s.bar is not None} | known
 
     def bar_of(self, solution: Solution) -> float | None:
         """By how much a solution says that it may be off: its largest bar over its largest displacement."""
         if solution is self.reference and self.bar is not None:
             return self.bar.error
-        if solution.bar is None or solution.status is Status.UNSTABLE:
+        if solution.model not in self.bars or solution.status is Status.UNSTABLE:
             return None
-        points = self.scene.probe_points()
-        u = solution.displacement(points)
-        return error(u + solution.bar(points), u)
+        u = solution.displacement(self.scene.probe_points())
+        return error(u + self.bars[solution.model], u)
 
     @property
     def model_error(self) -> ModelError | None:
@@ -176,8 +176,9 @@ class Comparison(Answer):
         bar: dict[str, Any] = {}
         if solution is self.reference and self.bar is not None:
             bar = self.bar.as_dict() | (self.model_error.as_dict() if self.model_error else {"model": None})
-        if (own := self.own_bar(solution)) is not None:
-            bar = {"error": (off := self.bar_of(solution)), "mesh": off, "probes": own}
+        elif (own := self.bars.get(solution.model)) is not None:
+            named = dict(zip(self.scene.probes, own, strict=True))
+            bar = {"error": (off := self.bar_of(solution)), "mesh": off, "probes": named}
         expected = self.expected if solution is self.solutions[0] else None
         return {
             **solution.document(self.scene),
@@ -211,15 +212,10 @@ class Comparison(Answer):
 
     def relative_bars(self, solution: Solution) -> dict[str, float]:
         """Return the bar of a model that has one over its displacement, at the probes where it moves."""
-        lengths = self.own_bar(solution)
-        if solution is self.reference and self.bar is not None:
-            lengths = dict(zip(self.bar.names, self.bar.uncertainty.bar, strict=True))
-        moved = {probe: float(np.linalg.norm(u)) for probe, u in self.probes(solution).items()}
-        return {
-            probe: float(np.linalg.norm(length)) / moved[probe]
-            for probe, length in (lengths or {}).items()
-            if moved[probe] > self.least
-        }
+        lengths, moved = self.bars.get(solution.model, ()), self.probes(solution)
+        both = zip(moved.items(), map(np.linalg.norm, lengths), strict=False)
+        sizes = ((probe, float(np.linalg.norm(u)), float(length)) for (probe, u), length in both)
+        return {probe: length / size for probe, size, length in sizes if size > self.least}
 
     def _costs(self) -> Table:
         rows = (

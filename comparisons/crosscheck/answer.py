@@ -207,13 +207,9 @@ class Crosscheck(Answer):
 
 def _document(scene: Scene, one: Convergence) -> dict[str, Any]:
     """A model's finest answer as `compare` has it, with its bars."""
-    row = {
-        key: value for key, value in one.finest.items() if key not in ("displacement", "size", "traceback")
-    }
+    row = {key: value for key, value in one.finest.items() if key not in ("size", "traceback")}
     row |= {"scene": scene.name, "model": one.name, "version": one.version, "meshes": one.meshes}
     row |= {"failed": one.failures}
-    if "displacement" in one.finest:
-        row["probes"] = dict(zip(scene.probes, one.finest["displacement"], strict=True))
     if (bar := one.uncertainty) is not None:
         row["uncertainty"] = dict(zip(scene.probes, bar.bar, strict=True))
         row["extrapolated"] = dict(zip(scene.probes, bar.extrapolated, strict=True))

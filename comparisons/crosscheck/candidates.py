@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from comparisons.comparison.comparison import load_static
 from comparisons.external.installed import InstalledCode
 from comparisons.models.grids import parse_elements
 from comparisons.models.spec import Elements, External, Lattice, Spec, items
-from sheetbench.errors import BadInput, SceneError
-from sheetbench.scenes import Scene, catalogue, load
-from sheetbench.scenes.rigid_motions import require_static
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Scene, catalogue
 
 ALL = "all"
 
@@ -22,11 +22,7 @@ def load_scenes(names: Sequence[str]) -> list[Scene]:
     scenes: dict[str, Scene] = {}
     for name in names:
         for each in catalogue() if name == ALL else [name]:
-            scene = load(each)
-            try:
-                require_static(scene)
-            except SceneError as error:
-                raise SceneError(f"{each}: {error}") from None
+            scene = load_static(each)
             if scenes.setdefault(scene.name, scene) != scene:
                 raise BadInput(f"{each}: another scene has its name, '{scene.name}', already")
     return list(scenes.values())

@@ -47,7 +47,7 @@ class Convergence:
         bar = None
         if len(usable) >= 2:
             sizes = [float(row["size"]) for row in usable[:3]]
-            displacements = [np.array(row["displacement"], dtype=float) for row in usable[:3]]
+            displacements = [np.array([*row["probes"].values()], dtype=float) for row in usable[:3]]
             layers = [missed_by(scene, row["settings"]) for row in usable[:3]] if layered else ()
             bar = estimate(displacements, sizes, layers, OWN_ORDER if layered else ASSUMED_ORDER)
         return cls(scene.name, name, version, tuple(rows), bar)
@@ -79,7 +79,7 @@ class Convergence:
 
 
 def _answered(row: dict[str, Any]) -> bool:
-    return "displacement" in row and comparable(row["status"], row["load_factor"])
+    return "probes" in row and comparable(row["status"], row["load_factor"])
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ def answer(
     version: str | None = None,
     digest: str | None = None,
 ) -> dict[str, Any]:
-    """A model's answer at the probes, and the mean size [m] of its cells.
+    """A model's answer, as `compare` has it, and the mean size [m] of its cells.
 
     version, digest: of an external code and of its plug-in, under which the row is kept.
     """
@@ -28,19 +28,5 @@ def answer(
     with running(large=True):  # `crosscheck` has looked at the size
         solution = solve(resolve(parsed, spec_of(model, settings)))
     counts = solution.settings.get("elements") or [n - 1 for n in solution.settings["grid"]]
-    return {
-        "model": solution.model,
-        "label": solution.label,
-        "settings": solution.settings,
-        "status": str(solution.status),
-        "advice": solution.status.advice,
-        "message": solution.message,
-        "load_factor": solution.load_factor,
-        "unknowns": solution.unknowns,
-        "iterations": solution.iterations,
-        "solve_seconds": solution.solve_seconds,
-        "setup_seconds": solution.setup_seconds,
-        "displacement": solution.displacement(parsed.probe_points()),
-        "reactions": solution.reactions,
-        "size": float(np.sqrt(np.prod(parsed.sheet.lengths) / np.prod(counts[:2]))),
-    }
+    size = float(np.sqrt(np.prod(parsed.sheet.lengths) / np.prod(counts[:2])))
+    return {**solution.document(parsed), "size": size}

@@ -18,8 +18,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from comparisons.browser import viewer
 from comparisons.pages.pictures import pictures
-from comparisons.pages.question import command, question
-from comparisons.pages.remarks import complaints, notes
+from comparisons.pages.question import question
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import FolderContents, Study
 from comparisons.pages.tables import tables
@@ -97,11 +96,11 @@ def _study(study: Study, number: int) -> dict[str, Any]:
         "lead": words.get("lead") or "",
         "verb": study.verb,
         "place": study.place,
-        "command": command(study),
+        "command": study.command,
         "question": question(study),
         "date": study.date,
-        "notes": notes(study),
-        "complaints": complaints(study),
+        "notes": study.notes,
+        "complaints": study.complaints,
         "unfinished": bool(study.run) and not study.run.get("finished", True),
         "stage": plain({**sheets, "label": f"Sheet of {study.title}"}) if sheets else None,
         "tables": tables(study),

@@ -1,20 +1,13 @@
-"""Command, scene and settings of a study, in words."""
+"""Scene and settings of a study, in words."""
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Mapping
 from typing import Any
 
 from comparisons.pages.studies import Study
 from sheetbench.answers.table import number
 from sheetbench.scenes.words import in_words
-
-
-def command(study: Study) -> str:
-    """Return the command as it was typed."""
-    words = study.run.get("command") or ()
-    return shlex.join(map(str, words)) if isinstance(words, list) else ""
 
 
 def question(study: Study) -> list[tuple[str, str]]:

@@ -7,6 +7,7 @@ sentence and nothing else.
 from __future__ import annotations
 
 import json
+import shlex
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -78,6 +79,30 @@ class Study:
         """The day and minute of the run, as "2026-11-21 04:37"."""
         return str(self.run.get("date") or "")[:16].replace("T", " ")
 
+    @property
+    def command(self) -> str:
+        """The command as it was typed."""
+        words = self.run.get("command") or ()
+        return shlex.join(map(str, words))
+
+    @property
+    def notes(self) -> list[str]:
+        """The notes of the run on one line each; one that ends in a colon with what follows it."""
+        found: list[str] = []
+        for note in self.words.get("notes") or texts(self.document.get("notes")):
+            line = " ".join(note.split())
+            if found and found[-1].endswith(":"):
+                found[-1] += f" {line}"
+            else:
+                found.append(line)
+        return found
+
+    @property
+    def complaints(self) -> list[str]:
+        """What went wrong, and what is doubtful about the scene."""
+        said = [*self.words.get("complaints", ()), *texts(self.document.get("warnings"))]
+        return list(dict.fromkeys(said))
+
     def path(self, name: str) -> Path | None:
         """Return a file of the study; None, with a sentence said, where it is missing, outside or too
         large."""
@@ -128,6 +153,11 @@ class Study:
     def ending(self, *suffixes: str) -> list[str]:
         """Names of its files that end so."""
         return [name for name in self.files if name.lower().endswith(suffixes)]
+
+
+def texts(value: Any) -> list[str]:
+    """Return the texts of a document's list; none where it is something else."""
+    return [str(one) for one in value] if isinstance(value, list) else []
 
 
 @dataclass(frozen=True)

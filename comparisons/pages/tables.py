@@ -21,35 +21,21 @@ MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folde
 WORD = 24  # letters; longer texts are broken over lines
 
 
-@dataclass(frozen=True)
-class Cell:
-    """A cell: its text and, for numbers, the value to sort by."""
-
-    text: str
-    value: float | None = None
-
-
-@dataclass(frozen=True)
-class Head:
-    """A column's name with its unit, and what it holds: "number", "prose" or "word"."""
-
-    name: str
-    kind: str
-
-
-@dataclass(frozen=True)
-class HtmlTable:
+@dataclass(frozen=True, repr=False)
+class PageTable(Table):
     """A table for a page. note: what is left out; aside: shown when asked for only."""
 
-    caption: str
-    text: str
-    heads: list[Head]
-    rows: list[list[Cell]]
     note: str = ""
     aside: bool = False
 
+    @property
+    def cells(self) -> list[list[tuple[Column, str, Any]]]:
+        """Column, text and value of every cell, by rows."""
+        both = zip(self.shown_rows(), self.rows, strict=True)
+        return [list(zip(self.columns, texts, values, strict=True)) for texts, values in both]
 
-def tables(study: Study) -> list[HtmlTable]:
+
+def tables(study: Study) -> list[PageTable]:
     """Return every table of a study, those that its manifest tells of first."""
     found, described = [], set()
     for words in study.words.get("tables", ()):
@@ -85,25 +71,17 @@ def _value(text: Any) -> float | None:
         return None
 
 
-def _described(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> HtmlTable:
+def _described(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> PageTable:
     known = {one.name for one in fields(Column)}
     columns = [Column(**{k: v for k, v in column.items() if k in known}) for column in words["columns"]]
     units = [bool(column.get("units")) for column in words["columns"]]
     values = [
         tuple(_cell(c, u, v) for c, u, v in zip(columns, units, row, strict=True)) for row in rows[:MOST]
     ]
-    shown = Table("", tuple(columns), tuple(values)).shown_rows()
-    cells = [
-        [
-            Cell(text, float(v) if c.numeric and isinstance(v, int | float) else None)
-            for c, text, v in zip(columns, texts, row, strict=True)
-        ]
-        for texts, row in zip(shown, values, strict=True)
-    ]
-    kinds = ["number" if c.numeric else "prose" if c.prose else "word" for c in columns]
-    heads = [Head(c.header(shown=True), kind) for c, kind in zip(columns, kinds, strict=True)]
     caption, text = words.get("caption", ""), words.get("text", "")
-    return HtmlTable(caption, text, heads, cells, _left_out(rows), aside=len(rows) > LONG)
+    return PageTable(
+        caption, tuple(columns), tuple(values), text=text, note=_left_out(rows), aside=len(rows) > LONG
+    )
 
 
 def _cell(column: Column, of_units: bool, value: Any) -> Any:
@@ -118,7 +96,7 @@ def _cell(column: Column, of_units: bool, value: Any) -> Any:
     return int(found) if found is not None and column.form.endswith("d") and found == found else found
 
 
-def _undescribed(name: str, rows: list[list[str]], aside: bool) -> HtmlTable:
+def _undescribed(name: str, rows: list[list[str]], aside: bool) -> PageTable:
     """Return a CSV file's table, its columns found from headings "name [m]" and what stands below."""
     width, columns = len(rows[0]), []
     body = [(row + [""] * width)[:width] for row in rows[1:]]

@@ -89,7 +89,7 @@ def standing(name: str, limit: float, error: float, meshes: tuple[int, ...] = (4
             "load_factor": 1.0,
             "settings": {"elements": [n, n]},
             "size": 1.0 / n,
-            "displacement": np.full((4, 3), limit + error / n**2),
+            "probes": dict.fromkeys(SEED.probes, np.full(3, limit + error / n**2)),
         }
         for n in meshes
     ]

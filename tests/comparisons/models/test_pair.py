@@ -82,7 +82,7 @@ def test_the_bar_stands_in_the_comparison() -> None:
     assert document["model"] == "lumped-pair"
     assert document["uncertainty"]["error"] == found.bar_of(found.solutions[2])
     assert set(document["uncertainty"]["probes"]) == {"P1", "P2", "P3", "P4"}
-    assert any(note.startswith("lumped-pair: ±") for note in found.report().notes)
+    assert any(note.startswith("lumped-pair: grid error ±") for note in found.report().notes)
 
 
 def test_pairs_are_written_and_refused() -> None:

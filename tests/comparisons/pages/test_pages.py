@@ -14,11 +14,10 @@ from commands import run
 
 from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
-from comparisons.pages import remarks
+from comparisons.pages import studies as pages
 from comparisons.pages.page import page
 from comparisons.pages.pictures import pictures
 from comparisons.pages.question import question
-from comparisons.pages.remarks import notes
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
 from comparisons.runs.folder import Folder
@@ -137,8 +136,8 @@ def test_tables_are_shown_as_the_run_showed_them(studies: Path) -> None:
         "Cost and error of each model",
     ]
     for table in shown:
-        for row in table.rows:
-            assert f"| {' | '.join(cell.text for cell in row)} |" in text
+        for row in table.shown_rows():
+            assert f"| {' | '.join(row)} |" in text
     assert not comparison.troubles
 
 
@@ -179,12 +178,12 @@ def test_a_trade_of_motion_has_its_figure_and_its_notes(tmp_path: Path) -> None:
     (study,) = read(_motion_tradeoff(tmp_path, drawn=True)).studies
     assert {"motion.svg", "motion.png", "motion.pdf"} <= set(study.files)
     assert [name for name, _ in pictures(study)] == ["motion.svg"]
-    assert "uncertainty of that reference" in notes(study)[0] and not study.troubles
+    assert "uncertainty of that reference" in study.notes[0] and not study.troubles
 
 
 def test_no_verb_has_a_page_of_its_own() -> None:
     """What a page shows it is told by the manifest: a new verb needs nothing there."""
-    for path in sorted(Path(remarks.__file__).parent.glob("*.py")):
+    for path in sorted(Path(pages.__file__).parent.glob("*.py")):
         text = path.read_text(encoding="utf-8")
         named = [verb for verb in VERBS if f'"{verb}"' in text or f"'{verb}'" in text]
         assert not set(named), f"{path.name} knows {named}"

@@ -7,20 +7,8 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import (
-    Density,
-    Export,
-    Grading,
-    Grid,
-    K,
-    Large,
-    LayerDistance,
-    Poisson,
-    Side,
-    Thickness,
-    Young,
-    option,
-)
+from comparisons.cli.lattice_options import SheetOptions
+from comparisons.cli.options import Export, Grading, Grid, K, Large, LayerDistance, option
 from comparisons.cli.verb import OutputOptions
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
@@ -29,11 +17,8 @@ def command(
     scene: Annotated[
         str | None, typer.Argument(metavar="[SCENE]", help="Scene with the sheet and its material.")
     ] = None,
-    young: Young = None,
-    poisson: Poisson = None,
-    thickness: Thickness = None,
-    density: Density = None,
-    side: Side = None,
+    *,
+    sheet: SheetOptions,
     grid: Grid = None,
     grading: Grading = None,
     method: Annotated[
@@ -85,7 +70,6 @@ def command(
         ),
     ] = None,
     large: Large = False,
-    *,
     output: OutputOptions,
 ) -> None:
     """Find the spring constants of a lattice, and report which of the sheet's moduli they meet.
@@ -98,7 +82,6 @@ def command(
     from comparisons.calibration import damping
     from comparisons.calibration.answer import SheetCalibration, to_toml
     from comparisons.calibration.calibrate import calibrate, expected, subject
-    from comparisons.models.quantities import sides
     from comparisons.models.sizes import require_room
     from comparisons.models.spec import Lattice
     from sheetbench.errors import BadInput
@@ -117,11 +100,10 @@ def command(
         }
         if given := [name for name, value in springs_only.items() if value is not None]:
             raise BadInput(f"{given[0]}: of the lattice's springs, which --for has with --export alone")
-    values = {"young": young, "poisson": poisson, "thickness": thickness, "density": density, **sides(side)}
     damped = damping.keys(loss_factor, damping_ratio, log_decrement, quality, at, band, prony)
-    if young is not None and "young" in damped:
+    if sheet.young is not None and "young" in damped:
         raise BadInput("--young and --prony: the measured moduli give the long-time one; leave --young out")
-    of = subject(scene, values | damped, "--")
+    of = subject(scene, sheet.values | damped, "--")
     about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
     if simulators and export is None:
         from comparisons.codes.setup import setup, squares_of

@@ -1,7 +1,8 @@
-"""The five options of a lattice, declared once for every verb that builds one.
+"""The options of a lattice and of a sheet, declared once for every verb that has them.
 
 A command whose parameter is of the type `LatticeOptions` has --grid, --calibration, --k, --layer-distance and
 --grading; with `SpringOptions` the last three, beside lists of grids and calibrations of its own.
+`SheetOptions` are --young, --poisson, --thickness, --density and --side.
 """
 
 from __future__ import annotations
@@ -49,3 +50,21 @@ class LatticeOptions(LatticeGroup):
     k: options.K = None
     layer_distance: options.LayerDistance = None
     grading: options.Grading = None
+
+
+@dataclass(frozen=True)
+class SheetOptions(Group):
+    """A sheet and its material."""
+
+    young: options.Young = None
+    poisson: options.Poisson = None
+    thickness: options.Thickness = None
+    density: options.Density = None
+    side: options.Side = None
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """Values by the keys of a scene's sheet and material, None where they are not given."""
+        from comparisons.models.quantities import sides
+
+        return {key: value for key, value in vars(self).items() if key != "side"} | sides(self.side)

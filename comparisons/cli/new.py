@@ -11,7 +11,8 @@ from warnings import warn
 
 import typer
 
-from comparisons.cli.options import Density, Poisson, Side, Thickness, Young, option
+from comparisons.cli.lattice_options import SheetOptions
+from comparisons.cli.options import option
 
 if TYPE_CHECKING:
     from sheetbench.scenes import Material, Sheet
@@ -33,11 +34,7 @@ QUESTIONS = {
 
 def command(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The TOML file to write.")],
-    side: Side = None,
-    thickness: Thickness = None,
-    young: Young = None,
-    poisson: Poisson = None,
-    density: Density = None,
+    sheet: SheetOptions,
     clamped: Annotated[
         str | None, option("x0, x1, y0, y1; several with commas. Default: x0.", "EDGES")
     ] = None,
@@ -49,7 +46,6 @@ def command(
     editors.
     """
     from comparisons.cli import console
-    from comparisons.models.quantities import sides
     from sheetbench.answers.files import to_json, write_text
     from sheetbench.errors import BadInput, Implausible
     from sheetbench.files import require_file
@@ -63,8 +59,7 @@ def command(
         raise BadInput(f"{file}: exists already; --overwrite replaces it")
     if not file.parent.is_dir():
         raise BadInput(f"{file}: there is no folder {file.parent}")
-    given = {"thickness": thickness, "young": young, "poisson": poisson, "density": density}
-    values = {key: value for key, value in {**given, **sides(side)}.items() if value is not None}
+    values = {key: value for key, value in sheet.values.items() if value is not None}
     pressure, asking = 0.0, False
     if not values and clamped is None and _at_a_terminal():
         values, clamped, pressure = _answers_from_terminal()

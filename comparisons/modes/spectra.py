@@ -23,8 +23,7 @@ from comparisons.models.keywords import ModesKeywords
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
-from comparisons.modes.expected import expected_errors
-from comparisons.modes.pairing import on_cells
+from comparisons.modes.pairing import expected_errors, on_cells
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import REFERENCE
 from sheetbench.clock import now

@@ -29,6 +29,11 @@ SEED = (
     "Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation "
     "continuum surfaces"
 )
+DISPLACEMENTS = (
+    "In the axes of our scene: of test 1 the published y is turned round; a dash where a printed value must "
+    "be a misprint. lumped: consistent springs. k…-lz…: the published k everywhere, equal masses, layers "
+    "so many mm apart. ±: mesh error of the shell. off: |u − u_model|/|u_model|, of the published model."
+)
 POINTS = "P1 is the centre, P2 and P3 the middles of two free sides, P4 the corner farthest from the support."
 
 
@@ -125,6 +130,9 @@ class Reproduction(Answer):
         module = "comparisons.reproduction.figure"
         return [Picture(table.name, f"{module}:{kind}", (of,)) for table, kind, of in self._drawn()]
 
+    def notes(self) -> list[str]:
+        return [DISPLACEMENTS] if self.answers else []
+
     def complaints(self) -> list[str]:
         """Return a sentence for every model of ours without an answer."""
         return [
@@ -164,13 +172,7 @@ def displacements(one: ReproducedTest) -> Table:
             off = None if name in tables else float(np.linalg.norm(table[i] - truth[i])) / size
             u = dict(zip(moves, map(float, table[i]), strict=True))
             rows.append(DisplacementRow(probe, name, u, dict(zip(spans, own, strict=True)), off))
-    text = (
-        "In the axes of our scene: of test 1 the published y is turned round; a dash where the printed value "
-        "must be a misprint. lumped: consistent springs. k…-lz…: the published k for all springs, equal "
-        "masses, layers so many mm apart. ±: mesh error of the shell. "
-        "off: |u − u_model|/|u_model|, of the published model."
-    )
-    return Table.of(DisplacementRow, rows, one.title, one.name, grouped=True, text=text)
+    return Table.of(DisplacementRow, rows, one.title, one.name, grouped=True)
 
 
 def runs(reproduction: Reproduction) -> Table:

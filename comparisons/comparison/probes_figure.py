@@ -63,7 +63,6 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     axis.set_ylabel(f"off the {reference.model} [%]")
     axis.grid(axis="y", which="major", color="#e4e4e4", lw=0.5)
     axis.set_axisbelow(True)
-    axis.spines[["top", "right"]].set_visible(False)
     figure.legend(loc="outside lower center", ncols=2 if style.narrow else 4, frameon=False, fontsize=6.5)
     if style.titled:
         figure.suptitle(plain(comparison.scene.title or comparison.scene.name, longest=105), fontsize=8)

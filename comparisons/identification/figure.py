@@ -42,7 +42,6 @@ def compose(found: Identification, style: FigureStyle = PLAIN) -> Figure:
     ]
     for axis, title in ((left, "\n".join(["Fit", *values])), (right, "Residuals")):
         axis.set_title(title, loc="left", fontsize=7.5, fontweight="bold")
-        axis.spines[["top", "right"]].set_visible(False)
     if style.titled:
         figure.suptitle(plain(found.scene.title or found.scene.name, longest=105), fontsize=8)
     return figure

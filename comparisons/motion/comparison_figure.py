@@ -66,7 +66,6 @@ def compose(found: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
     panels[-1].set_xlabel("time [s]")
     panels[-1].legend(ncols=4, fontsize=6.5, **ABOVE)
     for axis in panels:
-        axis.spines[["top", "right"]].set_visible(False)
         axis.axhline(0.0, color=DARK, lw=0.3)
         axis.margins(x=0)
     if style.titled:

@@ -45,7 +45,6 @@ def test(one: ReproducedTest, style: FigureStyle) -> Figure:
         panel.axhline(0.0, color=GREY, linewidth=0.5)
         panel.set_xticks(range(len(PROBES)), PROBES)
         panel.set_ylabel(f"$u_{COMPONENTS[axis][1]}$ [mm]")
-        panel.spines[["top", "right"]].set_visible(False)
     for name in sorted(moved.keys() - drawn):
         most = 1e3 * np.nanmax(np.abs(moved[name]))
         panels[-1].plot([], [], " ", label=f"not drawn: {name}, up to {most:.0f} mm")
@@ -68,7 +67,6 @@ def motion(settling: Settling, style: FigureStyle) -> Figure:
             if np.isfinite(value):
                 panel.axhline(value, color=DARK, linewidth=0.7, linestyle=dashes, label=f"published {source}")
         panel.set_ylabel(f"$u_{COMPONENTS[axis][1]}$ of {PROBE} [mm]")
-        panel.spines[["top", "right"]].set_visible(False)
         panel.margins(x=0, y=0.08)
     panels[-1].set_xlabel("time [s]")
     legend(figure, panels[-1], 2 if style.narrow else 4)

@@ -77,7 +77,6 @@ def tiles(
     axis.set_xlim(edges[0][1][0], edges[0][1][-1])
     axis.set_ylim(edges[1][1][0], edges[1][1][-1])
     axis.tick_params(which="both", width=0.5, length=2)
-    axis.spines[["top", "right"]].set_visible(False)
 
 
 def _mid(edges: np.ndarray, i: int, scale: str) -> float:
@@ -104,4 +103,3 @@ def plain(axis: Axes) -> None:
     axis.grid(which="major", color="#e4e4e4", lw=0.5)
     axis.set_axisbelow(True)
     axis.tick_params(which="both", width=0.5, length=2)
-    axis.spines[["top", "right"]].set_visible(False)

@@ -22,7 +22,6 @@ def logarithmic(axis: Axes) -> None:
     )
     axis.tick_params(which="both", width=0.5, length=2.5)
     axis.tick_params(which="minor", length=1.5, labelsize=6.5)
-    axis.spines[["top", "right"]].set_visible(False)
 
 
 def _decades(axis: Axes) -> float:

@@ -39,7 +39,6 @@ def compose(rows: Sequence[Row], style: FigureStyle = PLAIN) -> Figure:
         axes.text(1.1e-5, 105.0 * row.tolerance, f"held to {100.0 * row.tolerance:g} %", color="#7d848c")
     axes.set(xscale="log", yscale="log", ylim=(5e-3, 6.0))
     axes.set(xlabel="thickness / side [–]", ylabel="deflection off its converged value [%]")
-    axes.spines[["top", "right"]].set_visible(False)
     axes.legend(frameon=False, ncols=2, loc="lower left", fontsize=6.5)
     return figure
 

@@ -26,6 +26,8 @@ STYLE: Any = {
     "axes.prop_cycle": cycler(color=SERIES),
     "axes.edgecolor": GREY,
     "axes.linewidth": 0.6,
+    "axes.spines.right": False,
+    "axes.spines.top": False,
     "axes.labelcolor": DARK,
     "text.color": DARK,
     "xtick.color": DARK,

@@ -46,7 +46,6 @@ def compose(
     panels[-1].set_xlabel("time [s]")
     panels[-1].legend(ncols=3 if style.narrow else 5, fontsize=6.5, **ABOVE)
     for axis in panels:
-        axis.spines[["top", "right"]].set_visible(False)
         axis.margins(x=0)
     left = f"; {count} of {len(history.probes)} probes" if count < len(history.probes) else ""
     said = f"{plain(title, width=95)}\n{history.label}, {history.integrator}{left}"

@@ -43,7 +43,6 @@ def misfit(forensics: Forensics, style: FigureStyle) -> Figure:
         panel.set_xticks([], minor=True)
         panel.set_ylim(0.0, 100.0)
         panel.set_ylabel("misfit, rms of the largest [%]")
-        panel.spines[["top", "right"]].set_visible(False)
         panel.grid(color=GREY, lw=0.3, alpha=0.4)
         title = f"{kind.capitalize()} and published {SOURCE[kind]}"
         panel.set_title(title, loc="left", fontsize=7.5, fontweight="bold")

@@ -45,5 +45,4 @@ def compose(found: TensileFit, style: FigureStyle = PLAIN) -> Figure:
     left.legend(frameon=False)
     for axis, title in ((left, "Stress"), (right, "Misfit")):
         axis.set_title(title, loc="left", fontweight="bold")
-        axis.spines[["top", "right"]].set_visible(False)
     return figure

@@ -162,6 +162,7 @@ VERBS = {
         "--solid",
         "",
     ),
+    "crosscheck motions": (SCENE, "--duration", "0.004", "--lumped", "3,4", "--shell", "1,2", "--judges", ""),
     "advise": (SCENE,),
     "stability": (SCENE, "--lumped", "3", "--elements", "2", "--vary", "grid"),
 }

@@ -7,6 +7,7 @@ other type, a ValueError too, is a fault of the program and shows where it came 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from difflib import get_close_matches
 
 
 class BadInput(ValueError):
@@ -42,7 +43,8 @@ def printable(text: str) -> str:
 
 
 def require_choice(option: str, value: str, choices: Iterable[str]) -> None:
-    """Raise BadInput, listing the choices, unless `value` is one of them."""
+    """Raise BadInput, listing the choices and the nearest of them, unless `value` is one of them."""
     names = list(choices)
     if value not in names:
-        raise BadInput(f"{option} = '{value}': unknown, choose one of {', '.join(names)}")
+        near = "".join(f"; did you mean {name}?" for name in get_close_matches(str(value), names, 1))
+        raise BadInput(f"{option} = '{value}': unknown, choose one of {', '.join(names)}{near}")

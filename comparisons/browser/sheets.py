@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.report.arrows import load_arrows
-from comparisons.report.plan import PLAN_CELLS, rims
+from comparisons.report.plan import PLAN_CELLS, free_side, rims
 from sheetbench.scenes import EDGES, FieldMesh, Scene, holds_director
 from sheetbench.scenes.supports import place
 
@@ -116,11 +116,10 @@ def outline(scene: Scene) -> dict[str, str]:
     return packed(np.column_stack([corners, np.zeros(len(corners))]))
 
 
-def free_side(scene: Scene) -> list[float]:
+def eye(scene: Scene) -> list[float]:
     """Return the direction of an eye that looks at the sheet from where it is free, above and a little
     aside."""
-    on_edges = [support for support in scene.supports if place(support) is None]
-    away = sum((-np.array(EDGES[s.edge].outward[:2]) for s in on_edges), np.zeros(2))
+    away = free_side(scene)
     heading = np.arctan2(away[1], away[0]) - np.radians(24.0) if np.any(away) else np.radians(-64.0)
     return [float(np.cos(heading)), float(np.sin(heading)), 0.55]
 

@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 from math import isfinite, pi
 from typing import Any, NoReturn
 
-from comparisons.browser.sheets import free_side, outline
+from comparisons.browser.sheets import eye, outline
 from comparisons.models.grids import scene_grid
 from comparisons.models.spec import Lattice
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
@@ -97,7 +97,7 @@ class Panel:
             "name": scene.name,
             "title": scene.title,
             "outline": outline(scene),
-            "from": free_side(scene),
+            "from": eye(scene),
             "probes": {name: [*point] for name, point in scene.probes.items()},
             "sliders": [asdict(slider) for slider in self.sliders.values()],
             "calibrations": self.calibrations,

@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 import meshio
 import numpy as np
 
-from comparisons.browser.sheets import displaced, field, free_side, outline, viewer_sheet
+from comparisons.browser.sheets import displaced, eye, field, outline, viewer_sheet
 from comparisons.pages.studies import Study
 from comparisons.report.plan import PLAN_CELLS
 from sheetbench.errors import BadInput
@@ -129,7 +129,7 @@ def _moving(name: str, frames: list[tuple[float, FieldMesh]], scene: Scene | Non
 
 def _seen(scene: Scene | None, meshes: list[FieldMesh]) -> Options:
     if scene is not None:
-        return {"outline": outline(scene), "from": free_side(scene)}
+        return {"outline": outline(scene), "from": eye(scene)}
     return {}
 
 

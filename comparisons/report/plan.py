@@ -95,6 +95,12 @@ def held_lines(scene: Scene, support: Support) -> list[np.ndarray]:
     return [_divided(ends, 60) for ends in edge_ends(scene, support.edge)]
 
 
+def free_side(scene: Scene) -> np.ndarray:
+    """Direction (2,) on the plan away from the edges that hold the sheet, zero where they balance."""
+    held = [support.edge for support in scene.supports if place(support) is None]
+    return -sum((np.array(EDGES[edge].outward[:2]) for edge in held), np.zeros(2))
+
+
 def edge_ends(scene: Scene, edge: str) -> list[tuple[Sequence[float], Sequence[float]]]:
     """Both ends [m] of every part of an edge that the sheet reaches."""
     if not scene.pierced:

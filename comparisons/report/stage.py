@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 import pyvista
 
-from comparisons.report.plan import held_lines, plan_lines, plan_mesh, rims
+from comparisons.report.plan import free_side, held_lines, plan_lines, plan_mesh, rims
 from sheetbench.answers.style import DARK, GREY
-from sheetbench.scenes import EDGES, FieldMesh, Scene, Solution, holds_director
-from sheetbench.scenes.supports import place
+from sheetbench.scenes import FieldMesh, Scene, Solution, holds_director
 
 REFERENCE_PIXELS = 1800  # across an image, in which the widths of lines below are pixels
 MARGIN = 0.04  # as a share of the image's width
@@ -110,8 +109,7 @@ class Stage:
 
     def _axes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Unit vectors towards the eye, to its right and up: from the free side, above and a little aside."""
-        on_edges = [s for s in self.scene.supports if place(s) is None]
-        free = sum((-np.array(EDGES[s.edge].outward[:2]) for s in on_edges), np.zeros(2))
+        free = free_side(self.scene)
         heading = np.degrees(np.arctan2(free[1], free[0])) if np.any(free) else -40.0
         azimuth, raised = np.radians(heading - TURN), np.radians(ELEVATION)
         ahead = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])

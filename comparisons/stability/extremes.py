@@ -231,10 +231,10 @@ def _row(cell: _Cell, outcomes: Mapping[str, Finished]) -> Row:
     truth = outcomes[cell.truth.key] if cell.truth is not None else None
     if truth is None or truth is outcome or any(one.status != Status.CONVERGED for one in (outcome, truth)):
         return row
-    if "displacement" in outcome.row:
-        u, known = (np.array(one.row["displacement"]) for one in (outcome, truth))
-        return {**row, "error": error(u, known)}
-    return {**row, "error": _motion_error(outcome.row, truth.row)}
+    if "time" in outcome.row:
+        return {**row, "error": _motion_error(outcome.row, truth.row)}
+    u, known = (np.array([*one.row["probes"].values()]) for one in (outcome, truth))
+    return {**row, "error": error(u, known)}
 
 
 def _motion_error(row: Mapping[str, Any], truth: Mapping[str, Any]) -> float | None:

@@ -12,6 +12,7 @@ from lumped.calibration.calibration import Calibration, shown
 from lumped.calibration.cell_by_cell import Sides, kinds_of_cells
 from lumped.grid_lines import grid_lines
 from lumped.sections import Section
+from sheetbench.answers.table import number
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
@@ -49,12 +50,13 @@ def report(
         negative = any(constants.value_of(own, name) < 0.0 for name in ("area", "mid_area"))
         if negative or np.any(couplings):
             _require_positive(own, whole)
-    missed = [
-        f"{row['name']} is missed by {row['miss']:+.1%}"
+    off = [
+        f"{row['name']} by {number(100.0 * row['miss'], '+.1f')} %"
         for row in worst.values()
         if abs(row["got"] - row["asked"]) > 0.01 * abs(worst[_like(row["name"])]["asked"])
     ]
-    if missed and not np.any(springs.area) and not np.any(springs.shear):
+    missed = [f"these springs miss {', '.join(off)}"] if off else []
+    if off and not np.any(springs.area) and not np.any(springs.shear):
         missed.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
     rows = tuple(worst.values())
     said = (*missed, *_admissible(springs))

@@ -77,7 +77,7 @@ def options() -> dict:
         {"name": "both", "label": "Both", "sheets": ["shell", "lattice"]},
         {"name": "motion", "label": "Motion", "sheets": ["motion"]},
     ]
-    eye = sheets.free_side(scene)
+    eye = sheets.eye(scene)
     return {"sheets": shown, "views": views, "outline": sheets.outline(scene.sheet), "from": eye}
 
 

@@ -127,6 +127,43 @@ def test_the_schema_is_one_document_with_every_unit(capsys: pytest.CaptureFixtur
     assert capsys.readouterr().out == markdown()
 
 
+FIBRES = {"kind": "orthotropic", "young_1": 5e7, "young_2": 5e6, "poisson_12": 0.3, "shear_12": 3e6}
+SQUARE = {"rectangle": {"x": [0.0, 0.1], "y": [0.0, 0.1]}}
+
+
+@pytest.mark.parametrize(
+    ("part", "keys", "left_out"),
+    [
+        ("material", {"young": 1e6, "poisson": 0.4}, ("young", "poisson")),
+        ("material", FIBRES, ("young_1", "shear_12")),
+        ("material", {"law": "neo-hookean", "young": 1e6, "poisson": 0.4}, ("young",)),
+        ("material", {"law": "gent", "shear": 4e5, "limit": 20.0, "poisson": 0.45}, ("limit", "poisson")),
+        ("support", {"kind": "clamped", "edge": "x0"}, ("edge",)),
+        ("support", {"kind": "clamped", "where": SQUARE}, ("where",)),
+        ("cutout", {"shape": SQUARE}, ("shape",)),
+        ("cutout", {"shape": {**SQUARE, "circle": {"centre": [0.0, 0.0], "radius": 0.02}}}, ()),
+    ],
+)
+def test_the_schema_needs_what_the_parser_needs(part: str, keys: dict[str, object], left_out: Any) -> None:
+    jsonschema = pytest.importorskip("jsonschema")
+    base = scenes.load("one-edge-clamped").document()
+
+    def accepted(keys: dict[str, object]) -> list[bool]:
+        value: Any = {**keys, "density": 1e3} if part == "material" else [keys]
+        document = {**{key: base[key] for key in ("name", "sheet", "material")}, part: value}
+        try:
+            Scene.model_validate(document)
+        except ValueError:
+            parsed = False
+        else:
+            parsed = True
+        return [parsed, jsonschema.Draft202012Validator(for_editors(Scene)).is_valid(document)]
+
+    assert accepted(keys) == [bool(left_out)] * 2
+    for name in left_out:
+        assert accepted({key: value for key, value in keys.items() if key != name}) == [False, False]
+
+
 @pytest.mark.parametrize("name", scenes.catalogue())
 def test_a_scene_written_is_read_back_as_it_was(tmp_path: Path, name: str) -> None:
     scene = load(name)

@@ -28,7 +28,7 @@ from itertools import pairwise
 from math import pi
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes import orthotropy
@@ -82,6 +82,17 @@ CONSTANTS = (*STRESSES, "limit")
 LARGEST_LOSS = 2.0  # of a loss factor: rubber in its transition
 
 
+def _asked(schema: dict[str, Any]) -> None:
+    """Write into a JSON Schema which keys a material needs: of fibres, of a law with constants, of others."""
+    needed: dict[str, Any] = {"required": ["young", "poisson"]}
+    for law, words in WORDS.items():
+        of_law = {"properties": {"law": {"const": law}}, "required": ["law"]}
+        needed = {"if": of_law, "then": {"required": [*words.keys, "poisson"]}, "else": needed}
+    fibres = {"properties": {"kind": {"const": "orthotropic"}}, "required": ["kind"]}
+    schema["required"] = ["density"]
+    schema["allOf"] = [{"if": fibres, "then": {"required": [*orthotropy.NEEDED]}, "else": needed}]
+
+
 class Material(Fibres):
     """Elasticity, density, viscous damping and relaxation; of rubber a law with its constants, of a sheet
     with fibres those along and across them (`sheetbench.scenes.orthotropy`).
@@ -90,11 +101,13 @@ class Material(Fibres):
     c = damping_time · k; damping_rate [1/s] gives every mass a damping force rate · m · velocity.
     """
 
+    model_config = ConfigDict(json_schema_extra=_asked)
+
     young: Annotated[Positive, Unit("Pa")]
-    """Young's modulus E: 1 MPa is 1.0e6. Of a material that relaxes, the long-time modulus; of a law with
-    constants it follows from them and is left out."""
+    """Young's modulus E: 1 MPa is 1.0e6; needed, but of fibres and of a law with constants, from which it
+    follows. Of a material that relaxes, the long-time modulus."""
     poisson: Annotated[Finite, Field(gt=-1, lt=0.5)]
-    """Poisson's ratio ν, below 0.5: rubber and silicone are about 0.48 to 0.499."""
+    """Poisson's ratio ν, below 0.5: rubber and silicone are about 0.48 to 0.499; needed, but of fibres."""
     density: Annotated[Positive, Unit("kg/m³")]
     """Density ρ: water's is 1000."""
     damping_time: Annotated[NonNegative, Unit("s")] = 0.0

@@ -15,7 +15,7 @@ from math import cos, pi, sin, sqrt
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.scenes.quantities import Frozen, Number, PlanPoint, Positive, Unit
 
@@ -54,6 +54,8 @@ class Circle(Frozen):
 
 class Shape(Frozen):
     """One of a rectangle, a circle and a polygon, in the plan."""
+
+    model_config = ConfigDict(json_schema_extra={"minProperties": 1, "maxProperties": 1})
 
     rectangle: Rectangle | None = None
     """Sides along x and y: { x = [from, to], y = [from, to] }."""

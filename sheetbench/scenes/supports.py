@@ -20,7 +20,7 @@ from collections.abc import Iterable
 from math import pi
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import ConfigDict, Field, field_validator, model_validator
 
 from sheetbench.scenes.quantities import Frozen, Number, Unit, Vector3
 from sheetbench.scenes.shapes import Shape
@@ -49,6 +49,10 @@ class _EdgeSupport(Frozen):
 
 
 class _Support(_EdgeSupport):
+    model_config = ConfigDict(
+        json_schema_extra={"allOf": [{"oneOf": [{"required": ["edge"]}, {"required": ["where"]}]}]}
+    )
+
     # None beside `where` alone, which `require_rectangle` keeps from models that read edges
     edge: Annotated[EdgeName, Field(default=None)]
     """The edge that is supported."""

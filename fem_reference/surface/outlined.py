@@ -30,6 +30,7 @@ from fem_reference.surface.mesh_points import (
     on_borders,
 )
 from sheetbench.errors import BadInput
+from sheetbench.numerics.kept import kept
 
 if TYPE_CHECKING:
     from shapely import LineString
@@ -49,6 +50,7 @@ TOO_CLOSE = (
 )
 
 
+@kept(last=8, most=1 << 16)
 def quadrilaterals(
     region: BaseGeometry, inner: BaseGeometry, spacing: tuple[float, float], graded: bool = False
 ) -> MeshQuad2:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from scipy.optimize import least_squares, minimize_scalar
@@ -57,22 +57,36 @@ def nearest(
 def limit_error(scene: Scene, moduli: Moduli, elements: int = 16) -> float:
     """The error in a scene of a mesh of this cell, however fine: that of a shell with the cell's moduli.
 
-    The shell takes large rotations, as such meshes do. Raises BadInput where bending and stretching are
-    coupled.
+    elements: along the side of a square, as many in all on others. The shell takes large rotations, as such
+    meshes do. Raises BadInput where bending and stretching are coupled.
     """
+    return limit_errors(scene, elements)(moduli)
+
+
+def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
+    """`limit_error` of any moduli in a scene, whose own answer is found once."""
+    lengths = scene.sheet.lengths
+    across = max(2, round(elements * min(lengths) / (lengths[0] * lengths[1]) ** 0.5))
+    points = scene.probe_points()
+    true = fem_reference.solve(scene, model="shell", elements=across).displacement(points)
+
+    def off(moduli: Moduli) -> float:
+        found = fem_reference.solve(scene, model="shell", elements=across, section=_section(scene, moduli))
+        share = error(found.displacement(points), true)
+        if share is None:
+            raise BadInput("the probes do not move: there is no error to tell")
+        return share
+
+    return off
+
+
+def _section(scene: Scene, moduli: Moduli) -> Section:
     own = section_of(scene.material, scene.sheet.thickness)
     size = (np.abs(moduli.membrane).max() * np.abs(moduli.bending).max()) ** 0.5
     if np.abs(moduli.coupling).max() > 1e-9 * size:
         raise BadInput("the cell couples bending and stretching: no shell here has such a section")
     shear = STIFF * own.shear if moduli.shear is None else moduli.shear
-    section = Section(moduli.membrane, moduli.bending, shear)
-    true = fem_reference.solve(scene, model="shell", elements=elements)
-    found = fem_reference.solve(scene, model="shell", elements=elements, section=section)
-    points = scene.probe_points()
-    off = error(found.displacement(points), true.displacement(points))
-    if off is None:
-        raise BadInput("the probes do not move: there is no error to tell")
-    return off
+    return Section(moduli.membrane, moduli.bending, shear)
 
 
 def best_hinge(scene: Scene, cell: Cell, coefficients: dict[str, float]) -> tuple[float, float] | None:
@@ -80,10 +94,10 @@ def best_hinge(scene: Scene, cell: Cell, coefficients: dict[str, float]) -> tupl
     of a cell without hinges. Searched from a twentieth to ten times the coefficient given."""
     if "hinge" not in coefficients:
         return None
-    start = float(np.log(coefficients["hinge"]))
+    start, error_of = float(np.log(coefficients["hinge"])), limit_errors(scene, COARSE)
 
     def off(logarithm: float) -> float:
-        return limit_error(scene, moduli_of(cell, coefficients | {"hinge": float(np.exp(logarithm))}), COARSE)
+        return error_of(moduli_of(cell, coefficients | {"hinge": float(np.exp(logarithm))}))
 
     bounds = (start + np.log(0.05), start + np.log(10.0))
     found = minimize_scalar(off, bounds=bounds, method="bounded", options={"xatol": 5e-3})

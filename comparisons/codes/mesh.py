@@ -1,7 +1,8 @@
 """The finite mesh of a scene's sheet that a code of triangles gets: squares cut by diagonals.
 
 Clamps are a second fixed row beyond the edge: a hinge that lies on the edge then holds the slope there.
-Masses are tributary, point loads and probes are shared linearly by the corners of a triangle.
+Masses are tributary, forces along edges too; point loads and probes are shared linearly by the corners of a
+triangle.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 
 from comparisons.codes.springs import five
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EDGES, Clamped, Hinged, PointLoad, Scene
+from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, PointLoad, Scene
 from sheetbench.scenes.grid import near_square
 
 ONE, ALTERNATE = "one-diagonal", "alternate-diagonals"
@@ -66,7 +67,7 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
 
     pattern: ONE or ALTERNATE; beyond_share: how far beyond an edge its second row is, over a square's side.
     Raises BadInput for what these codes do not have: supports but clamped and
-    hinged edges that stay, loads but weight and forces at points.
+    hinged edges that stay, loads but weight and forces at points and along edges.
     """
     if why := refusal(scene):
         raise BadInput(f"{scene.name}: {why}")
@@ -96,9 +97,14 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
     per_square = scene.material.density * scene.sheet.thickness * float(np.prod(spacing))
     forces = np.zeros_like(places)
     for load in scene.loads:
-        assert isinstance(load, PointLoad)
-        corners, shares = _shares(places, triangles[own], np.array(load.at))
-        forces[corners] += load.last_factor * np.outer(shares, load.force)
+        if isinstance(load, PointLoad):
+            corners, shares = _shares(places, triangles[own], np.array(load.at))
+            forces[corners] += load.last_factor * np.outer(shares, load.force)
+        elif isinstance(load, EdgeLoad):
+            words = EDGES[load.edge]
+            axis, end = words.normal_axis, counts[words.normal_axis] if words.far_end else 0
+            lengths = spacing[1 - axis] * 2.0 * share * (inside & ((i, j)[axis] == end))
+            forces += load.last_factor * np.outer(lengths.ravel(), load.force_per_length)
     points = {name: _shares(places, triangles[own], np.array(at)) for name, at in scene.probes.items()}
     return SheetMesh(
         places,
@@ -149,8 +155,11 @@ def refusal(scene: Scene) -> str:
         return "these codes hold sheets by clamped and hinged edges only"
     if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
         return "their clamps stand upright, and supports stay where they are"
-    if any(not isinstance(load, PointLoad) for load in scene.loads):
-        return "weight and forces at points only"
+    if any(
+        not isinstance(load, PointLoad | EdgeLoad) or getattr(load, "moment_per_length", 0.0)
+        for load in scene.loads
+    ):
+        return "weight and forces at points and along edges only"
     return ""
 
 

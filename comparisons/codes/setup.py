@@ -70,7 +70,7 @@ class CodeSetup(Answer):
         if self.code.mesh == LAYERED:
             flat, tetrahedra = with_layers(self.scene, flat, self.squares, self.coefficients["layers"])
         stretching = material.young * self.scene.sheet.thickness / (1.0 - material.poisson**2)
-        clamp = 2.0 if self.best and self.code.hinge == "length" else 1.0
+        clamp = 2.0 if self.best and self.code.hinge != "height" else 1.0
         return Problem(flat, keys, stretching, tetrahedra, clamp)
 
     @property

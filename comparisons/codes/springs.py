@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from comparisons.cells.cell import Cell, Place
-from comparisons.cells.coefficients import COARSE, TURNED, limit_error, nearest
+from comparisons.cells.coefficients import COARSE, TURNED, limit_error, limit_errors, nearest
 from comparisons.cells.homogenise import Moduli, moduli_of
 from comparisons.cells.meshes import mesh
 from fem_reference.surface.materials import section_of
@@ -91,10 +91,10 @@ def layered_springs(
 
     low, high = (share * scene.sheet.thickness for share in HEIGHTS)
     if best:
-        bounds = (log(low), log(high))
+        bounds, error_of = (log(low), log(high)), limit_errors(scene, COARSE)
 
         def off(logarithm: float) -> float:
-            return limit_error(scene, at(float(np.exp(logarithm)))[1], COARSE)
+            return error_of(at(float(np.exp(logarithm)))[1])
 
         options = {"xatol": 5e-3}
         height = float(np.exp(minimize_scalar(off, bounds=bounds, method="bounded", options=options).x))

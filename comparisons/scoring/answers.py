@@ -1,13 +1,13 @@
 """Somebody's answers to a suite, from a CSV file (`comparisons.measured.columns`); SI units.
 
-statics  case,probe,ux,uy,uz[,seconds]
+statics  case,probe,ux,uy,uz[,seconds]; so have curves
 motion   case,probe,time,ux,uy,uz[,seconds]: a sample at every time of the reference, for nothing is
          interpolated; those at other times are passed over
 modes    case,mode,frequency[,seconds]: modes count from 1, lowest first
 
-The header tells the suite. Where one case is asked for the column `case` may be left out, as in the history
-that a run writes. A form may be filled in stages: a row whose numbers are all empty is open, and so is its
-case.
+The header tells the suite, and the first case statics from curves. Where one case is asked for the column
+`case` may be left out, as in the history that a run writes. A form may be filled in stages: a row whose
+numbers are all empty is open, and so is its case.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ HEADERS = {
     "statics": ("case", "probe", "ux", "uy", "uz"),
     "motion": ("case", "probe", "time", "ux", "uy", "uz"),
     "modes": ("case", "mode", "frequency"),
+    "curves": ("case", "probe", "ux", "uy", "uz"),
 }
 PLACES = ("case", "probe", "time", "mode")  # columns that say where, not what
 SAME_TIME = 1e-6  # of the duration
@@ -50,7 +51,7 @@ def read_answers(
     is missing of one, or is there twice.
     """
     columns = read_columns(path)
-    suite = suite or _suite_of(columns.names)
+    suite = suite or _suite_of(columns.names, [*chosen, *(row.cells.get("case", "") for row in columns.rows)])
     known = references(suite)
     wanted = [reference(name, suite) for name in dict.fromkeys(chosen)] or list(known.values())
     header = HEADERS[suite]
@@ -76,8 +77,9 @@ def read_answers(
     return [_answer(path, one, rows[one.name]) for one in closed], unanswered
 
 
-def _suite_of(names: Sequence[str]) -> str:
-    return "motion" if "time" in names else "modes" if "mode" in names else "statics"
+def _suite_of(columns: Sequence[str], cases: Sequence[str]) -> str:
+    at_rest = "curves" if cases and cases[0] in references("curves") else "statics"
+    return "motion" if "time" in columns else "modes" if "mode" in columns else at_rest
 
 
 def _open(suite: str, row: Row) -> bool:

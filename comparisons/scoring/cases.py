@@ -3,6 +3,7 @@
 statics  displacement at the probes
 motion   displacement at the probes over time, from rest, weight and loads on at t = 0
 modes    the lowest natural frequencies about the flat, stress-free sheet
+curves   as statics: strips whose answer depends on one number alone (`comparisons.scoring.curves`)
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from dataclasses import dataclass
 from math import pi, sin
 from typing import Any
 
+from comparisons.scoring import curves
 from sheetbench.scenes import (
     Chain,
     Clamped,
@@ -31,7 +33,7 @@ from sheetbench.scenes import (
 )
 from sheetbench.scenes.supports import AnySupport, Motion
 
-SUITES = ("statics", "motion", "modes")
+SUITES = ("statics", "motion", "modes", "curves")
 FREQUENCIES = 6
 SEED = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
 NITRILE = Material(young=54.5e6, poisson=0.48, density=1678.0)
@@ -55,7 +57,7 @@ class Case:
 
 def cases(suite: str | None = None) -> tuple[Case, ...]:
     """All cases, or those of one suite."""
-    every = (*_statics(), *_motion(), *_modes())
+    every = (*_statics(), *_motion(), *_modes(), *_curves())
     return tuple(case for case in every if suite in (None, case.suite))
 
 
@@ -233,3 +235,17 @@ def _modes() -> Iterator[Case]:
     ]
     for name, parts, why in whys:
         yield Case(name, "modes", _scene(name, weight=False, **parts), why)
+
+
+def _curves() -> Iterator[Case]:
+    for number in (0.1, 1.0, 10.0, 100.0):
+        yield _curve(curves.cantilever(number), f"the heavy elastica at Γ = {number:g}")
+    for number in (1.0, 4.0, 16.0, 64.0):
+        yield _curve(curves.bend_twist(number), f"a strip turned by 45° bends and twists, Γ = {number:g}")
+    for number in (10.0, 13.0, 15.0, 20.0, 30.0):
+        leans = curves.on_edge(number, off=curves.LEANS)
+        yield _curve(leans, f"a strip on edge, which an upright one leaves at Γ* = 14.9, at {number:g}")
+
+
+def _curve(scene: Scene, why: str) -> Case:
+    return Case(scene.name, "curves", scene, why)

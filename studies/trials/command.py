@@ -8,7 +8,7 @@ import typer
 
 from comparisons.cli import console
 from studies.trials.page import write_page
-from studies.trials.study import trials, write_results
+from studies.trials.study import run_trials
 
 
 def command(
@@ -16,13 +16,14 @@ def command(
         list[str] | None,
         typer.Argument(metavar="CODE=PYTHON", help="newton=.venv-newton/bin/python; none: the page alone."),
     ] = None,
-    seconds: Annotated[float, typer.Option(help="Limit of a run.")] = 120.0,
+    seconds: Annotated[float, typer.Option(help="Limit of a run, of processor time.")] = 60.0,
+    budget: Annotated[float, typer.Option(help="Seconds after which no further run of a code begins.")] = 1e9,
 ) -> None:
-    """Run other codes on two scenes with the numbers people use and with ours; write docs/results.md."""
+    """Run other codes with the numbers people use and with ours; write docs/results.md.
+
+    Rows of studies/results with the same inputs are not run again.
+    """
     for text in code or ():
         name, _, python = text.partition("=")
-        found = []
-        for one in trials(name, python, seconds, console.tell):
-            found.append(one)
-            write_results(name, found)  # what is killed leaves what it has
+        run_trials(name, python, seconds, budget, console.tell)
     console.tell(str(write_page()))

@@ -8,28 +8,30 @@ from __future__ import annotations
 
 import json
 import platform
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
+from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-import fem_reference
 from comparisons.cells.codes import CODES
 from comparisons.codes.mesh import refusal
 from comparisons.codes.setup import CodeSetup, setup
 from comparisons.comparison.differences import error
 from comparisons.external.process import ONE_THREAD, run
-from comparisons.scoring.cases import cases
+from comparisons.scoring.reference import Reference, references
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Scene, Status
 
 RESULTS = Path(__file__).parent.parent / "results"
-SCENES = ("two-edges-clamped", "one-edge-clamped")  # every recipe; the others those that are taken everywhere
-CASES = {case.name: case.scene for case in cases("statics") if not refusal(case.scene)}
+SCENES = ("two-edges-clamped", "one-edge-clamped")  # of the picture and the front
+AT_REST = references("statics") | references("curves")
+CASES = {name: case for name, case in AT_REST.items() if not refusal(case.scene)}
 SQUARES, BETTER = 8, 16
 MEAN_EDGE = (2.0 + 2.0**0.5) / 3.0  # of squares with diagonals, over their side
 ONE = "one-diagonal"
@@ -47,14 +49,13 @@ def _stretching(scene: Scene) -> float:
 @dataclass(frozen=True)
 class Recipe:
     """Numbers and a mesh for a code. coefficients: ours, of a scene and a square's side; keys: the code's own
-    parameters of a scene; without either what `calibrate --for` gives. everywhere: in all scenes."""
+    parameters of a scene; without either what `calibrate --for` gives."""
 
     name: str
     mesh: str | None = None
     coefficients: Callable[[Scene, float], Mapping[str, float]] | None = None
     keys: Callable[[Scene], Mapping[str, float]] | None = None
     squares: int = SQUARES
-    everywhere: bool = True
 
 
 OURS = "ours"
@@ -63,22 +64,16 @@ FINER = Recipe(f"ours, {BETTER} squares", squares=BETTER)
 DIAGONAL = Recipe("ours, one diagonal", ONE)
 RECIPES: Mapping[str, tuple[Recipe, ...]] = {
     "newton": (
-        Recipe(
-            "its defaults",
-            ONE,
-            keys=lambda _: dict.fromkeys(("tri_ke", "tri_ka", "edge_ke"), 100.0),
-            everywhere=False,
-        ),
+        Recipe("its defaults", ONE, keys=lambda _: dict.fromkeys(("tri_ke", "tri_ka", "edge_ke"), 100.0)),
         Recipe("textbook: D/l", ONE, lambda scene, side: {"hinge": _rigidity(scene) / side}),
         Recipe(
             "GAUGE: D/mean edge",
             ONE,
             lambda scene, side: {"hinge": _rigidity(scene) / side / MEAN_EDGE},
-            everywhere=False,
         ),
-        replace(DIAGONAL, everywhere=False),
+        DIAGONAL,
         BEST,
-        replace(FINER, everywhere=False),
+        FINER,
     ),
     "mujoco": (
         Recipe("textbook: E, ν, h", ONE, lambda scene, _: {"hinge": _rigidity(scene) / 3.0}),
@@ -87,7 +82,7 @@ RECIPES: Mapping[str, tuple[Recipe, ...]] = {
         FINER,
     ),
     "pybullet": (
-        Recipe("its defaults", keys=lambda _: {"springElasticStiffness": 1.0}, everywhere=False),
+        Recipe("its defaults", keys=lambda _: {"springElasticStiffness": 1.0}),
         Recipe(
             "textbook: k = E h",
             coefficients=lambda scene, _: {"k": _stretching(scene), "layers": scene.sheet.thickness},
@@ -96,10 +91,10 @@ RECIPES: Mapping[str, tuple[Recipe, ...]] = {
         FINER,
     ),
     "genesis": (
-        Recipe("its defaults", keys=lambda _: _genesis(1e-7, 1e-5), everywhere=False),
+        Recipe("its defaults", keys=lambda _: _genesis(1e-7, 1e-5)),
         Recipe("GAUGE: 1/K", keys=lambda scene: _genesis(1.0 / _stretching(scene), 1.0 / _rigidity(scene))),
         BEST,
-        replace(FINER, everywhere=False),
+        FINER,
     ),
 }
 
@@ -110,7 +105,8 @@ def _genesis(stretch: float, bending: float) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class Trial:
-    """A scene by a recipe; error and seconds are None where there is no answer."""
+    """A scene by a recipe; error and seconds are None where there is no answer; inputs: the checksum of the
+    files that the code was given; moved: displacements of the scene's probes [m]."""
 
     scene: str
     recipe: str
@@ -119,41 +115,74 @@ class Trial:
     error: float | None
     seconds: float | None
     why: str = ""
+    inputs: str = ""
+    moved: list[list[float]] | None = None
 
 
-def trials(code: str, python: str, seconds: float, say: Callable[[str], None]) -> Iterator[Trial]:
-    """Run every recipe of a code in every scene, with a Python that has it, one after the other."""
+def run_trials(code: str, python: str, seconds: float, budget: float, say: Callable[[str], None]) -> None:
+    """Run every recipe of a code in every scene, with a Python that has it, and write the file of results.
+
+    seconds: of processor time, the limit of a run; budget: of the clock, after which no further run begins.
+    A row of the file that had the same inputs stays, but for one that a shorter limit ended. Rows that are
+    missing come first, ours before others, curves last.
+    """
     require_choice("code", code, RECIPES)
-    for name, scene in CASES.items():
-        truth = fem_reference.solve(scene, model="shell", elements=16).displacement(scene.probe_points())
-        for recipe in RECIPES[code]:
-            if not recipe.everywhere and name not in SCENES:
+    path, ends = RESULTS / f"{code}.json", perf_counter() + budget
+    old = read_results(path)["rows"] if path.exists() else []
+    rows: dict[tuple[str, str], Trial] = {(row["scene"], row["recipe"]): Trial(**row) for row in old}
+    order = [(name, recipe) for name in CASES for recipe in RECIPES[code]]
+    first = sorted(
+        order,
+        key=lambda one: (CASES[one[0]].suite == "curves", (one[0], one[1].name) in rows, one[1] is not BEST),
+    )
+    for number, (name, recipe) in enumerate(first):
+        if perf_counter() > ends:
+            say(f"{code}: {budget:g} s have passed; {len(order) - number} of {len(order)} rows not looked at")
+            break
+        with TemporaryDirectory() as folder:
+            made = _write_files(CASES[name], code, recipe, Path(folder))
+            inputs = _checksum(Path(folder))
+            if (known := rows.get((name, recipe.name))) and known.inputs == inputs and _final(known, seconds):
                 continue
-            side = min(scene.sheet.lengths) / recipe.squares
-            coefficients = recipe.coefficients and recipe.coefficients(scene, side)
-            given = recipe.keys and recipe.keys(scene)
-            made = setup(
-                scene, code, recipe.squares, mesh=recipe.mesh, coefficients=coefficients, given=given
-            )
-            found = _trial(made, recipe.name, python, seconds, truth)
-            say(f"{code}, {name}, {recipe.name}: {found.status}, {found.error}")
-            yield found
+            found = _trial(made, recipe.name, python, seconds, Path(folder), inputs)
+        say(f"{code}, {name}, {recipe.name}: {found.status}, {found.error}")
+        rows[name, recipe.name] = found
+        kept = [rows[name, recipe.name] for name, recipe in order if (name, recipe.name) in rows]
+        write_results(code, kept)  # what is killed leaves what it has
 
 
-def _trial(made: CodeSetup, recipe: str, python: str, seconds: float, truth: np.ndarray) -> Trial:
-    with TemporaryDirectory() as folder:
-        for name, write in made.files().items():
-            write(Path(folder) / name)
-        script = str(Path(folder) / f"run_{made.code.name}.py")
-        ended = run([python, script, str(seconds)], b"", 2.0 * seconds + 60.0, variables=ONE_THREAD)
+def _write_files(case: Reference, code: str, recipe: Recipe, folder: Path) -> CodeSetup:
+    scene, squares = case.scene, recipe.squares // (2 if case.suite == "curves" else 1)
+    side = min(scene.sheet.lengths) / squares
+    coefficients = recipe.coefficients and recipe.coefficients(scene, side)
+    given = recipe.keys and recipe.keys(scene)
+    made = setup(scene, code, squares, mesh=recipe.mesh, coefficients=coefficients, given=given)
+    for name, write in made.files().items():
+        write(folder / name)
+    return made
+
+
+def _checksum(folder: Path) -> str:
+    return sha256(b"".join(path.read_bytes() for path in sorted(folder.iterdir()))).hexdigest()[:12]
+
+
+def _final(row: Trial, seconds: float) -> bool:
+    """Whether a longer limit would not change it."""
+    return row.status != Status.STEP_LIMIT or (row.seconds or 0.0) > 0.9 * seconds
+
+
+def _trial(made: CodeSetup, recipe: str, python: str, seconds: float, folder: Path, inputs: str) -> Trial:
+    script = str(folder / f"run_{made.code.name}.py")
+    ended = run([python, script, str(seconds)], b"", 4.0 * seconds + 60.0, variables=ONE_THREAD)
     about = made.scene.name, recipe, made.cell.name
     lines = [line for line in ended.answer.decode().splitlines() if line.startswith("{")]
     if ended.fault or not lines:
-        return Trial(*about, "failed", None, None, ended.fault or "no answer")
+        return Trial(*about, "failed", None, None, ended.fault or "no answer", inputs)
     answer: dict[str, Any] = json.loads(lines[-1])
     moved = np.array([answer["probes"][probe] for probe in made.scene.probes])
-    off = error(moved, truth) if answer["status"] == "converged" else None
-    return Trial(*about, answer["status"], off, answer["solve_seconds"])
+    off = error(moved, CASES[made.scene.name].values) if answer["status"] == "converged" else None
+    shown = [[float(f"{value:.6g}") for value in u] for u in moved.tolist()] if off is not None else None
+    return Trial(*about, answer["status"], off, answer["solve_seconds"], "", inputs, shown)
 
 
 def write_results(code: str, found: list[Trial]) -> Path:
@@ -166,10 +195,11 @@ def write_results(code: str, found: list[Trial]) -> Path:
         "date": datetime.now(UTC).date().isoformat(),
         "machine": f"{platform.machine()}, Python {platform.python_version()}, one thread",
         "command": f"sheetbench study trials {code}=PYTHON",
-        "rows": [asdict(one) for one in found],
     }
+    head = json.dumps(document, indent=1, ensure_ascii=False).removesuffix("\n}")
+    rows = ",\n".join(f"  {json.dumps(asdict(one), ensure_ascii=False)}" for one in found)
     path = RESULTS / f"{code}.json"
-    path.write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    path.write_text(f'{head},\n "rows": [\n{rows}\n ]\n}}\n', encoding="utf-8")
     return path
 
 

@@ -9,7 +9,7 @@ STUDIES = {
     "central": "the table of the calibration central, trained anew",
     "coverage": "how often the references' error bars hold the error, on drawn scenes",
     "expected-errors": "the expected error of a lattice's grid on a hundred scenes, beside the true one",
-    "leaderboard": "what models get wrong on the statics of the reference set, and their times",
+    "leaderboard": "what models get wrong on statics and curves of the reference set, and their times",
     "master-curves": "the heavy cantilever and lateral buckling, without units: lattices and shells",
     "peers": "our models beside other people's codes, in one run",
     "reference-set": "the reference set of suite and score, computed anew",

@@ -11,9 +11,9 @@ from commands import run
 from matrix_options import OUTPUTS
 from matrix_rows import Row, named, pairwise
 
+from comparisons.scoring.cases import SUITES
 from comparisons.stability import extremes
 
-SUITES = ("statics", "motion", "modes")
 VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     "compare --duration 0.004 --elements 2": [
         (("two-edges-settling",), ("{pressed}",)),

@@ -18,7 +18,9 @@ def command(
     suite: Annotated[
         str | None,
         option(
-            "What it answers: statics, motion or modes; as its header says unless given.", "NAME", "--suite"
+            "What it answers: statics, motion, modes or curves; as its header and cases say unless given.",
+            "NAME",
+            "--suite",
         ),
     ] = None,
     case: Annotated[list[str] | None, option("Only this case; may be repeated.", "NAME", "--case")] = None,

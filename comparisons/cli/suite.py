@@ -9,7 +9,7 @@ from comparisons.cli.verb import OutputOptions
 
 
 def command(
-    suite: Annotated[str | None, option("Only statics, motion or modes.", "NAME", "--suite")] = None,
+    suite: Annotated[str | None, option("Only statics, motion, modes or curves.", "NAME", "--suite")] = None,
     *,
     output: OutputOptions,
 ) -> None:

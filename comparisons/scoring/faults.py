@@ -127,7 +127,7 @@ def _swap(answer: Answer, values: np.ndarray) -> Mended:
     if answer.reference.suite == "modes":
         return [], values
     names = list(answer.reference.scene.probes)
-    if not _matters(answer, values):
+    if len(names) < 2 or not _matters(answer, values):
         return [], values
     swapped: Callable[[tuple[int, int]], np.ndarray] = lambda pair: _exchanged(values, *pair)  # noqa: E731
     best = min(combinations(range(len(names)), 2), key=lambda pair: _error(swapped(pair), truth))

@@ -32,6 +32,7 @@ from sheetbench.choices import REFERENCES
 
 OWN = "answers"
 OWN_MODELS = ("lumped", "lumped-pair", *REFERENCES)
+SIZES = ("grid", "elements")
 WHOSE = YOURS, OURS, OTHERS = "yours", "ours", "other program"
 
 
@@ -119,7 +120,7 @@ class Score(ShownAnswer):
 
     @property
     def standing(self) -> list[Standing]:
-        """These answers and other models on the same cases, the best first; the others on statics only."""
+        """These answers and other models on the same cases, the best first."""
         front = self.front
         return [replace(one, on_the_front=one.model in front) for one in self._ranked]
 
@@ -190,8 +191,9 @@ class Score(ShownAnswer):
         if self.unanswered:
             notes.append(f"not answered yet: {', '.join(self.unanswered)}")
         if len(self.standing) > 1:
-            made = document()["made_with"]["machine"].get("processor", "another machine")
-            notes.append(f"times of the others are geometric means, measured on {made}")
+            if any(one.seconds is not None for one in self.standing if one.model != OWN):
+                made = document()["made_with"]["machine"].get("processor", "another machine")
+                notes.append(f"times of the others are geometric means, measured on {made}")
             notes.append(self.place)
         return notes
 
@@ -265,20 +267,31 @@ def own_models(cases: Sequence[Reference]) -> list[Standing]:
     """Our own models and other programs that have an answer to any of these cases, as they were measured."""
     rows: dict[str, dict[str, dict[str, Any]]] = {}
     names = {case.name for case in cases}
-    for row in document()["standing"]:
-        if row["case"] in names:
-            rows.setdefault(str(spec_of(row["model"], row["settings"])), {})[row["case"]] = row
+    standing = [row for row in document()["standing"] if row["case"] in names]
+    for row in standing or [row for case in cases for row in _judged(case)]:
+        rows.setdefault(str(spec_of(row["model"], row["settings"])), {})[row["case"]] = row
     return [
         Standing(
             name,
             mean([of_model[case.name]["error"] for case in cases], cases),
-            _geometric([row["seconds"] for row in answered.values()]),
+            _geometric(times)
+            if (times := [t for row in answered.values() if (t := row["seconds"])])
+            else None,
             OURS if next(iter(of_model.values()))["model"] in OWN_MODELS else OTHERS,
             *_worst({case: row["error"] for case, row in answered.items()}),
             refused=len(cases) - len(answered),
         )
         for name, of_model in rows.items()
         if (answered := {case: row for case, row in of_model.items() if row["error"] is not None})
+    ]
+
+
+def _judged(case: Reference) -> list[dict[str, Any]]:
+    """Other models that solved a case when the set was made, whose times were not kept."""
+    return [
+        {**row, "case": case.name, "seconds": None, "settings": {k: row[k] for k in SIZES if k in row}}
+        for row in case.judges
+        if row["error"]
     ]
 
 

@@ -1,4 +1,4 @@
-"""Where models stand on the statics of the reference set: `sheetbench study leaderboard [MODEL …]`.
+"""Where models stand on statics and curves of the reference set: `sheetbench study leaderboard [MODEL …]`.
 
 Our own models, and other people's programs as plug-ins: what each gets wrong on every case, and its time. It
 writes these rows into the set's file and leaves its values alone (`make standing`). Models as `tradeoff
@@ -51,8 +51,9 @@ def row(case: Reference, candidate: Spec) -> dict[str, Any]:
     }
 
 
-def measure(names: Sequence[str], say: Callable[[str], None]) -> None:
-    """Measure models by name, and put the rows into the set's file. Raises BadInput for an unknown model."""
+def measure(names: Sequence[str], say: Callable[[str], None], suite: str = "statics") -> None:
+    """Measure models by name on a suite, and put the rows into the set's file; those of other suites stay.
+    Raises BadInput for an unknown model."""
     known = {str(candidate): candidate for candidate in (*STANDING, *SLOW)}
     for name in names:
         require_choice("model", name, known)
@@ -61,7 +62,9 @@ def measure(names: Sequence[str], say: Callable[[str], None]) -> None:
         rows.setdefault(str(spec_of(kept["model"], kept["settings"])), []).append(kept)
     for name in names or map(str, STANDING):
         try:
-            rows[name] = [row(case, known[name]) for case in references("statics").values()]
+            cases = references(suite)
+            others = [kept for kept in rows.get(name, []) if kept["case"] not in cases]
+            rows[name] = others + [row(case, known[name]) for case in cases.values()]
         except BadInput as missing:
             say(f"{name}: {missing}")
             continue

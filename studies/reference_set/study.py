@@ -65,7 +65,7 @@ def regenerate(say: Callable[[str], None] = print, suite: str | None = None) -> 
             }
         )
         say(f"{case.name}: {perf_counter() - began:.1f} s")
-    made = {"sheetbench": version(), "machine": machine()}
+    made = document()["made_with"] if suite else {"sheetbench": version(), "machine": machine()}
     head = {"version": VERSION, "licence": LICENCE, "made_with": made}
     rounded: dict[str, Any] = plain({**head, "cases": computed, "standing": document()["standing"]})
     return rounded

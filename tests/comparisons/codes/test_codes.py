@@ -14,10 +14,11 @@ from commands import run
 from comparisons.cells.cell import HINGES, _hinge, _triangle
 from comparisons.cells.homogenise import moduli_of
 from comparisons.codes.files import WRITERS
+from comparisons.codes.mesh import sheet_mesh
 from comparisons.codes.setup import CodeSetup, setup
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes import PointLoad
+from sheetbench.scenes import EdgeLoad, PointLoad
 
 SCENE = scenes.load("two-edges-clamped").replace(
     loads=(PointLoad(at=(0.188, 0.188), force=(0.01, 0.0, 0.05)),)
@@ -199,6 +200,20 @@ def test_masses_and_loads_of_every_code_are_the_sheets(code):
     assert free == pytest.approx(1678.0 * 0.003 * 0.188**2 * (7 / 8) ** 2, rel=1e-9)
     assert mesh.forces.sum(axis=0) == pytest.approx([0.01, 0.0, 0.05])
     assert all(sum(shares) == pytest.approx(1.0) for _, shares in mesh.probes.values())
+
+
+def test_a_force_along_an_edge_is_shared_by_its_vertices():
+    """Trapezoidal: ends have half. Rows beyond a clamp have none."""
+    load = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, 2.0))
+    mesh = sheet_mesh(scenes.load("one-edge-clamped").replace(loads=(load,)), 4)
+    assert mesh.forces[mesh.vertices[:, 0] < 0.187].sum() == 0.0
+    share = 2.0 * 0.188 / 4
+    assert mesh.forces[:, 2][mesh.vertices[:, 0] > 0.187].tolist() == pytest.approx(
+        [share / 2, share, share, share, share / 2]
+    )
+    turning = EdgeLoad(edge="x1", moment_per_length=1.0)
+    with pytest.raises(BadInput, match="along edges only"):
+        sheet_mesh(scenes.load("one-edge-clamped").replace(loads=(turning,)), 4)
 
 
 def test_the_verb_writes_a_scene_and_says_where_its_numbers_are_from(tmp_path, capsys):

@@ -195,21 +195,10 @@ SLOW = (
     "xarray",
 )
 SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "comparisons.models.training")
-SLOW += ("ezc3d", "shapely")
+SLOW += ("ezc3d", "shapely", "xarray")
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
-DRAWS = (
-    "figure",
-    "style",
-    "layout",
-    "probes_figure",
-    "motion_figure",
-    "comparison_figure",
-    "animation",
-    "offscreen",
-    "locking",
-    "vtk",
-    "toml",
-)
+DRAWS = ("figure", "style", "layout", "probes_figure", "motion_figure", "comparison_figure", "animation")
+DRAWS += ("offscreen", "locking", "vtk", "toml")
 AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "verbs", "__init__", "__main__")))
 
 

@@ -74,24 +74,6 @@ def test_new_writes_a_scene_that_check_explains(tmp_path: Path, capsys: pytest.C
     assert printed.err == ""
 
 
-@pytest.mark.parametrize(
-    ("options", "named"),
-    [
-        (("--poisson", "0.5"), ["--poisson = 0.5", "less than 0.5"]),
-        (("--side", "3 s"), ["--side = '3 s'", "length"]),
-        (("--clamped", "x0,z1"), ["--clamped = 'z1'", "y1"]),
-        (("--thickness", "2"), ["thickness = 2 m", "metres"]),
-    ],
-)
-def test_new_refuses_what_makes_no_sense(
-    tmp_path: Path, options: tuple[str, ...], named: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run("new", str(tmp_path / "a.toml"), *options) == 2
-    said = one_line(capsys)
-    assert all(part in said for part in named)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_new_keeps_what_is_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "mine.toml"
     path.write_text("dear\n")

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from commands import run
+from commands import json_of, run
 
 import lumped
 import sheetbench as sb
@@ -190,8 +190,7 @@ def test_every_verb_refuses_what_does_not_fit(
 def test_large_goes_on_all_the_same(
     verb: str, arguments: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run(verb.partition(" ")[0], *arguments, "--large", "--json") == 0
-    assert json.loads(capsys.readouterr().out)
+    assert json_of(capsys, verb.partition(" ")[0], *arguments, "--large")
 
 
 def written(root: Path, files: dict[str, str]) -> None:

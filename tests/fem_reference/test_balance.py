@@ -97,6 +97,8 @@ def test_forces_and_moments_are_in_balance(name, model):
     assert solution.status in (Status.CONVERGED, Status.UNSTABLE), solution.message
     balance = solution.balance
     assert balance.holds and balance.allowed <= SHARP * balance.size
+    moved = {a.held_as for a in asked.actuators if a.kind == "motion" or a.base != "free"}
+    assert set(solution.reactions) == {support.edge for support in asked.supports} | moved
     if not any(load.kind == "pressure" for load in asked.loads):
         carried = sum(solution.reactions.values()) + dead_force(asked)
         assert_allclose(carried, 0.0, atol=max(1e-8 * balance.size, balance.allowed))

@@ -1,4 +1,4 @@
-"""Reactions: what every model names alike, a moved edge and a held base among them."""
+"""Moved edges and held bases: energy, names, what a motion takes; their reactions: test_balance.py."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,6 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
-from sheetbench.scenes import Status
 
 WEIGHT = 9.81 * 1678.0 * 0.188**2 * 0.003
 MOVED = {
@@ -18,40 +17,17 @@ MOVED = {
 }
 CLAMPED = [{"edge": "x0", "kind": "clamped"}]
 CASES = {
-    "a moved edge": (scene(supports=CLAMPED, actuators=[MOVED]), {"x0", "x1"}, 0.0),
-    "a held base": (
-        scene(supports=[], actuators=[{"edge": "y1", "base": "start"}]),
-        {"y1 base"},
-        0.05 * 0.188,
-    ),
-    "a held base beside a clamp": (
-        scene(supports=CLAMPED, actuators=[{"edge": "x1", "base": "middle"}]),
-        {"x0", "x1 base"},
-        0.05 * 0.188,
-    ),
+    "a moved edge": scene(supports=CLAMPED, actuators=[MOVED]),
+    "a held base": scene(supports=[], actuators=[{"edge": "y1", "base": "start"}]),
+    "nothing": scene(supports=CLAMPED),
 }
-
-
-@pytest.mark.parametrize("name", CASES)
-@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
-def test_every_model_names_the_same_reactions_and_they_carry_the_weight(name, model):
-    asked, names, chains = CASES[name]
-    if model == "lumped":
-        solution = lumped.solve(asked, springs(asked))
-    else:
-        solution = fem_reference.solve(asked, model=model, elements=4)
-    assert solution.status is Status.CONVERGED
-    assert set(solution.reactions) == names
-    total = WEIGHT + 9.81 * chains
-    assert_allclose(sum(solution.reactions.values()), [0.0, 0.0, total], atol=1e-6 * total)
 
 
 @pytest.mark.parametrize("model", ["plate", "shell", "solid"])
 def test_a_reference_tells_the_energy_of_rods_wherever_there_are_actuators(model):
     """None of a moved edge, some of a held base's chain; and no word of it where nothing is actuated."""
     energies = {
-        name: fem_reference.solve(asked, model=model, elements=2).energies
-        for name, (asked, *_) in {**CASES, "nothing": (scene(supports=CLAMPED),)}.items()
+        name: fem_reference.solve(asked, model=model, elements=2).energies for name, asked in CASES.items()
     }
     assert energies["a moved edge"]["rod"] == 0.0 < energies["a held base"]["rod"]
     assert "rod" not in energies["nothing"]

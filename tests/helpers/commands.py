@@ -1,5 +1,8 @@
 """The command line in this process, as the tests call it."""
 
+import json
+from typing import Any
+
 import pytest
 
 from comparisons.cli import main
@@ -9,6 +12,12 @@ def run(*arguments: str) -> int:
     with pytest.raises(SystemExit) as caught:
         main(list(arguments))
     return int(caught.value.code or 0)
+
+
+def json_of(capsys: pytest.CaptureFixture[str], *arguments: str) -> Any:
+    """The JSON document of a command line that answers."""
+    assert run(*arguments, "--json") == 0
+    return json.loads(capsys.readouterr().out)
 
 
 def one_line(capsys: pytest.CaptureFixture[str]) -> str:

@@ -1,6 +1,5 @@
 """What uses a lattice, on a graded grid of few masses: chains, files, frequencies, motion, fits."""
 
-from functools import cache
 from pathlib import Path
 
 import meshio
@@ -11,7 +10,7 @@ import lumped
 from comparisons.report.vtk import write_solution
 from lumped.fitting.fits import StaticTarget
 from lumped.grid_lines import grid_lines
-from sheetbench.scenes import History, Scene, Status, load
+from sheetbench.scenes import Scene, Status, load
 
 GRADING = 0.6
 SCENE = load("two-edges-clamped")
@@ -46,23 +45,6 @@ def test_frequencies() -> None:
     graded, even = (lumped.modes(SCENE, springs_of(SCENE, 5, g), 3).frequencies for g in (GRADING, 0.0))
     assert graded[0] == pytest.approx(5.1650, rel=0.01)
     assert graded == pytest.approx(even, rel=0.05)
-
-
-@cache
-def motion(integrator: str) -> History:
-    options = {"step": 1e-3} if integrator == "midpoint" else {}
-    return lumped.simulate(SCENE, springs_of(SCENE, 4), 0.03, integrator=integrator, every=5e-3, **options)
-
-
-@pytest.mark.parametrize(
-    "integrator, held", [("generalised-alpha", 5e-3), ("esdirk", 1e-3), ("midpoint", 2e-2)]
-)
-def test_integrators_agree(integrator: str, held: float) -> None:
-    """With velocity Verlet's small steps, of the corner's path."""
-    fine, found = motion("verlet"), motion(integrator)
-    path, truth = (run.probes["P4"][:, 2] for run in (found, fine))
-    assert found.status is Status.CONVERGED
-    assert np.abs(path - truth).max() < held * np.abs(truth).max()
 
 
 def test_a_fit_finds_the_springs_it_was_shown() -> None:

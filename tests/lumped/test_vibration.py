@@ -31,29 +31,10 @@ def parameters(scene, masses, count=6, distribution="tributary"):
 
 
 @pytest.mark.parametrize(("edges", "right"), [(("x0",), CANTILEVER), (("x0", "y0"), TWO_EDGES)])
-def test_thin_plate_frequencies(edges, right):
-    """The first bending mode converges at second order on tributary masses, twisting ones more slowly."""
-    errors = np.array([np.abs(parameters(plate(*edges), n) / right - 1)[:3] for n in (9, 17, 33)])
-    assert (errors[0] < 0.035).all() and (errors[1] < 0.01).all() and (errors[2] < 0.003).all()
-    if edges == ("x0",):
-        assert np.log2(errors[:-1, 0] / errors[1:, 0]) == pytest.approx([2.0, 2.0], abs=0.15)
-
-
-@pytest.mark.parametrize(("edges", "right"), [(("x0",), CANTILEVER), (("x0", "y0"), TWO_EDGES)])
 def test_gregory_masses_cut_the_error_of_coarse_grids(edges, right):
     plain = np.abs(parameters(plate(*edges), 9) / right - 1)[:3]
     corrected = np.abs(parameters(plate(*edges), 9, distribution="gregory") / right - 1)[:3]
     assert (corrected < 0.01).all() and corrected.max() < 0.4 * plain.max()
-
-
-def test_every_distribution_has_the_sheets_mass():
-    from lumped.lattice import build
-    from lumped.masses import masses
-
-    scene = plate("x0")
-    for distribution in ("tributary", "gregory"):
-        total = masses(scene, build(scene.sheet, (7, 9, 3), 0.002), distribution).sum()
-        assert total == pytest.approx(DENSITY * SIDE**2 * scene.sheet.thickness, rel=1e-12)
 
 
 def test_a_free_sheet_has_six_rigid_motions_and_no_spurious_mode():

@@ -1,10 +1,9 @@
 """A folder's own options, from a file."""
 
-import json
 from pathlib import Path
 
 import pytest
-from commands import one_line, run
+from commands import json_of, one_line, run
 
 from comparisons.cli.defaults import FILE, with_defaults
 
@@ -32,8 +31,7 @@ def test_options_of_the_file_come_before_those_of_the_command(folder: Path, caps
 
 def test_a_command_takes_them(folder: Path, capsys) -> None:
     (folder / FILE).write_text("[modes]\ncount = 2\nelements = 2\ngrid = 3\n", encoding="utf-8")
-    assert run("modes", "one-edge-clamped", "--json", "--count", "1") == 0
-    lattice, shell = json.loads(capsys.readouterr().out)["solutions"]
+    lattice, shell = json_of(capsys, "modes", "one-edge-clamped", "--count", "1")["solutions"]
     assert lattice["settings"]["grid"] == [3, 3, 2] and shell["settings"]["elements"] == [2, 2]
     assert len(lattice["frequencies_hz"]) == 1
 

@@ -29,13 +29,6 @@ def test_the_reference_has_every_function_by_the_name_that_is_called() -> None:
     assert set(re.findall(r"autofunction:: (\w+)$", page, re.M)) == functions
 
 
-def test_the_package_shows_its_names_and_nothing_else() -> None:
-    shown = [name for name in dir(sb) if not name.startswith("__")]
-    assert shown == sorted(sb.__all__)
-    for name in shown:
-        assert getattr(sb, name) is not None
-
-
 def test_springs_are_found_from_numbers_as_the_command_line_finds_them() -> None:
     found = sb.calibrate(young="0.6 MPa", poisson=0.45, thickness="2 mm", side=(0.12, 0.04), grid=3)
     sheet, material = sb.Sheet(0.12, 0.04, 0.002), sb.Material(0.6e6, 0.45, 1000.0)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import one_line, run
+from commands import json_of, one_line, run
 from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
@@ -268,8 +268,7 @@ def test_command_writes_maps_tables_and_texts_and_resumes(tmp_path, capsys, monk
     rows = json.loads((tmp_path / "stability.json").read_text())["rows"]
     assert len(rows) == len(NAMES) and all(row["status"] for row in rows)
     before = (tmp_path / "campaign.sqlite").stat().st_mtime_ns
-    assert run(*asked, "--json") == 0
-    assert json.loads(capsys.readouterr().out)["rows"] == rows
+    assert json_of(capsys, *asked)["rows"] == rows
     assert (tmp_path / "campaign.sqlite").stat().st_mtime_ns == before
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from answers import once
-from commands import run
+from commands import json_of, run
 
 import fem_reference
 from comparisons.advice import probing
@@ -184,8 +184,7 @@ def test_a_scene_with_actuators() -> None:
 
 
 def test_the_document_has_the_promised_keys(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("advise", "one-edge-clamped", "--tolerance", "0.02", "--json") == 0
-    document = json.loads(capsys.readouterr().out)
+    document = json_of(capsys, "advise", "one-edge-clamped", "--tolerance", "0.02")
     assert set(document["choice"]) == {"model", "settings"}
     assert document["predicted"]["error"] <= 0.02 and document["predicted"]["solve_seconds"] > 0
     assert "bending" in document["needs"]
@@ -194,8 +193,7 @@ def test_the_document_has_the_promised_keys(capsys: pytest.CaptureFixture[str]) 
 def test_the_printed_command_solves_the_choice(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert run("advise", "curved-edge", "--tolerance", "0.02", "--json") == 0
-    advice = json.loads(capsys.readouterr().out)
+    advice = json_of(capsys, "advise", "curved-edge", "--tolerance", "0.02")
     solved: list[Spec] = []
 
     def recorded(model: Resolved[Any], name: str = "") -> Solution:

@@ -1,11 +1,10 @@
 """Moduli of repeated cells: closed forms, waves on long meshes, the lattice's report; coefficients; verb."""
 
-import json
 from math import pi, sqrt
 
 import numpy as np
 import pytest
-from commands import one_line, run
+from commands import json_of, one_line, run
 
 import sheetbench as sb
 from comparisons.cells.cell import Cell
@@ -153,8 +152,7 @@ def test_the_verb_shows_and_writes_a_cell_of_a_file(tmp_path, capsys):
         "periods = [[0.01, 0], [0, 0.01]]\nnodes = [[0, 0]]\nhinge = 'length'\n"
         "triangles = [[[0, 0, 0], [0, 1, 0], [0, 1, 1]], [[0, 0, 0], [0, 1, 1], [0, 0, 1]]]\n"
     )
-    assert run("homogenise", str(file), "--json", "--coefficient", "hinge=2") == 0
-    found = json.loads(capsys.readouterr().out)
+    found = json_of(capsys, "homogenise", str(file), "--coefficient", "hinge=2")
     assert found["coefficients"]["hinge"] == 2.0 and found["units"]["hinge"] == "N"
     assert {row["name"]: row["got"] for row in found["moduli"]}["D16"] == pytest.approx(0.01)
     assert run("homogenise", str(file), "--quiet") == 0

@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-import tomllib
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -11,8 +10,8 @@ from typing import Any
 import fake_solutions
 import numpy as np
 import pytest
-from commands import one_line, run
-from scene_files import BAD, LOOSE, written
+from commands import json_of, run
+from scene_files import written
 
 from comparisons.cli import interruption
 from comparisons.comparison import comparison as displacement
@@ -92,34 +91,6 @@ def test_a_grid_whose_masses_are_all_held_is_named(
     assert f"{grid.replace('x', '×')}×2" in said and "every mass" in said
 
 
-@pytest.mark.parametrize("fault", BAD)
-def test_bad_scene_leaves_with_2_and_one_line(
-    tmp_path: Path, fault: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    text, named = BAD[fault]
-    path = written(tmp_path, text)
-    assert run("compare", str(path)) == 2
-    said = one_line(capsys)
-    assert str(path) in said
-    assert all(part in said for part in named)
-
-
-@pytest.mark.parametrize("case", LOOSE)
-def test_scene_that_floats_leaves_with_2_and_names_the_file(
-    tmp_path: Path, case: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = written(tmp_path, LOOSE[case])
-    assert run("compare", str(path)) == 2
-    said = one_line(capsys)
-    assert str(path) in said and "support" in said
-
-
-@pytest.mark.parametrize("arguments", [("compare",), ("weigh",), ("compare", "x", "--elements", "many")])
-def test_usage_errors_leave_with_2(arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(*arguments) == 2
-    assert "Traceback" not in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     "fault", [ValueError("of ours"), TypeError("of ours"), np.linalg.LinAlgError("of ours")]
 )
@@ -135,14 +106,6 @@ def test_a_fault_of_ours_is_not_passed_off_as_bad_input(
     assert any("in stumble" in line for line in trace)
     assert trace[-1].endswith(f"{type(fault).__name__}: of ours")
     assert "please report it" in asked
-
-
-@pytest.mark.usefixtures("quick")
-def test_json_is_all_that_standard_output_holds(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("compare", "two-edges-clamped", "--json") == 0
-    printed = capsys.readouterr()
-    document = json.loads(printed.out)
-    assert [s["model"] for s in document["solutions"]] == ["lumped", "shell", "lumped-uniform"]
 
 
 @pytest.mark.usefixtures("quick")
@@ -201,8 +164,7 @@ def test_scenes_lists_the_catalogue_whole(tmp_path: Path, capsys: pytest.Capture
     assert run("scenes") == 0
     printed = capsys.readouterr().out
     assert all(name in printed for name in scenes.catalogue())
-    assert run("scenes", "--json", "--out", str(tmp_path)) == 0
-    document = json.loads(capsys.readouterr().out)
+    document = json_of(capsys, "scenes", "--out", str(tmp_path))
     assert {row["name"] for row in document["scenes"]} == set(scenes.catalogue())
     assert scenes.load(tmp_path / "one-edge-clamped.toml") == scenes.load("one-edge-clamped")
     (listed,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
@@ -217,18 +179,10 @@ def test_a_long_version_says_what_is_installed(capsys: pytest.CaptureFixture[str
     assert f"numpy {version('numpy')}" in said["packages"] and Path(said["kernels"].strip()).is_absolute()
 
 
-def test_an_animation_is_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    asked = ("--duration", "0.01", "--animate", "--no-pictures", "--out", str(tmp_path / "run"))
-    assert run("simulate", "one-edge-clamped", *asked) == 2
-    assert "--animate: draws, and --no-pictures" in one_line(capsys) and not (tmp_path / "run").exists()
-
-
 def test_calibrate_from_options_and_from_a_scene_agree(capsys: pytest.CaptureFixture[str]) -> None:
     options = ("--young", "54.5e6", "--poisson", "0.48", "--thickness", "0.003", "--side", "0.188")
-    assert run("calibrate", *options, "--grid", "9", "--json") == 0
-    by_options = json.loads(capsys.readouterr().out)
-    assert run("calibrate", "two-edges-clamped", "--json") == 0
-    by_scene = json.loads(capsys.readouterr().out)
+    by_options = json_of(capsys, "calibrate", *options, "--grid", "9")
+    by_scene = json_of(capsys, "calibrate", "two-edges-clamped")
     assert by_scene == {**by_options, "expected_error": by_scene["expected_error"]}  # a scene has loads
     assert by_options["method"] == "consistent"
     assert set(by_options["springs"]) == {
@@ -236,20 +190,3 @@ def test_calibrate_from_options_and_from_a_scene_agree(capsys: pytest.CaptureFix
         "edge_shear", "strip_shear",
     }  # fmt: skip
     assert {"D11", "D12", "D66", "A11", "A12", "A66", "S"} <= {row["name"] for row in by_options["moduli"]}
-
-
-def test_calibrate_as_toml_makes_a_scene_that_uses_it(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run("calibrate", "one-edge-clamped", "--grid", "5x7", "--toml", "--out", str(tmp_path)) == 0
-    pasted = capsys.readouterr().out
-    assert (tmp_path / "springs.toml").read_text(encoding="utf-8") == pasted
-    scene = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8") + pasted
-    assert set(tomllib.loads(pasted)) == {"springs"}
-    assert scenes.load(written(tmp_path, scene)).springs is not None
-
-
-def test_calibrate_prints_springs_and_moduli(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("calibrate", "two-edges-clamped", "--method", "uniform", "--k", "550") == 0
-    printed = capsys.readouterr().out
-    assert "550" in printed and "[N/m]" in printed and "D66" in printed

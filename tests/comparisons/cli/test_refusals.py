@@ -40,7 +40,10 @@ ROWS = {
     "calibrate --young ''": "'--young': '' is no quantity",
     "calibrate --young": "'--young' requires an argument; see sheetbench --help",
     "calibrate --yung 1": "No such option: --yung",
+    "compare": "Missing argument 'SCENE'; see sheetbench compare --help",
     "compare no-such-scene": f"no-such-scene|{TWO}",
+    f"compare {ONE} --elements many": "--elements = 'many'",
+    f"compare {TWO} --duration 0.1 --symmetry": "--symmetry: is for statics",
     f"compare {TWO} --lumped 9y": "--lumped|9y",
     f"compare {TWO} --lumped {HUGE}": "grid",
     f"compare {TWO} --calibration guess": "guess|consistent|uniform",
@@ -76,6 +79,10 @@ ROWS = {
     f"modes {ONE} --elements {HUGE}": "elements",
     f"modes {ONE} --lumped 3 --elements 2 --count {HUGE}": "count",
     f"modes {ONE} --lumped 3 --count 500": "count = 500",
+    "new a.toml --poisson 0.5": "--poisson = 0.5|less than 0.5",
+    "new a.toml --side '3 s'": "--side = '3 s'|length",
+    "new a.toml --clamped x0,z1": "--clamped = 'z1'|y1",
+    "new a.toml --thickness 2": "thickness = 2 m|metres",
     "reproduce --part dynamics": "tables, settling",
     "reproduce --part nearest": "--part nearest: removed; run 'sheetbench study reproduction'",
     f"{SIMULATE} --integrator verlet --step 0.1": "stability limit of verlet",
@@ -84,6 +91,10 @@ ROWS = {
     f"{SIMULATE} --duration -1": "duration = -1 s",
     f"{SIMULATE} --measured nowhere.csv": "nowhere.csv",
     f"{SIMULATE} --animate": "--animate: needs --out",
+    f"{SIMULATE} --animate --no-pictures --out a": "--animate: draws, and --no-pictures",
+    f"simulate {TWO} --lumped 3 --duration 1 --step 1e-12": "steps to 1 s",
+    f"{SIMULATE} --every 1e-11": "samples, 1e-11 s apart",
+    f"simulate {TWO} --lumped 3 --duration 1e9": "samples",
     f"simulate {TWO} --duration 0.01 --lumped {HUGE}x3": "grid",
     f"stability {ONE} --vary weather": "vary = 'weather': unknown, choose one of load",
     "study nosuch": "study = 'nosuch': unknown, choose one of advisor, ",
@@ -96,6 +107,7 @@ ROWS = {
     f"tradeoff {TWO} --model nothing:grid=3": "model = 'nothing'",
     f"tradeoff {TWO} --shell {HUGE}": "shell",
     f"tradeoff {TWO} --lumped '' --plate '' --shell '' --solid ''": "no model left",
+    "weigh": "No such command 'weigh'; see sheetbench --help",
     "tradeoff two-edges-settling --duration 0.1 --scheduler tcp://127.0.0.1:9": "no scheduler there",
 }
 
@@ -124,4 +136,5 @@ def test_it_is_refused_in_a_line(
     Path("measured.csv").write_text("x,y,ux,uy,uz\n0.094,0.094,,,-0.0024\n0.188,0.188,,,-0.0134\n")
     assert run(*shlex.split(row)) == 2
     line = one_line(capsys)
+    assert [path.name for path in tmp_path.iterdir()] == ["measured.csv"]
     assert all(part in line for part in ROWS[row].split("|")), line

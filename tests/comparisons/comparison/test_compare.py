@@ -6,7 +6,6 @@ from dataclasses import replace
 import fake_solutions
 import numpy as np
 import pytest
-from commands import run
 
 from comparisons.comparison import comparison as displacement
 from comparisons.comparison.answer import Comparison
@@ -18,7 +17,6 @@ from comparisons.models.grading import choice_notes
 from fem_reference.uncertainty import estimate
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
-from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Status
 
 pytestmark = pytest.mark.smoke
@@ -153,11 +151,6 @@ def test_naming_a_calibration_leaves_no_companion(scene: Scene) -> None:
     assert alone.solutions[0].settings["calibration"] == "uniform"
 
 
-def test_k_means_uniform(scene: Scene) -> None:
-    lattice = compare(scene, k=550.0, **SMALL).solutions[0]
-    assert lattice.settings["calibration"] == "uniform"
-
-
 @pytest.mark.parametrize(
     ("load", "said"), [(64.0, "these times were taken under a load of up to 64"), (0.1, "")]
 )
@@ -175,35 +168,6 @@ def test_a_scene_with_its_own_springs_uses_them(scene: Scene) -> None:
     own = compare(scene.model_copy(update={"springs": springs}), **SMALL)
     assert [s.model for s in own.solutions] == ["lumped", "shell"]
     assert own.solutions[0].settings["calibration"] not in ("consistent", "uniform")
-
-
-@pytest.mark.parametrize(
-    ("settings", "said"),
-    [
-        ({"calibration": "guess"}, "calibration = 'guess'.*consistent"),
-        ({"reference": "beam"}, "reference = 'beam'.*shell"),
-        ({"elements": 0}, "elements = 0"),
-        ({"k": -1.0}, "k = -1 N/m"),
-        ({"layer_distance": 0.0}, "layer-distance = 0 m"),
-    ],
-)
-def test_settings_that_do_not_exist_are_refused_before_any_solve(
-    scene: Scene, settings: dict, said: str
-) -> None:
-    with pytest.raises(BadInput, match=said):
-        compare(scene, progress=pytest.fail, **settings)
-
-
-@pytest.mark.parametrize(
-    "options", [("--reference", "solid"), ("--model", "solid:elements=2"), ("--reference", "plate")]
-)
-def test_a_comparison_prints_with_every_reference(
-    options: tuple[str, ...], capsys: pytest.CaptureFixture[str]
-) -> None:
-    """The solid's setting `grading` is a word, the lattice's a number."""
-    assert run("compare", "two-edges-clamped", "--lumped", "3", "--elements", "2", *options) == 0
-    printed = capsys.readouterr().out
-    assert options[1].partition(":")[0] in printed and "converged" in printed
 
 
 def test_reasons_are_read_from_the_settings_of_any_model() -> None:

@@ -3,7 +3,6 @@
 import csv
 import json
 import subprocess
-import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,13 +12,12 @@ import numpy as np
 import pytest
 import pyvista
 
-from comparisons.calibration import answer as calibration
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
 from comparisons.report import offscreen as rendering
 from comparisons.runs.folder import Folder
 from sheetbench import scenes
-from sheetbench.answers import files, style
+from sheetbench.answers import style
 from sheetbench.scenes import Scene
 
 DPI = style.DPI  # of pictures as users have them
@@ -92,10 +90,6 @@ def test_tables_carry_units_and_si_values(folder: Path, comparison: Comparison) 
     assert "uz [mm]" in page and "solve [ms]" in page and "Fz [N]" in page
 
 
-def test_json_file_is_the_printed_document(folder: Path, comparison: Comparison) -> None:
-    assert (folder / "comparison.json").read_text(encoding="utf-8") == files.to_json(comparison.document())
-
-
 def test_manifest_tells_versions_machine_scene_and_settings(folder: Path, scene: Scene) -> None:
     record = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     assert {"numpy", "scipy", "numba", "scikit-fem", "pyvista", "meshio"} <= set(record["versions"])
@@ -104,26 +98,6 @@ def test_manifest_tells_versions_machine_scene_and_settings(folder: Path, scene:
     assert Scene.model_validate(record["scene"]) == scene
     assert record["command"] == ["sheetbench", "compare"]
     assert record["date"]
-
-
-def test_a_file_is_whole_or_absent(tmp_path: Path) -> None:
-    files.write_text(tmp_path / "a.txt", "first")
-    with pytest.raises(RuntimeError), files.whole(tmp_path / "a.txt") as partial:
-        partial.write_text("half")
-        raise RuntimeError
-    assert [path.name for path in tmp_path.iterdir()] == ["a.txt"]
-    assert (tmp_path / "a.txt").read_text(encoding="utf-8") == "first"
-
-
-def test_springs_as_toml_are_the_same_springs(scene: Scene) -> None:
-    import lumped
-
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 13))
-    found = springs.document()
-    table = tomllib.loads(calibration.to_toml(springs))["springs"]
-    assert scenes.SpringTable(**table).grid == (9, 13, 2)
-    lattice = {name: table.pop(name) for name in ("grid", "masses", "layer_distance")}
-    assert table == found["springs"] and lattice == {name: found[name] for name in lattice}
 
 
 def draw(comparison: Comparison, folder: Path) -> str | None:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from commands import one_line, run
+from commands import json_of, one_line, run
 
 from comparisons.crosscheck.convergence import Convergence, pair
 from comparisons.crosscheck.crosscheck import Crosscheck
@@ -131,8 +131,7 @@ def test_one_mesh_has_no_bar_and_two_have_a_cautious_one() -> None:
 
 
 def test_judges_side_by_side(fakes: Any, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("crosscheck", "two-edges-clamped", *NONE, *fakes("EXACT", "SAME", "OTHER"), "--json") == 0
-    document = json.loads(capsys.readouterr().out)
+    document = json_of(capsys, "crosscheck", "two-edges-clamped", *NONE, *fakes("EXACT", "SAME", "OTHER"))
     assert [one["model"] for one in document["solutions"]] == ["exact", "same", "other"]
     exact = document["solutions"][0]
     assert (

@@ -225,14 +225,6 @@ def test_two_programs_answer_alike_on_the_same_bricks() -> None:
     assert off is not None and off < 2e-6
 
 
-def test_the_shell_is_the_bricks_of_calculix() -> None:
-    needed(CALCULIX)
-    points = SEED.probe_points()
-    bricks = CALCULIX.solve(SEED, {**CALCULIX.settings, "elements": 6}).displacement(points)
-    off = error(bricks, fem_reference.solve(SEED, model="shell", elements=12).displacement(points))
-    assert off is not None and off < 0.003
-
-
 def test_hinges_in_bricks_do_not_give_way_as_bricks_get_smaller() -> None:
     """A line of nodes held in a solid would: 0.6, 1.0 and 1.3 % with 6, 8 and 12 bricks."""
     needed(CALCULIX)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import one_line, run
+from commands import json_of, one_line, run
 
 from comparisons.external import plugins
 from comparisons.models import solve as solvers
@@ -75,8 +75,7 @@ def test_a_plugin_stands_in_the_same_table_and_on_the_same_front(
 ) -> None:
     arguments = ("--lumped", "5", "--calibration", "consistent", "--plate", "", "--shell", "2", "--solid", "")
     options = ("--model", "strip", "--model", "strip:plane_strain=true", "--elements", "4", "--repeats", "1")
-    assert run("tradeoff", "one-edge-clamped", *arguments, *options, "--json") == 0
-    document = json.loads(capsys.readouterr().out)
+    document = json_of(capsys, "tradeoff", "one-edge-clamped", *arguments, *options)
     rows = {row["series"]: row for row in document["rows"]}
     assert set(rows) == {"lumped consistent", "shell", "strip", "strip plane_strain"}
     assert rows["strip"]["error"] == pytest.approx(0.32, abs=0.02)  # it is linear

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from campaigns import alive, wait_for
-from commands import one_line, run
+from commands import json_of, one_line, run
 
 from comparisons.external import plugins
 from comparisons.models.spec import parse
@@ -87,8 +87,7 @@ def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(
     ]
     asked = [part for model in models for part in ("--model", model)]
     few = ["--lumped", "3", "--shell", "2", "--plate", "", "--solid", "", "--elements", "8", "--repeats", "1"]
-    assert run("tradeoff", "one-edge-clamped", *few, *asked, "--json") == 0
-    found = json.loads(capsys.readouterr().out)
+    found = json_of(capsys, "tradeoff", "one-edge-clamped", *few, *asked)
     rows = {row["model"]: row for row in found["rows"]}
     assert rows["right"]["error"] < 0.05 < 1.5 < rows["wrong"]["error"]
     assert rows["right"]["solve_seconds"]["median"] > 0.0 and rows["right"]["peak_memory_bytes"] is None

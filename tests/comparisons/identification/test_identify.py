@@ -1,13 +1,11 @@
 """The inverse question: known parameters found again, intervals that hold what they promise, and bad data."""
 
-import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 import pyvista
 from cases import POINTS, with_material
-from commands import run
 
 import fem_reference
 import lumped
@@ -26,7 +24,6 @@ from sheetbench.scenes.seed import seed_displacements
 SCENE = scenes.load("two-edges-clamped")
 TRUE = 40e6
 MEASURED = Path(__file__).parents[3] / "docs" / "measured"
-NINE = ("--lumped", "9")  # what made the data: not for the fit to choose
 
 
 def lattice(scene, grid=(9, 9)):
@@ -159,24 +156,6 @@ def test_a_tilt_left_out_goes_into_young():
     assert 0.85 < upright.unknowns["young"].interval[1] / TRUE < 0.95
 
 
-@pytest.mark.nightly  # three seconds, and the like of the one above
-def test_both_intervals_hold_the_true_values_in_36_of_40_draws():
-    """1 % of the largest displacement as noise; the search starts upright, up to 65 % away in E."""
-    rng = np.random.default_rng(13)
-    values = lattice(tilted(), (3, 3)).displacement(POINTS)
-    hits, widths = np.zeros(2), []
-    for _ in range(40):
-        start = tilted(TRUE * float(np.exp(rng.uniform(-0.5, 0.5))), 0.0)
-        measured = Displacements(POINTS, noisy(values, rng))
-        found = identify(start, measured, BOTH, grid=(3, 3, 2), refine=False).unknowns
-        ends = np.array([found[name].interval for name in BOTH])
-        hits += (ends[:, 0] < [TRUE, TILT]) & (ends[:, 1] > [TRUE, TILT])
-        widths.append(ends[:, 1] - ends[:, 0])
-    assert hits.min() >= 36
-    young, tilt = np.median(widths, axis=0)
-    assert 0.02 < young / TRUE < 0.1 and 0.01 < tilt < 0.03
-
-
 def test_the_shell_finds_the_tilt_that_the_shell_had():
     rng = np.random.default_rng(14)
     values = fem_reference.solve(tilted(), elements=4).displacement(POINTS)
@@ -302,39 +281,3 @@ def test_the_seeds_own_figures_do_not_fit_one_young():
 def test_no_answer_with_the_scenes_own_values(truth):
     with pytest.raises(NotReached):
         identify(with_material(SCENE, young=1e3), Displacements(POINTS, truth), ["young"])
-
-
-@pytest.fixture
-def file(tmp_path, truth):
-    path = tmp_path / "measured.csv"
-    rows = [",".join(f"{v:.9g}" for v in row) for row in np.column_stack([POINTS, truth])]
-    path.write_text("\n".join(["x, y, ux, uy, uz", *rows]) + "\n")
-    return path
-
-
-def test_command_seeks_a_tilt(tmp_path, capsys):
-    values = lattice(tilted()).displacement(POINTS)
-    path = tmp_path / "tilted.csv"
-    rows = [",".join(f"{v:.12g}" for v in row) for row in np.column_stack([POINTS, values])]
-    path.write_text("\n".join(["x, y, ux, uy, uz", *rows]) + "\n")
-    unknown = (*NINE, "--unknown", "young,tilt_x0", "--json")
-    assert run("identify", CANTILEVER.name, "--measured", str(path), *unknown) == 0
-    found = json.loads(capsys.readouterr().out)["unknowns"]["tilt_x0"]
-    assert found["value"] == pytest.approx(TILT, abs=1e-6) and found["unit"] == "rad"
-
-
-def test_command_prints_tables(file, capsys):
-    assert run("identify", SCENE.name, "--measured", str(file), *NINE) == 0
-    printed = capsys.readouterr().out
-    assert all(said in printed for said in ("young    MPa", "40 ", "off in uz", "20 points of 64"))
-
-
-def test_a_surface_without_noise_gives_the_value_back():
-    axes = surface.plan_grid((0.188, 0.188), (9, 9))
-    nodes = surface.plan_points(axes)
-    on = np.column_stack([nodes, np.zeros(81)]) + lattice(with_material(SCENE, young=TRUE)).displacement(
-        nodes
-    )
-    found = identify(SCENE, Surface(on), ["young"], grid=9)
-    assert found.unknowns["young"].value == pytest.approx(TRUE, rel=1e-6)
-    assert found.residuals.shape == (81,)

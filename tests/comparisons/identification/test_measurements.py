@@ -66,6 +66,7 @@ BAD = {
     "a word": ("x,y,ux,uy,uz\n0.1,0.1,0,0,low\n", ["line 2", "uz = 'low'"]),
     "no number where one is needed": ("x,y,uz\n0.1,nan,-1e-3\n", ["line 2", "y = 'nan'", "needed"]),
     "infinite": ("x,y,ux,uy,uz\n0.1,0.1,0,inf,0\n", ["line 2", "uy = 'inf'"]),
+    "too late": ("time,x,y,uz\n1e300,0.1,0.1,-0.01\n", ["line 2: time = '1e300': must be 1e+15 or less"]),
     "too large": ("x,y,uz\n0.1,0.1,1e999\n", ["line 2", "uz = '1e999'"]),
     "huge cell": ("x,y,uz\n0.1,0.1," + "9" * 200_000 + "\n", ["line 2", "131072"]),
     "long cell": ("x,y,uz\n0.1,0.1," + "9" * 100_000 + "\n", ["line 2", "uz = '9999", "…'"]),

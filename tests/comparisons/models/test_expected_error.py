@@ -1,6 +1,5 @@
 """The error that is expected of a lattice's grid, beside the one that it has."""
 
-import json
 from dataclasses import replace
 from math import prod
 from typing import Any
@@ -8,7 +7,7 @@ from typing import Any
 import fake_solutions
 import numpy as np
 import pytest
-from commands import run
+from commands import json_of
 
 from comparisons.comparison.comparison import compare
 from comparisons.models.expected_error import MOST, estimate, expected_error, finer_grid
@@ -110,8 +109,7 @@ def _expected(scene: Scene) -> float | None:
 
 
 def test_calibrate_says_it_of_a_scene(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("calibrate", "two-edges-clamped", "--grid", "9", "--json") == 0
-    told = json.loads(capsys.readouterr().out)["expected_error"]["value"]
+    told = json_of(capsys, "calibrate", "two-edges-clamped", "--grid", "9")["expected_error"]["value"]
     assert told == pytest.approx(_expected(SCENE), rel=1e-9)
 
 

@@ -1,9 +1,7 @@
 """The fitted methods on the command line and in `compare`: what they train on, and what is said of them."""
 
-import json
-
 import pytest
-from commands import run
+from commands import json_of, run
 
 from comparisons.models import training as targets
 from comparisons.models.resolve import resolve
@@ -30,8 +28,7 @@ def test_a_fit_is_computed_once():
 def test_calibrate_trains_on_the_scene_it_is_given(capsys: pytest.CaptureFixture[str]) -> None:
     found = []
     for scene in ("two-edges-clamped", "one-edge-clamped"):
-        assert run("calibrate", scene, "--method", "fit-static", "--grid", "5", "--json") == 0
-        found.append(json.loads(capsys.readouterr().out))
+        found.append(json_of(capsys, "calibrate", scene, "--method", "fit-static", "--grid", "5"))
     assert found[0]["springs"] != found[1]["springs"]
     assert found[0]["fit"]["residual"] < 0.01
     assert set(found[0]["fit"]["half_widths"]) <= set(found[0]["springs"])

@@ -1,6 +1,5 @@
 """One rule for grids: a number counts along the shorter side with near-square cells, on every verb."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -76,8 +75,7 @@ def test_elements_along_x_and_y_on_every_verb(
     Path("measured.csv").write_text("x,y,ux,uy,uz\n0.2,0.05,,,-0.02\n0.1,0.05,,,-0.01\n")
 
     def document(verb: str, *options: str) -> dict[str, Any]:
-        assert run(verb, "long.toml", "--json", *options) == 0
-        found: dict[str, Any] = json.loads(capsys.readouterr().out)
+        found: dict[str, Any] = document(capsys, verb, "long.toml", *options)
         return found
 
     small = ("--elements", "3x2")
@@ -110,8 +108,10 @@ def pasted(grid: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Pat
     """The scene with the springs that `calibrate --toml` prints for a grid."""
     path = tmp_path / "long.toml"
     path.write_text(TEXT)
-    assert run("calibrate", str(path), "--grid", grid, "--toml") == 0
-    path.write_text(TEXT + capsys.readouterr().out)
+    assert run("calibrate", str(path), "--grid", grid, "--toml", "--out", str(tmp_path / "out")) == 0
+    springs = capsys.readouterr().out
+    assert (tmp_path / "out" / "springs.toml").read_text(encoding="utf-8") == springs
+    path.write_text(TEXT + springs)
     return path
 
 

@@ -1,10 +1,9 @@
 """Which springs a scene gets where the choice is left to it, and how near that brings coarse grids."""
 
-import json
 from typing import Any
 
 import pytest
-from commands import run
+from commands import json_of, run
 
 import fem_reference
 import sheetbench as sb
@@ -69,10 +68,9 @@ def test_it_chooses_where_nothing_but_a_grading_is_asked() -> None:
 
 def test_commands_say_it(capsys) -> None:
     asked = ("one-edge-clamped", "--grid", "3")
-    assert (
-        run("compare", *asked, "--calibration", "auto", "--elements", "2", "--no-uncertainty", "--json") == 0
-    )
-    found = json.loads(capsys.readouterr().out)["solutions"][0]
+    found = json_of(
+        capsys, "compare", *asked, "--calibration", "auto", "--elements", "2", "--no-uncertainty"
+    )["solutions"][0]
     assert found["settings"]["calibration"] == MEMBRANE and "expected_error" in found
     assert run("calibrate", *asked, "--grading", "auto") == 0
     said = " ".join(capsys.readouterr().out.split())

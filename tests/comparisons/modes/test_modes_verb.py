@@ -6,8 +6,8 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
+from commands import run
 
-from comparisons.cli import main
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, assurance, cell_centres, matched
 from comparisons.modes.spectra import spectra
@@ -22,16 +22,10 @@ STRIP = Scene(
 )
 
 
-def run(*arguments: str) -> int:
-    with pytest.raises(SystemExit) as caught:
-        main(["modes", *arguments])
-    return int(caught.value.code or 0)
-
-
 @pytest.mark.usefixtures("undrawn")
 def test_both_models_agree_and_files_are_left(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ("one-edge-clamped", "--count", "6", "--elements", "8", "--json", "--out", str(tmp_path))
-    assert run(*arguments) == 0
+    assert run("modes", *arguments) == 0
     document = json.loads(capsys.readouterr().out)
     lattice, shell = document["solutions"]
     assert (lattice["model"], shell["model"]) == ("lumped", "shell")
@@ -51,7 +45,7 @@ def test_both_models_agree_and_files_are_left(tmp_path: Path, capsys: pytest.Cap
 
 def test_table_has_ten_modes_and_several_references(capsys: pytest.CaptureFixture[str]) -> None:
     asked = ("--lumped", "5", "--reference", "plate", "--reference", "shell", "--elements", "4")
-    assert run("two-edges-clamped", *asked) == 0
+    assert run("modes", "two-edges-clamped", *asked) == 0
     printed = capsys.readouterr().out
     assert all(word in printed for word in ("lumped", "plate", "shell", "10", "Hz"))
 

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ElementTree
 import meshio
 import numpy as np
 import pytest
-from commands import run
+from commands import json_of, run
 from dynamic_cases import scene, springs
 
 import lumped
@@ -20,8 +20,7 @@ RUN = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1"]
 
 
 def test_json_has_the_promised_keys_and_enough_samples(capsys):
-    assert run(*RUN, "--json") == 0
-    document = json.loads(capsys.readouterr().out)
+    document = json_of(capsys, *RUN)
     assert {"time", "probes", "energy", "status", "steps", "solve_seconds"} <= set(document)
     assert document["status"] == "converged" and document["steps"] > 0
     count = len(document["time"])

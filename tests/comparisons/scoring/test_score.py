@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from commands import one_line, run
+from commands import json_of, one_line, run
 
 from comparisons.scoring.answers import HEADERS
 from comparisons.scoring.reference import Reference, references
@@ -175,8 +175,7 @@ def test_a_run_of_ours_is_scored_from_its_history(
     assert run("simulate", str(tmp_path / "set" / f"{case}.toml"), *springs, *out) == 0
     path = tmp_path / "run" / "displacements.csv"
     capsys.readouterr()
-    assert run("score", str(path), "--case", case, "--json") == 0
-    found = json.loads(capsys.readouterr().out)
+    found = json_of(capsys, "score", str(path), "--case", case)
     (row,) = found["cases"]
     assert found["suite"] == "motion" and found["faults"] == [] and row["rms"] < row["error"] < 0.03
     path.write_text(path.read_text().replace("[m]", "[mm]"))
@@ -210,8 +209,7 @@ def test_what_is_missing_is_refused_in_a_line(
     path = write(leave_out=["thin"])
     assert run("score", str(path), "--case", "thin") == 2
     assert "no answer yet to thin: fill in the numbers of a case" in one_line(capsys)
-    assert run("score", str(path), "--case", "thick", "--json") == 0
-    document = json.loads(capsys.readouterr().out)
+    document = json_of(capsys, "score", str(path), "--case", "thick")
     assert {row["case"] for row in document["rows"]} == {"thick"}
     assert run("score", str(path), "--case", "modes-free") == 2
     assert "case = modes-free" in one_line(capsys).replace("'", "").replace("--", "")
@@ -247,8 +245,7 @@ def test_a_form_is_filled_in_in_stages(
     report = found.report()
     assert "on 2 of 20 cases" in report.subtitle and any("not answered yet" in said for said in report.notes)
     assert report.notes[-1].startswith("you rank ")
-    assert run("score", str(path), "--case", "thick", "--case", "thin", "--json") == 0
-    document = json.loads(capsys.readouterr().out)
+    document = json_of(capsys, "score", str(path), "--case", "thick", "--case", "thin")
     assert [case["case"] for case in document["cases"]] == ["thick", "thin"] and document["unanswered"] == []
     path.write_text("\n".join(row if i == 0 else ",".join(row.split(",")[:2]) for i, row in enumerate(rows)))
     assert run("score", str(path)) == 2

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import run
+from commands import json_of
 
 import fem_reference
 from comparisons.scoring.cases import SUITES, cases
@@ -67,8 +67,7 @@ def test_a_coarser_shell_finds_the_values(name: str) -> None:
 
 
 def test_the_verb_lists_and_exports_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("suite", "--json", "--out", str(tmp_path)) == 0
-    assert json.loads(capsys.readouterr().out)["cases"] == json.loads(FILE.read_text())["cases"]
+    assert json_of(capsys, "suite", "--out", str(tmp_path))["cases"] == json.loads(FILE.read_text())["cases"]
     assert scenes.load(str(tmp_path / "thick.toml")) == references()["thick"].scene
     assert "CC-BY-4.0" in (tmp_path / "LICENCE.txt").read_text()
     with (tmp_path / "values-statics.csv").open() as file:

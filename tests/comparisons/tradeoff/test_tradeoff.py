@@ -28,7 +28,6 @@ from comparisons.tradeoff.motion_row import MotionRow
 from comparisons.tradeoff.pareto import front, grouped, order
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
-from sheetbench.answers import table as tables
 from sheetbench.answers.figure_style import PLAIN, parse_figure
 from sheetbench.answers.files import to_json
 from sheetbench.errors import BadInput
@@ -231,14 +230,6 @@ def test_labels_of_close_points_do_not_lie_on_each_other(scene: Scene) -> None:
         names = [text.get_text() for text in drawn.legends[0].get_texts()]
         assert any(name.startswith("lumped consistent  (order ") for name in names)
         assert drawn.axes[1].get_title(loc="left") == "Observed convergence"
-
-
-def test_latex_says_what_the_cells_say() -> None:
-    table = tables.Table(
-        "Rows & more", (tables.Column("a_b"), tables.Column("x", form="z.1f")), (("5 %", -1.0),)
-    )
-    text = table.to_latex()
-    assert r"a\_b & x \\" in text and r"5 \% & $-$1.0 \\" in text
 
 
 def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path: Path) -> None:

@@ -8,9 +8,9 @@ from types import ModuleType
 
 import numpy as np
 import pytest
+from commands import run as command
 from scipy.integrate import solve_bvp
 
-from comparisons.cli import main
 from comparisons.verification.answer import Verification
 from fem_reference.verification import (
     CASES,
@@ -45,12 +45,6 @@ def rows_of(name: str) -> list[Row]:
     return list(run([name]))
 
 
-def verify(*arguments: str) -> int:
-    with pytest.raises(SystemExit) as caught:
-        main(["verify", *arguments])
-    return int(caught.value.code or 0)
-
-
 def held(rows: list[Row]) -> None:
     assert rows
     assert not [row for row in rows if not row.passed]
@@ -82,7 +76,7 @@ def test_slow_cases_come_near_on_coarse_meshes(
 
 @pytest.mark.slow
 def test_all_cases_pass(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert verify("--json", "--out", str(tmp_path)) == 0
+    assert command("verify", "--json", "--out", str(tmp_path)) == 0
     rows = json.loads(capsys.readouterr().out)["rows"]
     assert all(row["passed"] for row in rows)
     assert {row["case"] for row in rows} == set(CASES)
@@ -169,7 +163,7 @@ def test_relative_is_to_the_published_value_or_to_a_length() -> None:
 
 
 def test_document_has_the_promised_keys(capsys: pytest.CaptureFixture[str]) -> None:
-    assert verify("--case", "patch", "--json") == 0
+    assert command("verify", "--case", "patch", "--json") == 0
     rows = json.loads(capsys.readouterr().out)["rows"]
     promised = {"case", "quantity", "published", "source", "computed", "relative", "passed"}
     assert all(promised <= set(row) for row in rows)
@@ -182,20 +176,20 @@ def test_a_row_that_fails_leaves_with_3(
     row = relatively("wrong", "w", "one", 1.0, "A 1900", 1.1, 0.05)
     wrong = Case("a wrong one", lambda case: iter([row]))
     monkeypatch.setitem(CASES, "wrong", wrong)
-    assert verify("--case", "wrong", "--case", "patch") == 3
+    assert command("verify", "--case", "wrong", "--case", "patch") == 3
     printed, right = capsys.readouterr(), len(rows_of("patch"))
     assert "wrong: w: 1.1 instead of 1" in printed.err
     assert "NO" in printed.out and f"{right} of {right + 1} rows pass" in printed.out
 
 
 def test_bad_options_leave_with_2(capsys: pytest.CaptureFixture[str]) -> None:
-    assert verify("--case", "no-such") == 2
+    assert command("verify", "--case", "no-such") == 2
     said = capsys.readouterr().err
     assert (
         said.startswith("sheetbench: case = 'no-such': unknown, choose one of end-shear, ")
         and "locking-solid" in said
     )
-    assert verify("--locking") == 2
+    assert command("verify", "--locking") == 2
     assert "verify --locking: removed; '--case locking-plate" in capsys.readouterr().err
 
 

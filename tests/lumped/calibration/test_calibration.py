@@ -200,21 +200,6 @@ def test_negative_area_springs_are_said():
     assert "energy is positive" in " ".join(calibration.remarks)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        ({"method": "magic"}, "choose from"),
-        ({"grid": (1, 9)}, "1x9x2"),
-        ({"method": "uniform", "k": -1.0}, "k = -1"),
-        ({"method": "uniform", "layer_distance": 0.0}, "layer_distance = 0"),
-        ({"method": "consistent", "k": 550.0}, "k goes with 'uniform'"),
-    ],
-)
-def test_misuse_is_refused(arguments, said):
-    with pytest.raises(ValueError, match=said):
-        lumped.calibrate(SEED.sheet, SEED.material, **arguments)
-
-
 def test_json_document():
     long_cells = lumped.calibrate(SEED.sheet, SEED.material, (9, 17)).document()["springs"]
     assert {"shear", "mid_shear", "mid_stretch"} < set(long_cells) and set(long_cells["axial"]) == {"x", "y"}

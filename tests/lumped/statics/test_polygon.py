@@ -1,11 +1,10 @@
 """Rigid segments longer than the cells of the grid: what they keep back, as it is said before and after."""
 
-import json
 from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import run
+from commands import json_of
 
 import fem_reference
 import lumped
@@ -73,8 +72,7 @@ def test_it_is_said_before_solving(tmp_path: Path, capsys: pytest.CaptureFixture
     path = tmp_path / "chain.toml"
     scene(545e6, 4).save(path)
     for verb, key in (("check", "foretold"), ("calibrate", "notes")):
-        assert run(verb, str(path), "--json") == 0
-        (said,) = json.loads(capsys.readouterr().out)[key]
+        (said,) = json_of(capsys, verb, str(path))[key]
         assert said.startswith("the chain on x1 bends it some 16 % less than an elastic rod would")
 
 

@@ -61,14 +61,6 @@ def test_bad_histories_are_refused_in_one_line(tmp_path, history, said, of):
     assert f"{of}.{said}" in str(caught.value) and "\n" not in str(caught.value)
 
 
-def test_histories_are_frozen_and_survive_being_written_down():
-    asked = pull_on_a_cantilever(RAMP)
-    assert asked.loads[0].history == FactorTable(time=(0.0, 0.02, 0.05), factor=(0.0, 1.0, -0.4))
-    assert Scene.model_validate(asked.model_dump(mode="json", by_alias=True, exclude_none=True)) == asked
-    with pytest.raises(ValueError, match="frozen"):
-        asked.loads[0].history.factor = (1.0,)
-
-
 def loaded(*actuators):
     """A sheet under its weight and every kind of load, each with a history of its own."""
 

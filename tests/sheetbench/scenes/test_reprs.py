@@ -114,23 +114,6 @@ def test_a_solution_goes_on_to_pyvista_and_to_files(
     assert np.allclose(read.point_data["displacement"], solution.mesh.point_data["displacement"], rtol=1e-15)
 
 
-def test_tables_go_on_to_pandas_in_si_units() -> None:
-    (table, *_) = both().report().tables
-    frame = table.to_pandas()
-    assert list(frame["probe"])[::2] == list(SCENE.probes)
-    at_p4 = frame[(frame["probe"] == "P4") & (frame["model"] == "lumped")]
-    expected = lattice().displacement(np.array([SCENE.probes["P4"]]))[0, 2]
-    assert float(at_p4["uz [m]"].iloc[0]) == pytest.approx(expected, rel=1e-15)
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_a_report_is_saved_as_the_command_line_leaves_it(tmp_path: Path) -> None:
-    missing = both().report().save(tmp_path / "here")
-    names = {path.name for path in (tmp_path / "here").iterdir()}
-    assert names >= {"comparison.json", "table.csv", "table.md", "lumped.vtu", "shell.vtu"}
-    assert missing == ("not drawn",) or "comparison.png" in names
-
-
 def test_a_solution_knows_the_probes_of_its_scene() -> None:
     solution = sb.solve(SCENE, grid=3)
     assert list(solution.probes) == list(SCENE.probes)
@@ -145,10 +128,6 @@ def test_reactions_are_shown_without_rounding() -> None:
     named = {"x0": (4.16e-16, -2.0, 0.101), "y0": (0.0, 1e-7, 3.0)}
     kept = {name: force.tolist() for name, force in scenes.summary.without_rounding(named).items()}
     assert kept == {"x0": [0.0, -2.0, 0.101], "y0": [0.0, 1e-07, 3.0]}
-
-
-def test_the_frequencies_of_spectra_are_the_lattices() -> None:
-    assert np.array_equal(SPECTRA.frequencies, FREQUENCIES)
 
 
 @pytest.mark.parametrize(

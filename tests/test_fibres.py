@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from commands import one_line, run
 
 import fem_reference
 import lumped
@@ -205,7 +204,7 @@ def test_the_solid_refuses_layers():
         fem_reference.solve(with_fibres(**FIBRES).replace(layers=CROSS), "solid", elements=2)
 
 
-@pytest.mark.skipif(CALCULIX.version() is None, reason="CalculiX is not installed")
+@pytest.mark.skipif(CALCULIX.version() is None, reason=f"needs {CALCULIX.needs}")
 def test_calculix_agrees_with_the_shell():
     scene = with_fibres(**FIBRES, angle=np.pi / 6)
     judged = CALCULIX.solve(scene, {**CALCULIX.settings, "elements": 6})
@@ -217,45 +216,3 @@ def test_calculix_agrees_with_the_shell():
 def test_calculix_refuses_layers():
     scene = with_fibres(**FIBRES).replace(layers=CROSS)
     assert "layer: it is given isotropic whole rectangles" in refusal(scene, "", "", fibres=True)
-
-
-@pytest.fixture(scope="module")
-def fabric(tmp_path_factory):
-    path = tmp_path_factory.mktemp("fabric") / "fabric.toml"
-    with_fibres(load("one-edge-clamped"), **FIBRES, angle=0.5).save(path)
-    path.with_name("measured.csv").write_text("x,y,ux,uy,uz\n0.188,0.094,,,-0.05\n")
-    return str(path)
-
-
-SMALL = ["--lumped", "5", "--elements", "4", "--no-pictures"]
-
-
-@pytest.mark.parametrize(
-    ("verb", "options"),
-    [
-        ("check", []),
-        ("compare", SMALL),
-        ("compare", [*SMALL, "--duration", "0.01"]),
-        ("modes", [*SMALL, "--count", "2"]),
-        ("simulate", ["--lumped", "5", "--duration", "0.01", "--no-pictures"]),
-        ("calibrate", ["--grid", "5"]),
-        ("calibrate", ["--grid", "5", "--toml"]),
-        ("tradeoff", ["--lumped", "5", "--shell", "2", "--repeats", "1"]),
-        ("linearise", ["--lumped", "5"]),
-    ],
-)
-def test_verbs_that_know_fibres(fabric, verb, options, capsys):
-    assert run(verb, fabric, *options) == 0, capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("verb", "options", "who"),
-    [
-        ("calibrate", ["--method", "uniform"], "calibration 'uniform'"),
-        ("compare", ["--law", "biot"], "the shell's law 'biot'"),
-    ],
-)
-def test_verbs_that_do_not_say_so(fabric, verb, options, who, monkeypatch, capsys):
-    monkeypatch.chdir(fabric.removesuffix("fabric.toml"))
-    assert run(verb, fabric, *options) == 2
-    assert f"material.kind = 'orthotropic': {who} is for isotropic sheets" in one_line(capsys)

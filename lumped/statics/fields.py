@@ -21,6 +21,7 @@ from sheetbench.scenes import FieldMesh
 
 SMALL = 1e-12  # of a displacement: what is left that is not linear in it
 
+
 class LatticeMesh(FieldMesh):
     """A mesh with its fields that is made when it is first looked at: most answers are asked for a few points
     and forces only."""

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from campaigns import Here
-from commands import run
+from commands import json_of, run
 
 import lumped
 from comparisons.models.resolve import resolve
@@ -141,7 +141,7 @@ def test_the_command_writes_maps_and_resumes(
     for name in ("holds.csv", "young.csv", "grid.csv", "stability.md", "stability.png", "stability.pdf"):
         assert (tmp_path / name).exists(), name
     before = (tmp_path / "campaign.sqlite").stat().st_mtime_ns
-    assert document(capsys, *asked)["rows"] == document["rows"]
+    assert json_of(capsys, *asked)["rows"] == document["rows"]
     assert (tmp_path / "campaign.sqlite").stat().st_mtime_ns == before
 
 

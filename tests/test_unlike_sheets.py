@@ -1,0 +1,82 @@
+"""Sheets that are not one isotropic material all over: verbs that know them, and verbs that do not."""
+
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+from commands import one_line, run
+
+from sheetbench.scenes import load
+
+PLAIN = load("one-edge-clamped")
+FIBRES = dict(
+    young_1=54.5e6, young_2=8e6, poisson_12=0.35, shear_12=4e6, shear_13=3e6, shear_23=2e6, angle=0.5
+)
+SHEETS = {
+    "drawn": PLAIN.replace(
+        patches=[{"shape": {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}, "young": 1e9}]
+    ),
+    "fabric": PLAIN.replace(material={"kind": "orthotropic", "density": PLAIN.material.density, **FIBRES}),
+}
+SMALL = ["--lumped", "5", "--elements", "4", "--no-pictures"]
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, scene in SHEETS.items():
+        scene.save(f"{name}.toml")
+
+
+@pytest.mark.parametrize("sheet", SHEETS)
+@pytest.mark.parametrize(
+    ("verb", "options"),
+    [
+        ("check", []),
+        ("compare", SMALL),
+        ("modes", [*SMALL, "--count", "2"]),
+        ("simulate", ["--lumped", "5", "--duration", "0.01", "--no-pictures"]),
+        ("calibrate", ["--grid", "5"]),
+        ("tradeoff", ["--lumped", "5", "--shell", "2", "--plate", "2", "--solid", "1", "--repeats", "1"]),
+        ("linearise", ["--lumped", "5"]),
+    ],
+)
+def test_verbs_that_know_such_sheets(sheet, verb, options, capsys):
+    assert run(verb, f"{sheet}.toml", *options) == 0, capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("verb", "options"),
+    [("compare", [*SMALL, "--duration", "0.01"]), ("calibrate", ["--grid", "5", "--toml"])],
+)
+def test_verbs_that_know_fibres(verb, options, capsys):
+    assert run(verb, "fabric.toml", *options) == 0, capsys.readouterr().err
+
+
+@pytest.mark.parametrize("calibration", ["auto", "consistent"])
+def test_compare_knows_supports_where_a_shape_says(calibration, capsys):
+    finger = Path(__file__).parents[1] / "examples" / "drawn" / "gripper-finger.toml"
+    assert run("compare", str(finger), *SMALL, "--calibration", calibration) == 0, capsys.readouterr().err
+
+
+def test_files_say_what_each_cell_is_made_of():
+    assert run("compare", "drawn.toml", *SMALL, "--out", "out") == 0
+    for model in ("lumped", "shell"):
+        (file,) = Path("out").rglob(f"{model}*.vtu")
+        young, patch = (np.concatenate(meshio.read(file).cell_data[key]) for key in ("young", "patch"))
+        assert set(young) == {54.5e6, 1e9} and set(patch[young == 1e9]) == {1.0}
+
+
+@pytest.mark.parametrize(("sheet", "key"), [("drawn", "patch"), ("fabric", "material.kind = 'orthotropic'")])
+@pytest.mark.parametrize(
+    ("verb", "options", "who"),
+    [
+        ("calibrate", ["--method", "uniform"], "calibration 'uniform'"),
+        ("compare", ["--calibration", "fit-static"], "calibration 'fit-static'"),
+        ("compare", ["--law", "biot"], "the shell's law 'biot'"),
+    ],
+)
+def test_verbs_that_do_not_say_so(sheet, key, verb, options, who, capsys):
+    assert run(verb, f"{sheet}.toml", *options) == 2
+    assert f"{key}: {who} is for isotropic sheets" in one_line(capsys)

@@ -115,7 +115,8 @@ def _triangles(
     chords = shapely.get_parts(shapely.polygonize(shapely.linestrings(every[sides.ends])))
     if not len(chords):
         raise BadInput(TOO_CLOSE)
-    present = shapely.union_all(chords[shapely.contains(region, shapely.point_on_surface(chords))])
+    within = shapely.area(shapely.intersection(chords, region))
+    present = shapely.union_all(chords[within > 0.5 * shapely.area(chords)])
     shapely.prepare(present)
     kept = (np.abs(twice) > FLAT * longest) & shapely.contains_xy(present, (a + b + c) / 3.0)
     turned = np.where(twice[:, None] > 0.0, triangles, triangles[:, ::-1])

@@ -28,6 +28,12 @@ PLANS = {
     "fin with a stiff root": (FIN, shapely.LineString([(0.05, 0.0), (0.05, 0.2)])),
     "four holes": (PLATE.difference(HOLES), NONE),
     "round patch": (PLATE, disc(0.1, 0.08, 0.05).boundary),
+    "two holes": (
+        PLATE.difference(disc(0.2 / 3.0, 0.08, 0.08 / 3.0)).difference(
+            disc(0.44 / 3.0, 0.4 / 3.0, 0.1 / 3.0)
+        ),
+        NONE,
+    ),
     "hole near a rim": (PLATE.difference(disc(0.1, 0.052, 0.05)), NONE),
     "oblique slit": (PLATE.difference(shapely.LineString([(0.05, 0.06), (0.15, 0.14)]).buffer(0.001)), NONE),
 }

@@ -1,7 +1,5 @@
 """Sheets that are not the same all over, in every model: cut up, in closed form, refused."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -122,16 +120,13 @@ def test_lattice_and_shell_agree_on_stiff_parts(shape, off):
     assert np.abs(found - shell).max() < off * np.abs(shell).max()
 
 
-EXAMPLES = Path(__file__).parents[1] / "examples" / "drawn"
-
-
 @pytest.mark.parametrize(
     ("name", "across", "off"),
     [("kirigami-strip", 17, 0.02), ("pouch", 17, 0.02), ("ray-fin", 17, 0.04), ("gripper-finger", 17, 0.04)],
 )
 def test_lattice_and_shell_agree_on_outlines_and_cutouts(name, across, off):
-    """The scenes of examples/drawn with 17 masses on the shorter side: rims along the axes, and others."""
-    scene = load(EXAMPLES / f"{name}.toml")
+    """The drawn scenes of the catalogue with 17 masses on the shorter side: rims along the axes, and others."""
+    scene = load(name)
     nx = round((across - 1) * scene.sheet.length_x / scene.sheet.length_y) + 1
     grid = (nx, across, 2)
     springs = lumped.calibrate(scene.sheet, scene.material, grid, cells=lumped.sections_of(scene, grid))

@@ -9,11 +9,13 @@ import numpy as np
 
 from sheetbench.scenes import FieldMesh, Scene, Support
 from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.patches import shares_of
 from sheetbench.scenes.region import edge_parts, nearest
 from sheetbench.scenes.sheet import EDGES
 from sheetbench.scenes.supports import place
 
 PLAN_CELLS = 64
+LEAST_SHARE = 0.05  # of a cell's area on the sheet, from which it is drawn
 
 
 def plan_mesh(scene: Scene, cells: int = PLAN_CELLS) -> FieldMesh:
@@ -28,10 +30,8 @@ def plan_mesh(scene: Scene, cells: int = PLAN_CELLS) -> FieldMesh:
     corner = (np.arange(ny)[:, None] * (nx + 1) + np.arange(nx)).ravel()
     quads = np.column_stack([corner, corner + 1, corner + nx + 2, corner + nx + 1])
     if scene.pierced:
-        import shapely
-
-        middle = points[quads].mean(axis=1)
-        quads = quads[shapely.contains_xy(scene.region, middle[:, 0], middle[:, 1])]
+        lines = (np.linspace(0.0, length, n + 1) for length, n in zip(sheet.lengths, (nx, ny), strict=True))
+        quads = quads[shares_of(scene.region, *lines).ravel() > LEAST_SHARE]
         used, quads = np.unique(quads, return_inverse=True)
         points, quads = points[used], quads.reshape(-1, 4)
         points[:, :2] = on_sheet(scene, points[:, :2])

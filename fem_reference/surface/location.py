@@ -78,8 +78,10 @@ def _invert(mesh: MeshQuad, elements: np.ndarray, x: np.ndarray) -> tuple[np.nda
     xi = np.full_like(x, 0.5)
     for _ in range(_NEWTON):
         gap = mapping.F(xi[:, :, None], tind=elements)[:, :, 0] - x
-        inverse = mapping.invDF(xi[:, :, None], tind=elements)[:, :, :, 0]
-        # A foreign element of the bounding box must not send Newton away.
-        xi = np.clip(xi - np.einsum("abn,bn->an", inverse, gap), -1.0, 2.0)
+        (a, b), (c, d) = mapping.DF(xi[:, :, None], tind=elements)[:, :, :, 0]
+        area = a * d - b * c
+        step = np.stack([d * gap[0] - b * gap[1], a * gap[1] - c * gap[0]])
+        # A foreign element of the bounding box must not send Newton away; outside it may be folded.
+        xi = np.clip(xi - np.divide(step, area, out=np.zeros_like(step), where=area != 0.0), -1.0, 2.0)
     xi = np.clip(xi, 0.0, 1.0)
     return xi, np.linalg.norm(mapping.F(xi[:, :, None], tind=elements)[:, :, 0] - x, axis=0)

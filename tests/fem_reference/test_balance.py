@@ -235,7 +235,9 @@ def test_no_reference_leaves_a_reaction_out(monkeypatch, model):
 @pytest.mark.parametrize("model", REFERENCES)
 def test_the_references_are_in_balance_on_every_scene_of_the_catalogue(model, name):
     found = models.solve(load(name), model, elements=2)
-    assert found.status is Status.CONVERGED and found.balance.allowed <= SHARP * found.balance.size
+    far = model == "plate" and name in ("gripper-finger", "ray-fin")  # bends farther than a linear plate may
+    assert found.status is (Status.STRAIN_OUTSIDE_MODEL if far else Status.CONVERGED)
+    assert found.balance.allowed <= SHARP * found.balance.size
 
 
 @pytest.mark.parametrize(

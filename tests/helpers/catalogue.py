@@ -24,7 +24,9 @@ DIGITS = 13  # decimals of a metre: 1e-11 of the smallest scene's largest displa
 
 
 def lattice(scene: Scene, **options: Any) -> Solution:
-    return lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, (GRID, GRID)), **options)
+    grid = (GRID, GRID, 2)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid, cells=lumped.sections_of(scene, grid))
+    return lumped.solve(scene, springs, **options)
 
 
 MODELS = {

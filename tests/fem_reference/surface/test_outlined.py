@@ -9,8 +9,9 @@ from skfem import Basis, ElementQuad2
 
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians, shape
 from fem_reference.surface.location import locate
-from fem_reference.surface.mesh import nodes_of
+from fem_reference.surface.mesh import mesh_of, nodes_of
 from fem_reference.surface.outlined import quadrilaterals
+from sheetbench.scenes import load
 
 AT_NODES = shape(*(2.0 * ElementQuad2.doflocs.T - 1.0))
 NONE = shapely.MultiLineString()
@@ -79,3 +80,12 @@ def test_a_point_is_found_where_its_element_has_it(plan):
     back = mesh.mapping().F(0.5 * (place + 1.0)[:, :, None], tind=element)[:, :, 0].T
     curved = mesh.doflocs[:, mesh.dofs.element_dofs].shape[1] > 4
     assert np.allclose(back, points, rtol=0.0, atol=0.0125 * (0.05 if curved else 1e-8))
+
+
+def test_an_element_that_is_folded_beyond_its_sides_is_searched_too():
+    """The finger's coarse mesh has an element whose map has no inverse at a point outside it."""
+    coarse, fine = (mesh_of(load("gripper-finger"), count, graded=True) for count in (5, 10))
+    points = nodes_of(fine)[0]
+    element, place = locate(coarse, points)
+    back = coarse.mapping().F(0.5 * (place + 1.0)[:, :, None], tind=element)[:, :, 0].T
+    assert np.abs(back - points).max() < 0.01 * coarse.param()

@@ -125,7 +125,7 @@ def test_lattice_and_shell_agree_on_stiff_parts(shape, off):
     [("kirigami-strip", 17, 0.02), ("pouch", 17, 0.02), ("ray-fin", 17, 0.04), ("gripper-finger", 17, 0.04)],
 )
 def test_lattice_and_shell_agree_on_outlines_and_cutouts(name, across, off):
-    """The drawn scenes of the catalogue with 17 masses on the shorter side: rims along the axes, and others."""
+    """Scenes of the catalogue with 17 masses on the shorter side: rims along the axes, and others."""
     scene = load(name)
     nx = round((across - 1) * scene.sheet.length_x / scene.sheet.length_y) + 1
     grid = (nx, across, 2)

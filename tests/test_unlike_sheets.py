@@ -56,7 +56,8 @@ def test_verbs_that_know_fibres(verb, options, capsys):
 
 @pytest.mark.parametrize("calibration", ["auto", "consistent"])
 def test_compare_knows_supports_where_a_shape_says(calibration, capsys):
-    assert run("compare", "gripper-finger", *SMALL, "--calibration", calibration) == 0, capsys.readouterr().err
+    asked = [*SMALL, "--calibration", calibration]
+    assert run("compare", "gripper-finger", *asked) == 0, capsys.readouterr().err
 
 
 def test_files_say_what_each_cell_is_made_of():

@@ -21,7 +21,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fem_reference.surface.mesh import divisions, lines_of
+from fem_reference.surface.borders import borders_of
+from fem_reference.surface.mesh import divisions, has_lines, lines_of
 from sheetbench.scenes import EDGES, Scene
 
 LENGTH = 10.0**-0.5  # of the layer, in thicknesses
@@ -60,7 +61,8 @@ def missed_by(scene: Scene, settings: Mapping[str, Any]) -> Missed:
     asked = settings["elements"]
     counts = divisions(scene.sheet, asked if isinstance(asked, int) else tuple(asked))
     even = settings.get("graded") is False or settings.get("grading") == "uniform"
-    return missed(scene, counts, not even)
+    bricks_with_rows = "grading" not in settings or has_lines(borders_of(scene))
+    return missed(scene, counts, bricks_with_rows and not even)
 
 
 def captured(cells: np.ndarray) -> float:

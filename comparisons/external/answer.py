@@ -12,7 +12,6 @@ from comparisons.external.plugins import Model
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, History, Scene, Solution, Status
 from sheetbench.scenes.kinematics import bent_or_tilted
-from sheetbench.scenes.orthotropy import FIBRES
 
 SUBSTEPS = 8  # of a motion between two samples
 BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"
@@ -57,14 +56,18 @@ def require(elements: Any, layers: Any, grading: str, gradings: Collection[str])
     require_choice("grading", grading, gradings)
 
 
-def refusal(scene: Scene, chains: str, moments: str, laws: Collection[str] = (), fibres: bool = False) -> str:
+def refusal(
+    scene: Scene, chains: str, moments: str, laws: Collection[str] = (), drawn: Collection[str] = ()
+) -> str:
     """Return why an external code cannot solve a scene, "" if it can.
 
     chains, moments: the reasons of this code against actuator chains and edge moments; laws: the laws of
-    rubber that it is given; fibres: whether it is given those of a sheet that is the same all over.
+    rubber that it is given; drawn: the words of `Scene.drawn_by` that it knows.
     """
-    if scene.drawn_by and not (fibres and scene.drawn_by == FIBRES):
-        return f"{scene.drawn_by}: it is given isotropic whole rectangles that are the same all over"
+    unknown = [word for word in scene.drawn_by.split(", ") if word and word not in drawn]
+    if unknown:
+        known = "others" if drawn else "isotropic whole rectangles that are the same all over"
+        return f"{', '.join(unknown)}: it is given {known}"
     law = scene.material.law
     if law is not None and law not in laws:
         known = (
@@ -145,11 +148,10 @@ def solution_on_bricks(
     seconds: tuple[float, float],
 ) -> Solution:
     """Return the Solution of nodal displacements (n, 3) [m]; seconds: set-up and solve."""
-    counts = " × ".join(map(str, bricks.shape))
     return Solution(
         model=code.name,
-        label=f"{code.called} {counts} bricks",
-        settings={**settings, "elements": list(bricks.shape[:2])},
+        label=f"{code.called} {bricks.label}",
+        settings={**settings, "elements": list(bricks.counts)},
         status=status,
         unknowns=displacement.size,
         iterations=iterations,

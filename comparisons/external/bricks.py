@@ -1,51 +1,54 @@
 """A mesh of a sheet of 20-node bricks, with its supports and loads, for programs that solve solids.
 
-Nodes lie at corners and mid-edges of nx × ny × layers bricks, layers an even number, so that the mid-surface
-is a plane of eight-node faces. A column is the nodes over one plan point; its middle node is the mid-surface.
+The plan mesh of the shell (`fem_reference.surface.mesh`), extruded: nodes lie at corners and mid-edges of
+layers of bricks, an even number, so that the mid-surface is a plane of eight-node faces. A column is the
+nodes over one plan node; its middle node is the mid-surface.
 Held is what a shell's support holds (`sheetbench.scenes.supports`): at a clamp every column keeps to its
 director and may stretch along it, at a hinge the mean of the column alone is held: a line of nodes gives
 way in a solid without end as bricks get smaller. A column may have axes of its own, turned as
 `sheetbench.scenes.kinematics` turns the edge.
 
 Numbering in an element is that of Abaqus, CalculiX and VTK: corners below, corners above, mid-edges below,
-above, upright. SI units. Nothing here is shared with our own solid.
+above, upright. SI units. Beside the plan nothing is shared with our own solid.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
+from skfem import MeshQuad
 
 from comparisons.external.point_loads import point_loads
-from sheetbench.scenes import EDGES, EdgeLoad, Scene, Symmetric, held_axes, holds_director
-from sheetbench.scenes.grid import near_square
+from fem_reference.surface.biquadratic import GAUSS, areas
+from fem_reference.surface.borders import borders_of
+from fem_reference.surface.loads import orientation
+from fem_reference.surface.location import locate
+from fem_reference.surface.mesh import divisions, elements_in, has_lines, mesh_of, nodes_of, on_boundary
+from sheetbench.scenes import AreaLoad, EdgeLoad, Material, Scene, Symmetric, held_axes, holds_director
 from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
-from sheetbench.scenes.sheet import Sheet
+from sheetbench.scenes.shapes import Shape
+from sheetbench.scenes.supports import AnySupport, place
 
 GRADINGS = ("edges", "uniform")
+SITES = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0)])  # of a face's nodes
+OTHER_WAY = [0, 3, 2, 1, 7, 6, 5, 4]
 
 
 @dataclass(frozen=True)
 class Bricks:
-    """x (nx + 1,), y (ny + 1,), z (layers + 1,): planes between the bricks [m]."""
+    """plan: straight-sided or biquadratic; counts: elements along x and y that were asked for; z
+    (2 layers + 1,): heights of a column's nodes [m]; taper (p,): by how much thicker the column over each
+    plan node is."""
 
-    x: np.ndarray
-    y: np.ndarray
+    plan: MeshQuad
+    counts: tuple[int, int]
     z: np.ndarray
+    taper: np.ndarray
 
-    CORNERS: ClassVar = [
-        (0, 0, 0),
-        (2, 0, 0),
-        (2, 2, 0),
-        (0, 2, 0),
-        (0, 0, 2),
-        (2, 0, 2),
-        (2, 2, 2),
-        (0, 2, 2),
-    ]
     BETWEEN: ClassVar = [
         (0, 1),
         (1, 2),
@@ -62,92 +65,115 @@ class Bricks:
     ]
 
     @classmethod
-    def of(cls, sheet: Sheet, elements: int, layers: int, grading: str) -> Bricks:
-        """elements: along the shorter side, near-square; grading "edges": Chebyshev's points, finest
-        there."""
-        x, y = (
-            length * fractions(n, grading)
-            for length, n in zip(sheet.lengths, near_square(sheet, elements), strict=True)
-        )
-        return cls(x, y, np.linspace(-0.5, 0.5, layers + 1) * sheet.thickness)
+    def of(cls, scene: Scene, elements: int, layers: int, grading: str) -> Bricks:
+        """elements: as those of the shell; grading "edges": finest there, where the mesh is one of lines."""
+        counts = divisions(scene.sheet, elements)
+        plan = mesh_of(scene, counts, grading == "edges" and has_lines(borders_of(scene)))
+        nodes, _ = nodes_of(plan)
+        heights = np.linspace(-0.5, 0.5, 2 * layers + 1) * scene.sheet.thickness
+        return cls(plan, counts, heights, scene.sheet.thickness_at(*nodes.T) / scene.sheet.thickness)
 
     @property
-    def shape(self) -> tuple[int, int, int]:
-        """Bricks along x, y and through the thickness."""
-        return len(self.x) - 1, len(self.y) - 1, len(self.z) - 1
+    def layers(self) -> int:
+        """Bricks through the thickness; the level of the mid-surface too, of 2 · layers + 1."""
+        return len(self.z) // 2
+
+    @property
+    def label(self) -> str:
+        """How many bricks there are, in words."""
+        count = self.plan.nelements
+        plan = self.counts if np.prod(self.counts) == count else (count,)
+        return f"{' × '.join(map(str, (*plan, self.layers)))} bricks"
+
+    @cached_property
+    def faces(self) -> np.ndarray:
+        """Plan nodes of the elements (m, 8), corners and then mid-edges, counter-clockwise."""
+        nodes, elements = nodes_of(self.plan)
+        upright = orientation(nodes[elements])[:, None] > 0
+        return np.where(upright, elements[:, :8], elements[:, OTHER_WAY])
 
     @cached_property
     def number(self) -> np.ndarray:
-        """Of the node at every half step (2 nx + 1, 2 ny + 1, 2 layers + 1), −1 where there is none."""
-        odd = (np.indices([2 * n + 1 for n in self.shape]) % 2).sum(axis=0)
-        out = np.full(odd.shape, -1)
-        out[odd <= 1] = np.arange(np.sum(odd <= 1))
+        """Of the node on every level of the columns (p, 2 layers + 1), −1 where there is none."""
+        there = np.zeros((len(nodes_of(self.plan)[0]), len(self.z)), dtype=bool)
+        there[self.faces[:, :4]] = True
+        there[self.faces[:, 4:], ::2] = True
+        out = np.full(there.shape, -1)
+        out[there] = np.arange(there.sum())
         return out
 
     @cached_property
     def sites(self) -> np.ndarray:
-        """Half steps of the nodes (n, 3)."""
+        """Plan nodes and levels of the nodes (n, 2)."""
         return np.argwhere(self.number >= 0)
 
     @cached_property
     def positions(self) -> np.ndarray:
         """(n, 3) [m]."""
-        lines = [_halved(planes) for planes in (self.x, self.y, self.z)]
-        return np.column_stack([line[at] for line, at in zip(lines, self.sites.T, strict=True)])
+        column, level = self.sites.T
+        return np.column_stack([nodes_of(self.plan)[0][column], self.z[level] * self.taper[column]])
 
     @cached_property
     def elements(self) -> np.ndarray:
-        """Nodes of the bricks (m, 20), those of the lowest layer first."""
-        corners = np.array(self.CORNERS)
-        local = np.vstack([corners, [(corners[a] + corners[b]) // 2 for a, b in self.BETWEEN]])
-        nx, ny, layers = self.shape
-        k, j, i = (a.ravel() for a in np.meshgrid(range(layers), range(ny), range(nx), indexing="ij"))
-        first = 2 * np.column_stack([i, j, k])
-        return self.number[tuple((first[:, None] + local).transpose(2, 0, 1))]
+        """Nodes of the bricks (layers m, 20), those of the lowest layer first."""
+        corners, middles = self.faces[:, :4], self.faces[:, 4:]
+        layers = [
+            [self.number[part, level] for part, level in parts]
+            for low in range(0, len(self.z) - 1, 2)
+            for parts in [
+                [(corners, low), (corners, low + 2), (middles, low), (middles, low + 2), (corners, low + 1)]
+            ]
+        ]
+        return np.concatenate([np.concatenate(one, axis=1) for one in layers])
 
-    @property
-    def middle(self) -> int:
-        """The half step of the mid-surface."""
-        return self.shape[2]
+    def inside(self, shape: Shape | None) -> np.ndarray:
+        """Elements of the plan (k,) in a shape, or all."""
+        return elements_in(shape, *nodes_of(self.plan))
 
     def edge(self, name: str) -> np.ndarray:
         """Nodes of all columns on an edge."""
-        edge = EDGES[name]
-        last = 2 * self.shape[edge.normal_axis]
-        return np.flatnonzero(self.sites[:, edge.normal_axis] == (last if edge.far_end else 0))
+        return self._over(on_boundary(self.plan, name))
+
+    def supported(self, support: AnySupport) -> np.ndarray:
+        """Nodes of all columns on a support's edge, or in its shape."""
+        shape = place(support)
+        return self.edge(support.edge) if shape is None else self._over(self.faces[self.inside(shape)])
+
+    def _over(self, plan_nodes: np.ndarray) -> np.ndarray:
+        return np.flatnonzero(np.isin(self.sites[:, 0], plan_nodes))
 
     def columns(self, nodes: np.ndarray) -> list[np.ndarray]:
         """Return the nodes by column, the middle one first."""
-        by_place: dict[tuple[int, int], list[int]] = {}
-        for node in sorted(nodes, key=lambda n: int(self.sites[n, 2] != self.middle)):
-            by_place.setdefault((int(self.sites[node, 0]), int(self.sites[node, 1])), []).append(int(node))
-        return [np.array(column) for column in by_place.values()]
+        columns = [self.number[at][self.number[at] >= 0] for at in np.unique(self.sites[nodes, 0])]
+        return [np.roll(column, -(len(column) // 2)) for column in columns]
 
     def mean(self, column: np.ndarray) -> np.ndarray:
         """Weights of a column's nodes in the mean through the thickness: Simpson's rule where it has nodes
         between the layers' planes, else the trapezoidal one."""
-        steps = self.sites[column, 2]
+        steps = self.sites[column, 1]
         inside = np.where(steps % 2 == 1, 4.0, 2.0)
         rule = np.where(np.isin(steps, (0, steps.max())), 1.0, inside)
         mean: np.ndarray = rule / rule.sum()
         return mean
 
-    def faces(self, name: str) -> np.ndarray:
-        """Eight nodes of every brick's face on an edge (f, 8): corners in turn, mid-edges after them."""
-        on = np.isin(self.elements, self.edge(name))
-        rows = np.flatnonzero(on.sum(axis=1) == 8)
-        nodes = self.elements[rows][on[rows]].reshape(-1, 8)
-        odd = np.any(self.sites[nodes] % 2 == 1, axis=2)
-        return np.take_along_axis(nodes, np.argsort(odd, axis=1, kind="stable"), axis=1)
+    def sides(self, name: str) -> tuple[np.ndarray, np.ndarray]:
+        """Eight nodes of every brick's face on an edge (f, 8), corners and then mid-edges, and the faces'
+        areas (f,) over the thickness [m]."""
+        on = self.plan.boundaries[name]
+        (first, last), middle = self.plan.facets[:, on], self.plan.nvertices + on
+        faces = [
+            np.column_stack([self.number[at, low + up] for at, up in (
+                (first, 0), (last, 0), (last, 2), (first, 2), (middle, 0), (last, 1), (middle, 2), (first, 1)
+            )])
+            for low in range(0, len(self.z) - 1, 2)
+        ]  # fmt: skip
+        lengths = np.linalg.norm(np.diff(self.plan.p[:, [first, last]], axis=1)[:, 0], axis=0)
+        return np.concatenate(faces), np.tile(lengths / self.layers, self.layers)
 
     def weights(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Nodes of the mid-surface's faces at plan points (p, 2) [m], and their shape functions, (p, 8)."""
-        (i, xi), (j, eta) = (
-            _place(planes, at) for planes, at in zip((self.x, self.y), points.T, strict=True)
-        )
-        at = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)]
-        nodes = np.column_stack([self.number[2 * i + a, 2 * j + b, self.middle] for a, b in at])
-        return nodes, np.column_stack([_serendipity(xi, eta, a - 1, b - 1) for a, b in at])
+        element, place = locate(self.plan, points)
+        return self.number[nodes_of(self.plan)[1][element, :8], self.layers], serendipity(*place)
 
     def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, 3)."""
@@ -184,12 +210,12 @@ def held(scene: Scene, bricks: Bricks, linear: bool = False) -> Held:
     """Return what supports and motions hold; linear: to first order in the load."""
     n = len(bricks.positions)
     axes, fixed, value = np.tile(np.eye(3), (n, 1, 1)), np.zeros((n, 3), dtype=bool), np.zeros((n, 3))
-    middle = bricks.sites[:, 2] == bricks.middle
+    middle = bricks.sites[:, 1] == bricks.layers
     driven: dict[str, DrivenEdge] = {edge.edge: edge for edge in bent_or_tilted(scene.supports, scene.sheet)}
     driven |= {m.edge: MovedEdge(m, scene.sheet) for m in scene.motions().values()}
     ties: dict[tuple[int, int], Tie] = {}
     for support in scene.supports:
-        nodes, along = bricks.edge(support.edge), held_axes(support)
+        nodes, along = bricks.supported(support), held_axes(support)
         if isinstance(support, Symmetric):
             fixed[nodes[:, None], along] = True
         elif not holds_director(support):
@@ -217,45 +243,50 @@ def held(scene: Scene, bricks: Bricks, linear: bool = False) -> Held:
     return Held(axes, fixed, value, tied)
 
 
+def materials(scene: Scene, bricks: Bricks) -> list[tuple[Material, np.ndarray]]:
+    """The materials of a sheet, and the elements of the plan (k,) that are of each."""
+    nodes, elements = nodes_of(bricks.plan)
+    middles = nodes[elements[:, 8]]
+    patched = [patch.shape.contains(middles) for patch in scene.patches]
+    parts: dict[tuple[bool, ...], list[int]] = {}
+    for element in range(len(elements)):
+        parts.setdefault(tuple(bool(inside[element]) for inside in patched), []).append(element)
+    return [(_material(scene, inside), np.array(on)) for inside, on in parts.items()]
+
+
+def _material(scene: Scene, inside: Sequence[bool]) -> Material:
+    """What the sheet is made of in some of its patches."""
+    own: dict[str, Any] = {}
+    for patch in (patch for patch, there in zip(scene.patches, inside, strict=True) if there):
+        own |= patch.own
+    own.pop("thickness", None)
+    if scene.material.kind == "orthotropic" and "young" in own:
+        return Material(**{"density": scene.material.density, **own})
+    return scene.material.replace(**own)
+
+
 def forces(scene: Scene, bricks: Bricks) -> np.ndarray:
-    """Point loads and edge forces on the nodes (n, 3) [N]; of weight and pressure nothing."""
+    """Point, edge and area loads on the nodes (n, 3) [N]; of weight and pressure nothing."""
     out = point_loads(scene, bricks)
+    nodes, elements = nodes_of(bricks.plan)
     for load in scene.loads:
         if isinstance(load, EdgeLoad):
-            faces = bricks.faces(load.edge)
-            span = np.ptp(bricks.positions[faces], axis=1)
-            share = span[:, EDGES[load.edge].along_axis] * span[:, 2] / scene.sheet.thickness
-            weights = np.repeat([-1.0 / 12.0, 1.0 / 3.0], 4)
-            pull = load.last_factor * np.array(load.force_per_length)
-            np.add.at(out, faces, share[:, None, None] * weights[:, None] * pull)
+            faces, share = bricks.sides(load.edge)
+            shares = share[:, None] * np.repeat([-1.0 / 12.0, 1.0 / 3.0], 4)
+            pull = load.force_per_length
+        elif isinstance(load, AreaLoad):
+            on = elements[bricks.inside(load.where)]
+            faces, shares = bricks.number[on[:, :8], bricks.layers], areas(nodes[on]) @ serendipity(*GAUSS)
+            pull = load.force_per_area
+        else:
+            continue
+        np.add.at(out, faces, load.last_factor * shares[..., None] * np.array(pull))
     return out
 
 
-def fractions(count: int, grading: str) -> np.ndarray:
-    """Planes between elements, as fractions (count + 1,) of a side."""
-    even = np.arange(count + 1) / count
-    return 0.5 * (1.0 - np.cos(np.pi * even)) if grading == "edges" else even
-
-
-def _halved(planes: np.ndarray) -> np.ndarray:
-    """Return the planes and their middles, in turn."""
-    out = np.empty(2 * len(planes) - 1)
-    out[::2], out[1::2] = planes, 0.5 * (planes[:-1] + planes[1:])
-    return out
-
-
-def _place(planes: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the interval of positions (p,), and where in it, −1 to 1."""
-    i = np.clip(np.searchsorted(planes, at, side="right") - 1, 0, len(planes) - 2)
-    return i, 2.0 * (at - planes[i]) / (planes[i + 1] - planes[i]) - 1.0
-
-
-def _serendipity(xi: np.ndarray, eta: np.ndarray, a: int, b: int) -> np.ndarray:
-    """Shape function of the eight-node square's node at (a, b)."""
-    if a and b:
-        out: np.ndarray = 0.25 * (1 + a * xi) * (1 + b * eta) * (a * xi + b * eta - 1)
-    elif b:
-        out = 0.5 * (1 - xi**2) * (1 + b * eta)
-    else:
-        out = 0.5 * (1 + a * xi) * (1 - eta**2)
-    return out
+def serendipity(r: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Shape functions (n, 8) of the eight-node square at points of [−1, 1]²."""
+    (a, b), r, s = SITES.T, r[:, None], s[:, None]
+    corner = 0.25 * (1 + a * r) * (1 + b * s) * (a * r + b * s - 1)
+    middle = 0.5 * np.where(a == 0, (1 - r**2) * (1 + b * s), (1 + a * r) * (1 - s**2))
+    return np.where(a * b != 0, corner, middle)

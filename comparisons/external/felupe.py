@@ -62,8 +62,8 @@ class FElupe:
         require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
         if self.version() is None:
             raise BadInput(f"model = 'felupe': needs {self.needs}")
-        bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
         began, note = perf_counter(), refusal(scene, CHAINS, BRICK_MOMENTS, LAWS)
+        bricks = Bricks.of(scene, settings["elements"], settings["layers"], settings["grading"])
         path = _Path(np.zeros_like(bricks.positions), 0.0, 0)
         ready, status = began, Status.REFUSED
         if not note:

@@ -41,6 +41,7 @@ LISTS = {  # by their keys in Python: those in a file, where each entry is a tab
     "layers": "layer", "patches": "patch", "cutouts": "cutout", "supports": "support", "loads": "load",
     "actuators": "actuator",
 }  # fmt: skip
+SHAPED = ("sheet.outline", "sheet.mesh", "cutout", "support.where", "load.where", 'load.kind = "area"')
 OURS = {"sheetbench", "lumped", "fem_reference", "comparisons", "studies"}
 
 
@@ -229,15 +230,15 @@ class Scene(Frozen):
     @property
     def shaped_by(self) -> str:
         """The words by which it is no whole rectangle held and loaded at edges, at points or all over."""
-        words = {
-            "sheet.outline": self.sheet.outline is not None,
-            "sheet.mesh": self.sheet.mesh is not None,
-            "cutout": bool(self.cutouts),
-            "support.where": any(place(support) is not None for support in self.supports),
-            "load.where": any(getattr(load, "where", None) is not None for load in self.loads),
-            'load.kind = "area"': any(isinstance(load, AreaLoad) for load in self.loads),
-        }
-        return ", ".join(word for word, given in words.items() if given)
+        given = (
+            self.sheet.outline is not None,
+            self.sheet.mesh is not None,
+            bool(self.cutouts),
+            any(place(support) is not None for support in self.supports),
+            any(getattr(load, "where", None) is not None for load in self.loads),
+            any(isinstance(load, AreaLoad) for load in self.loads),
+        )
+        return ", ".join(word for word, drawn in zip(SHAPED, given, strict=True) if drawn)
 
     @property
     def drawn_by(self) -> str:

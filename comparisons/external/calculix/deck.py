@@ -5,7 +5,8 @@ NLGEOM makes the step geometrically nonlinear: total Lagrangian, the linear-elas
 and second Piola–Kirchhoff stress (St Venant–Kirchhoff's), or *HYPERELASTIC of a rubber. Its usual
 tolerances (residual 5e-3 of the mean force, correction 1e-2 of the displacement) are far coarser than the
 differences looked for, so the deck tightens them. Pressure acts half on the lower and half on the upper face
-and follows both. In time: Hilber, Hughes and Taylor's method with its α of −0.05, in steps of one length.
+and follows both. Parts of different materials are element sets. In time: Hilber, Hughes and Taylor's method
+with its α of −0.05, in steps of one length.
 
 Source: CalculiX CrunchiX user's manual 2.20, sections on *HYPERELASTIC, *STATIC, *DYNAMIC, *CONTROLS, *DLOAD,
 *TRANSFORM, *NODE PRINT, *ELASTIC, *ORIENTATION.
@@ -18,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from comparisons.external.bricks import Bricks, forces, held
+from comparisons.external.bricks import Bricks, forces, held, materials
 from sheetbench.scenes import Material, Pressure, Scene
 from sheetbench.scenes.orthotropy import Ply
 
@@ -48,13 +49,17 @@ class Steps(NamedTuple):
 
 def deck(scene: Scene, bricks: Bricks, linear: bool, motion: Steps | None = None) -> str:
     """Return the text of the deck; linear: without NLGEOM; motion: from rest under the load, not at rest."""
-    material, supports = scene.material, held(scene, bricks, linear)
+    supports = held(scene, bricks, linear)
     pull = np.einsum("nrc,nc->nr", supports.axes, forces(scene, bricks))
     lines = ["*NODE, NSET=NALL", *_rows(bricks.positions, 1)]
     lines += ["*ELEMENT, TYPE=C3D20R, ELSET=EALL", *_elements(bricks.elements)]
-    lines += ["*MATERIAL, NAME=SHEET", *_elasticity(material)]
-    oriented = ", ORIENTATION=FIBRES" if material.kind == "orthotropic" else ""
-    lines += ["*DENSITY", f"{material.density!r}", f"*SOLID SECTION, ELSET=EALL, MATERIAL=SHEET{oriented}"]
+    layers = bricks.plan.nelements * np.arange(bricks.layers)
+    for part, (material, on) in enumerate(materials(scene, bricks), 1):
+        lines += [f"*ELSET, ELSET=PART{part}", *(f"{e + 1}" for e in (layers[:, None] + on).ravel())]
+        lines += [f"*MATERIAL, NAME=SHEET{part}", *_elasticity(material, f"FIBRES{part}")]
+        oriented = f", ORIENTATION=FIBRES{part}" if material.kind == "orthotropic" else ""
+        lines += ["*DENSITY", f"{material.density!r}"]
+        lines += [f"*SOLID SECTION, ELSET=PART{part}, MATERIAL=SHEET{part}{oriented}"]
     for node in np.flatnonzero(supports.turned):
         along, across = supports.axes[node, :2]
         lines += [f"*NSET, NSET=AT{node + 1}", f"{node + 1}", f"*TRANSFORM, NSET=AT{node + 1}, TYPE=R"]
@@ -79,12 +84,12 @@ def deck(scene: Scene, bricks: Bricks, linear: bool, motion: Steps | None = None
     lines += ["*BOUNDARY"]
     for node, axis in zip(*np.nonzero(supports.fixed), strict=True):
         lines.append(f"{node + 1}, {axis + 1}, {axis + 1}, {supports.value[node, axis]:.12e}")
-    lines += _loads(scene, pull, len(bricks.elements), bricks)
+    lines += _loads(scene, pull, bricks)
     lines += [f"*NODE PRINT, NSET={printed}, GLOBAL=YES, FREQUENCY={every}", "U", "*END STEP", ""]
     return "\n".join(lines)
 
 
-def _elasticity(material: Material) -> list[str]:
+def _elasticity(material: Material, axes_name: str) -> list[str]:
     if material.kind == "orthotropic":
         ply = Ply.of(material)
         moduli, ratios = (
@@ -95,7 +100,7 @@ def _elasticity(material: Material) -> list[str]:
         c, s = np.cos(ply.angle), np.sin(ply.angle)
         axes = f"{c:.12e}, {s:.12e}, 0., {-s:.12e}, {c:.12e}, 0."
         constants = ["*ELASTIC, TYPE=ENGINEERING CONSTANTS", first, f"{ply.shear_23:.12e}"]
-        return [*constants, "*ORIENTATION, NAME=FIBRES", axes]
+        return [*constants, f"*ORIENTATION, NAME={axes_name}", axes]
     if material.law is None:
         return ["*ELASTIC", f"{material.young!r}, {material.poisson!r}"]
     (name, keys), energy = LAWS[material.law], material.energy
@@ -105,7 +110,7 @@ def _elasticity(material: Material) -> list[str]:
     return [f"*HYPERELASTIC, {name}", ", ".join(f"{c:.12e}" for c in (*constants, volume, *more))]
 
 
-def _loads(scene: Scene, pull: np.ndarray, count: int, bricks: Bricks) -> list[str]:
+def _loads(scene: Scene, pull: np.ndarray, bricks: Bricks) -> list[str]:
     lines = []
     if pull.any():
         lines.append("*CLOAD")
@@ -116,12 +121,15 @@ def _loads(scene: Scene, pull: np.ndarray, count: int, bricks: Bricks) -> list[s
         if size := float(np.linalg.norm(acceleration)):
             along = ", ".join(f"{c:.12e}" for c in acceleration / size)
             lines += ["*DLOAD", f"EALL, GRAV, {size!r}, {along}"]
-    pressure = sum(load.last_factor * load.value for load in scene.loads if isinstance(load, Pressure))
-    if pressure:
-        layer = count // bricks.shape[2]
+    pressure = np.zeros(bricks.plan.nelements)
+    for load in scene.loads:
+        if isinstance(load, Pressure):
+            pressure[bricks.inside(load.where)] += load.last_factor * load.value
+    if pressure.any():
+        top, pressed = len(bricks.elements) - len(pressure), np.flatnonzero(pressure)
         lines.append("*DLOAD")
-        lines += [f"{e + 1}, {BELOW}, {0.5 * pressure!r}" for e in range(layer)]
-        lines += [f"{e + 1}, {ABOVE}, {-0.5 * pressure!r}" for e in range(count - layer, count)]
+        lines += [f"{e + 1}, {BELOW}, {float(0.5 * pressure[e])!r}" for e in pressed]
+        lines += [f"{top + e + 1}, {ABOVE}, {float(-0.5 * pressure[e])!r}" for e in pressed]
     return lines
 
 

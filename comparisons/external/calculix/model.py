@@ -33,11 +33,14 @@ from comparisons.external.calculix.deck import INCOMPRESSIBLE, LAWS, Steps, deck
 from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import History, Scene, Solution, Status
-from sheetbench.scenes.orthotropy import Ply, impossible_in_space
+from sheetbench.scenes.orthotropy import FIBRES, Ply, impossible_in_space
+from sheetbench.scenes.scene import SHAPED
 
 PROGRAM, JOB = "ccx", "sheet"
 SAYS_ITS_VERSION = 201  # its exit status after `ccx -v`
 
+# What of drawn sheets it is given, as scenes call it (`Scene.drawn_by`).
+DRAWN = (*SHAPED, FIBRES, "sheet.taper_x", "sheet.taper_y", "patch")
 CHAINS = "actuators are not supported: it has no joint with a rest angle between rigid bodies"
 
 
@@ -72,9 +75,9 @@ class CalculiX:
         program = shutil.which(PROGRAM)
         if program is None:
             raise BadInput(f"model = 'calculix': needs {self.needs}")
-        bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
         began = perf_counter()
-        note = refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, True) or _of_volume(scene, settings["linear"])
+        note = _refusal(scene, settings["linear"])
+        bricks = Bricks.of(scene, settings["elements"], settings["layers"], settings["grading"])
         displacement, load_factor, iterations = np.zeros_like(bricks.positions), 0.0, 0
         ready, status = began, Status.REFUSED
         if not note:
@@ -99,7 +102,7 @@ class CalculiX:
         Raises BadInput without the program, and for scenes and settings that it does not take.
         """
         require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
-        note = refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, True) or _of_volume(scene, settings["linear"])
+        note = _refusal(scene, settings["linear"])
         if settings["linear"]:
             note = note or "linear = true: is for statics"
         if note := note or refusal_of_motion(scene):
@@ -108,7 +111,7 @@ class CalculiX:
         if program is None:
             raise BadInput(f"model = 'calculix': needs {self.needs}")
         began = perf_counter()
-        bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
+        bricks = Bricks.of(scene, settings["elements"], settings["layers"], settings["grading"])
         nodes, _ = bricks.weights(scene.probe_points())
         count = max(1, round(duration / every))
         steps = Steps(float(duration) / count / SUBSTEPS, float(duration), SUBSTEPS, np.unique(nodes))
@@ -117,10 +120,10 @@ class CalculiX:
         times, found, _, note = _carried_out(program, text, settings["time_limit"], bricks)
         ended = perf_counter()
         return moved(
-            f"{self.called} {' × '.join(map(str, bricks.shape))} bricks",
+            f"{self.called} {bricks.label}",
             "HHT",
             scene,
-            {**settings, "elements": list(bricks.shape[:2]), "every": duration / count},
+            {**settings, "elements": list(bricks.counts), "every": duration / count},
             bricks,
             times,
             found,
@@ -147,9 +150,16 @@ def _carried_out(
         return times, found, results.iterations(_read(folder, "sta")), why
 
 
-def _of_volume(scene: Scene, linear: bool) -> str:
-    """Return why a rubber, or a material with fibres, is none of CalculiX', "" if it is."""
+def _refusal(scene: Scene, linear: bool) -> str:
+    """Return why it cannot solve a scene, "" if it can."""
+    if note := refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, DRAWN):
+        return note
     material = scene.material
+    for number, patch in enumerate(scene.patches, start=1):
+        if patch.thickness not in (None, scene.sheet.thickness):
+            return f"patch {number}.thickness = {patch.thickness:g} m: its bricks have no steps in thickness"
+    if material.law is not None and scene.varied_by:
+        return f"{scene.varied_by}: it is given rubbers that are the same all over"
     if material.kind == "orthotropic":
         return impossible_in_space(Ply.of(material))
     if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):

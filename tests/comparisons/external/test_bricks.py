@@ -7,10 +7,13 @@ import pytest
 from scipy.sparse import csr_matrix
 
 from comparisons.external import felupe
-from comparisons.external.bricks import Bricks, Held, forces, held
+from comparisons.external.bricks import Bricks, Held, forces, held, materials
 from comparisons.external.calculix.deck import deck
 from comparisons.external.kratos.problem import Triangles, problem
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Hinged, PointLoad, Pressure, Scene, load
+from fem_reference.surface.biquadratic import areas
+from fem_reference.surface.mesh import nodes_of
+from sheetbench.scenes import Clamped, Curved, EdgeLoad, Hinged, PointLoad, Pressure, Scene, Sheet, load
+from sheetbench.scenes.patches import mass_of
 
 SEED = load("two-edges-clamped")
 
@@ -21,7 +24,7 @@ def changed(**changes: Any) -> Scene:
 
 @pytest.fixture(scope="module")
 def bricks() -> Bricks:
-    return Bricks.of(SEED.sheet, 4, 2, "edges")
+    return Bricks.of(SEED, 4, 2, "edges")
 
 
 def test_bricks_are_upright_and_fill_the_sheet(bricks: Bricks) -> None:
@@ -59,13 +62,80 @@ def test_forces_add_up_and_act_where_they_should(bricks: Bricks) -> None:
         np.testing.assert_allclose(pull.sum(axis=0), forces(changed(loads=(one,)), bricks).sum(axis=0))
 
 
+DISC = {"circle": {"centre": (0.12, 0.12), "radius": 0.03}}
+ROOT = {"rectangle": {"x": (0.0, 0.05), "y": (0.0, 0.188)}}
+FIBRES = {"kind": "orthotropic", "young_1": 9e6, "young_2": 3e6, "poisson_12": 0.3, "shear_12": 1e6,
+          "angle": 0.3, "density": 1000.0}  # fmt: skip
+DRAWN = SEED.replace(
+    sheet=Sheet(
+        0.188, 0.188, 0.003, outline=[(0, 0), (0.188, 0.03), (0.188, 0.16), (0, 0.188)], taper_x=(3e-3, 1e-3)
+    ),
+    material=FIBRES,
+    cutouts=[{"shape": {"circle": {"centre": (0.05, 0.09), "radius": 0.02}}}],
+    patches=[
+        {"shape": DISC, "angle": -0.4},
+        {"shape": ROOT, "young": 2e6, "poisson": 0.3, "density": 2000.0},
+    ],
+    supports=(Clamped(edge="x0"), Hinged(where={"circle": {"centre": (0.15, 0.07), "radius": 0.01}})),
+    loads=[
+        {"kind": "area", "force_per_area": (0.0, 3.0, 1.0), "where": DISC},
+        {"kind": "pressure", "value": 20.0, "where": DISC},
+        {"kind": "pressure", "value": 4.0},
+    ],
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def drawn() -> Bricks:
+    return Bricks.of(DRAWN, 8, 2, "edges")
+
+
+def volumes(bricks: Bricks) -> np.ndarray:
+    """Of the bricks, by the plan's and the thickness in their middles."""
+    nodes, elements = nodes_of(bricks.plan)
+    plan = areas(nodes[elements]).sum(axis=1)
+    return np.tile(plan * bricks.taper[elements[:, :8]].mean(axis=1) * 0.003 / bricks.layers, bricks.layers)
+
+
+def test_bricks_of_a_drawn_sheet_fill_it(drawn: Bricks) -> None:
+    corners = drawn.positions[drawn.elements]
+    along, across, up = (corners[:, i] - corners[:, 0] for i in (1, 3, 4))
+    assert np.all(np.einsum("mc,mc->m", np.cross(along, across), up) > 0.0)
+    sides = [drawn.positions[drawn.edge(name), 0] for name in ("x0", "x1")]
+    assert np.ptp(sides[0]) == np.ptp(sides[1]) == 0.0
+    parts = materials(DRAWN, drawn)
+    assert sum(len(on) for _, on in parts) == drawn.plan.nelements == len(drawn.elements) / 2
+    assert {(m.kind, m.angle, m.density) for m, _ in parts} == {
+        ("orthotropic", 0.3, 1000.0), ("orthotropic", -0.4, 1000.0), ("isotropic", None, 2000.0)
+    }  # fmt: skip
+    mass = sum(2.0 * m.density * volumes(drawn)[on].sum() for m, on in parts)
+    assert mass == pytest.approx(mass_of(DRAWN), rel=2e-3)  # which has tapers in steps of 1/32
+    pull = forces(DRAWN, drawn)
+    np.testing.assert_allclose(pull.sum(axis=0), np.pi * 0.03**2 * np.array([0.0, 3.0, 1.0]), rtol=1e-3)
+    np.testing.assert_allclose(pull[:, 2] @ drawn.positions / pull[:, 2].sum(), (0.12, 0.12, 0.0), atol=1e-4)
+    rows = held(DRAWN, drawn)
+    assert np.flatnonzero(rows.fixed[:, 0]).tolist() == drawn.edge("x0").tolist()
+    bolt = drawn.positions[[tie.nodes[0] for tie in rows.tied], :2] - (0.15, 0.07)
+    assert len(bolt) > 20 and np.linalg.norm(bolt, axis=1).max() == pytest.approx(0.01, rel=1e-3)
+
+
+def test_a_deck_of_a_drawn_sheet_has_its_parts(drawn: Bricks) -> None:
+    text = deck(DRAWN, drawn, linear=False)
+    found = {name: text.count(f"*{name}") for name in ("ELSET,", "MATERIAL", "ORIENTATION", "SOLID SECTION")}
+    assert found == {"ELSET,": 3, "MATERIAL": 3, "ORIENTATION": 2, "SOLID SECTION": 3}
+    assert text.count("ORIENTATION=FIBRES") == 2
+    inside = len(drawn.inside(DRAWN.loads[1].where))
+    assert text.count(", P1, 12.0\n") == text.count(", P2, -12.0\n") == inside > 5
+    assert text.count(", P1, 2.0\n") == drawn.plan.nelements - inside
+
+
 def test_a_clamp_lets_a_column_stretch_along_its_director_alone(bricks: Bricks) -> None:
     curved = changed(supports=(Curved(edge="x0", curvature=4.0),))
     for scene in (SEED, curved, changed(supports=(Clamped(edge="x0", tilt=0.3),))):
         rows = held(scene, bricks)
         assert rows.fixed.shape == rows.value.shape == bricks.positions.shape
         nodes = bricks.edge("x0")
-        middle = bricks.sites[nodes, 2] == bricks.middle
+        middle = bricks.sites[nodes, 1] == bricks.layers
         assert np.all(rows.fixed[nodes][:, :2]) and np.all(rows.fixed[nodes, 2] == middle)
         np.testing.assert_allclose(
             rows.axes @ np.swapaxes(rows.axes, 1, 2), np.tile(np.eye(3), (len(rows.axes), 1, 1)), atol=1e-12

@@ -30,13 +30,16 @@ def command(
     symmetry: Symmetry = False,
     model: Models = None,
     uncertainty: Annotated[
-        bool | None,
+        bool,
         option(
-            "Solve the reference on coarser meshes too, for its error bar; on for plate and shell.",
+            "Solve the reference on coarser meshes too, for its error bar; plates and shells always are.",
             None,
-            "--uncertainty/--no-uncertainty",
+            "--uncertainty",
         ),
-    ] = None,
+    ] = False,
+    no_uncertainty: Annotated[
+        bool, option("Solve the reference once, without its error bar.", None, "--no-uncertainty")
+    ] = False,
     branch: Annotated[
         str,
         option(
@@ -89,7 +92,7 @@ def command(
                 reference,
                 elements=chosen,
                 law=law,
-                uncertainty=uncertainty is not False,
+                uncertainty=not no_uncertainty,
                 others=model or (),
                 frames=FRAMES if output.out is not None else 0,
                 store=out.reserve("runs/"),
@@ -114,7 +117,7 @@ def command(
                 reference,
                 elements=size,
                 law=law,
-                uncertainty=uncertainty,
+                uncertainty=False if no_uncertainty else uncertainty or None,
                 symmetry=symmetry,
                 branch=branch,
                 others=model or (),

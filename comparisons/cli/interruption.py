@@ -16,19 +16,19 @@ from contextlib import contextmanager
 
 STATUS = 130  # 128 + SIGINT, as shells have it
 PATIENCE = 1.2  # s, from the signal to the end of a process that does not heed it
-RESUMED = ("simulate", "tradeoff", "stability", "transfer", "coverage", "advisor")  # with --out
 
 _left_behind = "nothing was kept"
 
 
-def promise(verb: str, out: object) -> None:
-    """Note what an interrupt of this verb leaves behind, given its --out."""
+def promise(verb: str, out: object, resumed: bool) -> None:
+    """Note what an interrupt of this verb leaves behind, given its --out; resumed: whether it keeps its runs
+    there."""
     global _left_behind
     if verb == "live":
         _left_behind = "the server has stopped; an open page keeps its last answers"
     elif out is None:
         _left_behind = "nothing was kept"
-    elif verb in RESUMED:
+    elif resumed:
         _left_behind = "the same command goes on"
     else:
         _left_behind = f"files written so far are in {out}"

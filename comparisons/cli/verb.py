@@ -100,6 +100,7 @@ def as_verb(name: str, command: Callable[..., None]) -> Callable[..., None]:
             parameters += parameter.annotation.parameters()
         else:
             parameters.append(parameter.replace(kind=Parameter.KEYWORD_ONLY))
+    of_campaign = any(issubclass(kind, CampaignOptions) for kind in groups.values())
     draws = any(parameter.name == "no_pictures" for parameter in parameters)
     for added, option in {"no_pictures": options.NoPicturesAnyway, "quiet": options.Quiet}.items():
         if added != "no_pictures" or not draws:
@@ -107,7 +108,8 @@ def as_verb(name: str, command: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(command)
     def run(*, quiet: bool, **values: Any) -> None:
-        interruption.promise(name, values.get("out"))
+        resumed = of_campaign or values.get("duration") is not None
+        interruption.promise(name, values.get("out"), resumed)
         if not draws:
             values.pop("no_pictures")
         for group, kind in groups.items():

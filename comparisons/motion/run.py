@@ -16,7 +16,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.sizes import size
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Elements, External, Spec, spec_of
-from comparisons.runs import load, manifest
+from comparisons.runs import load
 from comparisons.runs.campaign import Run
 from comparisons.runs.peak_memory import with_peak_memory
 from comparisons.runs.store import Finished
@@ -75,9 +75,7 @@ def measure(
         **history.document(),
         "unknowns": history.extra.get("unknowns") if found is None else found.unknowns,
         "peak_memory_bytes": memory if digest is None else None,
-        "load_average": load.average(),
-        "machine": manifest.machine(),
-        "versions": {"sheetbench": manifest.version(), **manifest.versions()},
+        **load.conditions(),
     }
 
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from typing import Any
+
+from comparisons.runs import manifest
 
 SCATTER = 2.0  # largest over smallest sample of one time
 
@@ -14,6 +17,12 @@ def average() -> float | None:
         return os.getloadavg()[0]
     except (OSError, AttributeError):
         return None
+
+
+def conditions() -> dict[str, Any]:
+    """Return what a measured time depends on, ready for JSON: load, machine, versions."""
+    versions = {"sheetbench": manifest.version(), **manifest.versions()}
+    return {"load_average": average(), "machine": manifest.machine(), "versions": versions}
 
 
 def warnings(loads: Iterable[float | None], samples: Iterable[Sequence[float]] = ()) -> list[str]:

@@ -20,7 +20,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve, warm
 from comparisons.models.spec import Spec, spec_of
 from comparisons.report.plan import inside
-from comparisons.runs import load, manifest
+from comparisons.runs import load
 from comparisons.runs.campaign import Run
 from comparisons.runs.peak_memory import with_peak_memory
 from sheetbench.scenes import Scene, Solution, Status
@@ -88,9 +88,7 @@ def measure(
         "bar": None if solution.bar is None else error(probes + solution.bar(points), probes),
         "probes": dict(zip(asked.probes, probes, strict=True)),
         "field": solution.displacement(field_points(asked)[0]),
-        "load_average": load.average(),
-        "machine": manifest.machine(),
-        "versions": {"sheetbench": manifest.version(), **manifest.versions()},
+        **load.conditions(),
     }
 
 

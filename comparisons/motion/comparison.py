@@ -63,31 +63,31 @@ def compare_motion(
 
     elements: 8 along the shorter side unless given. uncertainty: move the reference twice more, on elements
     twice as large and with steps twice as long. others: models that move it too, external codes and plug-ins
-    among them; leave_out: without those that refuse the scene, which are said. every [s]: distance of
+    among them; leave_out: without those that refuse the scene, which the answer names. every [s]: distance of
     samples, 1/100 of the lowest period unless given. frames: whole displacements to keep. store: a folder
     in which every run of ours has one to stream to; runs that were
-    stopped go on from there. progress: told what is being done, how large it is and how long it may take.
+    stopped go on from there. progress: called with what is being done, its size and how long it may take.
     Raises BadInput as `compare` and `simulate` do, and for a model that does not move the scene.
     """
-    asked = scene_of(scene)
+    scene = scene_of(scene)
     finest = Elements.given(reference, {"elements": elements, "law": law})
     finest = finest.but(count=ELEMENTS) if finest.count is None else finest
     beside = [parse(one) if isinstance(one, str) else one for one in others]
     left_out: dict[str, str] = {}
     for one in (finest, *beside):
         try:
-            require_motion(asked, one)
+            require_motion(scene, one)
         except BadInput as refusal:
             if one is finest or not leave_out:
                 raise
             left_out[one.model] = str(refusal)
-    model = resolve(asked, Lattice.given(lattice, keywords), "motion")
+    model = resolve(scene, Lattice.given(lattice, keywords), "motion")
 
     def moved(of: Resolved[Any], doing: str, spacing: float | None, **settings: Any) -> History:
         """A run, kept in a folder of its own by its settings where there is a store."""
         spec, pace, size = of.spec, Pace(duration), None
         if isinstance(spec, Elements):
-            steps, each = _expected_steps(asked, duration), sizes.size(asked, spec)
+            steps, each = _expected_steps(scene, duration), sizes.size(scene, spec)
             size = each and replace(each, seconds=steps * SOLVES * each.seconds)
         context().progress(Work(doing, size))
 
@@ -97,7 +97,7 @@ def compare_motion(
             context().progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
 
         if not isinstance(spec, External):
-            question = [asked.document(), duration, spacing, spec.model, of.settings, settings]
+            question = [scene.document(), duration, spacing, spec.model, of.settings, settings]
             text = json.dumps(question, sort_keys=True, default=str)
             kept = store and store / f"{spec.model}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
             settings |= {"progress": reached, "store": kept}
@@ -108,23 +108,23 @@ def compare_motion(
     for one in (one for one in beside if one.model not in left_out):
         name = unlike(plugins.shown_name(one.model), (*histories, finest.kind))
         try:
-            histories[name] = moved(resolve(asked, one, "motion"), f"moving the {name}", spacing)
+            histories[name] = moved(resolve(scene, one, "motion"), f"moving the {name}", spacing)
         except BadInput as refusal:
             if not leave_out:
                 raise
             left_out[one.model] = str(refusal)
     named = f"moving the {finest.kind}"
-    truth = moved(resolve(asked, finest), named, spacing, frames=frames)
+    truth = moved(resolve(scene, finest), named, spacing, frames=frames)
     bars: dict[str, float | None] = {}
     if uncertainty and truth.succeeded:
         error = LONGER * truth.settings["error"]
-        longer = moved(resolve(asked, finest), f"{named} in longer steps", spacing, error=error)
+        longer = moved(resolve(scene, finest), f"{named} in longer steps", spacing, error=error)
         bars = {"mesh": None, "step": _largest(longer, truth)}
-        along = finest.counts(asked)
+        along = finest.counts(scene)
         if min(along[:2]) > 1:
-            half = resolve(asked, finest.but(count=(along[0] // 2, along[1] // 2)))
+            half = resolve(scene, finest.but(count=(along[0] // 2, along[1] // 2)))
             bars["mesh"] = _largest(moved(half, f"{named} on larger elements", spacing), truth)
-    return MotionComparison(asked, {**histories, finest.kind: truth}, bars, left_out)
+    return MotionComparison(scene, {**histories, finest.kind: truth}, bars, left_out)
 
 
 def _largest(one: History, other: History) -> float | None:

@@ -46,10 +46,10 @@ def compose(found: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
             axis.legend(ncols=2, **ABOVE)
         ours = found.histories[others[0]]
         count = min(len(ours.time), len(truth.time))
-        apart = ours.probes[probe][:count] - truth.probes[probe][:count]
+        off = ours.probes[probe][:count] - truth.probes[probe][:count]
         panels[-2].plot(
             truth.time[:count],
-            100.0 * np.abs(apart).max(axis=1) / scale,
+            100.0 * np.abs(off).max(axis=1) / scale,
             lw=1.0,
             label=plain(probe, longest=20),
         )

@@ -51,9 +51,9 @@ def require_within(measured: Mapping[str, Measured], duration: float, file: Path
 def left_out(history: History, measured: Mapping[str, Measured]) -> list[str]:
     """A sentence for every probe with measurements outside the time of the run."""
     start, end = float(history.time[0]), float(history.time[-1])
-    said = []
+    sentences = []
     for probe, one in measured.items():
         if outside := int(np.sum(~one.within(start, end))):
             of = f"{outside} of {len(one.time)} measured times"
-            said.append(f"{probe}: {of} left out, for the run is from {start:g} to {end:g} s")
-    return said
+            sentences.append(f"{probe}: {of} left out, for the run is from {start:g} to {end:g} s")
+    return sentences

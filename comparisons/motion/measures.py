@@ -75,8 +75,8 @@ def measures(found: np.ndarray, count: int) -> Measures:
     if count == 0:
         return Measures()
     period = 2.0 * float(np.diff(kept[:, 0]).mean()) if count > 1 else None
-    apart = np.abs(np.diff(kept[:, 1]))
-    decay = 2.0 * float(np.log(apart[0] / apart[-1])) / (len(apart) - 1) if count > 2 else None
+    distances = np.abs(np.diff(kept[:, 1]))
+    decay = 2.0 * float(np.log(distances[0] / distances[-1])) / (len(distances) - 1) if count > 2 else None
     return Measures(float(kept[0, 1]), float(kept[0, 0]), period, decay, float(kept[-1, 0]))
 
 
@@ -104,7 +104,7 @@ def difference(one: History, other: History) -> dict[str, Any]:
     count = min(len(one.time), len(other.time))
     ours, theirs = (np.array([u[:count] for u in h.probes.values()]) for h in (one, other))
     scale = float(np.abs(theirs).max()) or np.nan
-    apart = ours - theirs
+    off = ours - theirs
     mine, truth = measured_alike(one, other)
     energy = max((float(np.abs(e[:count]).max()) for e in other.energies.values()), default=0.0) or np.nan
 
@@ -113,8 +113,8 @@ def difference(one: History, other: History) -> dict[str, Any]:
 
     late = None if mine.last is None or truth.last is None or not truth.period else mine.last - truth.last
     return {
-        "largest": float(np.abs(apart).max() / scale),
-        "rms": float(np.sqrt(np.mean(np.sum(apart**2, axis=-1))) / scale),
+        "largest": float(np.abs(off).max() / scale),
+        "rms": float(np.sqrt(np.mean(np.sum(off**2, axis=-1))) / scale),
         "peak": relative(mine.peak, truth.peak),
         "period": relative(mine.period, truth.period),
         "phase": None if late is None or not truth.period else late / truth.period,

@@ -61,16 +61,16 @@ def measure(
     digest: str | None = None,
 ) -> dict[str, Any]:
     """The row of a run, on warm code; digest: of a plug-in, under which the row is kept."""
-    asked = Scene.model_validate(scene)
+    parsed = Scene.model_validate(scene)
     with running(large=True):  # who asks has looked at the size
-        meant = resolve(asked, spec_of(model, settings), "motion")
+        meant = resolve(parsed, spec_of(model, settings), "motion")
     if digest is None:
         small = meant
         if isinstance(meant.spec, Elements):
-            small = resolve(asked, meant.spec.but(count=1), "motion")
+            small = resolve(parsed, meant.spec.but(count=1), "motion")
         simulate(small, 2.0 * every, every=every, **run)
     history, memory = with_peak_memory(lambda: simulate(meant, duration, every=every, **run))
-    found = size(asked, meant.spec)
+    found = size(parsed, meant.spec)
     return {
         **history.document(),
         "unknowns": history.extra.get("unknowns") if found is None else found.unknowns,

@@ -1,9 +1,9 @@
 """Answers of our models to Habibi et al.'s tests, with the published inputs.
 
-Beside the lattice of `consistent` springs and the shell with its error bar stand lattices as the seed has
-them: k as published for all springs, equal masses, full springs along edges. Their layer distance is not
+Beside the lattice of `consistent` springs and the shell with its error bar stand lattices as
+theirs: k as published for all springs, equal masses, full springs along edges. Their layer distance is not
 published; it is the sheet's thickness in one, √(D/k) in the other, with which it bends like the sheet
-(`asked_layer_distance`). Whether the rod of test 2 lifts its ends is not published either.
+(`matched_layer_distance`). Whether the rod of test 2 lifts its ends is not published either.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ SETS = ((1, 0), (2, 1), (2, -1))  # tests, and the sense of the rod
 
 
 def masses() -> tuple[int, int, int]:
-    """Return the seed's grid."""
+    """Return the published grid."""
     given = seed_inputs()
     side = int(given["masses_per_side"])
     return side, side, int(given["layers"])

@@ -28,7 +28,7 @@ def reproduce(
     elements: Elements = ELEMENTS,
     progress: Callable[[str | Work], None] = silent,
 ) -> Reproduction:
-    """These parts of the seed's study; elements: of the shell; progress: called with what is being done."""
+    """Return these parts of the study; elements: of the shell; progress: called with what is being done."""
     parts_done: dict[str, Any] = {}
     if "tables" in parts:
         parts_done["answers"] = tuple(answers(elements, progress))

@@ -3,7 +3,7 @@
 Published are the inputs of test 1, a plot of ux, uy and uz of P4 over time without numbers, and the time that
 a simulation took. The dampers are not published: those of our scene `two-edges-settling` are taken. Two
 lattices are run: `consistent` springs, and the published k with √(D/k) between the layers, equal masses and
-full springs along edges, as the seed has them.
+full springs along edges, as theirs.
 """
 
 from __future__ import annotations

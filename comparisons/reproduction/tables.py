@@ -78,7 +78,7 @@ class Reproduction(Answer):
 
     @property
     def succeeded(self) -> bool:
-        """Whether our own models have answers to what was asked: the seed's lattices need not."""
+        """Whether our own models have answers; lattices of the published k need not."""
         runs = self.settling.runs.values() if self.settling is not None else ()
         return all(one.comparison.succeeded for one in self.answers) and all(
             run.status is Status.CONVERGED for run in runs

@@ -1,15 +1,14 @@
 """Tables of a study for a page: values with all their digits to sort by, shown as everywhere else.
 
-The manifest has the columns with their units and formats, the CSV file the values in SI units. A CSV file
-of the run that the manifest does not describe is shown as it is, its columns of numbers to five digits.
+The manifest has the columns with their units and formats, the CSV file the values in SI units. Other CSV
+files, as of samples over time, are listed among the files.
 """
 
 from __future__ import annotations
 
 import csv
-import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,6 @@ from comparisons.pages.studies import Study
 from sheetbench.answers.table import Column, Table, Unit, unit
 
 MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folded
-WORD = 24  # letters; longer texts are broken over lines
 
 
 @dataclass(frozen=True, repr=False)
@@ -36,21 +34,15 @@ class PageTable(Table):
 
 
 def tables(study: Study) -> list[PageTable]:
-    """Return every table of a study, those that its manifest tells of first."""
-    found, described = [], set()
+    """Return every table that a study's manifest tells of."""
+    found = []
     for words in study.words.get("tables", ()):
-        name = f"{words.get('name')}.csv"
-        described.add(name)
-        rows = words.get("rows")
-        if rows is None:
-            read = study.read(name, _rows) if name in study.files else None
-            rows = read[1:] if read else None
+        name, rows = f"{words.get('name')}.csv", words.get("rows")
+        if rows is None and name in study.files:
+            rows = (study.read(name, _rows) or [])[1:] or None
         made = study.attempt(name, partial(_described, words, rows)) if rows is not None else None
         if made:
             found.append(made)
-    for name in study.ending(".csv"):
-        if name not in described and (read := study.read(name, _rows)):
-            found.append(_undescribed(name, read, aside=bool(described)))
     return found
 
 
@@ -94,20 +86,6 @@ def _cell(column: Column, of_units: bool, value: Any) -> Any:
         return str(value)
     found = _value(value)
     return int(found) if found is not None and column.form.endswith("d") and found == found else found
-
-
-def _undescribed(name: str, rows: list[list[str]], aside: bool) -> PageTable:
-    """Return a CSV file's table, its columns found from headings "name [m]" and what stands below."""
-    width, columns = len(rows[0]), []
-    body = [(row + [""] * width)[:width] for row in rows[1:]]
-    for i, head in enumerate(rows[0]):
-        cells = [row[i] for row in body[:MOST] if row[i]]
-        numeric = bool(cells) and all(_value(cell) is not None for cell in cells)
-        found = re.fullmatch(r"(.*) \[(.+)\]", head) if numeric else None
-        shown = unit(found[2]) if found else Unit("", "")
-        column = Column(found[1] if found else head, shown.si, shown.shown, shown.scale, ".5g" * numeric)
-        columns.append({**vars(column), "prose": max(map(len, cells), default=0) > WORD})
-    return replace(_described({"caption": name, "columns": columns}, body), aside=aside)
 
 
 def _left_out(rows: Sequence[Any]) -> str:

@@ -225,11 +225,15 @@ def test_damage_costs_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[s
     (tmp_path / "good.csv").write_text("x [m],what\n0.001,a\n")
     (tmp_path / "deep").mkdir()
     (tmp_path / "deep/manifest.json").write_text("[" * 100_000)
-    outside = {"files": ["../broken.csv", "gone.csv"], "command": ["x"], "scene": {"name": 1}}
+    outside = {"files": ["../broken.png", "gone.png"], "command": ["x"], "scene": {"name": 1}}
     (tmp_path / "odd").mkdir()
     (tmp_path / "odd/manifest.json").write_text(json.dumps({"runs": {"compare": outside}}))
     damaged = sorted(path.name for path in tmp_path.iterdir() if path.is_file())
-    (tmp_path / "manifest.json").write_text(json.dumps({"runs": {"check": {"files": damaged}}}))
+    columns = [{"name": "x", "unit": "m", "shown_unit": "mm", "scale": 1e3, "form": ".5g"}, {"name": "what"}]
+    described = {"tables": [{"name": name, "columns": columns} for name in ("broken", "good")]}
+    (tmp_path / "manifest.json").write_text(
+        json.dumps({"runs": {"check": {"files": damaged, "words": described}}})
+    )
     assert run("report", str(tmp_path), "--json") == 0
     said = capsys.readouterr()
     troubles = json.loads(said.out)["troubles"]

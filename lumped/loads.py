@@ -88,7 +88,7 @@ class Loads:
                 )
             elif isinstance(load, EdgeLoad):
                 edge = lattice.edge_columns(load.edge)
-                length = _lengths(scene, lattice, load.edge)
+                length = _lengths(scene, lattice, load)
                 edge, length = edge[length > 0.0], length[length > 0.0]
                 force = length[:, None] * np.array(load.force_per_length) / lattice.grid[2]
                 part.dead[edge] += force[:, None, :]
@@ -218,13 +218,13 @@ class Loads:
                 blocks[slots(row, edge[before, layer])] -= sign * by_chord
 
 
-def _lengths(scene: Scene, lattice: Lattice, edge: str) -> np.ndarray:
-    """What length of an edge each of its masses stands for, (m,) [m]."""
-    lines = lattice.lines[EDGES[edge].along_axis]
-    if not scene.pierced:
+def _lengths(scene: Scene, lattice: Lattice, load: EdgeLoad) -> np.ndarray:
+    """What length of a load's edge each of its masses stands for, (m,) [m]."""
+    lines = lattice.lines[EDGES[load.edge].along_axis]
+    if not scene.pierced and load.where is None:
         return lines.tributary
     length = np.zeros(len(lines.at))
-    for ends in edge_parts(scene, edge):
+    for ends in edge_parts(scene, load.edge, load.where):
         start, stop = (np.clip(at, *ends) for at in (lines.at[:-1], lines.at[1:]))
         middle = (0.5 * (start + stop) - lines.at[:-1]) / lines.widths
         length[:-1] += (stop - start) * (1.0 - middle)

@@ -9,7 +9,7 @@ from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
-from sheetbench.scenes import Scene, Sheet, Status, load
+from sheetbench.scenes import Scene, Sheet, Status, dead_force, load
 
 LENGTH, WIDTH, THICK, YOUNG, FORCE = 0.2, 0.02, 3e-3, 5e6, 1e-6
 TIP = [[LENGTH, WIDTH / 2.0]]
@@ -203,6 +203,12 @@ SHAPED = {
     "cutout": {"cutouts": [{"shape": CUT[1]["shape"]}]},
     "support.where": {"supports": [{"kind": "clamped", "where": CUT[0]["shape"]}]},
     "load.where": {"loads": [{"kind": "pressure", "value": 1.0, "where": CUT[0]["shape"]}]},
+    "load.where on an edge": {
+        "loads": [
+            {"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 1.0), "moment_per_length": 0.01}
+            | {"where": {"rectangle": {"x": (0.15, 0.188), "y": (0.0, 0.08)}}}
+        ]
+    },
     'load.kind = "area"': {"loads": [{"kind": "area", "force_per_area": (0.0, 0.0, 1.0)}]},
 }
 
@@ -215,6 +221,20 @@ def test_plate_and_shell_begin_to_move_alike(word):
     assert np.abs(ends[1]).max() > 0.0 and np.allclose(*ends, rtol=0.0, atol=0.01 * np.abs(ends[1]).max())
 
 
+def test_a_load_on_parts_of_an_edge_is_that_on_the_whole_of_it():
+    """But that the edge's tangent, about which its moment turns, is one-sided where parts meet."""
+    scene = load("one-edge-clamped")
+    pull = {"kind": "edge", "edge": "x1", "force_per_length": (0.3, 0.1, 0.2), "moment_per_length": 0.01}
+    parts = [{"rectangle": {"x": (0.1, 0.188), "y": y}} for y in ((0.0, 0.03), (0.03, 0.188))]
+    whole, cut = scene.replace(loads=[pull]), scene.replace(loads=[{**pull, "where": part} for part in parts])
+    assert np.allclose(dead_force(cut), dead_force(whole))
+    springs = lumped.calibrate(scene.sheet, scene.material, 5)
+    fields = [lumped.solve(each, springs).mesh.point_data["displacement"] for each in (whole, cut)]
+    assert np.allclose(*fields, rtol=0.0, atol=1e-6 * np.abs(fields[0]).max())
+    with pytest.raises(ValueError, match=r"load 1.where: .* no part of edge y1 is in it"):
+        scene.replace(loads=[{**pull, "edge": "y1", "where": parts[0]}])
+
+
 @pytest.mark.parametrize("word", SHAPED)
 def test_references_agree_on_shapes(word):
     """Of a stiff sheet, which bends little; a clamp within the sheet has a layer in the solid, as wide as the
@@ -223,6 +243,8 @@ def test_references_agree_on_shapes(word):
     keys = dict(SHAPED[word])
     scene = scene.replace(**keys.pop("sheet", {}), **keys, material=scene.material.replace(young=54.5e8))
     answers = [fem_reference.solve(scene, model, elements=8) for model in ("shell", "plate", "solid")]
+    if word == "load.where on an edge":
+        answers.append(lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, 17)))
     found = [each.displacement(scene.probe_points()) for each in answers]
     for each, displacement in zip(answers, found, strict=True):
         off = 0.1 if (each.model, word) == ("solid", "support.where") else 0.02

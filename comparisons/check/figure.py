@@ -13,10 +13,10 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
 from comparisons.report.arrows import load_arrows
-from comparisons.report.plan import held_lines
+from comparisons.report.plan import edge_ends, held_lines
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, plain
-from sheetbench.scenes import Scene, holds_director
+from sheetbench.scenes import EdgeLoad, Scene, holds_director
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.supports import named, place
 
@@ -41,7 +41,10 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
         for line in held_lines(scene, support):
             axis.plot(*1e3 * line.T, color=DARK, linewidth=3.0 if holds_director(support) else 1.5)
     for number, load in enumerate(scene.loads, start=1):
-        if (shape := getattr(load, "where", None)) is not None:
+        if isinstance(load, EdgeLoad):
+            for ends in edge_ends(scene, load.edge, load.where):
+                axis.plot(*1e3 * np.array(ends).T, color=LOAD, linewidth=1.5)
+        elif (shape := getattr(load, "where", None)) is not None:
             look = {"facecolor": LOAD, "edgecolor": LOAD, "alpha": 0.2}
             _part(axis, scene, shape, f"load {number}", look)
     _arrows(axis, scene, 1e3 * LONGEST * lengths.max())

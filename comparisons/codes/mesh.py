@@ -155,6 +155,8 @@ def refusal(scene: Scene) -> str:
         return "these codes hold sheets by clamped and hinged edges only"
     if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
         return "their clamps stand upright, and supports stay where they are"
+    if scene.shaped_by:
+        return f"{scene.shaped_by}: their meshes are of whole rectangles"
     if any(
         not isinstance(load, PointLoad | EdgeLoad) or getattr(load, "moment_per_length", 0.0)
         for load in scene.loads

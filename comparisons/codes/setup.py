@@ -29,7 +29,7 @@ from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import AnyScene, Scene, SceneError, require_static, scene_of
+from sheetbench.scenes import AnyScene, Scene, SceneError, require_static, require_uniform, scene_of
 from sheetbench.scenes.words import sheet_in_words
 
 SQUARES = 8  # along the shorter side
@@ -156,6 +156,7 @@ def setup(
     """
     scene = scene_of(scene)
     require_choice("--for", code, WRITERS)
+    require_uniform(scene, f"--for {code}", "its numbers are of one isotropic material and thickness")
     row = CODES[code]
     if squares < 2:
         raise BadInput(f"{squares} squares along the shorter side: at least 2")

@@ -27,7 +27,15 @@ from fem_reference.surface.biquadratic import GAUSS, areas
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.loads import orientation
 from fem_reference.surface.location import locate
-from fem_reference.surface.mesh import divisions, elements_in, has_lines, mesh_of, nodes_of, on_boundary
+from fem_reference.surface.mesh import (
+    divisions,
+    elements_in,
+    facets_on,
+    has_lines,
+    mesh_of,
+    nodes_of,
+    on_boundary,
+)
 from sheetbench.scenes import AreaLoad, EdgeLoad, Material, Scene, Symmetric, held_axes, holds_director
 from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
 from sheetbench.scenes.shapes import Shape
@@ -156,10 +164,10 @@ class Bricks:
         mean: np.ndarray = rule / rule.sum()
         return mean
 
-    def sides(self, name: str) -> tuple[np.ndarray, np.ndarray]:
-        """Eight nodes of every brick's face on an edge (f, 8), corners and then mid-edges, and the faces'
-        areas (f,) over the thickness [m]."""
-        on = self.plan.boundaries[name]
+    def sides(self, load: EdgeLoad) -> tuple[np.ndarray, np.ndarray]:
+        """Eight nodes of every brick's face that a load acts on (f, 8), corners and then mid-edges, and the
+        faces' areas (f,) over the thickness [m]."""
+        on = facets_on(self.plan, load)
         (first, last), middle = self.plan.facets[:, on], self.plan.nvertices + on
         faces = [
             np.column_stack([self.number[at, low + up] for at, up in (
@@ -271,7 +279,7 @@ def forces(scene: Scene, bricks: Bricks) -> np.ndarray:
     nodes, elements = nodes_of(bricks.plan)
     for load in scene.loads:
         if isinstance(load, EdgeLoad):
-            faces, share = bricks.sides(load.edge)
+            faces, share = bricks.sides(load)
             shares = share[:, None] * np.repeat([-1.0 / 12.0, 1.0 / 3.0], 4)
             pull = load.force_per_length
         elif isinstance(load, AreaLoad):

@@ -59,7 +59,8 @@ def scales(scene: Scene) -> Scales:
         factor = abs(acting.last_factor)
         force = factor * resultant(scene, acting) / area
         if isinstance(acting, EdgeLoad):
-            turning = factor * abs(acting.moment_per_length) * edge_length(scene, acting.edge) / area / side
+            length = edge_length(scene, acting.edge, acting.where)
+            turning = factor * abs(acting.moment_per_length) * length / area / side
             load, normal = load + turning, normal + turning
         load, normal = load + float(np.linalg.norm(force)), normal + abs(float(force[2]))
     return Scales(

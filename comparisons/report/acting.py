@@ -39,7 +39,7 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
         seen += _arrows(stage, stage.deformed(solution, plan), arrows)
     for load in scene.loads:
         if isinstance(load, EdgeLoad) and load.moment_per_length:
-            plan = edge_plan(scene, load.edge, np.linspace(0.0, 1.0, ALONG))[1::2]
+            plan = edge_plan(scene, load.edge, np.linspace(0.0, 1.0, ALONG), load.where)[1::2]
             _turns(stage, stage.deformed(solution, plan), load.edge, load.moment_per_length)
     return np.vstack(seen)
 

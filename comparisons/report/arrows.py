@@ -28,7 +28,7 @@ def load_arrows(scene: Scene, normals: Callable[[np.ndarray], np.ndarray]) -> tu
     arrows = [point_arrows(np.array([load.force for load in points]).reshape(-1, 3))]
     for load in scene.loads:
         if isinstance(load, EdgeLoad) and any(load.force_per_length):
-            plan.append(edge_plan(scene, load.edge, np.linspace(0.0, 1.0, ALONG)))
+            plan.append(edge_plan(scene, load.edge, np.linspace(0.0, 1.0, ALONG), load.where))
             arrows.append(np.tile(EDGE * _direction(load.force_per_length), (len(plan[-1]), 1)))
         elif isinstance(load, AreaLoad) and any(load.force_per_area):
             plan.append(_all_over(scene, load.where))
@@ -39,9 +39,9 @@ def load_arrows(scene: Scene, normals: Callable[[np.ndarray], np.ndarray]) -> tu
     return np.vstack(plan), np.vstack(arrows)
 
 
-def edge_plan(scene: Scene, edge: str, shares: np.ndarray) -> np.ndarray:
-    """Plan points (n, 2) [m] at shares of every part of an edge that the sheet reaches."""
-    ends = np.array(edge_ends(scene, edge))
+def edge_plan(scene: Scene, edge: str, shares: np.ndarray, where: Shape | None = None) -> np.ndarray:
+    """Plan points (n, 2) [m] at shares of every part of an edge that the sheet reaches; where: in a shape."""
+    ends = np.array(edge_ends(scene, edge, where))
     return np.vstack([start + shares[:, None] * (end - start) for start, end in ends])
 
 

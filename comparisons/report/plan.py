@@ -11,6 +11,7 @@ from sheetbench.scenes import FieldMesh, Scene, Support
 from sheetbench.scenes.grid import near_square
 from sheetbench.scenes.patches import shares_of
 from sheetbench.scenes.region import edge_parts, nearest
+from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.sheet import EDGES
 from sheetbench.scenes.supports import place
 
@@ -101,13 +102,15 @@ def free_side(scene: Scene) -> np.ndarray:
     return -sum((np.array(EDGES[edge].outward[:2]) for edge in held), np.zeros(2))
 
 
-def edge_ends(scene: Scene, edge: str) -> list[tuple[Sequence[float], Sequence[float]]]:
-    """Both ends [m] of every part of an edge that the sheet reaches."""
-    if not scene.pierced:
+def edge_ends(
+    scene: Scene, edge: str, where: Shape | None = None
+) -> list[tuple[Sequence[float], Sequence[float]]]:
+    """Both ends [m] of every part of an edge that the sheet reaches; where: in a shape."""
+    if not scene.pierced and where is None:
         return [scene.sheet.edge_ends(edge)]
     normal, along, far = EDGES[edge]
     at = partial(_point, scene.sheet.lengths[normal] if far else 0.0, along)
-    return [(at(start), at(stop)) for start, stop in edge_parts(scene, edge)]
+    return [(at(start), at(stop)) for start, stop in edge_parts(scene, edge, where)]
 
 
 def _point(across: float, along: int, at: float) -> tuple[float, float]:

@@ -26,7 +26,7 @@ from fem_reference.surface.biquadratic import GAUSS, THREE, THREE_WEIGHTS, areas
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import constants_of
-from fem_reference.surface.mesh import elements_in
+from fem_reference.surface.mesh import elements_in, facets_on
 from sheetbench.scenes import Balance, EdgeLoad, PointLoad, Pressure, Scene, dead_force
 from sheetbench.scenes.loads import AreaLoad
 from sheetbench.scenes.shapes import Shape
@@ -151,7 +151,7 @@ def _weight_moment(scene: Scene, surface: Surface, edge: OnEdge) -> np.ndarray:
 
 
 def _edge_moment(load: EdgeLoad, surface: Surface) -> np.ndarray:
-    sides = surface.sides(surface.mesh.boundaries[load.edge])
+    sides = surface.sides(facets_on(surface.mesh, load))
     weights = surface.lengths(sides)
     position, director = (_VALUE @ values[sides] for values in (surface.position, surface.director))
     slope = _SLOPE @ surface.position[sides]

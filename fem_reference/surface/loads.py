@@ -30,7 +30,7 @@ from fem_reference.surface.biquadratic import (
 )
 from fem_reference.surface.location import locate
 from fem_reference.surface.materials import constants_of
-from fem_reference.surface.mesh import elements_in
+from fem_reference.surface.mesh import elements_in, facets_on
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, encloses_volume
 from sheetbench.scenes.loads import AreaLoad
 
@@ -235,7 +235,7 @@ def of_scene(
                 force = factor * np.array(load.force)
                 dead += point_force(mesh, element_nodes, count, np.array(load.at), force)
             case EdgeLoad():
-                line = Line.along(mesh, mesh.boundaries[load.edge], corners)
+                line = Line.along(mesh, facets_on(mesh, load), corners)
                 dead += line_force(line, element_nodes, count, factor * np.array(load.force_per_length))
                 if load.moment_per_length:
                     followers.append(FollowerMoment(factor * load.moment_per_length, line))

@@ -17,7 +17,7 @@ from fem_reference.surface.borders import Borders, borders_of, shapes_of
 from fem_reference.surface.outlined import LAYERS, quadrilaterals
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes import EDGES, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric
+from sheetbench.scenes import EDGES, EdgeLoad, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric
 from sheetbench.scenes.grid import MESH, elements_of
 from sheetbench.scenes.plan_mesh import divided
 from sheetbench.scenes.shapes import Shape
@@ -238,6 +238,14 @@ def elements_in(shape: Shape | None, nodes: np.ndarray, elements: np.ndarray) ->
     return (
         np.arange(len(elements)) if shape is None else np.flatnonzero(shape.contains(nodes[elements[:, 8]]))
     )
+
+
+def facets_on(mesh: MeshQuad, load: EdgeLoad) -> np.ndarray:
+    """The facets (k,) of a load's edge, or of its part in a shape, whose borders lie on their ends."""
+    facets = np.asarray(mesh.boundaries[load.edge])
+    if load.where is None:
+        return facets
+    return facets[load.where.contains(mesh.p[:, mesh.facets[:, facets]].mean(axis=1).T)]
 
 
 def require_upright(mesh: MeshQuad) -> None:

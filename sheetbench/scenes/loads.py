@@ -1,8 +1,9 @@
 """The kinds of load.
 
 point     a dead force [N] at a plan point of the mid-surface
-edge      per undeformed length of an edge: a dead force [N/m] and a moment [N·m/m] about the current
-          edge tangent; moment > 0 turns the edge so that material just outside it would move towards +z
+edge      per undeformed length of an edge, or of its part `where` a shape says: a dead force [N/m] and a
+          moment [N·m/m] about the current edge tangent; moment > 0 turns the edge so that material just
+          outside it would move towards +z
 area      a dead force [N/m²] per undeformed area, on the whole sheet or `where` a shape says
 pressure  a follower pressure [Pa] on the whole sheet or `where` a shape says, along the current normal
           (initially +z), per current area
@@ -46,6 +47,8 @@ class EdgeLoad(Loading):
     """Along x, y and z, per undeformed length of the edge; it keeps its direction."""
     moment_per_length: Annotated[Number, Unit("N·m/m")] = 0.0
     """About the current edge; > 0 turns the edge so that material just outside it would move towards +z."""
+    where: Shape | None = Field(default=None, kw_only=True)
+    """The part of the edge that is loaded, which lies in a shape; the whole edge unless given."""
 
     @model_validator(mode="after")
     def _loads_something(self) -> EdgeLoad:

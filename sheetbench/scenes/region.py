@@ -69,8 +69,9 @@ def nearest(plan: Polygon, point: PlanPoint) -> PlanPoint:
     return x, y
 
 
-def edge_parts(scene: Scene, edge: str) -> list[tuple[float, float]]:
-    """From where to where along an edge [m] the sheet reaches it: the sides of the plan on that line."""
+def edge_parts(scene: Scene, edge: str, where: Shape | None = None) -> list[tuple[float, float]]:
+    """From where to where along an edge [m] the sheet reaches it: the sides of the plan on that line, or the
+    part of them in a shape."""
     normal, along, far = EDGES[edge]
     at = scene.sheet.lengths[normal] if far else 0.0
     found = []
@@ -78,13 +79,21 @@ def edge_parts(scene: Scene, edge: str) -> list[tuple[float, float]]:
         for first, second in pairwise(ring.coords):
             if max(abs(first[normal] - at), abs(second[normal] - at)) < APART * max(scene.sheet.lengths):
                 found.append((min(first[along], second[along]), max(first[along], second[along])))
-    return found
+    if where is None:
+        return found
+    from shapely import LineString
+
+    lines = [LineString([(c, at) if along == 0 else (at, c) for c in ends]) for ends in found]
+    cut: list[Any] = [line.intersection(where.area) for line in lines]
+    bounds = [part.bounds for each in cut for part in getattr(each, "geoms", [each]) if part.length > 0.0]
+    return [(each[along], each[along + 2]) for each in bounds]
 
 
-def edge_length(scene: Scene, edge: str) -> float:
-    """Length [m] of the part of an edge that the sheet reaches."""
-    whole = scene.sheet.lengths[EDGES[edge].along_axis]
-    return sum(stop - start for start, stop in edge_parts(scene, edge)) if scene.pierced else whole
+def edge_length(scene: Scene, edge: str, where: Shape | None = None) -> float:
+    """Length [m] of the part of an edge that the sheet reaches; where: of that in a shape."""
+    if where is None and not scene.pierced:
+        return scene.sheet.lengths[EDGES[edge].along_axis]
+    return sum(stop - start for start, stop in edge_parts(scene, edge, where))
 
 
 def area_in(scene: Scene, shape: Shape | None) -> float:
@@ -100,7 +109,9 @@ def resultant(scene: Scene, load: AnyLoad, length: float | None = None) -> np.nd
     if isinstance(load, PointLoad):
         return np.array(load.force)
     if isinstance(load, EdgeLoad):
-        return (edge_length(scene, load.edge) if length is None else length) * np.array(load.force_per_length)
+        if length is None or load.where is not None:
+            length = edge_length(scene, load.edge, load.where)
+        return length * np.array(load.force_per_length)
     per_area = load.force_per_area if isinstance(load, AreaLoad) else (0.0, 0.0, load.value)
     return area_in(scene, load.where) * np.array(per_area)
 
@@ -135,10 +146,13 @@ def misplaced(scene: Scene) -> str:
             return f"{key} = {list(point)} m: there is no sheet, by its outline or a cutout"
     shapes = {name: place(support) for name, support in named(scene.supports).items()}
     shapes |= {f"load {n}": getattr(load, "where", None) for n, load in enumerate(scene.loads, start=1)}
-    least = (NECK * min(scene.sheet.lengths)) ** 2
+    least = NECK * min(scene.sheet.lengths)
     for name, shape in shapes.items():
-        if shape is not None and area_in(scene, shape) <= least:
+        if shape is not None and area_in(scene, shape) <= least**2:
             return f"{name}.where: {shape.in_words()}: no part of it is on the sheet"
+    for n, load in enumerate(scene.loads, start=1):
+        if isinstance(load, EdgeLoad) and load.where and edge_length(scene, load.edge, load.where) <= least:
+            return f"load {n}.where: {load.where.in_words()}: no part of edge {load.edge} is in it"
     edges = {f"support on edge {s.edge}": s.edge for s in scene.supports if place(s) is None}
     edges |= {
         f"load {n} on edge {each.edge}": each.edge
@@ -146,7 +160,7 @@ def misplaced(scene: Scene) -> str:
         if isinstance(each, EdgeLoad)
     }
     for name, edge in edges.items():
-        if edge_length(scene, edge) <= NECK * min(scene.sheet.lengths):
+        if edge_length(scene, edge) <= least:
             return f"{name}: the sheet touches that edge at points at most; say where by a shape"
     for number, actuator in enumerate(scene.actuators, start=1):
         whole = scene.sheet.lengths[EDGES[actuator.edge].along_axis]

@@ -219,7 +219,7 @@ def _load(load: AnyLoad, scene: Scene) -> str:
     if load.moment_per_length:
         way = "up" if load.moment_per_length > 0.0 else "down"
         parts.append(f"a moment of {abs(load.moment_per_length):g} N·m/m that turns what is outside it {way}")
-    return f"on edge {load.edge}: {' and '.join(parts) or 'nothing'}{history}"
+    return f"on edge {load.edge}{_in(load.where)}: {' and '.join(parts) or 'nothing'}{history}"
 
 
 def _in(where: Shape | None) -> str:

@@ -13,6 +13,7 @@ from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
+from shutil import which
 from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any
@@ -127,6 +128,8 @@ def run_trials(code: str, python: str, seconds: float, budget: float, say: Calla
     missing come first, ours before others, curves last.
     """
     require_choice("code", code, RECIPES)
+    if which(python) is None:
+        raise BadInput(f"{code}={python}: no such program; `make trials` makes the environments")
     path, ends = RESULTS / f"{code}.json", perf_counter() + budget
     old = read_results(path)["rows"] if path.exists() else []
     rows: dict[tuple[str, str], Trial] = {(row["scene"], row["recipe"]): Trial(**row) for row in old}

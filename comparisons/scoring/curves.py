@@ -12,7 +12,10 @@ Lengths, density and weight are fixed, and Young's modulus makes the number.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import cos, pi, sin
+
+import numpy as np
 
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
 
@@ -40,12 +43,12 @@ def bend_twist(load: float, width: float = NARROW) -> Scene:
     return _strip("bend-twist", load, (width, SLENDER), 0.0, TURNED)
 
 
-def way(scene: Scene, moved: tuple[float, float, float]) -> tuple[float, float, float]:
+def way(scene: Scene, moved: Sequence[float] | np.ndarray) -> tuple[float, float, float]:
     """The tip's displacement over the length: along the strip, down, and aside, which is square to both."""
     assert scene.gravity is not None
     _, y, z = (value / GRAVITY for value in scene.gravity.acceleration)
-    along, u, v = (value / scene.sheet.length_x for value in moved)
-    return along, u * y + v * z, u * -z + v * y
+    along, u, v = (float(value) / LENGTH for value in moved)
+    return along, u * y + v * z, v * y - u * z
 
 
 def _strip(name: str, load: float, over: tuple[float, float], poisson: float, turned: float) -> Scene:

@@ -1,24 +1,19 @@
-"""Three problems whose answer depends on one number alone, by lattices and shells.
+"""Three problems whose answer depends on one number alone (`comparisons.scoring.curves`), by lattices and
+shells, and by the codes of `studies.trials`.
 
-**Cantilever** under its own weight: drop over reach H/W against Γ = ρ_A g L³/B (ρ_A mass per area, B bending
-stiffness per width; ν = 0 here, B = E h³/12). Exact: the heavy elastica θ'' = −Γ (1 − s) cos θ,
+**Cantilever**: drop over reach H/W against Γ. Exact: the heavy elastica θ'' = −Γ (1 − s) cos θ,
 θ(0) = θ'(1) = 0, solved by collocation.
 
-**Lateral buckling** of a strip on edge, clamped at one end, under its own weight: the number
-Γ* = 12 (1 − ν²) ρ g L³/(E h²) at which it leaves its plane. A narrow strip has 18.17 (1 − ν²)/√(1 + ν), of
+**Strip on edge**: the Γ* at which it leaves its plane. A narrow strip has 18.17 (1 − ν²)/√(1 + ν), of
 (q L³) = 12.85 √(EI·GJ) (Timoshenko and Gere); wider ones are found here, by bisection for the largest stable
-load.
+load. One that leans leaves it earlier, and how far its tip goes aside is a curve of any code.
 
-**Bending and twisting** of a strip that is clamped with its plane turned by 45° about its length, under its
-own weight: how far the tip drops and goes aside, over the length, against Γ (ν = 0). Exact, of a narrow
+**Bending and twisting**: how far the tip drops and goes aside, over the length, against Γ. Exact, of a narrow
 strip: Kirchhoff's rod (`studies.master_curves.twist`).
-
-Romero et al. 2021 (ACM Trans. Graph. 40(4)) use the first two to judge simulators.
 """
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from typing import Annotated, Any
@@ -29,14 +24,26 @@ from scipy.integrate import solve_bvp
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import spec_of
+from comparisons.scoring.curves import (
+    LENGTH,
+    POISSON,
+    SLENDER,
+    TURNED,
+    WIDTH,
+    bend_twist,
+    cantilever,
+    on_edge,
+    way,
+)
+from comparisons.scoring.curves import NARROW as NARROW_WIDTH
+from comparisons.scoring.reference import references
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import Column, Table
-from sheetbench.errors import Implausible
-from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Solution
-from studies.master_curves.twist import tip, weight_direction
+from sheetbench.scenes import Scene, Solution
+from studies.master_curves.twist import tip
+from studies.trials.study import OURS, RESULTS, read_results
 
-YOUNG, DENSITY, WIDTH = 1e7, 1000.0, 0.25
 LOADS = (0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0)
 CANTILEVERS: dict[str, dict[str, Any]] = {
     "lattice 9": {"grid": (9, 3)},
@@ -46,10 +53,9 @@ CANTILEVERS: dict[str, dict[str, Any]] = {
     "shell 4": {"model": "shell", "elements": (4, 1)},
     "shell 16": {"model": "shell", "elements": (16, 1)},
 }
-POISSON, SLENDER = 0.35, 0.002  # of the strips on edge; thickness over length
 WIDTHS = (0.05, 0.1, 0.2, 0.4)  # over length
 BISECTIONS = 13
-TURNED, TURNED_WIDTH = np.pi / 4, 0.05
+TURNED_WIDTH = 0.05  # over length
 TWISTING = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
 TWISTED: dict[str, dict[str, Any]] = {
     "lattice 33": {"grid": (33, 3)},
@@ -101,6 +107,18 @@ class Twisted:
         return float(miss / np.hypot(self.narrow_drop, self.narrow_aside))
 
 
+@dataclass(frozen=True)
+class Tip:
+    """A code's answer with our numbers to a curve of the reference set: the tip's way over the length."""
+
+    case: str
+    code: str
+    along: Annotated[float, Column("along", form=".4f")]
+    down: Annotated[float, Column("down", form=".4f")]
+    aside: Annotated[float, Column("aside", form=".4f")]
+    error: Annotated[float, Column("off by", "", "%", 100.0, ".2f")]
+
+
 @dataclass(frozen=True, repr=False)
 class MasterCurves(Answer):
     """The three curves."""
@@ -108,6 +126,7 @@ class MasterCurves(Answer):
     drops: tuple[Drop, ...]
     buckled: tuple[Buckled, ...]
     twisted: tuple[Twisted, ...]
+    tips: tuple[Tip, ...]
 
     file_name = "master-curves"
     narrow = NARROW
@@ -133,6 +152,15 @@ class MasterCurves(Answer):
                 text=f"Sheets are {TURNED_WIDTH:g} of their length wide, {SLENDER:g} thick, ν = 0. Shells "
                 "differ by what their mesh leaves open; what both are off is the width.",
             ),
+            Table.of(
+                Tip,
+                self.tips,
+                "Codes on the curves of the reference set",
+                "codes",
+                grouped=True,
+                text="With our numbers, 4 squares along the shorter side, beside the converged shell; strips "
+                f"are {WIDTH:g} (cantilever) and {NARROW_WIDTH:g} of their length wide.",
+            ),
         )
 
     def figures(self) -> tuple[Picture, ...]:
@@ -144,6 +172,7 @@ class MasterCurves(Answer):
             "buckling": [asdict(one) for one in self.buckled],
             "narrow": self.narrow,
             "bend_twist": [{**asdict(one), "error": one.error} for one in self.twisted],
+            "codes": [asdict(one) for one in self.tips],
         }
 
 
@@ -160,47 +189,27 @@ def elastica(load: float) -> float:
     return float(np.trapezoid(np.sin(y[0]), s) / np.trapezoid(np.cos(y[0]), s))
 
 
-def cantilever(load: float) -> Scene:
-    """A strip of 1 m with ν = 0, at Γ = load."""
-    thickness = 0.005
-    weight = load * YOUNG * thickness**2 / 12.0 / DENSITY
-    return _strip((1.0, WIDTH, thickness), 0.0, (0.0, 0.0, -weight))
-
-
-def on_edge(load: float, width: float) -> Scene:
-    """A strip of 1 m on edge, at Γ* = load."""
-    weight = load * YOUNG * SLENDER**2 / (12.0 * (1.0 - POISSON**2) * DENSITY)
-    return _strip((1.0, width, SLENDER), POISSON, (0.0, -weight, 0.0))
-
-
-def turned(load: float, width: float = TURNED_WIDTH) -> Scene:
-    """A strip of 1 m with ν = 0 whose plane is turned about its length, at Γ = load."""
-    weight = load * YOUNG * SLENDER**2 / 12.0 / DENSITY
-    x, y, z = (weight * weight_direction(TURNED)).tolist()
-    return _strip((1.0, width, SLENDER), 0.0, (x, y, z))
-
-
-def _strip(size: tuple[float, float, float], poisson: float, weight: tuple[float, float, float]) -> Scene:
-    length, width, thickness = size
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", Implausible)  # no weight of this planet
-        return Scene(
-            name="strip",
-            sheet=Sheet(length_x=length, length_y=width, thickness=thickness),
-            material=Material(young=YOUNG, poisson=poisson, density=DENSITY),
-            supports=(Clamped(edge="x0"),),
-            gravity=Gravity(acceleration=weight),
-            probes={"tip": (length, width / 2.0)},
-        )
-
-
 def _solve(scene: Scene, model: str = "lumped", **settings: Any) -> Solution:
     return solve(resolve(scene, spec_of(model, settings)))
 
 
+def _tips() -> Iterator[Tip]:
+    for path in sorted(RESULTS.glob("*.json")):
+        found = read_results(path)
+        for row in found["rows"]:
+            if row["recipe"] == OURS and row["moved"] and (case := references("curves").get(row["scene"])):
+                yield Tip(case.name, found["title"], *way(case.scene, row["moved"][0]), row["error"])
+
+
+def _tip(scene: Scene, **settings: Any) -> tuple[float, float, float]:
+    """Along the strip, down and aside."""
+    return way(scene, _solve(scene, **settings).displacement(scene.probe_points())[0])
+
+
 def measure(progress: Callable[[str], None]) -> MasterCurves:
-    """Solve both problems."""
-    return MasterCurves(tuple(_drops(progress)), tuple(_buckled(progress)), tuple(_twisted(progress)))
+    """Solve the three problems, and read what codes have found."""
+    solved = tuple(_drops(progress)), tuple(_buckled(progress)), tuple(_twisted(progress))
+    return MasterCurves(*solved, tuple(_tips()))
 
 
 def _drops(progress: Callable[[str], None]) -> Iterator[Drop]:
@@ -208,8 +217,8 @@ def _drops(progress: Callable[[str], None]) -> Iterator[Drop]:
         exact, scene = elastica(load), cantilever(load)
         for name, settings in CANTILEVERS.items():
             progress(f"cantilever, Γ = {load:g}: {name}")
-            moved = _solve(scene, **settings).displacement(np.array([[1.0, WIDTH / 2.0]]))[0]
-            yield Drop(load, name, -exact, -moved[2] / (1.0 + moved[0]))
+            along, down, _ = _tip(scene, **settings)
+            yield Drop(load, name, -exact, down / (1.0 + along))
 
 
 def _buckled(progress: Callable[[str], None]) -> Iterator[Buckled]:
@@ -232,11 +241,10 @@ def _buckled(progress: Callable[[str], None]) -> Iterator[Buckled]:
 
 
 def _twisted(progress: Callable[[str], None]) -> Iterator[Twisted]:
-    down = weight_direction(TURNED)
-    across = np.array([0.0, -down[2], down[1]])
     for load in TWISTING:
         progress(f"turned strip, Γ = {load:g}")
-        exact, scene = tip(load, 0.0, TURNED), turned(load)
+        scene = bend_twist(load, TURNED_WIDTH)
+        _, drop, aside = way(scene, LENGTH * tip(load, 0.0, TURNED))
         for name, settings in TWISTED.items():
-            moved = _solve(scene, **settings).displacement(scene.probe_points())[0]
-            yield Twisted(load, name, *(float(u @ way) for way in (down, across) for u in (exact, moved)))
+            _, own_drop, own_aside = _tip(scene, **settings)
+            yield Twisted(load, name, drop, own_drop, aside, own_aside)

@@ -223,4 +223,4 @@ def read_results(path: Path) -> dict[str, Any]:
             raise BadInput(f"{path}: {row.scene}, {row.recipe}: a scene of {', '.join(CASES)}, numbers ≥ 0")
         if row.status == "converged" and len(numbers) < 2:
             raise BadInput(f"{path}: {row.scene}, {row.recipe}: converged without an error or a time")
-    return document
+    return document | {"rows": [asdict(row) for row in rows]}

@@ -16,11 +16,12 @@ TEXT = """\
 
 Each code on those {count} statics of the [reference set](suite.md) and its {curves}
 [curves](master-curves.md) that its triangles can have (not curved, tilted or sliding edges, chains, pressure
-or moments along edges): with numbers that people use, and with those of `sheetbench calibrate SCENE --for CODE` ([what they
-are](cells.md)). Meshes have 8 squares along the shorter side, of curves 4, unless others are named. Error:
-the largest difference from the set's converged shell at the probes, of the largest displacement; s:
-processor time of the run to rest. Every run is a process of its own with a limit of processor time; one that
-crashes or does not come to rest says so in its place. "not run": there was no time for it yet.
+or moments along edges): with numbers that people use, and with those of
+`sheetbench calibrate SCENE --for CODE` ([what they are](cells.md)). Meshes have 8 squares along the shorter
+side, of curves 4, unless others are named. Error: the largest difference from the set's converged shell at
+the probes, of the largest displacement; s: processor time of the run to rest. Every run is a process of its
+own with a limit of processor time; one that crashes or does not come to rest says so in its place. "not run":
+there was no time for it yet.
 
 ![Error against time of every code and recipe](images/results.png)
 
@@ -194,8 +195,8 @@ def _front(documents: list[dict[str, Any]], scene: str) -> str:
     for title, row in sorted(_answered(documents, scene), key=lambda one: one[1]["seconds"]):
         if not kept or row["error"] < kept[-1][1]["error"]:
             kept.append((title, row))
-    return ", ".join(
-        f"{title} with {row['recipe']} ({_percent(row['error'])} in {row['seconds']:.3g} s)"
+    return "; ".join(
+        f"{title}, with {row['recipe']} ({_percent(row['error'])} in {row['seconds']:.3g} s)"
         for title, row in kept
     )
 

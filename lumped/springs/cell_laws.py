@@ -1,8 +1,8 @@
 """The laws of cells as rows of a table, `LAWS`, and how compiled loops call the one that they are given.
 
 A law's constants go into the loops as a tuple of the law's own type, its tag: numba compiles a loop once for
-each tag that it meets, and `respond`, `stiffness`, `mean_stress`, `constants` and `measures` below stand in
-it for the functions of that tag's row. A new law is a row, its compiled functions and a tag.
+each tag that it meets, and `respond`, `stiffness`, `mean_stress`, … below stand in it for the
+functions of that tag's row. A new law is a row, its compiled functions and a tag.
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
-from numba.extending import overload
+from numba.extending import overload, register_jitable
 
 from lumped.springs import laws
 from lumped.springs.laws import Constants, Four, Memory, Six, Three
+from sheetbench.numerics.memory import load_each
 
 
 class AreaAndStrains(NamedTuple):
@@ -125,29 +126,6 @@ def mean_face(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
 
 
 @njit(cache=True, error_model="numpy")
-def _four(k: np.ndarray, c: int) -> Constants:
-    return k[c, 0], k[c, 1], k[c, 2], k[c, 3]
-
-
-@njit(cache=True, error_model="numpy")
-def _five(k: np.ndarray, c: int) -> Constants:
-    return k[c, 0], k[c, 1], k[c, 2], k[c, 3], k[c, 4]
-
-
-@njit(cache=True, error_model="numpy")
-def _seven(k: np.ndarray, c: int) -> Constants:
-    return k[c, 0], k[c, 1], k[c, 2], k[c, 3], k[c, 4], k[c, 5], k[c, 6]
-
-
-@njit(cache=True, error_model="numpy")
-def _thirteen(k: np.ndarray, c: int) -> Constants:
-    return (
-        k[c, 0], k[c, 1], k[c, 2], k[c, 3], k[c, 4], k[c, 5], k[c, 6], k[c, 7], k[c, 8], k[c, 9], k[c, 10],
-        k[c, 11], k[c, 12],
-    )  # fmt: skip
-
-
-@njit(cache=True, error_model="numpy")
 def times_six(d: Six, x: Three) -> Three:
     """A symmetric matrix times a vector."""
     return (
@@ -157,29 +135,57 @@ def times_six(d: Six, x: Three) -> Three:
     )
 
 
+@register_jitable
+def _itself(d: Four, g: Three, memory: Any, predicted: Four) -> Any:
+    return memory, predicted
+
+
+def _linear(stiffness: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the function that gives S + D ġ of a law with this stiffness."""
+
+    @register_jitable
+    def extrapolate(  # type: ignore[no-untyped-def]
+        d: Four, g: Three, area: float, memory: Any, stress: Four, k: Constants, rate: Four
+    ):
+        six, more = stiffness(d, g, area, memory, 1.0, k)
+        by_g = times_six(six, (rate[0], rate[1], rate[2]))
+        by_s = more[0] * rate[0] + more[1] * rate[1] + more[2] * rate[2] + more[3] * rate[3]
+        return (
+            stress[0] + by_g[0] + more[0] * rate[3],
+            stress[1] + by_g[1] + more[1] * rate[3],
+            stress[2] + by_g[2] + more[2] * rate[3],
+            stress[3] + by_s,
+        )
+
+    return extrapolate
+
+
 @dataclass(frozen=True)
 class Law:
     """tag: of its loops; respond: (½, δg and s, g at rest, area, constants) → energy, what its stiffness
-    takes, stress; stiffness: (δg and s, g, area, that, share, constants) → M + share (D − M) of g, and of s;
-    extrapolate: (δg and s, g, area, that, stress, constants, their rate) → what a linearisation predicts, and
-    of_extrapolated: (δg and s, g, that, it) → that and the stress, where stress itself is not linear in it;
-    mean_stress: (of two states, g, area, constants) → the stress whose work is the energy stored; constants:
-    (array, cell) → a cell's; measures: 3, or 4 with s; any_strain: whether it means something at any strain;
-    parts:
-    (stiffness (c, 4), other constants, area) → constants of each kind that `ENERGIES` names, (c, n);
-    examples: constants of a cell of 1 × 1 m to test it by."""
+    takes, stress; stiffness: (δg and s, g, area, that, share, constants) → M + share (D − M) of g, 11 22 33
+    12 13 23, and of s, 14 24 34 44; extrapolate: (δg and s, g, area, that, stress, constants, their rate) →
+    what a linearisation predicts, and of_extrapolated: (δg and s, g, that, it) → that and the stress;
+    mean_stress: (of two states, g, area, constants) → the stress whose work is the energy stored; measures:
+    3, or 4 with s; any_strain: whether it means something at any strain; parts: (stiffness (c, 4), other
+    constants, area) → constants of each kind that `ENERGIES` names, (c, n); examples: constants of a cell of
+    1 × 1 m to test it by."""
 
     tag: type[Tag]
     respond: Callable[..., Any]
     stiffness: Callable[..., Any]
     mean_stress: Callable[..., Any]
-    constants: Callable[..., Any]
+    extrapolate: Callable[..., Any]
+    of_extrapolated: Callable[..., Any]
     measures: int
     any_strain: bool
     parts: Callable[..., dict[str, np.ndarray]]
     examples: tuple[tuple[float, ...], ...]
-    extrapolate: Callable[..., Any] | None = None
-    of_extrapolated: Callable[..., Any] | None = None
+
+    @property
+    def count(self) -> int:
+        """How many constants a cell has."""
+        return len(self.examples[0])
 
 
 ENERGIES = {  # of an exported cell with the constants k1, k2, …; see the README of an export
@@ -204,33 +210,32 @@ AREA_AND_STRAINS = Law(
     laws.area_and_strains,
     laws.stiffness_of_area_and_strains,
     laws.mean_area_and_strains,
-    _four,
+    laws.extrapolated_area_and_strains,
+    laws.area_and_strains_of_extrapolated,
     3,
     False,
     lambda stiffness, _others, _area: {"area": stiffness[:, :1], "strain": stiffness[:, 1:]},
     ((-30.0, 200.0, 150.0, 80.0),),
-    laws.extrapolated_area_and_strains,
-    laws.area_and_strains_of_extrapolated,
 )
 COUPLED = Law(
     Coupled,
     coupled,
     stiffness_of_coupled,
     mean_coupled,
-    _seven,
+    extrapolated_coupled,
+    laws.area_and_strains_of_extrapolated,
     3,
     False,
     lambda k, others, _area: {"area": k[:, :1], "strain": k[:, 1:], "coupling": others},
     ((-30.0, 200.0, 150.0, 80.0, 60.0, -50.0, 40.0),),
-    extrapolated_coupled,
-    laws.area_and_strains_of_extrapolated,
 )
 RUBBER = Law(
     Rubber,
     laws.rubber,
     laws.stiffness_of_rubber,
     laws.mean_rubber,
-    _thirteen,
+    _linear(laws.stiffness_of_rubber),
+    _itself,
     4,
     True,
     _parts_of_rubber,
@@ -246,7 +251,8 @@ FACE = Law(
     face,
     stiffness_of_face,
     mean_face,
-    _five,
+    _linear(stiffness_of_face),
+    _itself,
     3,
     True,
     lambda _stiffness, others, area: {"face": others * area[:, None]},
@@ -256,34 +262,22 @@ LAWS = (AREA_AND_STRAINS, COUPLED, RUBBER, FACE)
 _OF = {law.tag: law for law in LAWS}
 
 
-def respond(tag: Tag, half: float, d: Four, g: Three, area: float, k: Constants) -> Any:
-    """Return the energy, what `stiffness` takes, and the stress S of a cell."""
-    return _OF[type(tag)].respond(half, d, g, area, k)
+def _of_law(part: str) -> Any:
+    """Return the function of a tag that stands for this part of its law; compiled, it is that part."""
+
+    def call(tag: Tag, *given: Any) -> Any:
+        return getattr(_OF[type(tag)], part)(*given)
+
+    @overload(call, strict=False)
+    def _(tag: Any, *given: Any) -> Any:
+        function = getattr(_OF[tag.instance_class], part)
+        return lambda tag, *given: function(*given)
+
+    return call
 
 
-def stiffness(tag: Tag, d: Four, g: Three, area: float, memory: Any, share: float, k: Constants) -> Any:
-    """Return M + share (D − M) by g, 11 22 33 12 13 23, and by s, 14 24 34 44."""
-    return _OF[type(tag)].stiffness(d, g, area, memory, share, k)
-
-
-def extrapolate(
-    tag: Tag, d: Four, g: Three, area: float, memory: Any, stress: Four, k: Constants, rate: Four
-) -> Any:
-    """Return what the linearisation predicts after a rate of g and s: S + D ġ unless the law has its own."""
-
-
-def of_extrapolated(tag: Tag, d: Four, g: Three, memory: Any, predicted: Four) -> Any:
-    """Return what `stiffness` takes, and the stress, of what has been predicted."""
-
-
-def mean_stress(tag: Tag, start: Four, end: Four, g: Three, area: float, k: Constants) -> Any:
-    """Return the stress over a step whose work is the energy stored."""
-    return _OF[type(tag)].mean_stress(start, end, g, area, k)
-
-
-def constants(tag: Tag, c: int) -> Any:
-    """Return the constants of cell c."""
-    return _OF[type(tag)].constants(tag.constants, c)
+respond, stiffness, mean_stress = _of_law("respond"), _of_law("stiffness"), _of_law("mean_stress")
+extrapolate, of_extrapolated = _of_law("extrapolate"), _of_law("of_extrapolated")
 
 
 def measures(tag: Tag) -> int:
@@ -291,60 +285,28 @@ def measures(tag: Tag) -> int:
     return _OF[type(tag)].measures
 
 
-@overload(respond, strict=False)
-def _respond(tag: Any, half: Any, d: Any, g: Any, area: Any, k: Any) -> Any:
-    function = _OF[tag.instance_class].respond
-    return lambda tag, half, d, g, area, k: function(half, d, g, area, k)
+def constants(tag: Tag, first: Any, apart: Any) -> Any:
+    """Return a cell's constants, of which the first stands at this place of the tag's array, flat, and they
+    so far apart; compiled only."""
 
 
-@overload(stiffness, strict=False)
-def _stiffness(tag: Any, d: Any, g: Any, area: Any, memory: Any, share: Any, k: Any) -> Any:
-    function = _OF[tag.instance_class].stiffness
-    return lambda tag, d, g, area, memory, share, k: function(d, g, area, memory, share, k)
-
-
-@overload(extrapolate, strict=False)
-def _extrapolate(tag: Any, d: Any, g: Any, area: Any, memory: Any, stress: Any, k: Any, rate: Any) -> Any:
-    law = _OF[tag.instance_class]
-    function, derivative = law.extrapolate, law.stiffness
-    if function is not None:
-        return lambda tag, d, g, area, memory, stress, k, rate: function(d, g, area, memory, stress, k, rate)
-
-    def linear(tag, d, g, area, memory, stress, k, rate):  # type: ignore[no-untyped-def]  # S + D ġ
-        six, more = derivative(d, g, area, memory, 1.0, k)
-        by_g = times_six(six, (rate[0], rate[1], rate[2]))
-        by_s = more[0] * rate[0] + more[1] * rate[1] + more[2] * rate[2] + more[3] * rate[3]
-        return (
-            stress[0] + by_g[0] + more[0] * rate[3],
-            stress[1] + by_g[1] + more[1] * rate[3],
-            stress[2] + by_g[2] + more[2] * rate[3],
-            stress[3] + by_s,
-        )
-
-    return linear
-
-
-@overload(of_extrapolated, strict=False)
-def _of_extrapolated(tag: Any, d: Any, g: Any, memory: Any, predicted: Any) -> Any:
-    function = _OF[tag.instance_class].of_extrapolated
-    if function is None:
-        return lambda tag, d, g, memory, predicted: (memory, predicted)
-    return lambda tag, d, g, memory, predicted: function(d, g, memory, predicted)
-
-
-@overload(mean_stress, strict=False)
-def _mean_stress(tag: Any, start: Any, end: Any, g: Any, area: Any, k: Any) -> Any:
-    function = _OF[tag.instance_class].mean_stress
-    return lambda tag, start, end, g, area, k: function(start, end, g, area, k)
-
-
-@overload(constants, strict=False)
-def _constants(tag: Any, c: Any) -> Any:
-    function = _OF[tag.instance_class].constants
-    return lambda tag, c: function(tag.constants, c)
+def constants_of(tag: Tag, c: int) -> Any:
+    """Return the constants of cell c where a row of the tag's array has them; compiled only."""
 
 
 @overload(measures, strict=False)
 def _measures(tag: Any) -> Any:
     count = _OF[tag.instance_class].measures
     return lambda tag: count
+
+
+@overload(constants, strict=False)
+def _constants(tag: Any, first: Any, apart: Any) -> Any:
+    count = _OF[tag.instance_class].count
+    return lambda tag, first, apart: load_each(0, tag.constants, first, apart, count)
+
+
+@overload(constants_of, strict=False)
+def _constants_of(tag: Any, c: Any) -> Any:
+    count = _OF[tag.instance_class].count
+    return lambda tag, c: constants(tag, c * count, 1)

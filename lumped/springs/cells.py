@@ -27,7 +27,7 @@ from numba import njit
 from lumped.springs.cell_blocks import add_blocks, add_warped_blocks, both, by_sides, by_warp, to_diagonals
 from lumped.springs.cell_laws import (
     Tag,
-    constants,
+    constants_of,
     extrapolate,
     mean_stress,
     measures,
@@ -143,7 +143,7 @@ def add_forces(u: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
     energy = 0.0
     for c in range(len(cells.nodes)):
         d, g, shape = measure(u, cells, c)
-        stored, _, stress = respond(cells.law, HALF, d, g, cells.area[c], constants(cells.law, c))
+        stored, _, stress = respond(cells.law, HALF, d, g, cells.area[c], constants_of(cells.law, c))
         energy += stored
         pull(cells, c, stress, shape, force)
     return energy
@@ -164,7 +164,7 @@ def add_remembering_forces(
     energy = 0.0
     for c in range(len(cells.nodes)):
         d, g, shape = measure(u, cells, c)
-        stored, _, s = respond(cells.law, HALF, d, g, cells.area[c], constants(cells.law, c))
+        stored, _, s = respond(cells.law, HALF, d, g, cells.area[c], constants_of(cells.law, c))
         energy += stored
         k = constant[c]
         for e in range(4):
@@ -180,8 +180,8 @@ def energies(u: np.ndarray, cells: CellArrays, part: Tag) -> np.ndarray:
     out = np.empty((len(cells.nodes), 2))
     for c in range(len(cells.nodes)):
         d, g, _ = measure(u, cells, c)
-        out[c, 0] = respond(part, HALF, d, g, cells.area[c], constants(part, c))[0]
-        out[c, 1] = respond(cells.law, HALF, d, g, cells.area[c], constants(cells.law, c))[0] - out[c, 0]
+        out[c, 0] = respond(part, HALF, d, g, cells.area[c], constants_of(part, c))[0]
+        out[c, 1] = respond(cells.law, HALF, d, g, cells.area[c], constants_of(cells.law, c))[0] - out[c, 0]
     return out
 
 
@@ -191,7 +191,7 @@ def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarr
     out = np.empty((len(cells.nodes), 4))
     for c in range(len(cells.nodes)):
         d, g, (a, b, q) = measure(u, cells, c)
-        k, area = constants(cells.law, c), cells.area[c]
+        k, area = constants_of(cells.law, c), cells.area[c]
         _, memory, s = respond(cells.law, HALF, d, g, area, k)
         va, vb, vq = changes(step, cells.nodes, c)
         r1, r2, r3 = rate(a, b, va, vb)
@@ -207,7 +207,7 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
     for c in range(len(cells.nodes)):
         d0, g, (a0, b0, q0) = measure(start, cells, c)
         d1, _, (a1, b1, q1) = measure(end, cells, c)
-        s = mean_stress(cells.law, d0, d1, g, cells.area[c], constants(cells.law, c))
+        s = mean_stress(cells.law, d0, d1, g, cells.area[c], constants_of(cells.law, c))
         pull(
             cells, c, s, (times(0.5, plus(a0, a1)), times(0.5, plus(b0, b1)), times(0.5, plus(q0, q1))), force
         )
@@ -216,7 +216,7 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
 @njit(cache=True, error_model="numpy")
 def _material(cells: CellArrays, c: int, now: Three) -> Six:
     """M of the dampers of cell c, of area and strains and what couples these, whose measure is `now`."""
-    memory, k = (0.0, now[0] * now[1] - now[2] * now[2]), constants(cells.law, c)
+    memory, k = (0.0, now[0] * now[1] - now[2] * now[2]), constants_of(cells.law, c)
     return stiffness(cells.law, NO_CHANGE, now, cells.area[c], memory, 0.0, k)[0]
 
 
@@ -237,7 +237,7 @@ def add_tangent(
     own = len(stress) == 0
     for c in range(len(cells.nodes)):
         d, g, (a, b, q) = measure(u, cells, c)
-        k, area = constants(cells.law, c), cells.area[c]
+        k, area = constants_of(cells.law, c), cells.area[c]
         _, memory, s = respond(cells.law, HALF, d, g, area, k)
         if own:
             s = share * s[0], share * s[1], share * s[2], share * s[3]
@@ -276,7 +276,7 @@ def add_damping_tangent(u: np.ndarray, v: np.ndarray, cells: CellArrays, blocks:
         square, k = now[0] * now[1] - now[2] * now[2], _material(cells, c, now)
         n, turned = (now[1], now[0], -2.0 * now[2]), (moving[1], moving[0], -2.0 * moving[2])
         along = dot(n, moving) / square
-        scale = 0.25 * constants(cells.law, c)[0] / square
+        scale = 0.25 * constants_of(cells.law, c)[0] / square
         h = less(turned, times(0.5 * along, n))  # 2A ∇²A ġ
         h, growing = times(scale, less(h, times(0.5 * along, n))), scale * along * square
         r1 = plus(times(n[0], h), (0.0, growing, 0.0))

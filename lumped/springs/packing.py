@@ -18,7 +18,7 @@ from lumped.lattice import Lattice
 from lumped.pattern import ASKED, SHARED_UP_TO
 from lumped.springs.cell_laws import AREA_AND_STRAINS, COUPLED, FACE, RUBBER, AreaAndStrains, Tag
 from lumped.springs.families import Cells, Dampers, DirectionalLinks, Family, Links
-from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
+from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
 from sheetbench.scenes.grid import Grid
 
 LINKS, DIRECTIONAL, CELLS, RUBBER_CELLS, FACES, COUPLED_CELLS = range(6)
@@ -173,13 +173,10 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
         a, b = family.sides[:, 0], family.sides[:, 1]
         rest = (*a.T, *b.T, *((x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))), family.area)
         constants = family.constants.T
-        first = 14 if damped else 10
-        if family.law is COUPLED:
-            more = 21 if damped else 18
-            data[more : more + 3, at] += constants[4:]
+        first = 10 if damped else LAW
+        if damped and family.law is COUPLED:
+            data[21:24, at] += constants[4:]
             constants = constants[:4]
-        elif family.law is not AREA_AND_STRAINS:
-            constants, data[18:, at] = constants[4:8], constants[8:]
     data[: len(rest), at] = rest
     data[first : first + len(constants), at] += constants
 

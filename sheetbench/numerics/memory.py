@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from numba.core import cgutils, types
-from numba.core.errors import RequireLiteralValue
+from numba.core.errors import RequireLiteralValue, TypingError
 from numba.extending import intrinsic
 from numba.np.arrayobj import make_array
 
@@ -60,5 +60,43 @@ def _store(_: Any, kind: Any, array: Any, i: Any, value: Any) -> Any:
     return types.none(kind, array, types.uint64, array.dtype), generate
 
 
+def _load_each(_: Any, kind: Any, array: Any, i: Any, apart: Any, count: Any) -> Any:
+    """array[i], array[i + apart], …, so many, flat, as a tuple, of memory of this kind."""
+    if not (isinstance(kind, types.IntegerLiteral) and isinstance(count, types.IntegerLiteral)):
+        raise RequireLiteralValue("the kind of memory and the count are constants")
+    if array.layout != "C":
+        raise TypingError("the array has gaps")
+    found = types.UniTuple(array.dtype, count.literal_value)
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        place, values = args[2], []
+        for _ in range(found.count):
+            pointer, marks = _reached(kind, context, builder, signature, [*args[:2], place])
+            values.append(_marked(builder.load(pointer), marks))
+            place = builder.add(place, args[3])
+        return context.make_tuple(builder, found, values)
+
+    return found(kind, array, types.uint64, types.uint64, count), generate
+
+
+def _store_each(_: Any, kind: Any, array: Any, i: Any, apart: Any, values: Any) -> Any:
+    """array[i], array[i + apart], … = the values of a tuple, in memory of this kind."""
+    if not isinstance(kind, types.IntegerLiteral):
+        raise RequireLiteralValue("the kind of memory is a constant")
+    given = types.UniTuple(array.dtype, len(values))
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        place = args[2]
+        for n in range(given.count):
+            pointer, marks = _reached(kind, context, builder, signature, [*args[:2], place])
+            _marked(builder.store(builder.extract_value(args[4], n), pointer), marks)
+            place = builder.add(place, args[3])
+        return context.get_dummy_value()
+
+    return types.none(kind, array, types.uint64, types.uint64, given), generate
+
+
 load: Any = intrinsic(prefer_literal=True)(_load)
+load_each: Any = intrinsic(prefer_literal=True)(_load_each)
 store: Any = intrinsic(prefer_literal=True)(_store)
+store_each: Any = intrinsic(prefer_literal=True)(_store_each)

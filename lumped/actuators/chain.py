@@ -33,9 +33,17 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 class Chain:
-    """One or several chains on one edge, as a `Body`. scale: σ [N/m], like the sheet's E h; held: its ends
-    (0 the start, 1 the end) where another edge holds position and director; shared: those where another
-    chain shares the corner."""
+    """One or several chains on one edge. scale: σ [N/m], like the sheet's E h; held: its ends (0 the start, 1
+    the end) where another edge holds position and director; shared: those where another chain shares the
+    corner.
+
+    rows: number of its own rows; free: (rows, 3) bool, those that can move; multipliers: number of
+    constraints; pairs: (rows, rows) bool, rows that appear together in tangent, damping or mass; masses: (m,)
+    bound by binding (m, rows); mass: (rows, rows) [kg], for each of the three axes; carried: force [N] whose
+    rounding the residual cannot fall below; rest: value at rest (k, 3) [m] of what its first rows change,
+    points and then directors, which turn as arms do; axis: the points (p, 3) among them, where its segments
+    end; corners: its ends (0, 1) at which a corner of the sheet holds it.
+    """
 
     def __init__(
         self,
@@ -81,7 +89,7 @@ class Chain:
         return weight
 
     def force(self, y: np.ndarray, drive: Drive) -> tuple[float, np.ndarray]:
-        """Joint energy and the gradient of energy + σ ds λ·Φ."""
+        """Return the joints' energy [J] and the gradient of energy + σ ds λ·Φ, (rows, 3) [N]."""
         v = self.frames.vectors(y)
         values = self.frames.products(v)
         measures = self._measures(values)
@@ -104,7 +112,7 @@ class Chain:
         return self._gradient(mean, self.frames.vectors(mean), values, by_measure)
 
     def tangent(self, y: np.ndarray, drive: Drive) -> np.ndarray:
-        """Joint stiffness, constraint gradients and the curvature of both."""
+        """Return joint stiffness, constraint gradients and both curvatures, (rows, 3, rows, 3) [N/m]."""
         frames, count = self.frames, self.frames.coordinates
         v = frames.vectors(y)
         stiffness, rest, _ = self._joint_springs(drive)
@@ -126,14 +134,14 @@ class Chain:
         return out
 
     def constraint_gradient(self, y: np.ndarray) -> np.ndarray:
-        """σ ds times the gradients of the constraints."""
+        """Return σ ds times the gradients of the constraints, (multipliers, rows, 3)."""
         gradient = np.zeros((self.multipliers, self.rows, 3))
         own = self.frames.gradient(self.frames.vectors(y))[: self.multipliers]
         gradient[:, : self.frames.coordinates] = self._scale * self.frames.length * own
         return gradient
 
     def command_force(self, y: np.ndarray, drive: Drive) -> np.ndarray:
-        """−k dφ0/d(load factor) on every joint's angle."""
+        """Return −k dφ0/d(load factor) on every joint's angle, (rows, 3) [N]."""
         frames = self.frames
         v = frames.vectors(y)
         _, first, _ = joints.angles(self._measures(frames.products(v)))
@@ -142,7 +150,7 @@ class Chain:
         return self._spread(frames.gradient(v)[self.multipliers :], by_measure)
 
     def command_power(self, y: np.ndarray, drive: Drive, later: Drive) -> float:
-        """Energy gained by the joints when their rest angles move under them."""
+        """Return the energy [J] gained by the joints when their rest angles move under them."""
         measures = self._measures(self.frames.products(self.frames.vectors(y)))
         energies = []
         for moment in (drive, later):
@@ -151,7 +159,7 @@ class Chain:
         return energies[1] - energies[0]
 
     def damping_force(self, y: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
-        """c φ̇ on every joint's angles."""
+        """Return the power taken [W] and the force (rows, 3) [N] of c φ̇ on every joint's angles."""
         if not self._damping.any():
             return 0.0, np.zeros_like(y)
         gradient, first = self._angle_gradient(y)
@@ -163,7 +171,7 @@ class Chain:
         return float((torque * rate).sum()), force
 
     def damping_tangent(self, y: np.ndarray) -> np.ndarray:
-        """Σ c ∇φ ∇φᵀ."""
+        """Return Σ c ∇φ ∇φᵀ, (rows, 3, rows, 3) [N·s/m]."""
         count = self.frames.coordinates
         gradient, first = self._angle_gradient(y)
         of_angles = np.einsum("jia,jak->jik", first, gradient.reshape(len(first), 3, -1))
@@ -173,14 +181,15 @@ class Chain:
         return out
 
     def reactions(self, acting: Acting) -> dict[str, np.ndarray]:
-        """Force on the points that the base holds."""
+        """Return the force (3,) [N] on the points that the base holds, by its name among reactions."""
         if self.frames.base == "free":
             return {}
         whole = acting.on_rows + self.binding.T @ acting.on_masses
         return {self._chains[0].held_as: whole[self.frames.base_points].sum(axis=0)}
 
     def held_moment(self, acting: Acting, drive: Drive) -> np.ndarray:
-        """Moment on the points and directors that are held, and on the frame that a base is."""
+        """Return the moment (3,) [N·m] about the origin on the points and directors that are held, and on the
+        frame that a base is."""
         count = self.frames.coordinates
         whole = np.where(self.free, 0.0, acting.on_rows + self.binding.T @ acting.on_masses)[:count]
         moment = np.cross(self.frames.rest + acting.y[:count], whole).sum(axis=0)
@@ -209,7 +218,8 @@ class Chain:
         return force
 
     def wrenches(self, acting: Acting) -> np.ndarray:
-        """Force and moment about the middle of each segment's axis; chains of a pair share them evenly."""
+        """Return force and moment (names, segments, 6) [N, N·m] on the sheet about the middle of each
+        segment's axis; chains of a pair share them evenly."""
         frames = self.frames
         place = frames.rest + acting.y[: frames.coordinates]
         middle = 0.5 * (place[1 : frames.points] + place[: frames.segments])

@@ -16,7 +16,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from lumped.actuators.actuator import Acting, Actuator, Body, Drive
+from lumped.actuators.actuator import Acting, Drive
 from lumped.actuators.chain import Chain
 from lumped.actuators.corners import SharedCorner, Tie, based_beside, held_ends, shared_corners, shared_ends
 from lumped.actuators.edge_motion import RigidMotion
@@ -39,7 +39,7 @@ class Coupling:
         ends = np.cumsum([lattice.mass_count, *(chain.rows for chain in chains)])
         places = [slice(int(a), int(b)) for a, b in pairwise(ends)]
         self._motions: tuple[RigidMotion, ...] = motions
-        self._bodies: list[tuple[Body, slice]] = list(zip(chains, places, strict=True))
+        self._bodies: list[tuple[Chain, slice]] = list(zip(chains, places, strict=True))
         begin = {chain.edge: (chain, place.start) for chain, place in zip(chains, places, strict=True)}
         self.ties = [_tie(corner, *(begin[edge] for edge in corner.edges)) for corner in shared]
         bases = {edge: next(iter(here.values())).held_as for edge, here in scene.chains().items()}
@@ -49,7 +49,9 @@ class Coupling:
             for end in chain.corners
             if (beside := based_beside(scene, chain.edge, end))
         }
-        by_edge: dict[str, tuple[Actuator, slice]] = {motion.edge: (motion, slice(0)) for motion in motions}
+        by_edge: dict[str, tuple[Chain | RigidMotion, slice]] = {
+            motion.edge: (motion, slice(0)) for motion in motions
+        }
         by_edge |= {body.edge: (body, place) for body, place in self._bodies}
         self._all = [by_edge[edge] for edge in dict.fromkeys(str(a.edge) for a in scene.actuators)]
         self._layers = {edge: lattice.edge_columns(edge) for edge in EDGES}
@@ -64,7 +66,7 @@ class Coupling:
         return len(self._all)
 
     @property
-    def bodies(self) -> tuple[Body, ...]:
+    def bodies(self) -> tuple[Chain, ...]:
         """The actuators with rows of their own, in the order of these."""
         return tuple(body for body, _ in self._bodies)
 
@@ -103,7 +105,7 @@ class Coupling:
             if len(points := body.axis)
         }
 
-    def corners(self) -> list[tuple[Body, slice, int, np.ndarray]]:
+    def corners(self) -> list[tuple[Chain, slice, int, np.ndarray]]:
         """Ends of bodies held at corners: body, its place, end (0 or 1), the corner's masses (layers,)."""
         return [
             (body, place, end, self._layers[body.edge][-end])
@@ -231,14 +233,14 @@ class Coupling:
             found.update(zip(actuator.names, actuator.wrenches(acting), strict=True))
         return found
 
-    def _acting(self, u: np.ndarray, exerted: np.ndarray) -> Iterator[tuple[Actuator, Acting]]:
+    def _acting(self, u: np.ndarray, exerted: np.ndarray) -> Iterator[tuple[Chain | RigidMotion, Acting]]:
         for actuator, place in self._all:
             masses = actuator.masses
             positions = self._positions[masses] + u[masses]
             yield actuator, Acting(positions, exerted[masses], exerted[place], u[place])
 
 
-def _at_pairs(body: Body, dense: np.ndarray) -> np.ndarray:
+def _at_pairs(body: Chain, dense: np.ndarray) -> np.ndarray:
     rows, columns = np.nonzero(body.pairs)
     return dense[rows, :, columns, :]
 

@@ -15,7 +15,7 @@ from sheetbench.scenes.kinematics import MovedEdge
 
 
 class RigidMotion:
-    """One prescribed edge motion, as an `Actuator` with a single segment; part: its share (m,) in the force
+    """One prescribed edge motion, with a single segment; part: its share (m,) in the force
     on every mass of the edge."""
 
     def __init__(self, motion: EdgeMotion, name: str, sheet: Sheet, lattice: Lattice, part: np.ndarray):

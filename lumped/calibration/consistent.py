@@ -29,63 +29,16 @@ def consistent(
     layer_distance: float | None = None,
     grading: Graded = 0.0,
     cells: Cells | Section | None = None,
+    method: str = "consistent",
 ) -> Calibration:
     """The moduli of the sheet, and the twist of its edges: of second order in the size of the cells.
 
-    Raises BadInput as `consistent_interior`.
-    """
-    found = consistent_interior(sheet, material, grid, layer_distance, grading, cells)
-    return replace(with_twist(sheet, material, found), method="consistent")
-
-
-def consistent_membrane(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    layer_distance: float | None = None,
-    grading: Graded = 0.0,
-    cells: Cells | Section | None = None,
-) -> Calibration:
-    """As `consistent`, with layers so far apart that a cell bends in its own plane as the sheet does.
-
-    Raises BadInput as `consistent_interior`.
-    """
-    found = consistent_interior(sheet, material, grid, layer_distance, grading, cells, gradients=True)
-    return replace(with_twist(sheet, material, found), method="consistent-membrane")
-
-
-def consistent_oblique(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    layer_distance: float | None = None,
-    grading: Graded = 0.0,
-    cells: Cells | Section | None = None,
-) -> Calibration:
-    """As `consistent`, with waves oblique to the grid right in l² too.
-
-    Raises BadInput as `consistent_interior`.
-    """
-    found = consistent_interior(sheet, material, grid, layer_distance, grading, cells, waves=True)
-    return replace(with_twist(sheet, material, found), method="consistent-oblique")
-
-
-def consistent_interior(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    layer_distance: float | None = None,
-    grading: Graded = 0.0,
-    cells: Cells | Section | None = None,
-    gradients: bool = False,
-    waves: bool = False,
-) -> Calibration:
-    """The moduli alone, cells along edges like those inside: the closed form; with a given layer distance, or
-    where it would need a negative link, bounded least squares on the same moduli. grading: of the grid
-    (`lumped.grid_lines`), cells: what they are made of, where they differ, gradients: whether layers are so
-    far apart that strains in the plane that vary across a cell cost what they cost the sheet, waves: whether
-    oblique ones are right in the second power of the cells (`lumped.calibration.closed_form`), all in closed
-    form only.
+    The closed form; with a given layer distance, or where it would need a negative link, bounded least
+    squares on the same moduli. grading: of the grid (`lumped.grid_lines`); cells: what they are made of,
+    where they differ. method: `consistent-interior` has cells along edges like those inside,
+    `consistent-membrane` layers so far apart that a cell bends in its own plane as the sheet does,
+    `consistent-oblique` waves oblique to the grid right in l² too (`lumped.calibration.closed_form`), both in
+    closed form only.
 
     Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.
@@ -95,35 +48,10 @@ def consistent_interior(
         cells = Cells.of(sheet, material)
     if isinstance(cells, Cells):
         cells = sections.of_cells(cells, grid)
-    if grading or cells is not None:
-        springs: SpringSet | None = _by_cell(
-            sheet, material, grid, layer_distance, grading, cells, gradients, waves
-        )
-    elif layer_distance is None:
-        spacing = plan_spacing(sheet, grid)
-        springs = closed_form(
-            moduli.of_sheet(sheet, material, spacing), spacing, grid[2], None, gradients, waves
-        )
-    else:
-        springs = None
-    if springs is None:
-        springs = bounded_least_squares(sheet, material, grid, layer_distance)
-    found = report("consistent-interior", sheet, material, grid, springs, grading, cells)
-    return replace(found, of_material=of_material)
+    special = {"gradients": method == "consistent-membrane", "waves": method == "consistent-oblique"}
 
-
-def _by_cell(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    layer_distance: float | None,
-    grading: Graded,
-    cells: Section | None,
-    gradients: bool,
-    waves: bool,
-) -> SpringSet:
     def of_cell(sides: Sides, own: Section, distance: float | None) -> SpringSet:
-        springs = closed_form(moduli.of_section(own, sides), sides, grid[2], distance, gradients, waves)
+        springs = closed_form(moduli.of_section(own, sides), sides, grid[2], distance, **special)
         if springs is None:
             given = f"{grid[2]} layers" if distance is None else f"layer_distance = {distance:g} m"
             raise BadInput(
@@ -132,4 +60,14 @@ def _by_cell(
             )
         return springs
 
-    return cell_by_cell(of_cell, sheet, material, grid, grading, cells, layer_distance)
+    springs: SpringSet | None = None
+    if grading or cells is not None:
+        springs = cell_by_cell(of_cell, sheet, material, grid, grading, cells, layer_distance)
+    elif layer_distance is None:
+        spacing = plan_spacing(sheet, grid)
+        springs = closed_form(moduli.of_sheet(sheet, material, spacing), spacing, grid[2], **special)
+    if springs is None:
+        springs = bounded_least_squares(sheet, material, grid, layer_distance)
+    found = report(method, sheet, material, grid, springs, grading, cells)
+    found = replace(found, of_material=of_material)
+    return found if method == "consistent-interior" else with_twist(sheet, material, found)

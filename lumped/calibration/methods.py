@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.central import central
-from lumped.calibration.consistent import (
-    consistent,
-    consistent_interior,
-    consistent_membrane,
-    consistent_oblique,
-)
+from lumped.calibration.consistent import consistent
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
-from lumped.calibration.rubber import hyperelastic, neo_hookean
+from lumped.calibration.rubber import hyperelastic
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
 from lumped.sections import sections_of
@@ -46,10 +42,9 @@ def described(makers: Mapping[str, Callable[..., Calibration]]) -> dict[str, Met
 
 MAKERS: dict[str, Callable[..., Calibration]] = {
     "consistent": consistent,
-    "consistent-interior": consistent_interior,
-    "consistent-membrane": consistent_membrane,
-    "consistent-oblique": consistent_oblique,
-    "neo-hookean": neo_hookean,
+    "consistent-interior": partial(consistent, method="consistent-interior"),
+    "consistent-membrane": partial(consistent, method="consistent-membrane"),
+    "consistent-oblique": partial(consistent, method="consistent-oblique"),
     "hyperelastic": hyperelastic,
     "moduli": fit_moduli,
     "uniform": uniform,

@@ -2,11 +2,10 @@
 
 Each of L layers is a membrane of thickness h/L with the energy of the material's law
 (`sheetbench.scenes.material`), of its cells' mean sides and with the thickness at which nothing pulls
-(`lumped.springs.laws`); `neo-hookean` has neo-Hooke's whatever linear material it is given. Layers are
-h/√(L² − 1) apart, so that Σ z_k² h/L = h³/12 and bending is D exactly. Transverse shear is the upright
-faces', with S* of the grid, MacNeal's; a share d of it has the faces over the cells' diagonals. Against a
-bending wave of wave number q at the angle θ to the grid the stiffness of square cells is too small by (q l)²
-sin² 2θ/48 times
+(`lumped.springs.laws`). Layers are h/√(L² − 1) apart, so that Σ z_k² h/L = h³/12 and bending is D exactly.
+Transverse shear is the upright faces', with S* of the grid, MacNeal's; a share d of it has the faces over the
+cells' diagonals. Against a bending wave of wave number q at the angle θ to the grid the stiffness of square
+cells is too small by (q l)² sin² 2θ/48 times
 
     7 + ν² − (21 d − 9 d²)/(1 + t) − 12 d t/(1 + t),    1 + t = 12 D/(S* l²),
 
@@ -41,23 +40,6 @@ from sheetbench.scenes.orthotropy import FIBRES
 ALIKE = 1e-9  # of D/A, that of one thickness
 
 
-def neo_hookean(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    layer_distance: float | None = None,
-    grading: Graded = 0.0,
-    cells: Section | None = None,
-) -> Calibration:
-    """Neo-Hookean layers with the moduli of the sheet at small strains. Raises BadInput for a material of
-    another law."""
-    if material.law not in (None, "neo-hookean"):
-        raise BadInput(
-            f"calibration 'neo-hookean': the material's law is '{material.law}'; take 'hyperelastic'"
-        )
-    return _rubber("neo-hookean", sheet, material, grid, layer_distance, grading, cells)
-
-
 def hyperelastic(
     sheet: Sheet,
     material: Material,
@@ -66,26 +48,13 @@ def hyperelastic(
     grading: Graded = 0.0,
     cells: Section | None = None,
 ) -> Calibration:
-    """Layers of the material's law, of a material without one neo-Hooke's. Raises BadInput as
-    `neo_hookean`."""
-    return _rubber("hyperelastic", sheet, material, grid, layer_distance, grading, cells)
-
-
-def _rubber(
-    method: str,
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    layer_distance: float | None,
-    grading: Graded,
-    cells: Section | None,
-) -> Calibration:
-    """cells: their sections, where they differ: by a factor, or in Young's modulus and Poisson's ratio. Raise
-    BadInput for other thicknesses, and for fibres, which rubber does not have."""
+    """Layers of the material's law, of a material without one neo-Hooke's. cells: their sections, where they
+    differ: by a factor, or in Young's modulus and Poisson's ratio. Raise BadInput for other thicknesses, and
+    for fibres, which rubber does not have."""
     layers, energy = grid[2], material.energy
     if material.kind == "orthotropic":
-        raise BadInput(f"calibration '{method}': {FIBRES}: rubber is isotropic; choose consistent")
-    _require_one_thickness(method, cells)
+        raise BadInput(f"calibration 'hyperelastic': {FIBRES}: rubber is isotropic; choose consistent")
+    _require_one_thickness(cells)
 
     def of_cell(sides: Sides, section: Section, distance: float | None = layer_distance) -> SpringSet:
         lx, ly = sides
@@ -120,10 +89,10 @@ def _rubber(
         springs = cell_by_cell(of_cell, sheet, material, grid, grading, cells, layer_distance)
     else:
         springs = of_cell(plan_spacing(sheet, grid), Section.of(Constants.of(sheet, material)))
-    return with_twist(sheet, material, report(method, sheet, material, grid, springs, grading, cells))
+    return with_twist(sheet, material, report("hyperelastic", sheet, material, grid, springs, grading, cells))
 
 
-def _require_one_thickness(method: str, cells: Section | None) -> None:
+def _require_one_thickness(cells: Section | None) -> None:
     """Raise BadInput where D/A differs: layers are one distance apart, and have no mid-surface to make up for
     it."""
     if cells is None:
@@ -132,6 +101,6 @@ def _require_one_thickness(method: str, cells: Section | None) -> None:
     squares = cells.bending[there, 0, 0] / cells.membrane[there, 0, 0]
     if np.ptp(squares) > ALIKE * squares.max():
         raise BadInput(
-            f"calibration '{method}': a lattice of rubber is as thick all over, and this sheet's thickness "
+            "calibration 'hyperelastic': a lattice of rubber is as thick all over, and this sheet's thickness "
             "differs; choose consistent, whose strains are small"
         )

@@ -47,8 +47,7 @@ def calibrate(
     >>> springs.method, springs.grid, round(springs.layer_distance, 6)
     ('consistent', (9, 9, 2), 0.003706)
     """
-    if method not in CALIBRATIONS:
-        raise BadInput(f"calibration = {method!r}: unknown; choose from {', '.join(CALIBRATIONS)}")
+    choices.require_calibration(method)
     chosen = CALIBRATIONS[method]
     asked: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "targets": tuple(targets) or None}
     asked |= {"grading": grading or None, "cells": cells}

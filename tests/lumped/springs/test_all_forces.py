@@ -39,10 +39,10 @@ CASES = {
     "oblong": (SHEET, {"grid": (4, 7)}),
     "long lines": (SHEET, {"grid": (140, 3)}),
     "graded, with strain springs": (SHEET, {"grid": (6, 5), "method": "consistent", "grading": 0.5}),
-    "neo-hookean": (SHEET, {"grid": (5, 6), "method": "neo-hookean"}),
+    "neo-hookean": (SHEET, {"grid": (5, 6), "method": "hyperelastic"}),
     "neo-hookean, graded, three layers": (
         SHEET,
-        {"grid": (4, 5, 3), "method": "neo-hookean", "grading": 0.5},
+        {"grid": (4, 5, 3), "method": "hyperelastic", "grading": 0.5},
     ),
     "fibres": (FIBRES, {"grid": (5, 6), "cells": scenes.Cells.of(FIBRES.sheet, FIBRES.material)}),
     "three layers": (SHEET, {"grid": (5, 5, 3), "method": "moduli"}),

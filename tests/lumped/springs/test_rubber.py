@@ -144,6 +144,6 @@ def test_a_strip_moved_beyond_gents_limit_is_told_with_the_limit():
     assert "its limit = 2" in found.message
 
 
-def test_neo_hookean_springs_of_another_law_are_refused():
-    with pytest.raises(BadInput, match="the material's law is 'gent'; take 'hyperelastic'"):
+def test_the_calibration_that_is_gone_names_what_replaces_it():
+    with pytest.raises(BadInput, match="'neo-hookean': removed; 'hyperelastic' has the same springs"):
         lumped.calibrate(SHEET, rubber("gent"), grid=5, method="neo-hookean")

@@ -60,7 +60,7 @@ def test_consistent_calibration_on_the_seeds_scenes(name, masses, within):
 @pytest.mark.parametrize("name", CONVERGED)
 @pytest.mark.parametrize("masses", [5, 9, 17, 33, pytest.param(65, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("soft", "most"), [(1, 12), (10, DOUBTFUL)])
-@pytest.mark.parametrize("method", ["consistent", "neo-hookean"])
+@pytest.mark.parametrize("method", ["consistent", "hyperelastic"])
 def test_factorisations_from_flat(name, masses, soft, most, method):
     """Paths of more than DOUBTFUL factorisations would be followed once more, with care."""
     solution = solve(softer(SEED[name], soft), (masses, masses), method)

@@ -128,9 +128,8 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
 
 def _of_strains(springs: SpringSet, cells: str) -> np.ndarray:
     """The form (3, 3) of strain springs and couplings."""
-    own = np.diag(constants.of_strains(springs, cells)[1][0])
-    own[[0, 0, 1], [1, 2, 2]] = own[[1, 2, 2], [0, 0, 1]] = constants.of_couplings(springs, cells, 1)[0]
-    return own
+    ((x, y, shear, xy, x_shear, y_shear),) = constants.of_strains(springs, cells)[1]
+    return np.array([[x, xy, x_shear], [xy, y, y_shear], [x_shear, y_shear, shear]])
 
 
 def of_section(section: Section, spacing: tuple[float, float]) -> Moduli:

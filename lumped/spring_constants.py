@@ -58,24 +58,13 @@ def along(table: SpringSet | DamperSet, family: str, direction: str) -> np.ndarr
 
 
 def of_strains(springs: SpringSet, cells: str, count: int = 1) -> tuple[str, np.ndarray]:
-    """Name and stiffness (count, 3) [N/m], of ε1, ε2 and γ, of the strain springs on the `count` plan cells
-    called "area" (each layer) or "mid_area" (the mid-surface)."""
-    name, stretch, shear = "mid_strain", springs.mid_stretch, springs.mid_shear
+    """Name and stiffness (count, 6) [N/m], of ε1, ε2 and γ and of what couples ε1 ε2, ε1 γ and ε2 γ, of the
+    strain springs on the `count` plan cells called "area" (each layer) or "mid_area" (the mid-surface)."""
+    name, stretch, shear, couplings = "mid_strain", springs.mid_stretch, springs.mid_shear, MID_COUPLINGS
     if cells == "area":
-        name, stretch, shear = "strain", springs.stretch, springs.shear
-    x, y = (stretch.x, stretch.y) if isinstance(stretch, PerDirection) else (stretch, stretch)
-    if not any(isinstance(value, tuple) for value in (x, y, shear)):
-        stiffness = np.empty((count, 3))
-        stiffness[:] = x, y, shear
-        return name, stiffness
-    return name, np.stack([of_cells(value, count) for value in (x, y, shear)], axis=1)
-
-
-def of_couplings(springs: SpringSet, cells: str, count: int) -> np.ndarray:
-    """What couples ε1 ε2, ε1 γ and ε2 γ of the `count` plan cells called "area" (each layer) or "mid_area"
-    (the mid-surface), (count, 3) [N/m]."""
-    names = COUPLINGS if cells == "area" else MID_COUPLINGS
-    return np.stack([of_cells(getattr(springs, name), count) for name in names], axis=1)
+        name, stretch, shear, couplings = "strain", springs.stretch, springs.shear, COUPLINGS
+    values = [*along_each(stretch, count), *(of_cells(getattr(springs, own), count) for own in couplings)]
+    return name, np.stack([*values[:2], of_cells(shear, count), *values[2:]], axis=1)
 
 
 def along_each(value: Any, count: int) -> np.ndarray:

@@ -20,7 +20,7 @@ from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, Pattern
 from lumped.rest import Rest, rest_of
 from lumped.springs import cells, links
-from lumped.springs.cell_laws import AREA_AND_STRAINS, COUPLED, FACE, RUBBER, AreaAndStrains, measures
+from lumped.springs.cell_laws import FACE, RUBBER, AreaAndStrains, measures
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import Cells, Dampers, DirectionalLinks, Family, Links
 from lumped.springs.links import LinkArrays
@@ -133,7 +133,7 @@ def _arrays(family: Family) -> tuple[Any, ...]:
 @cache
 def _no_cells() -> tuple[Any, ...]:
     nodes, slots = np.empty((0, 4, 1), int), np.empty((0, 4, 4), np.int32)
-    return nodes, np.empty((0, 2, 3)), np.empty(0), AreaAndStrains(np.empty((0, 4))), slots
+    return nodes, np.empty((0, 2, 3)), np.empty(0), AreaAndStrains(np.empty((0, 7))), slots
 
 
 @njit(cache=True, nogil=True)
@@ -250,13 +250,9 @@ def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
         of_area = constants.of_cells(getattr(springs, family.name), len(twist))
         strains[:, 2] += twist if family.name == "area" else -layers * twist
         stiffness = np.column_stack([of_area, strains])
-        couplings = constants.of_couplings(springs, family.name, len(twist))
-        if stiffness.any() or couplings.any():
-            stiffness, couplings = (
-                np.concatenate([each[lattice.kept]] * every) for each in (stiffness, couplings)
-            )
-            law, more = (COUPLED, couplings) if couplings.any() else (AREA_AND_STRAINS, None)
-            yield Cells(nodes, stiffness, slots, sides, area, (family.name, name), False, law, more)
+        if stiffness.any():
+            stiffness = np.concatenate([stiffness[lattice.kept]] * every)
+            yield Cells(nodes, stiffness, slots, sides, area, (family.name, name))
 
 
 def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:

@@ -16,9 +16,7 @@ from lumped.springs.cell_laws import AreaAndStrains
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import HALF, LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R11
 
-DIRECTIONAL, CELLS, FACES, COUPLED = (
-    np.uint64(kind) for kind in (kinds.DIRECTIONAL, kinds.CELLS, kinds.FACES, kinds.COUPLED_CELLS)
-)
+DIRECTIONAL, CELLS, FACES = map(np.uint64, (kinds.DIRECTIONAL, kinds.CELLS, kinds.FACES))
 UINT_ONE = np.uint64(1)
 
 
@@ -130,8 +128,6 @@ def _pass(
         if damped:
             tiles.gather_sides(v, a, b, c, d, size, blocks, tile)
             power += tiles.resist_cells(rest, t, blocks, tile, at)
-            if kind == COUPLED:
-                power += tiles.resist_couplings(rest, t, blocks, tile, at)
         tiles.push_corner(-HALF, -HALF, a, size, blocks, tile, force)
         tiles.push_corner(HALF, -HALF, b, size, blocks, tile, force)
         tiles.push_corner(HALF, HALF, c, size, blocks, tile, force)

@@ -16,18 +16,12 @@ from numba import njit
 from numba.extending import overload, register_jitable
 
 from lumped.springs import laws
-from lumped.springs.laws import Constants, Four, Memory, Six, Three
+from lumped.springs.laws import Constants, Four, Six, Three, times_six
 from sheetbench.numerics.memory import load_each
 
 
 class AreaAndStrains(NamedTuple):
-    """constants: (c, 4) of every cell's `area_and_strains` [N/m³]."""
-
-    constants: np.ndarray
-
-
-class Coupled(NamedTuple):
-    """constants: (c, 7) of every cell's `coupled` [N/m³]."""
+    """constants: (c, 7) of every cell's `area_and_strains` [N/m³]."""
 
     constants: np.ndarray
 
@@ -44,50 +38,7 @@ class Face(NamedTuple):
     constants: np.ndarray
 
 
-Tag = AreaAndStrains | Coupled | Rubber | Face
-
-
-@njit(cache=True, error_model="numpy")
-def coupled(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory, Four]:
-    """The law of cells with fibres: `area_and_strains` of k₀ to k₃, and what couples the strains,
-
-        k₄ δg₁₁ δg₂₂ + k₅ δg₁₁ δg₁₂ + k₆ δg₂₂ δg₁₂.
-
-    Return W, the area's memory, and S.
-    """
-    energy, memory, s = laws.area_and_strains(half, d, g, area, k)
-    x, y, z = k[4], k[5], k[6]
-    more = x * d[1] + y * d[2], x * d[0] + z * d[2], y * d[0] + z * d[1]
-    energy += half * (more[0] * d[0] + more[1] * d[1] + more[2] * d[2])
-    return energy, memory, (s[0] + more[0], s[1] + more[1], s[2] + more[2], s[3])
-
-
-@njit(cache=True, error_model="numpy")
-def stiffness_of_coupled(
-    d: Four, g: Three, area: float, memory: Memory, share: float, k: Constants
-) -> tuple[Six, Four]:
-    """Return M + share (D − M) of `coupled`, its 11 22 33 12 13 23; nothing of s."""
-    six, none = laws.stiffness_of_area_and_strains(d, g, area, memory, share, k)
-    return (six[0], six[1], six[2], six[3] + k[4], six[4] + k[5], six[5] + k[6]), none
-
-
-@njit(cache=True, error_model="numpy")
-def extrapolated_coupled(
-    d: Four, g: Three, area: float, memory: Memory, stress: Four, k: Constants, rate: Four
-) -> Four:
-    """Return what is extrapolated of the area and the strains, with the couplings' part of the strains'."""
-    p = laws.extrapolated_area_and_strains(d, g, area, memory, stress, k, rate)
-    e1, e2, e3 = d[0] + rate[0], d[1] + rate[1], d[2] + rate[2]
-    return p[0] + k[4] * e2 + k[5] * e3, p[1] + k[4] * e1 + k[6] * e3, p[2] + k[5] * e1 + k[6] * e2, p[3]
-
-
-@njit(cache=True, error_model="numpy")
-def mean_coupled(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
-    """Return the stress over a step whose work is the energy stored: of the couplings that of the mean."""
-    s = laws.mean_area_and_strains(d0, d1, g, area, k)
-    m1, m2, m3 = 0.5 * (d0[0] + d1[0]), 0.5 * (d0[1] + d1[1]), 0.5 * (d0[2] + d1[2])
-    x, y, z = k[4], k[5], k[6]
-    return s[0] + x * m2 + y * m3, s[1] + x * m1 + z * m3, s[2] + y * m1 + z * m2, s[3]
+Tag = AreaAndStrains | Rubber | Face
 
 
 @njit(cache=True, error_model="numpy")
@@ -125,16 +76,6 @@ def mean_face(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
     return -quarter * (d0[2] * d0[2] + d1[2] * d1[2]) / (y0 * y1), 0.0, across, 0.0
 
 
-@njit(cache=True, error_model="numpy")
-def times_six(d: Six, x: Three) -> Three:
-    """A symmetric matrix times a vector."""
-    return (
-        d[0] * x[0] + d[3] * x[1] + d[4] * x[2],
-        d[3] * x[0] + d[1] * x[1] + d[5] * x[2],
-        d[4] * x[0] + d[5] * x[1] + d[2] * x[2],
-    )
-
-
 @register_jitable
 def _itself(d: Four, g: Three, memory: Any, predicted: Four) -> Any:
     return memory, predicted
@@ -167,9 +108,9 @@ class Law:
     12 13 23, and of s, 14 24 34 44; extrapolate: (δg and s, g, area, that, stress, constants, their rate) →
     what a linearisation predicts, and of_extrapolated: (δg and s, g, that, it) → that and the stress;
     mean_stress: (of two states, g, area, constants) → the stress whose work is the energy stored; measures:
-    3, or 4 with s; any_strain: whether it means something at any strain; parts: (stiffness (c, 4), other
-    constants, area) → constants of each kind that `ENERGIES` names, (c, n); examples: constants of a cell of
-    1 × 1 m to test it by."""
+    3, or 4 with s; any_strain: whether it means something at any strain; parts: (stiffness (c, 4 or 7),
+    other constants, area) → constants of each kind that `ENERGIES` names, (c, n); examples: constants of a
+    cell of 1 × 1 m to test it by."""
 
     tag: type[Tag]
     respond: Callable[..., Any]
@@ -214,19 +155,7 @@ AREA_AND_STRAINS = Law(
     laws.area_and_strains_of_extrapolated,
     3,
     False,
-    lambda stiffness, _others, _area: {"area": stiffness[:, :1], "strain": stiffness[:, 1:]},
-    ((-30.0, 200.0, 150.0, 80.0),),
-)
-COUPLED = Law(
-    Coupled,
-    coupled,
-    stiffness_of_coupled,
-    mean_coupled,
-    extrapolated_coupled,
-    laws.area_and_strains_of_extrapolated,
-    3,
-    False,
-    lambda k, others, _area: {"area": k[:, :1], "strain": k[:, 1:], "coupling": others},
+    lambda k, _others, _area: {"area": k[:, :1], "strain": k[:, 1:4], "coupling": k[:, 4:]},
     ((-30.0, 200.0, 150.0, 80.0, 60.0, -50.0, 40.0),),
 )
 RUBBER = Law(
@@ -258,7 +187,7 @@ FACE = Law(
     lambda _stiffness, others, area: {"face": others * area[:, None]},
     ((0.0, 0.0, 0.0, 25.0, 25.0),),
 )
-LAWS = (AREA_AND_STRAINS, COUPLED, RUBBER, FACE)
+LAWS = (AREA_AND_STRAINS, RUBBER, FACE)
 _OF = {law.tag: law for law in LAWS}
 
 

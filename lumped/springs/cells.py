@@ -34,9 +34,19 @@ from lumped.springs.cell_laws import (
     of_extrapolated,
     respond,
     stiffness,
+)
+from lumped.springs.laws import (
+    Four,
+    Six,
+    Three,
+    Vector,
+    dot,
+    less,
+    plus,
+    stiffness_of_area_and_strains,
+    times,
     times_six,
 )
-from lumped.springs.laws import Four, Six, Three, Vector, dot, less, plus, times
 
 HALF = 0.5
 NO_CHANGE = (0.0, 0.0, 0.0, 0.0)
@@ -215,9 +225,9 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
 
 @njit(cache=True, error_model="numpy")
 def _material(cells: CellArrays, c: int, now: Three) -> Six:
-    """M of the dampers of cell c, of area and strains and what couples these, whose measure is `now`."""
+    """M of the dampers of cell c, whose measure is `now`."""
     memory, k = (0.0, now[0] * now[1] - now[2] * now[2]), constants_of(cells.law, c)
-    return stiffness(cells.law, NO_CHANGE, now, cells.area[c], memory, 0.0, k)[0]
+    return stiffness_of_area_and_strains(NO_CHANGE, now, cells.area[c], memory, 0.0, k)[0]
 
 
 @njit(cache=True, error_model="numpy")

@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from lumped.springs import cells, laws, links
-from lumped.springs.cell_laws import AREA_AND_STRAINS, COUPLED, Law
+from lumped.springs.cell_laws import AREA_AND_STRAINS, Law
 from lumped.springs.cells import CellArrays
 from lumped.springs.links import LinkArrays
 
@@ -188,9 +188,10 @@ class DirectionalLinks(Links):
 @dataclass(frozen=True, eq=False)
 class Cells(Family):
     """Springs on the cells of the layers, of the mid-surface or on upright faces: nodes (c, 4, p), stiffness
-    (c, 4) of small strains, against the change of area and the Green strains ε1, ε2, γ of the mean sides,
-    which dampers in proportion resist; at rest sides (c, 2, 3) [m] and area (c,) [m²]; the names of area
-    springs and of all others; their law, and what constants it has beside (c, n)."""
+    (c, 4) of small strains, against the change of area and the Green strains ε1, ε2, γ of the mean sides, or
+    (c, 7) with what couples these, which dampers in proportion resist; at rest sides (c, 2, 3) [m] and area
+    (c,) [m²]; the names of area springs and of all others; their law, and what constants it has beside
+    (c, n)."""
 
     sides: np.ndarray
     area: np.ndarray
@@ -204,12 +205,9 @@ class Cells(Family):
 
     @cached_property
     def constants(self) -> np.ndarray:
-        """Return the law's constants, (c, 4 + n), those of small strains first [N/m³]."""
+        """Return the law's constants, those of small strains first [N/m³]: (c, 7), or (c, 4 + n)."""
         springs = laws.of_stiffness(self.stiffness, self.sides, self.area)
-        others = self.others
-        if others is not None and self.law is COUPLED:
-            others = laws.of_couplings(others, self.sides, self.area)
-        return springs if others is None else np.column_stack([springs, others])
+        return springs if self.others is None else np.column_stack([springs[:, :4], self.others])
 
     @cached_property
     def arrays(self) -> CellArrays:
@@ -245,11 +243,4 @@ class Cells(Family):
 
     def damped(self, time: float) -> Dampers:
         """Return dampers of coefficient time [s] × stiffness of small strains."""
-        if self.law is COUPLED:
-            return Dampers(self.scaled(time))
         return Dampers(replace(self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None))
-
-    def scaled(self, factor: float) -> Self:
-        """Return the springs or dampers, of a linear law, with so many times their stiffness."""
-        others = None if self.others is None else factor * self.others
-        return replace(self, stiffness=factor * self.stiffness, others=others)

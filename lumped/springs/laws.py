@@ -93,11 +93,20 @@ def mean_elongation(l0: float, l1: float, e0: float, e1: float, k: float) -> flo
 
 
 @njit(cache=True, error_model="numpy")
-def area_and_strains(
-    half: float, d: Four, g: Three, area: float, q: Constants
-) -> tuple[float, tuple[float, float], Four]:
-    """W = ½ q₀ (A − A₀)² + ½ (q₁ δg₁₁² + q₂ δg₂₂² + q₃ δg₁₂²), A² = det g: energy of an area spring and of
-    springs against the Green strains of the sides. d: δg; g: at rest; area: A₀; q: [N/m³] (`of_stiffness`).
+def times_six(d: Constants, x: Three) -> Three:
+    """A symmetric matrix times a vector."""
+    return (
+        d[0] * x[0] + d[3] * x[1] + d[4] * x[2],
+        d[3] * x[0] + d[1] * x[1] + d[5] * x[2],
+        d[4] * x[0] + d[5] * x[1] + d[2] * x[2],
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def area_and_strains(half: float, d: Four, g: Three, area: float, q: Constants) -> tuple[float, Memory, Four]:
+    """W = ½ q₀ (A − A₀)² + ½ δg·Q δg, A² = det g: energy of an area spring and of springs against the Green
+    strains of the sides, Q of q₁ to q₆ (11, 22, 33, 12, 13, 23) with what couples them, as fibres do. d: δg;
+    g: at rest; area: A₀; q: [N/m³] (`of_stiffness`).
 
     Return W; t = ½ q₀ (A − A₀)/A, which is the area spring's stress over n = (g₂₂, g₁₁, −2 g₁₂), and A²; S.
     """
@@ -108,19 +117,19 @@ def area_and_strains(
     now = math.sqrt(square)
     grown = change / (now + area)
     t = half * q[0] * grown / now
-    s3 = t * (g[2] + d3)
-    s1, s2, s3 = t * (g[1] + d2) + q[1] * d1, t * (g[0] + d1) + q[2] * d2, q[3] * d3 - (s3 + s3)
-    energy = half * (q[0] * grown * grown + q[1] * d1 * d1 + q[2] * d2 * d2 + q[3] * d3 * d3)
-    return energy, (t, square), (s1, s2, s3, half - half)
+    s1, s2, s3 = times_six(q[1:], (d1, d2, d3))
+    energy = half * (q[0] * grown * grown + s1 * d1 + s2 * d2 + s3 * d3)
+    s1, s2, turned = s1 + t * (g[1] + d2), s2 + t * (g[0] + d1), t * (g[2] + d3)
+    return energy, (t, square), (s1, s2, s3 - (turned + turned), half - half)
 
 
 @njit(cache=True, error_model="numpy")
 def stiffness_of_area_and_strains(
-    d: Four, g: Three, area: float, memory: tuple[float, float], share: float, q: Constants
+    d: Four, g: Three, area: float, memory: Memory, share: float, q: Constants
 ) -> tuple[Six, Four]:
     """M + share (D − M) of `area_and_strains`, with its t and A²; none of s:
 
-    M = ¼ q₀ n nᵀ/A² + diag(q₁, q₂, q₃),   D − M = t (N − ½ n nᵀ/A²),   N = ∂n/∂g.
+    M = ¼ q₀ n nᵀ/A² + Q,   D − M = t (N − ½ n nᵀ/A²),   N = ∂n/∂g.
     """
     t, square = share * memory[0], memory[1]
     along = (0.25 * q[0] - 0.5 * t) / square
@@ -129,27 +138,25 @@ def stiffness_of_area_and_strains(
         along * n1 * n1 + q[1],
         along * n2 * n2 + q[2],
         along * n3 * n3 + q[3] - 2.0 * t,
-        along * n1 * n2 + t,
-        along * n1 * n3,
-        along * n2 * n3,
+        along * n1 * n2 + q[4] + t,
+        along * n1 * n3 + q[5],
+        along * n2 * n3 + q[6],
     ), (0.0, 0.0, 0.0, 0.0)
 
 
 @njit(cache=True, error_model="numpy")
 def extrapolated_area_and_strains(
-    d: Four, g: Three, area: float, memory: tuple[float, float], stress: Four, q: Constants, rate: Four
+    d: Four, g: Three, area: float, memory: Memory, stress: Four, q: Constants, rate: Four
 ) -> Four:
-    """Return q₁ δg₁₁, q₂ δg₂₂, q₃ δg₁₂ and ½ q₀ (A − A₀), each linear in the rate of g."""
+    """Return Q δg and ½ q₀ (A − A₀), each linear in the rate of g."""
     now = math.sqrt(memory[1])
     grown = (g[1] + d[1]) * rate[0] + (g[0] + d[0]) * rate[1] - 2.0 * (g[2] + d[2]) * rate[2]
-    by_area = 0.5 * q[0] * (now - area + 0.5 * grown / now)
-    return q[1] * (d[0] + rate[0]), q[2] * (d[1] + rate[1]), q[3] * (d[2] + rate[2]), by_area
+    s1, s2, s3 = times_six(q[1:], (d[0] + rate[0], d[1] + rate[1], d[2] + rate[2]))
+    return s1, s2, s3, 0.5 * q[0] * (now - area + 0.5 * grown / now)
 
 
 @njit(cache=True, error_model="numpy")
-def area_and_strains_of_extrapolated(
-    d: Four, g: Three, memory: tuple[float, float], p: Four
-) -> tuple[tuple[float, float], Four]:
+def area_and_strains_of_extrapolated(d: Four, g: Three, memory: Memory, p: Four) -> tuple[Memory, Four]:
     """Return t and A², which `stiffness_of_area_and_strains` takes, and S of what has been extrapolated."""
     t = p[3] / math.sqrt(memory[1])
     s = p[0] + t * (g[1] + d[1]), p[1] + t * (g[0] + d[0]), p[2] - 2.0 * t * (g[2] + d[2]), 0.0
@@ -169,26 +176,21 @@ def mean_area_and_strains(d0: Four, d1: Four, g: Three, area: float, q: Constant
         sizes += gained
     t = 0.5 * q[0] * grown / sizes
     m1, m2, m3 = 0.5 * (d0[0] + d1[0]), 0.5 * (d0[1] + d1[1]), 0.5 * (d0[2] + d1[2])
-    return t * (g[1] + m2) + q[1] * m1, t * (g[0] + m1) + q[2] * m2, q[3] * m3 - 2.0 * t * (g[2] + m3), 0.0
+    s1, s2, s3 = times_six(q[1:], (m1, m2, m3))
+    return t * (g[1] + m2) + s1, t * (g[0] + m1) + s2, s3 - 2.0 * t * (g[2] + m3), 0.0
 
 
 def of_stiffness(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarray:
-    """Constants q (c, 4) [N/m³] of springs of stiffness k (c, 4) [N/m] against the change of area A/A₀ − 1
-    and the Green strains δg₁₁/2g₁₁, δg₂₂/2g₂₂, δg₁₂/√(g₁₁ g₂₂), each with the energy ½ k ε² A₀; of cells with
-    sides (c, 2, 3) [m] and area (c,) [m²] at rest."""
-    aa, bb = (sides**2).sum(axis=2).T
-    per_strain = np.stack([1.0 / area**2, 0.25 / aa**2, 0.25 / bb**2, 1.0 / (aa * bb)], axis=1)
-    constants: np.ndarray = k * area[:, None] * per_strain
-    return constants
-
-
-def of_couplings(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarray:
-    """Constants (c, 3) [N/m³] of stiffnesses k (c, 3) [N/m] that couple the Green strains ε1 ε2, ε1 γ and
-    ε2 γ of the same cells, each with the energy k ε ε A₀."""
-    aa, bb = (sides**2).sum(axis=2).T
-    both = 2.0 * np.sqrt(aa * bb)
-    per_strain = np.stack([1.0 / (4.0 * aa * bb), 1.0 / (aa * both), 1.0 / (bb * both)], axis=1)
-    constants: np.ndarray = k * area[:, None] * per_strain
+    """Constants q (c, 7) [N/m³] of springs of stiffness k (c, 4 or 7) [N/m] against the change of area
+    A/A₀ − 1 and the Green strains ε1 = δg₁₁/2g₁₁, ε2 = δg₂₂/2g₂₂, γ = δg₁₂/√(g₁₁ g₂₂), each with the energy
+    ½ k ε² A₀, and of what couples ε1 ε2, ε1 γ and ε2 γ, k ε ε A₀; of cells with sides (c, 2, 3) [m] and area
+    (c,) [m²] at rest."""
+    a, b = (sides**2).sum(axis=2).T
+    one, other, turn = 0.5 / a, 0.5 / b, 1.0 / np.sqrt(a * b)
+    squares = 1.0 / area**2, one**2, other**2, turn**2, one * other, one * turn, other * turn
+    constants = np.zeros((len(k), len(squares)))
+    count = k.shape[1]
+    constants[:, :count] = k * area[:, None] * np.stack(squares[:count], axis=1)
     return constants
 
 
@@ -289,7 +291,8 @@ def stiffness_of_rubber(
     _, _, m2, r2 = elongation(0.5, d2, g[1] + d2, math.sqrt(g[1]), k[11])
     c1, c2 = m1 + r1, m2 + r2
     square = (g[0] + d[0]) * (g[1] + d[1]) - d[2] * d[2]
-    m, _ = stiffness_of_area_and_strains(d, g, area, (0.0, square), 0.0, k)
+    springs = k[0], k[1], k[2], k[3], 0.0, 0.0, 0.0
+    m, _ = stiffness_of_area_and_strains(d, g, area, (0.0, square), 0.0, springs)
     return (
         m[0] + share * (o[0] - c1 - m[0]),
         m[1] + share * (o[1] - c2 - m[1]),

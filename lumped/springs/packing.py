@@ -16,17 +16,17 @@ import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.pattern import ASKED, SHARED_UP_TO
-from lumped.springs.cell_laws import AREA_AND_STRAINS, COUPLED, FACE, RUBBER, AreaAndStrains, Tag
+from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
 from lumped.springs.families import Cells, Dampers, DirectionalLinks, Family, Links
 from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
 from sheetbench.scenes.grid import Grid
 
-LINKS, DIRECTIONAL, CELLS, RUBBER_CELLS, FACES, COUPLED_CELLS = range(6)
+LINKS, DIRECTIONAL, CELLS, RUBBER_CELLS, FACES = range(5)
 BLOCK = int(LANES)
 CACHE_LIMIT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than anew
 BRIDGED = 4  # places at most from one spring of a run to the next
 ROWS = {LINKS: LINK_DATA, DIRECTIONAL: LINK_DATA}
-OF_LAWS = {CELLS: AREA_AND_STRAINS, RUBBER_CELLS: RUBBER, FACES: FACE, COUPLED_CELLS: COUPLED}
+OF_LAWS = {CELLS: AREA_AND_STRAINS, RUBBER_CELLS: RUBBER, FACES: FACE}
 ROWS |= {kind: CELL_DATA[law.tag] for kind, law in OF_LAWS.items()}
 ABSENT_SPRING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
     LINKS: (1.0, 0.0, 0.0, 1.0),
@@ -43,8 +43,7 @@ class Packing(NamedTuple):
     its blocks of springs, where its rest data begin, its first four (or two) masses, and where in a tile its
     shapes are kept; rest: rest data, flat; keeping: whether shapes are kept for dampers, those of each run in
     a place of its own; length: of a tile with what is kept; law, face: of cells of
-    rubber or with fibres and of upright faces, with the rest data, or area and strains where there are
-    none."""
+    rubber and of upright faces, with the rest data, or area and strains where there are none."""
 
     order: np.ndarray
     layers: np.uint64
@@ -129,8 +128,8 @@ def pack(
         keeping,
         length,
         *(
-            next((OF_LAWS[kind].tag for kind in either if kind in table[:, 0]), AreaAndStrains)(data)
-            for either in ((RUBBER_CELLS, COUPLED_CELLS), (FACES,))
+            (OF_LAWS[kind].tag if kind in table[:, 0] else AreaAndStrains)(data)
+            for kind in (RUBBER_CELLS, FACES)
         ),
     )
 
@@ -174,9 +173,6 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
         rest = (*a.T, *b.T, *((x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))), family.area)
         constants = family.constants.T
         first = 10 if damped else LAW
-        if damped and family.law is COUPLED:
-            data[21:24, at] += constants[4:]
-            constants = constants[:4]
     data[: len(rest), at] = rest
     data[first : first + len(constants), at] += constants
 

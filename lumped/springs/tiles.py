@@ -18,8 +18,8 @@ keeps it finite.
 
 Cells. Rows of a tile: changes of the mean sides a and b, or their velocities (0 to 5), and the forces on a
 and b (6 to 11), of a law of s those on q (15 to 17). Rows of rest data: a, b (0 to 5), a·a, b·b, a·b (6 to
-8), the area (9), four constants of the dampers (10 to 13), all of the springs' law (14 and on), and of
-dampers with fibres what couples strains (21 to 23). Kept of every cell:
+8), the area (9), the constants of the dampers' area and strains (10 to 16) and of the springs' law (17 and
+on). Kept of every cell:
 a and b, and n/A of its area (`lumped.springs.laws`). A place without a cell is a unit square without
 stiffness.
 """
@@ -32,7 +32,8 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from lumped.springs.cell_laws import LAWS, Coupled, Tag, constants, measures, respond
+from lumped.springs.cell_laws import LAWS, Tag, constants, measures, respond
+from lumped.springs.laws import times_six
 from sheetbench.numerics.memory import load, load_each, store, store_each
 
 WIDTH = 128
@@ -49,10 +50,10 @@ OPTIONS: dict[str, Any] = {
     "error_model": "numpy",
     "fastmath": {"contract", "reassoc", "arcp", "nsz"},
 }
-R0, R1, R2, R3, R4, R5, R6, R7, R8, R9, R10, R11, R12, R13 = ROWS[:14]
-LAW = 14  # row of rest data from which on the constants of a cell's law are
+R0, R1, R2, R3, R4, R5, R6, R7, R8, R9, R10, R11 = ROWS[:12]
+LAW = 17  # row of rest data from which on the constants of a cell's law are
 LINK_DATA, LINK_SHAPE = 8, 3  # rows of rest data, and of what is kept
-CELL_DATA, CELL_SHAPE = {law.tag: LAW + law.count for law in LAWS} | {Coupled: 24}, 9
+CELL_DATA, CELL_SHAPE = {law.tag: LAW + law.count for law in LAWS}, 9
 USED = 18  # rows of a tile
 TINY = 1e-36  # m²
 HALF = 0.5
@@ -250,7 +251,7 @@ def resist_cells(rest: np.ndarray, t: int, blocks: int, tile: np.ndarray, at: in
         a, b = load_each(KEPT, tile, at + i, STRIDE, 3), load_each(KEPT, tile, at + R3 + i, STRIDE, 3)
         n1, n2, n3 = load_each(KEPT, tile, at + R6 + i, STRIDE, 3)
         u, w = load_each(ROW, tile, R0 + i, STRIDE, 3), load_each(ROW, tile, R3 + i, STRIDE, 3)
-        k = load_each(GIVEN, rest, t + R10 + i, STRIDE, 4)
+        k = load_each(GIVEN, rest, t + R10 + i, STRIDE, 7)
         r1 = a[0] * u[0] + a[1] * u[1] + a[2] * u[2]  # half the rates of a·a and b·b, that of a·b
         r2 = b[0] * w[0] + b[1] * w[1] + b[2] * w[2]
         r3 = (a[0] * w[0] + a[1] * w[1] + a[2] * w[2]) + (b[0] * u[0] + b[1] * u[1] + b[2] * u[2])
@@ -258,32 +259,11 @@ def resist_cells(rest: np.ndarray, t: int, blocks: int, tile: np.ndarray, at: in
         pull = k[0] * growing
         power += pull * growing
         r1, r2 = r1 + r1, r2 + r2
-        s1, s2, s3 = k[1] * r1, k[2] * r2, k[3] * r3
+        s1, s2, s3 = times_six(k[1:], (r1, r2, r3))
         power += s1 * r1 + s2 * r2 + s3 * r3
         s1, s2, s3 = s1 + s1 + pull * n1, s2 + s2 + pull * n2, s3 - pull * n3
         for e in range(3):
             on_a, on_b = s1 * a[e] + s3 * b[e], s2 * b[e] + s3 * a[e]
-            store(ROW, tile, ROWS[6 + e] + i, load(ROW, tile, ROWS[6 + e] + i) + on_a)
-            store(ROW, tile, ROWS[9 + e] + i, load(ROW, tile, ROWS[9 + e] + i) + on_b)
-    return 1.0 * power
-
-
-@njit(**OPTIONS)
-def resist_couplings(rest: np.ndarray, t: int, blocks: int, tile: np.ndarray, at: int) -> float:
-    """Add the forces of dampers that couple strains to the rows of forces; the power taken."""
-    power = rest.dtype.type(0.0)
-    for i in range(blocks * LANES):
-        a, b = load_each(KEPT, tile, at + i, STRIDE, 3), load_each(KEPT, tile, at + R3 + i, STRIDE, 3)
-        u, w = load_each(ROW, tile, R0 + i, STRIDE, 3), load_each(ROW, tile, R3 + i, STRIDE, 3)
-        x, y, z = load_each(GIVEN, rest, t + ROWS[21] + i, STRIDE, 3)
-        r1 = a[0] * u[0] + a[1] * u[1] + a[2] * u[2]
-        r2 = b[0] * w[0] + b[1] * w[1] + b[2] * w[2]
-        r3 = (a[0] * w[0] + a[1] * w[1] + a[2] * w[2]) + (b[0] * u[0] + b[1] * u[1] + b[2] * u[2])
-        r1, r2 = r1 + r1, r2 + r2
-        s1, s2, s3 = x * r2 + y * r3, x * r1 + z * r3, y * r1 + z * r2
-        power += s1 * r1 + s2 * r2 + s3 * r3
-        for e in range(3):
-            on_a, on_b = (s1 + s1) * a[e] + s3 * b[e], (s2 + s2) * b[e] + s3 * a[e]
             store(ROW, tile, ROWS[6 + e] + i, load(ROW, tile, ROWS[6 + e] + i) + on_a)
             store(ROW, tile, ROWS[9 + e] + i, load(ROW, tile, ROWS[9 + e] + i) + on_b)
     return 1.0 * power

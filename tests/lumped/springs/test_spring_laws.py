@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lumped.springs import cells
-from lumped.springs.cell_laws import COUPLED, LAWS, AreaAndStrains
+from lumped.springs.cell_laws import AREA_AND_STRAINS, LAWS, AreaAndStrains
 from lumped.springs.cells import CellArrays
 from lumped.springs.laws import (
     area_and_strains,
@@ -126,7 +126,7 @@ def test_every_law_of_cells_is_the_derivative_of_its_energy_and_does_its_work(la
     springs = np.zeros((n, n))
     springs[:3, :3] = np.diag([k[1], k[2], k[3]])
     springs[:2, :2] += 0.25 * k[0]
-    if law is COUPLED:
+    if law is AREA_AND_STRAINS:
         springs[[0, 0, 1], [1, 2, 2]] += k[4:]
         springs[[1, 2, 2], [0, 0, 1]] += k[4:]
     assert np.allclose(full(np.zeros(n), 0.0), springs, rtol=1e-14)

@@ -16,7 +16,7 @@ from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
-from lumped.springs.all_families import NO_INERTIA, NO_STRESSES, AllFamilies, Stresses, springs_of
+from lumped.springs.all_families import springs_of
 from lumped.springs.families import Cells, Links
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
@@ -65,13 +65,11 @@ class Assembly:
             rows, columns = (np.concatenate(part) for part in zip(pairs, own, strict=True))
             self.pattern = Pattern(self.coupling.size, rows, columns)
             self.coupling_slots = self.pattern.slots(*own)
-        self.all_families = springs_of(self.lattice, self.pattern, calibration.springs)
-        self.springs = self.all_families.families
+        self.all_families = springs_of(self.lattice, self.pattern, calibration.springs, precision == "single")
+        self.force, self.advance = self.all_families.force, self.all_families.advance
+        self.tangent, self.springs = self.all_families.tangent, self.all_families.families
         self.links = next(family for family in self.springs if isinstance(family, Links))
         self.precision = precision
-        self._rounded: AllFamilies | None = None
-        if precision == "single":
-            self._rounded = AllFamilies([family.rounded() for family in self.springs], self.pattern)
 
     @cached_property
     def plan(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -113,23 +111,6 @@ class Assembly:
         both = np.repeat(self.links.stiffness, 2)
         return np.bincount(self.links.nodes.ravel(), both, minlength=self.pattern.size)
 
-    def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
-        """Elastic energy [J] and its gradient, the internal force, (n, 3) [N]."""
-        if self._rounded is None:
-            return self.all_families.force(u)
-        energy, force = self._rounded.force(u.astype(np.float32))
-        return energy, force.astype(float)
-
-    def advance(
-        self, u: np.ndarray, step: np.ndarray, predict: bool
-    ) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
-        """Where a step from u leads, how far at most [m], the internal force there, and the stresses that the
-        linearisation at u predicts there, none unless asked to `predict`."""
-        after, length, internal, stresses = self.all_families.advance(u, step, predict)
-        if self._rounded is not None:
-            internal = self.force(after)[1]
-        return after, length, internal, stresses
-
     def average_force(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
         """Internal force (n, 3) [N] whose work from `start` to `end` is the elastic energy stored."""
         force = np.zeros_like(start)
@@ -144,21 +125,3 @@ class Assembly:
             for name, energy in family.by_name(family.energies(u)).items():
                 found[name] = found.get(name, 0.0) + energy
         return found
-
-    def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
-        """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite."""
-        return self.all_families.tangent(u, self.all_families.nonnegative_parts(u), 0.0)
-
-    def tangent(
-        self,
-        u: np.ndarray,
-        stresses: Stresses | None = None,
-        share: float = 1.0,
-        scale: float = 1.0,
-        inertia: np.ndarray = NO_INERTIA,
-        extrapolated: bool = False,
-    ) -> np.ndarray:
-        """Return scale × blocks (b, 3, 3) [N/m] of the tangent at u, with the stresses given or the share of
-        those at u, and of the stiffness the material part and this share of the rest (`lumped.springs.laws`);
-        on the diagonal `inertia` (n,) [N/m] beside it; extrapolated: whether the stresses are `advance`'s."""
-        return self.all_families.tangent(u, stresses or NO_STRESSES, share, scale, inertia, extrapolated)

@@ -53,18 +53,24 @@ NO_INERTIA = np.empty(0)
 
 
 class AllFamilies:
-    """Families of springs together. Displacements and forces are (n, 3) [m], [N]; stresses as `Springs`."""
+    """Families of springs together. Displacements and forces are (n, 3) [m], [N]; stresses as `Springs`.
+    single: the force is computed from displacements, rest geometry and stiffness in single precision."""
 
-    def __init__(self, families: Sequence[Family], pattern: Pattern):
+    def __init__(self, families: Sequence[Family], pattern: Pattern, single: bool = False):
         self.families = tuple(families)
         found = {_place(family): family for family in families}
         links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
         self.springs = Springs(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_))
         self._found, self._pattern = found, pattern
         self._others = [family for place, family in found.items() if place < 0]
+        rounded = [family.rounded() for family in families] if single else None
+        self._rounded = None if rounded is None else AllFamilies(rounded, pattern)
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
-        """Return the energy [J] and the internal force."""
+        """Return the energy [J] and the internal force, its gradient."""
+        if self._rounded is not None:
+            energy, internal = self._rounded.force(u.astype(np.float32))
+            return energy, internal.astype(float)
         energy, internal = force(np.ascontiguousarray(u), self.springs)
         for family in self._others:
             family.add_force(u, internal)
@@ -78,6 +84,8 @@ class AllFamilies:
         after, length, internal, stresses = advance(
             np.ascontiguousarray(u), np.ascontiguousarray(step), predict, self.springs
         )
+        if self._rounded is not None:
+            return after, length, self.force(after)[1], stresses
         for family in self._others:
             family.add_force(after, internal)
         return after, length, internal, stresses
@@ -86,9 +94,10 @@ class AllFamilies:
         """Return the stresses that the linearisation at u predicts after `step`."""
         return self.advance(u, step, True)[3]
 
-    def nonnegative_parts(self, u: np.ndarray) -> Stresses:
-        """Return the stresses less what could make the tangent indefinite."""
-        return self.arranged(family.nonnegative_part(u) for family in self._found.values())
+    def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
+        """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite."""
+        parts = self.arranged(family.nonnegative_part(u) for family in self._found.values())
+        return self.tangent(u, parts, 0.0)
 
     def arranged(self, stresses: Iterable[np.ndarray]) -> Stresses:
         """Return the stresses of the families, in turn, as `Springs`."""
@@ -98,19 +107,26 @@ class AllFamilies:
     def tangent(
         self,
         u: np.ndarray,
-        stress: Stresses = NO_STRESSES,
+        stress: Stresses | None = None,
         share: float = 1.0,
         scale: float = 1.0,
         inertia: np.ndarray = NO_INERTIA,
         extrapolated: bool = False,
     ) -> np.ndarray:
         """Return scale × the blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
-        springs' own where they are empty, and with M + share (D − M); inertia: (n,) [N/m] on the diagonal;
+        springs' own where there are none, and with M + share (D − M); inertia: (n,) [N/m] on the diagonal;
         extrapolated: whether the stresses are those that `advance` predicts."""
         pattern = self._pattern
         where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
         blocks: np.ndarray = tangent(
-            np.ascontiguousarray(u), stress, extrapolated, share, scale, inertia, self.springs, where
+            np.ascontiguousarray(u),
+            stress or NO_STRESSES,
+            extrapolated,
+            share,
+            scale,
+            inertia,
+            self.springs,
+            where,
         )
         for family in self._others:
             apart = np.zeros_like(blocks)
@@ -278,14 +294,15 @@ FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] 
 )
 
 
-def springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> AllFamilies:
+def springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet, single: bool) -> AllFamilies:
     """The springs of a spring set on a lattice, the central links first; of a small one the same every
     time."""
-    return (_kept if lattice.mass_count <= SHARED_UP_TO else _springs_of)(lattice, pattern, springs)
+    return (_kept if lattice.mass_count <= SHARED_UP_TO else _springs_of)(lattice, pattern, springs, single)
 
 
-def _springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> AllFamilies:
-    return AllFamilies([family for make in FAMILIES for family in make(lattice, pattern, springs)], pattern)
+def _springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet, single: bool) -> AllFamilies:
+    found = [family for make in FAMILIES for family in make(lattice, pattern, springs)]
+    return AllFamilies(found, pattern, single)
 
 
 _kept = lru_cache(maxsize=16)(_springs_of)

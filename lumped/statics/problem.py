@@ -124,7 +124,7 @@ class Problem:
 
     def nonnegative_tangent(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """Return blocks of the tangent less what could make that of the springs indefinite."""
-        return self._with_loads(self.assembly.nonnegative_tangent(u), u, load_factor)
+        return self._with_loads(self.assembly.all_families.nonnegative_tangent(u), u, load_factor)
 
     def _with_loads(self, blocks: np.ndarray, u: np.ndarray, load_factor: float) -> np.ndarray:
         self.loads.add_tangent(u, load_factor, blocks)

@@ -101,6 +101,6 @@ def _require_one_thickness(cells: Section | None) -> None:
     squares = cells.bending[there, 0, 0] / cells.membrane[there, 0, 0]
     if np.ptp(squares) > ALIKE * squares.max():
         raise BadInput(
-            "calibration 'hyperelastic': a lattice of rubber is as thick all over, and this sheet's thickness "
-            "differs; choose consistent, whose strains are small"
+            "calibration 'hyperelastic': a lattice of rubber is as thick all over, and this sheet's "
+            "thickness differs; choose consistent, whose strains are small"
         )

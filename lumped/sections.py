@@ -32,7 +32,7 @@ from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, requir
 from sheetbench.scenes.cells import NUMBERS
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.patches import APART, KNOWING, of_sheet, parts_between, shares_of, sides_of
+from sheetbench.scenes.patches import APART, of_sheet, parts_between, shares_of, sides_of
 
 SHEAR_CORRECTION = 5.0 / 6.0
 FINER = 4
@@ -100,7 +100,7 @@ def of_cells(cells: Cells, grid: Grid) -> Section:
     return Section.of(cells.arrays(shape))
 
 
-def require_alike(scene: Scene, who: str, instead: str = KNOWING) -> None:
+def require_alike(scene: Scene, who: str, instead: str) -> None:
     """Raise Impossible for a sheet whose cells differ, which `who` does not know; instead: what does."""
     require_uniform(scene, who, instead)
     if scene.pierced:

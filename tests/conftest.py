@@ -19,6 +19,7 @@ from comparisons.report import offscreen
 from comparisons.runs import executors
 from comparisons.runs.campaign import campaign, carry_out
 from comparisons.runs.store import Store
+from comparisons.stability import extremes
 from sheetbench.answers import style
 from sheetbench.scenes import Solution
 
@@ -80,6 +81,17 @@ def in_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """Campaigns run in this process: no worker has to start."""
     monkeypatch.setattr(executors, "processes", Here)
     monkeypatch.setitem(carry_out.__kwdefaults__, "pool", Here)
+
+
+@pytest.fixture
+def few(in_process: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Campaigns run here, and maps have two runs along each axis."""
+    monkeypatch.setattr(
+        extremes, "FACTORS", {name: (1.0, max(all_)) for name, all_ in extremes.FACTORS.items()}
+    )
+    monkeypatch.setattr(extremes, "CELLS", {"lumped": (2, 4), "references": (2,)})
+    monkeypatch.setattr(extremes, "DAMPING", (0.1,))
+    monkeypatch.setattr(extremes, "DIVISIONS", (20, 4))
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,6 @@ from matrix_options import OUTPUTS
 from matrix_rows import Row, named, pairwise
 
 from comparisons.scoring.cases import SUITES
-from comparisons.stability import extremes
 
 VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     "compare --duration 0.004 --elements 2": [
@@ -114,17 +113,6 @@ def places(places: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> 
             csv.writer(file).writerows(rows)
         places[suite] = str(path)
     return places
-
-
-@pytest.fixture
-def few(in_process: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Campaigns run here, and maps have two runs along each axis."""
-    monkeypatch.setattr(
-        extremes, "FACTORS", {name: (1.0, max(all_)) for name, all_ in extremes.FACTORS.items()}
-    )
-    monkeypatch.setattr(extremes, "CELLS", {"lumped": (2, 4), "references": (2,)})
-    monkeypatch.setattr(extremes, "DAMPING", (0.1,))
-    monkeypatch.setattr(extremes, "DIVISIONS", (20, 4))
 
 
 @pytest.mark.usefixtures("few")

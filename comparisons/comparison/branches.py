@@ -18,10 +18,12 @@ import numpy as np
 
 from comparisons.models.resolve import Resolved
 from comparisons.models.spec import Elements, Lattice
+from comparisons.report.plan import on_sheet
 from sheetbench.scenes import Scene, Solution, Status
 
 FAR = 0.2  # of the largest displacement, from which on another branch is looked for
 SAME = 0.5  # of the difference, by which an answer begun elsewhere must come nearer
+ROUNDING = 1e-9  # of the longer side
 STEP = 1e-3  # of the shorter side, over which the mid-surface's slope is taken
 
 
@@ -84,19 +86,25 @@ def _said(moved: Solution, kept: Solution, own: np.ndarray, other: np.ndarray) -
 
 def shape(scene: Scene, reference: Solution, places: np.ndarray) -> np.ndarray:
     """Displacement (n, 3) [m] of what lies at (n, 3) [m] in the flat sheet, in a solution's shape."""
-    plan, lengths = places[:, :2], np.array(scene.sheet.lengths)
-    step = STEP * lengths.min()
+    plan = on_sheet(scene, places[:, :2])
     slopes = []
-    for axis in range(2):
-        low, high = plan.copy(), plan.copy()
-        low[:, axis] = np.maximum(plan[:, axis] - step, 0.0)
-        high[:, axis] = np.minimum(plan[:, axis] + step, lengths[axis])
+    for axis in np.eye(3)[:2]:
+        step = STEP * min(scene.sheet.lengths) * axis[:2]
+        low, high = _beside(scene, plan, -step), _beside(scene, plan, step)
+        apart = np.abs(high - low).sum(axis=1)
         change = reference.displacement(high) - reference.displacement(low)
-        slopes.append(change / (high - low)[:, axis, None] + np.eye(3)[axis])
+        slopes.append(change / np.where(apart > 0.0, apart, 1.0)[:, None] + axis)
     normal = np.cross(*slopes)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     moved: np.ndarray = reference.displacement(plan) + places[:, 2:] * (normal - [0.0, 0.0, 1.0])
     return moved
+
+
+def _beside(scene: Scene, plan: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """The plan points (n, 2) [m] a step on, or themselves where that is off the sheet."""
+    there = plan + step
+    off = np.abs(on_sheet(scene, there) - there).max(axis=1) > ROUNDING * max(scene.sheet.lengths)
+    return np.where(off[:, None], plan, there)
 
 
 def _largest(u: np.ndarray) -> str:

@@ -232,7 +232,7 @@ def _elements(nodes: np.ndarray, scene: Scene, section: Section | None, law: str
     require_law(law, LAWS, material)
     if law == STRAIN_LAW:
         return Element.build(nodes, section or section_at(scene, nodes))
-    require_uniform(scene, f"the shell's law '{law}'")
+    require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
     if section is not None:
         raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
     return HyperelasticElement.of(nodes, material, thickness, LAWS[law])

@@ -172,7 +172,7 @@ def _require_meshable(scene: Scene, law: str) -> None:
                 "the shell and the plate have"
             )
     if law != STRAIN_LAW:
-        require_uniform(scene, f"the solid's law '{law}'")
+        require_uniform(scene, f"the solid's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
     if taper and (scene.actuators or any(isinstance(load, Pressure | EdgeLoad) for load in scene.loads)):
         raise BadInput(
             "sheet.taper_x, sheet.taper_y: the solid has tapered sheets under weight and point loads alone; "

@@ -29,10 +29,6 @@ if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
 
 CONSTANTS = ("thickness", "young", "poisson", "density", "angle")
-KNOWING = (
-    "check, compare, modes, simulate, calibrate, tradeoff, crosscheck and linearise know others too, with "
-    "the models lumped, plate, shell and solid"
-)
 FINE = 33  # lines between which a taper is taken for its mean
 LEAST_SHARE = 1e-12  # of a cell's area, below which a part is rounding
 
@@ -228,13 +224,13 @@ def mismatched(patches: tuple[Patch, ...], material: Material) -> str:
     return ""
 
 
-def require_uniform(scene: Scene, who: str, instead: str = KNOWING) -> None:
+def require_uniform(scene: Scene, who: str, instead: str = "") -> None:
     """Raise Impossible for a sheet that is not the same all over, which `who` does not know: a model or a
     file; instead: what does."""
     if not scene.uniform:
         raise Impossible(
             f"scene '{scene.name}': {scene.varied_by}: {who} is for isotropic sheets that are the same all "
-            f"over; {instead}"
+            f"over{instead and '; '}{instead}"
         )
 
 
@@ -242,4 +238,4 @@ def require_plain(scene: Scene, who: str) -> None:
     """Raise Impossible for a sheet that is no plain one (`Scene.drawn_by`), which a verb or a file does not
     know."""
     require_uniform(scene, who)
-    require_rectangle(scene, who, KNOWING)
+    require_rectangle(scene, who)

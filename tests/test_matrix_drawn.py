@@ -1,0 +1,96 @@
+"""Every verb that asks about a scene, on sheets as people build them: in every pair with a material, a plan,
+parts that differ, and what holds and loads it. A row is one small command line.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from matrix_rows import Row, named, pairwise
+
+FIBRES = """kind = "orthotropic"
+young_1 = 1e8
+young_2 = 2e7
+poisson_12 = 0.3
+shear_12 = 8e6
+angle = 0.5"""
+LAYERS = "".join(f'[[layer]]\nthickness = 0.001\nangle = "{angle} deg"\n' for angle in (0, 90, 0))
+PATCH = "[[patch]]\nshape = {{ rectangle = {{ x = [0.05, 0.07], y = [0.0, 0.08] }} }}\n{} = {}\n".format
+WHERE = "where = { rectangle = { x = [%s], y = [0.0, 0.05] } }\n"
+PARTS = {  # of a scene's text: below [sheet], below [material], and tables
+    "plain": ("", "young = 2e7\npoisson = 0.4", ""),
+    "fibres": ("", FIBRES, ""),
+    "laminate": ("", FIBRES, LAYERS),
+    "rectangle": ("", "", ""),
+    "outline": ("outline = [[0.0, 0.0], [0.12, 0.01], [0.12, 0.07], [0.0, 0.08]]\n", "", ""),
+    "hole": ("", "", "[[cutout]]\nshape = { circle = { centre = [0.09, 0.04], radius = 0.015 } }\n"),
+    "notch": ("", "", "[[cutout]]\nshape = { rectangle = { x = [0.08, 0.1], y = [0.05, 0.08] } }\n"),
+    "alike": ("", "", ""),
+    "taper": ("taper_x = [0.003, 0.002]\n", "", ""),
+    "stiff": ("", "", PATCH("density", 2e3)),
+    "thick": ("", "", PATCH("thickness", 0.004)),
+    "edge": ("", "", '[[support]]\nkind = "clamped"\nedge = "x0"\n'),
+    "gripper": ("", "", '[[support]]\nkind = "clamped"\n' + WHERE % "0.0, 0.03"),
+    "weight": ("", "", "[gravity]\nacceleration = [0.0, 0.0, 9.81]\n"),
+    "pressed": ("", "", '[[load]]\nkind = "pressure"\nvalue = 20.0\n' + WHERE % "0.05, 0.09"),
+    "pulled": ("", "", '[[load]]\nkind = "edge"\nedge = "x1"\nforce_per_length = [1.0, 0.0, 0.2]\n'
+               + WHERE % "0.1, 0.12"),
+    "laid": ("", "", '[[load]]\nkind = "area"\nforce_per_area = [0.0, 0.0, 10.0]\n'),
+}  # fmt: skip
+MEASURED = "x,y,uz\n0.05,0.04,0.001\n0.06,0.03,0.0013\n0.11,0.05,0.004\n"
+KINDS = (
+    ("plain", "fibres", "laminate"),
+    ("rectangle", "outline", "hole", "notch"),
+    ("alike", "taper", "stiff", "thick"),
+    ("edge", "gripper"),
+    ("weight", "pressed", "pulled", "laid"),
+)
+SMALL, CAMPAIGN = "--lumped 5 --elements 2", "--workers 1 --quiet"
+VERBS = (
+    "check",
+    f"compare {SMALL}",
+    f"compare {SMALL} --reference solid",
+    f"compare {SMALL} --duration 0.002",
+    f"modes {SMALL} --count 2",
+    "simulate --lumped 5 --duration 0.002",
+    "calibrate --grid 5 --export {export}",
+    "identify --measured {measured} --unknown thickness --lumped 5",
+    f"tradeoff --lumped 5 --plate 2 --shell 2 --solid= --elements 3 --repeats 1 {CAMPAIGN}",
+    f"crosscheck --lumped 3,5 --plate= --shell 2,3 --solid= --judges= {CAMPAIGN}",
+    f"stability {SMALL} --vary slenderness --vary young {CAMPAIGN}",
+    "advise --tolerance 0.9",
+    "linearise --lumped 5 --modes 3",
+)
+ROWS = pairwise([tuple((verb,) for verb in VERBS), *(tuple((kind,) for kind in kinds) for kinds in KINDS)])
+
+
+def text(kinds: list[str]) -> str:
+    """A scene of these kinds; a laminate is the same all over."""
+    if "laminate" in kinds:
+        kinds = [kind for kind in kinds if kind not in KINDS[2]]
+    sheet, material, tables = ("".join(PARTS[kind][place] for kind in kinds) for place in range(3))
+    return (
+        f'name = "drawn"\n[sheet]\nlength_x = 0.12\nlength_y = 0.08\nthickness = 0.003\n{sheet}'
+        f"[material]\ndensity = 1000.0\n{material}\n{tables}"
+    )
+
+
+def refused(verb: str, kinds: list[str]) -> bool:
+    """The solid has no steps in its thickness, and no followers on a taper; one material through it."""
+    same = "laminate" in kinds
+    return "solid" in verb.split("--reference ")[-1].split()[0] and (
+        same or "thick" in kinds or ("taper" in kinds and {"pressed", "pulled"} & {*kinds})
+    )
+
+
+@pytest.mark.usefixtures("few")
+@pytest.mark.parametrize("row", ROWS, ids=named)
+def test_drawn(row: Row, ends: Callable[..., int], tmp_path: Path) -> None:
+    verb, *kinds = (part for one in row for part in one)
+    (tmp_path / "drawn.toml").write_text(text(kinds), encoding="utf-8")
+    (tmp_path / "measured.csv").write_text(MEASURED, encoding="utf-8")
+    name, *options = verb.replace("{measured}", str(tmp_path / "measured.csv")).split()
+    if name in ("tradeoff", "crosscheck", "stability"):
+        options += ["--out", "{folder}"]
+    status = ends(name, str(tmp_path / "drawn.toml"), *options)
+    assert status == (2 if refused(verb, kinds) else 0)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration, given, homogenised
+from lumped.calibration.cell_by_cell import with_shares
 from lumped.description import Description, describe
 from lumped.fitting import (
     CALIBRATIONS,
@@ -94,6 +95,7 @@ __all__ = [
     "turn_limit",
     "usual_masses",
     "watchdog",
+    "with_shares",
 ]
 
 _LATER = {"Linear": "lumped.linearised", "linearise": "lumped.linearised"}

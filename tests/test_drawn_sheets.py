@@ -5,6 +5,7 @@ import pytest
 
 import fem_reference
 import lumped
+from comparisons.export.export import export
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
@@ -180,6 +181,21 @@ def test_rubber_is_cut_and_patched():
     tapered = scene.replace(taper_x=(THICK, 2e-3))
     with pytest.raises(ValueError, match="a lattice of rubber is as thick all over"):
         lumped.solve(tapered)
+
+
+def test_springs_alike_in_all_cells_are_shared_out_where_a_sheet_is_cut(tmp_path):
+    """At ν = 1/3, where links alone can be right; MuJoCo's file has the masses that are there."""
+    hole = {"shape": {"rectangle": {"x": (0.04, 0.1), "y": (0.025, 0.055)}}}
+    scene = strip(sheet=Sheet(0.12, 0.08, THICK), cutouts=[hole], probes={})
+    scene = scene.replace(material=scene.material.replace(poisson=1.0 / 3.0))
+    spec = Lattice((17, 11, 2), "central")
+    found, shell = solve(resolve(scene, spec)), fem_reference.solve(scene, "shell", elements=8)
+    moved, expected = (each.displacement(scene.probe_points()) for each in (found, shell))
+    assert found.balance.holds and np.abs(moved - expected).max() < 0.05 * np.abs(expected).max()
+    springs = resolve(scene, spec).springs
+    export(tmp_path, scene, springs, simulators=["mujoco"])
+    there = len(lumped.describe(scene, springs).mass)
+    assert (tmp_path / "mujoco.xml").read_text(encoding="utf-8").count("<body ") == there < 17 * 11 * 2
 
 
 def test_springs_of_a_uniform_sheet_are_refused():

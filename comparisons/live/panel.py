@@ -223,11 +223,10 @@ def most(sheet: Sheet, cap: int) -> int:
 
 def _calibrations(scene: Scene) -> dict[str, dict[str, Any]]:
     """Those that take no fit, the usual one first; whether they can be graded, and whether they take k."""
-    differing = not scene.uniform or scene.pierced
     closed = {
         name: method
         for name, method in CALIBRATIONS.items()
-        if not method.fitted and ("cells" in method.takes or not differing)
+        if not method.fitted and ("cells" in method.takes or scene.uniform)
     }
     found = {
         name: {"said": m.summary, "graded": "grading" in m.takes, "k": "k" in m.takes}

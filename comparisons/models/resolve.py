@@ -108,10 +108,15 @@ class Resolved(Generic[S]):
         own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading or 0.0}
         if not self.scene.uniform or self.scene.pierced:
             named = method_of(spec.calibration, spec.k)
-            if "cells" not in CALIBRATIONS[named].takes:
+            cells = lumped.sections_of(self.scene, self.grid, grading or 0.0)
+            if "cells" in CALIBRATIONS[named].takes:
+                own["cells"] = cells
+            elif self.scene.uniform and not self.fitted and cells is not None:
+                found = lumped.calibrate(sheet, material, self.grid, spec.calibration, k=spec.k, **own)
+                return lumped.with_shares(found, sheet, material, cells)
+            else:
                 knowing = [name for name, method in CALIBRATIONS.items() if "cells" in method.takes]
                 lumped.require_alike(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
-            own["cells"] = lumped.sections_of(self.scene, self.grid, grading or 0.0)
         if _fitted(spec):
             from comparisons.models.training import fitted
 

@@ -7,10 +7,12 @@ its membrane, its layers being softer, is the mid-surface's (`lumped.calibration
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
+from lumped.calibration.calibration import Calibration
 from lumped.grid_lines import grid_lines
 from lumped.sections import Section
 from lumped.spring_constants import gathered
@@ -82,6 +84,15 @@ def cell_by_cell(
         layer_distance = max(of_cell(*kind, None).layer_distance for kind in kinds.of)
     found = [of_cell(*kind, layer_distance) for kind in kinds.of]
     return gathered(found, kinds.which, kinds.factor)
+
+
+def with_shares(found: Calibration, sheet: Sheet, material: Material, cells: Section) -> Calibration:
+    """Return springs, alike in all cells, on a sheet with an outline or cutouts: a share for each cell.
+    cells: the sections of all, which differ by a factor alone."""
+    whole = Section.of(Constants.of(sheet, material)).bending[0, 0]
+    factor = cells.bending[..., 0, 0] / whole
+    springs = gathered([found.springs], np.zeros(factor.shape, dtype=int), factor)
+    return replace(found, springs=springs, cells=cells)
 
 
 def _rounded(values: np.ndarray) -> np.ndarray:

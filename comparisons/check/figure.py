@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
@@ -25,12 +26,17 @@ LONGEST = 0.14  # of the longer side, an arrow
 
 
 def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
-    """Return the plan: the sheet pale, patches in colours, what is held grey under a dark rim, loads blue."""
+    """Return the plan: the sheet pale, with the elements of a mesh of its own; patches in colours, what is
+    held grey under a dark rim, loads blue."""
     lengths = np.array(scene.sheet.lengths)
     height = style.width * min(max(lengths[1] / lengths[0], 0.25), 1.5) + 0.6
     figure = Figure(figsize=(style.width, height), layout="constrained")
     axis = figure.add_subplot()
     axis.add_patch(_filled(scene.region, facecolor=SHEET, edgecolor=DARK, linewidth=0.8))
+    if (mesh := scene.sheet.mesh) is not None:
+        points, quads = mesh.arrays
+        elements = list(1e3 * points[quads])
+        axis.add_collection(PolyCollection(elements, facecolors="none", edgecolors=HELD, linewidths=0.3))
     for number, patch in enumerate(scene.patches, start=1):
         colour = colormaps[PATCHES](0.2 + 0.6 * number / (len(scene.patches) + 1))
         look = {"facecolor": colour, "edgecolor": DARK, "linewidth": 0.4, "alpha": 0.7}

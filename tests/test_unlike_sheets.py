@@ -1,5 +1,6 @@
 """Sheets that are not one isotropic material all over: verbs that know them, and verbs that do not."""
 
+import json
 from pathlib import Path
 
 import meshio
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 from commands import one_line, run
 
-from sheetbench.scenes import load
+from sheetbench.scenes import catalogue, load
 
 PLAIN = load("one-edge-clamped")
 FIBRES = dict(
@@ -80,3 +81,27 @@ def test_files_say_what_each_cell_is_made_of():
 def test_verbs_that_do_not_say_so(sheet, key, verb, options, who, capsys):
     assert run(verb, f"{sheet}.toml", *options) == 2
     assert f"{key}: {who} is for isotropic sheets" in one_line(capsys)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ["check"],
+        ["compare", "--lumped", "5", "--reference", "solid", "--elements", "16"],
+        ["modes", "--lumped", "5", "--elements", "8", "--count", "2"],
+    ],
+)
+def test_verbs_take_a_mesh_file_from_its_scenes_folder(capsys, options):
+    x, y = (axis.ravel() for axis in np.meshgrid([0.0, 0.05, 0.1, 0.15, 0.2], [-1.0, 0.0, 1.0]))
+    points = np.column_stack([x, 0.05 + (0.05 - 0.1 * x) * y, 0.0 * x])
+    quads = [[i + 5 * j, i + 1 + 5 * j, i + 6 + 5 * j, i + 5 + 5 * j] for j in range(2) for i in range(4)]
+    scenes = Path("scenes")
+    scenes.mkdir()
+    meshio.write(scenes / "fin.msh", meshio.Mesh(points, [("quad", quads)]), "gmsh22")
+    fin = catalogue()["ray-fin"].read_text(encoding="utf-8")
+    lines = ['mesh = "fin.msh"' if line.startswith("outline") else line for line in fin.splitlines()]
+    (scenes / "fin.toml").write_text("\n".join(lines), encoding="utf-8")
+    capsys.readouterr()
+    verb, *more = options
+    assert run(verb, "scenes/fin.toml", *more, "--json") == 0
+    assert json.loads(capsys.readouterr().out)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from sheetbench.scenes import Scene
+from sheetbench.scenes import EdgeLoad, Scene
 from sheetbench.scenes.cells import Constants
 from sheetbench.scenes.shapes import APART, Shape
 from sheetbench.scenes.supports import place
@@ -57,10 +57,12 @@ def borders_of(scene: Scene) -> Borders | None:
     return Borders(scene.region, shapely.union_all([shape.area.boundary for shape in shapes]))
 
 
-def shapes_of(scene: Scene) -> list[Shape]:
-    """Return the shapes whose borders count."""
+def shapes_of(scene: Scene, lines: bool = True) -> list[Shape]:
+    """Return the shapes whose borders count; lines: those too that say which part of an edge is loaded."""
     places = [place(support) for support in scene.supports]
-    places += [getattr(load, "where", None) for load in scene.loads]
+    places += [
+        getattr(load, "where", None) for load in scene.loads if lines or not isinstance(load, EdgeLoad)
+    ]
     shapes = [shape for shape in places if shape is not None]
     return [*shapes, *(patch.shape for patch in scene.patches)] if _differ(scene) else shapes
 

@@ -20,6 +20,7 @@ from sheetbench.numerics.kept import kept
 from sheetbench.scenes import EDGES, EdgeLoad, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric
 from sheetbench.scenes.grid import MESH, elements_of
 from sheetbench.scenes.plan_mesh import divided
+from sheetbench.scenes.region import area_in, edge_length
 from sheetbench.scenes.shapes import Shape
 
 if TYPE_CHECKING:
@@ -118,8 +119,9 @@ def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float
     counts, lengths = divisions(scene.sheet, elements), scene.sheet.lengths
     graded = graded and scene.sheet.mesh is None
     if (own := _own(scene.sheet, counts)) is not None:
-        _require_borders(scene, own)
-        return _with_edges(own, lengths)
+        mesh = _with_edges(own, lengths)
+        _require_borders(scene, mesh)
+        return mesh
     borders = borders_of(scene)
     if borders is None or borders.along_axes:
         mesh = _tensor(*lines_of(scene, counts, graded, reach), *lengths)
@@ -146,14 +148,20 @@ def _require_borders(scene: Scene, mesh: MeshQuad) -> None:
     import shapely
 
     elements = shapely.polygons(mesh.p[:, mesh.t].transpose(2, 1, 0))
-    for shape in shapes_of(scene):
+    found = []
+    for shape in shapes_of(scene, lines=False):
         taken = shapely.area(elements[shape.contains(mesh.p[:, mesh.t].mean(axis=1).T)]).sum()
-        area = shape.area.intersection(scene.region).area
-        if abs(taken - area) > BESIDE * area:
+        found.append((shape, taken, area_in(scene, shape)))
+    for load in scene.loads:
+        if isinstance(load, EdgeLoad) and load.where is not None:
+            ends = mesh.p[:, mesh.facets[:, facets_on(mesh, load)]]
+            length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=0).sum()
+            found.append((load.where, length, edge_length(scene, load.edge, load.where)))
+    for shape, taken, size in found:
+        if abs(taken - size) > BESIDE * size:
             raise BadInput(
-                f"sheet.mesh: its sides do not lie on the border of the {shape.in_words()}: elements of "
-                f"{1e4 * taken:.4g} cm² have their middles there, of the sheet {1e4 * area:.4g} cm² are; "
-                "mesh the part by itself"
+                f"sheet.mesh: its sides do not lie on the border of the {shape.in_words()}: elements with "
+                f"their middles there are {100.0 * taken / size:.3g} % of the part; mesh it by itself"
             )
 
 

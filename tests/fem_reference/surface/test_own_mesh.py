@@ -63,3 +63,16 @@ def test_a_shape_between_the_sides_of_elements_is_refused():
     with pytest.raises(BadInput, match=r"sheet\.mesh: its sides do not lie on the border of the circle"):
         fem_reference.solve(scene, "shell")
     assert fem_reference.solve(scene, "plate", elements=12).status is Status.CONVERGED  # a mesh of ours
+
+
+@pytest.mark.parametrize(("high", "share"), [(0.05, 0.5), (0.055, None)])
+def test_a_part_of_an_edge_is_loaded_where_elements_end(high, share):
+    part = {"rectangle": {"x": (0.199, 0.2), "y": (0.0, high)}}  # thinner than an element
+    pull = {"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 0.2), "where": part}
+    scene = fin(load=[pull], gravity=None)
+    if share is None:
+        with pytest.raises(BadInput, match=r"do not lie on the border of the rectangle .* 114 % of the part"):
+            fem_reference.solve(scene, "plate")
+    else:
+        lift = sum(fem_reference.solve(scene, "plate").reactions.values())[2]
+        assert lift == pytest.approx(-0.2 * share * 0.06)

@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+import fem_reference
+import lumped
 from comparisons.models.context import context
 from comparisons.models.sizes import size
 from comparisons.models.spec import Elements, Lattice
@@ -55,11 +57,10 @@ def fitted(
     process. Raises BadInput for a training scene without a static answer that the method could use."""
     chosen = training_scenes(sheet, material) if training is None else training
     texts = tuple(scene.model_dump_json(by_alias=True, exclude_none=True) for scene in chosen)
-    learnt = _frequencies if method == "fit-modal" else _displacements
     for scene, text in zip(chosen, texts, strict=True):
         shell = size(scene, Elements("shell", ELEMENTS))
         context().progress(Work(f"training on {scene.name}: the shell", shell))
-        learnt(text)  # and kept
+        _target(text, method == "fit-modal")  # and kept
     context().progress(Work("fitting springs", size(chosen[0], Lattice(grid))))
     return _fitted(texts, grid, method, layer_distance, grading)
 
@@ -68,19 +69,10 @@ def fitted(
 def _fitted(
     texts: tuple[str, ...], grid: Grid, method: str, layer_distance: float | None, grading: Graded
 ) -> Calibration:
-    import lumped
-
-    chosen = [Scene.model_validate_json(text) for text in texts]
-    targets: list[StaticTarget | ModalTarget]
-    if method == "fit-modal":
-        targets = [ModalTarget(scene, _frequencies(text)) for scene, text in zip(chosen, texts, strict=True)]
-    else:
-        targets = [
-            StaticTarget(scene, training_points(scene), _displacements(text))
-            for scene, text in zip(chosen, texts, strict=True)
-        ]
+    targets = [_target(text, method == "fit-modal") for text in texts]
+    sheet, material = targets[0].scene.sheet, targets[0].scene.material
     own: dict[str, Any] = {"layer_distance": layer_distance, "grading": grading}
-    return lumped.calibrate(chosen[0].sheet, chosen[0].material, grid, method, targets=targets, **own)
+    return lumped.calibrate(sheet, material, grid, method, targets=targets, **own)
 
 
 def training_points(scene: Scene) -> np.ndarray:
@@ -90,22 +82,15 @@ def training_points(scene: Scene) -> np.ndarray:
 
 
 @lru_cache(maxsize=64)
-def _displacements(text: str) -> np.ndarray:
-    import fem_reference
-
+def _target(text: str, modal: bool) -> StaticTarget | ModalTarget:
     scene = Scene.model_validate_json(text)
-    solution = fem_reference.solve(scene, model="shell", elements=ELEMENTS)
+    if modal:
+        modes = fem_reference.modes(scene, model="shell", elements=ELEMENTS, count=FREQUENCIES)
+        return ModalTarget(scene, modes.frequencies)
+    solution, points = fem_reference.solve(scene, model="shell", elements=ELEMENTS), training_points(scene)
     if solution.status is not Status.CONVERGED:
         raise BadInput(f"scene '{scene.name}': nothing to train on, the shell's answer is {solution.status}")
-    displacement = solution.displacement(training_points(scene))
+    displacement = solution.displacement(points)
     if not displacement.any():
         raise BadInput(f"scene '{scene.name}': nothing to train on, nothing moves; give it a load or weight")
-    return displacement
-
-
-@lru_cache(maxsize=64)
-def _frequencies(text: str) -> np.ndarray:
-    import fem_reference
-
-    scene = Scene.model_validate_json(text)
-    return fem_reference.modes(scene, model="shell", elements=ELEMENTS, count=FREQUENCIES).frequencies
+    return StaticTarget(scene, points, displacement)

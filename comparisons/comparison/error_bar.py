@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.models.grids import Elements
+from comparisons.models.spec import counted
 from sheetbench.scenes import Scene, Solution
 from sheetbench.scenes.summary import few
 
@@ -49,7 +50,7 @@ class ErrorBar:
 
     def note(self, model: str) -> str:
         """Return the bar in words."""
-        found, (*finer, coarsest) = self.uncertainty, [_size(n) for n in self.elements]
+        found, (*finer, coarsest) = self.uncertainty, [counted(n) for n in self.elements]
         if len(self.elements) == 2:
             why = "order 2 assumed, safety factor 3: two meshes show no order"
         elif np.isfinite(found.overall_order) and found.trusted.all():
@@ -77,10 +78,6 @@ class ErrorBar:
             "solve_seconds": self.solve_seconds,
             "method": METHOD,
         }
-
-
-def _size(elements: Elements) -> str:
-    return str(elements) if isinstance(elements, int) else "×".join(map(str, elements))
 
 
 def error_bar(

@@ -18,7 +18,7 @@ import numpy as np
 from comparisons.models.expected_error import converges
 from comparisons.models.layers import layers
 from comparisons.models.resolve import Resolved
-from comparisons.models.spec import Lattice
+from comparisons.models.spec import Lattice, counted
 from sheetbench.choices import listed
 from sheetbench.scenes import Solution, Status
 from sheetbench.scenes.summary import few
@@ -69,7 +69,7 @@ def far_apart_note(
         )
     fine = finer.displacement(points)
     left, moved = error(fine, right) or 0.0, error(own, fine) or 0.0
-    masses = "×".join(str(n) for n in finer.settings["grid"])
+    masses = counted(finer.settings["grid"])
     if left < NEARER * off:
         return (
             f"{start}the grid is too coarse, on {masses} masses it is {100.0 * left:.3g} %{because}.",

@@ -11,7 +11,7 @@ from comparisons.external import plugins
 from comparisons.external.installed import InstalledCode
 from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
-from comparisons.models.spec import Spec
+from comparisons.models.spec import Spec, counted
 from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from sheetbench.choices import REFERENCES
@@ -69,8 +69,7 @@ def _run(scene: Scene, name: str, candidate: Spec, version: str | None) -> Run:
     digest = plugins.digest(candidate.model)
     arguments |= {key: text for key, text in (("version", version), ("digest", digest)) if text is not None}
     size = candidate.settings.get("elements") or candidate.settings["grid"]
-    counts = "×".join(map(str, size)) if isinstance(size, list | tuple) else str(size)
-    return Run("crosscheck", arguments, f"{scene.name}, {name} {counts}")
+    return Run("crosscheck", arguments, f"{scene.name}, {name} {counted(size)}")
 
 
 def _row(run: Run, outcome: Finished) -> dict[str, Any]:

@@ -63,9 +63,7 @@ class Program:
         """Return the program's answer. Raises BadInput where it refuses the scene, or a limit is not one."""
         seconds, most = _limits(settings)
         own = {key: value for key, value in settings.items() if key not in SETTINGS}
-        options = [
-            f"--{key}" if value is True else f"--{key}={_written(value)}" for key, value in own.items()
-        ]
+        options = [f"--{key}" if value is True else f"--{key}={written(value)}" for key, value in own.items()]
         question = json.dumps(scene.document()).encode()
         try:
             ended = run([str(self.path.resolve()), *options], question, seconds, most)
@@ -170,7 +168,8 @@ def _solution(
     )
 
 
-def _written(value: Any) -> str:
+def written(value: Any) -> str:
+    """Return a setting as text: a size 9x13, other values as JSON has them."""
     if isinstance(value, list):
         return "x".join(map(str, value))
     return value if isinstance(value, str) else json.dumps(value)

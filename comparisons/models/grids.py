@@ -20,12 +20,11 @@ def parse_elements(text: str, option: str = "--elements") -> Elements:
 
     Raises BadInput naming the option.
     """
-    parts = text.lower().replace("×", "x").split("x")
-    if len(parts) > 2 or not all(part.isascii() and part.isdigit() for part in parts):
+    numbers = _numbers(text)
+    if len(numbers) not in (1, 2):
         raise BadInput(
             f"{option} = '{text}': write 16 (elements along the shorter side) or 8x4 (along x and y)"
         )
-    numbers = [int(part) for part in parts]
     if min(numbers) < 1:
         raise BadInput(f"{option} = {text}: at least 1")
     return numbers[0] if len(numbers) == 1 else (numbers[0], numbers[1])
@@ -33,11 +32,7 @@ def parse_elements(text: str, option: str = "--elements") -> Elements:
 
 def parse_grid(sheet: Sheet, text: str) -> Grid:
     """Return the grid of `N`, `NxM` or `NxMxL`. Raises BadInput naming the option, under both its names."""
-    parts = text.lower().replace("×", "x").split("x")
-    try:
-        numbers = [int(part) for part in parts]
-    except ValueError:
-        numbers = []
+    numbers = _numbers(text)
     if len(numbers) not in (1, 2, 3) or min(numbers) < 2:
         raise BadInput(
             f"--lumped = '{text}', the same as --grid: not a grid; write 9 (masses along the shorter side, "
@@ -53,3 +48,9 @@ def scene_grid(scene: Scene, grid: GridLike = None) -> Grid:
         return parse_grid(scene.sheet, grid)
     own = scene.springs.grid if isinstance(scene.springs, SpringTable) else None
     return grid_of(scene.sheet, grid if grid is not None else own or MASSES)
+
+
+def _numbers(text: str) -> list[int]:
+    """Return the whole numbers of 9x13, none of other text."""
+    parts = text.lower().replace("×", "x").split("x")
+    return [int(part) for part in parts] if all(p.isascii() and p.isdigit() for p in parts) else []

@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from comparisons.external import plugins
-from comparisons.external.program import PREFIX
+from comparisons.external.program import PREFIX, written
 from comparisons.models.grids import Elements as Count
 from comparisons.models.grids import GridLike, parse_elements, scene_grid
 from sheetbench.choices import AUTO, ELEMENTS, EXTRAPOLATED, REFERENCES
@@ -68,7 +68,7 @@ class Spec(ABC):
 
     def __str__(self) -> str:
         """Return the text that `parse` reads as this spec."""
-        parts = ",".join(f"{key}={_written(value)}" for key, value in self.settings.items())
+        parts = ",".join(f"{key}={written(value)}" for key, value in self.settings.items())
         return f"{self.model}:{parts}" if parts else self.model
 
     @property
@@ -335,12 +335,6 @@ def _value(text: str) -> Any:
     if isinstance(value, int | float) and not abs(value) <= LARGEST:
         raise BadInput(f"--model: {text[:40]}: a number of at most {LARGEST:g} is needed")
     return value
-
-
-def _written(value: Any) -> str:
-    if isinstance(value, list):
-        return "x".join(map(str, value))
-    return value if isinstance(value, str) else json.dumps(value)
 
 
 def _data(value: Any) -> Any:

@@ -8,6 +8,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from comparisons.external.bricks import Bricks
+from comparisons.external.kratos.problem import Triangles
 from comparisons.external.plugins import Model
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, History, Scene, Solution, Status
@@ -15,12 +16,6 @@ from sheetbench.scenes.kinematics import bent_or_tilted
 
 SUBSTEPS = 8  # of a motion between two samples
 BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"
-
-
-class Sampled(Protocol):
-    """A mesh whose nodal displacements (n, 3) have values (p, 3) at plan points (p, 2) [m]."""
-
-    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray: ...
 
 
 @runtime_checkable
@@ -47,10 +42,15 @@ class ExternalCode(Model, Protocol):
         ...
 
 
-def require(elements: Any, layers: Any, grading: str, gradings: Collection[str]) -> None:
-    """Raise BadInput for settings of bricks that make no mesh."""
+def require_count(elements: Any) -> None:
+    """Raise BadInput for what is no number of elements."""
     if type(elements) is not int or elements < 1:
         raise BadInput(f"elements = {elements!r}: a whole number along the shorter side, at least 1")
+
+
+def require(elements: Any, layers: Any, grading: str, gradings: Collection[str]) -> None:
+    """Raise BadInput for settings of bricks that make no mesh."""
+    require_count(elements)
     if type(layers) is not int or layers < 2 or layers % 2:
         raise BadInput(f"layers = {layers!r}: an even number, so that nodes lie in the mid-surface")
     require_choice("grading", grading, gradings)
@@ -102,11 +102,11 @@ def refusal_of_motion(scene: Scene) -> str:
 
 
 def moved(
-    label: str,
+    code: ExternalCode,
     integrator: str,
     scene: Scene,
     settings: Mapping[str, Any],
-    mesh: Sampled,
+    mesh: Bricks | Triangles,
     times: np.ndarray,
     found: np.ndarray,
     note: str,
@@ -118,9 +118,9 @@ def moved(
     still = np.zeros((1, *found.shape[1:]))
     at_probes = np.array([mesh.sample(u, scene.probe_points()) for u in (*still, *found)])
     return History(
-        label=label,
+        label=f"{code.called} {mesh.label}",
         integrator=integrator,
-        settings=dict(settings),
+        settings={**settings, "elements": list(mesh.counts)},
         status=Status.DIVERGED if note else Status.CONVERGED,
         message=note,
         time=np.concatenate([[0.0], times]),
@@ -135,32 +135,33 @@ def moved(
     )
 
 
-def solution_on_bricks(
+def solution(
     code: ExternalCode,
-    scene: Scene,
     settings: Mapping[str, Any],
-    bricks: Bricks,
+    mesh: Bricks | Triangles,
     displacement: np.ndarray,
     status: Status,
     load_factor: float,
     note: str,
     iterations: int,
     seconds: tuple[float, float],
+    unknowns: int | None = None,
 ) -> Solution:
-    """Return the Solution of nodal displacements (n, 3) [m]; seconds: set-up and solve."""
+    """Return the Solution of nodal displacements (n, 3) [m]; seconds: set-up and solve; unknowns: as many as
+    there are components unless given."""
     return Solution(
         model=code.name,
-        label=f"{code.called} {bricks.label}",
-        settings={**settings, "elements": list(bricks.counts)},
+        label=f"{code.called} {mesh.label}",
+        settings={**settings, "elements": list(mesh.counts)},
         status=status,
-        unknowns=displacement.size,
+        unknowns=displacement.size if unknowns is None else unknowns,
         iterations=iterations,
         setup_seconds=seconds[0],
         solve_seconds=seconds[1],
-        sample=lambda points: bricks.sample(displacement, points),
+        sample=lambda points: mesh.sample(displacement, points),
         reactions={},
         energies={},
-        mesh=FieldMesh(bricks.positions, [("hexahedron20", bricks.elements)], {"displacement": displacement}),
+        mesh=FieldMesh(mesh.positions, [(mesh.KIND, mesh.elements)], {"displacement": displacement}),
         load_factor=load_factor,
         remarks=(note,) if note else (),
     )

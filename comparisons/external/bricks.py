@@ -57,20 +57,7 @@ class Bricks:
     z: np.ndarray
     taper: np.ndarray
 
-    BETWEEN: ClassVar = [
-        (0, 1),
-        (1, 2),
-        (2, 3),
-        (3, 0),
-        (4, 5),
-        (5, 6),
-        (6, 7),
-        (7, 4),
-        (0, 4),
-        (1, 5),
-        (2, 6),
-        (3, 7),
-    ]
+    KIND: ClassVar = "hexahedron20"
 
     @classmethod
     def of(cls, scene: Scene, elements: int, layers: int, grading: str) -> Bricks:

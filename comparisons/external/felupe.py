@@ -20,7 +20,7 @@ import numpy as np
 from scipy.sparse import csr_matrix, lil_matrix
 from scipy.sparse.linalg import splu
 
-from comparisons.external.answer import BRICK_MOMENTS, refusal, require, solution_on_bricks
+from comparisons.external.answer import BRICK_MOMENTS, refusal, require, solution
 from comparisons.external.bricks import GRADINGS, Bricks, Held, forces, held
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Pressure, Scene, Solution, Status
@@ -71,9 +71,8 @@ class FElupe:
             ready = perf_counter()
             path = _traced(equilibrium, supports)
             status = Status.CONVERGED if path.load_factor == 1.0 else Status.DIVERGED
-        return solution_on_bricks(
+        return solution(
             self,
-            scene,
             settings,
             bricks,
             path.displacement,

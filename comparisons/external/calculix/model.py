@@ -25,7 +25,7 @@ from comparisons.external.answer import (
     refusal,
     refusal_of_motion,
     require,
-    solution_on_bricks,
+    solution,
 )
 from comparisons.external.bricks import GRADINGS, Bricks
 from comparisons.external.calculix import results
@@ -90,9 +90,7 @@ class CalculiX:
             if not np.isfinite(displacement).all():
                 status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
         seconds = (ready - began, perf_counter() - ready)
-        return solution_on_bricks(
-            self, scene, settings, bricks, displacement, status, load_factor, note, iterations, seconds
-        )
+        return solution(self, settings, bricks, displacement, status, load_factor, note, iterations, seconds)
 
     def simulate(
         self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
@@ -120,10 +118,10 @@ class CalculiX:
         times, found, _, note = _carried_out(program, text, settings["time_limit"], bricks)
         ended = perf_counter()
         return moved(
-            f"{self.called} {bricks.label}",
+            self,
             "HHT",
             scene,
-            {**settings, "elements": list(bricks.counts), "every": duration / count},
+            {**settings, "every": duration / count},
             bricks,
             times,
             found,

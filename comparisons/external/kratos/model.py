@@ -20,11 +20,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.external.answer import SUBSTEPS, moved, refusal, refusal_of_motion
+from comparisons.external.answer import SUBSTEPS, moved, refusal, refusal_of_motion, require_count, solution
 from comparisons.external.kratos.problem import Triangles, problem
 from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
-from sheetbench.scenes import FieldMesh, History, Scene, Solution, Status
+from sheetbench.scenes import History, Scene, Solution, Status
 
 STEPS = (1, 4, 16)
 BEGINS = 1e-3  # of a motion's steps, its first: the load acts from t = 0 on, the acceleration after a step
@@ -82,21 +82,10 @@ class Kratos:
             if status is Status.CONVERGED:
                 break
         held = 0 if note else int(given["held"].sum())
-        return Solution(
-            model=self.name,
-            label=self._label(mesh),
-            settings={**settings, "elements": list(mesh.shape)},
-            status=status,
-            unknowns=2 * displacement.size - held,
-            iterations=iterations,
-            setup_seconds=perf_counter() - began - seconds,
-            solve_seconds=seconds,
-            sample=lambda points: mesh.sample(displacement, points),
-            reactions={},
-            energies={},
-            mesh=FieldMesh(mesh.positions, [("triangle", mesh.elements)], {"displacement": displacement}),
-            load_factor=load_factor,
-            remarks=(note,) if note else (),
+        spent = (perf_counter() - began - seconds, seconds)
+        unknowns = 2 * displacement.size - held
+        return solution(
+            self, settings, mesh, displacement, status, load_factor, note, iterations, spent, unknowns
         )
 
     def simulate(
@@ -120,10 +109,10 @@ class Kratos:
         except Failed as error:
             note = f"Kratos: {error}"
         return moved(
-            self._label(mesh),
+            self,
             "Bossak",
             scene,
-            {**settings, "elements": list(mesh.shape), "every": duration / count},
+            {**settings, "every": duration / count},
             mesh,
             times[SUBSTEPS::SUBSTEPS][: len(found)],
             found,
@@ -134,14 +123,10 @@ class Kratos:
 
     def _mesh(self, scene: Scene, elements: Any) -> Triangles:
         """Return the mesh. Raises BadInput without Kratos, and for what is no number of elements."""
-        if type(elements) is not int or elements < 1:
-            raise BadInput(f"elements = {elements!r}: a whole number along the shorter side, at least 1")
+        require_count(elements)
         if self.version() is None:
             raise BadInput(f"model = 'kratos': needs {self.needs}")
         return Triangles.of(scene.sheet, elements)
-
-    def _label(self, mesh: Triangles) -> str:
-        return f"{self.called} {' × '.join(map(str, mesh.shape))} × 2 triangles"
 
 
 def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -32,6 +33,7 @@ from sheetbench.scenes.sheet import Sheet
 class Triangles:
     """x (nx + 1,), y (ny + 1,): lines between the cells [m]; node (i, j) has the number i (ny + 1) + j."""
 
+    KIND: ClassVar = "triangle"
     x: np.ndarray
     y: np.ndarray
 
@@ -43,9 +45,14 @@ class Triangles:
         return cls(x, y)
 
     @property
-    def shape(self) -> tuple[int, int]:
+    def counts(self) -> tuple[int, int]:
         """Cells along x and y."""
         return len(self.x) - 1, len(self.y) - 1
+
+    @property
+    def label(self) -> str:
+        """How many triangles there are, in words."""
+        return f"{' × '.join(map(str, self.counts))} × 2 triangles"
 
     @cached_property
     def positions(self) -> np.ndarray:
@@ -56,7 +63,7 @@ class Triangles:
     @cached_property
     def elements(self) -> np.ndarray:
         """Nodes of the triangles (2 nx ny, 3), normal along +z."""
-        nx, ny = self.shape
+        nx, ny = self.counts
         i, j = (a.ravel() for a in np.meshgrid(range(nx), range(ny), indexing="ij"))
         a = i * (ny + 1) + j
         b, c, d = a + ny + 1, a + ny + 2, a + 1

@@ -1,6 +1,15 @@
 """Materials of every law of strain."""
 
+from typing import Any
+
 from sheetbench.scenes import Material
+
+LAWS: dict[str, dict[str, float]] = {
+    "neo-hookean": {"young": 1e6},
+    "mooney-rivlin": {"c1": 1.5e5, "c2": 2e4},
+    "yeoh": {"c1": 1.7e5, "c2": -2e3, "c3": 60.0},
+    "gent": {"shear": 3.4e5, "limit": 60.0},
+}
 
 CONSTANTS = {
     "mooney-rivlin": {"c1": 0.3, "c2": 0.1},
@@ -8,6 +17,11 @@ CONSTANTS = {
     "gent": {"shear": 0.6, "limit": 10.0},
 }
 LEAST = 0.35  # of Poisson's ratio, where laws with these constants begin
+
+
+def rubber(law: str, poisson: float = 0.45, **other: Any) -> Material:
+    """Of about 1 MPa at small strains."""
+    return Material(law=law, poisson=poisson, density=1000.0, **{**LAWS[law], **other})
 
 
 def material(law: str, poisson: float = 0.3, young: float = 2.0) -> Material:

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from cases import CLAMP, GRAVITY, OBLONG, RUBBER, SHEET, SILICONE
 from commands import run
+from rubbers import LAWS, rubber
 from scipy.io import loadmat
 
 import lumped
@@ -45,13 +46,7 @@ HALF = Scene(
     ),
 )
 
-LAWS = {
-    "neo-hookean": {"young": 1e6},
-    "mooney-rivlin": {"c1": 1.5e5, "c2": 2e4},
-    "yeoh": {"c1": 1.7e5, "c2": -2e3, "c3": 60.0},
-    "gent": {"shear": 3.4e5, "limit": 20.0},
-}
-RUBBERS = [Material(law=law, poisson=0.45, density=1000.0, damping_time=1e-3, **LAWS[law]) for law in LAWS]
+RUBBERS = [rubber(law, damping_time=1e-3) for law in LAWS]
 
 
 CUT = {"shape": {"rectangle": {"x": (0.09, 0.2), "y": (0.045, 0.1)}}}

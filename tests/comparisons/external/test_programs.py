@@ -43,7 +43,7 @@ def says(answer: object) -> str:
     return f"cat <<'END'\n{json.dumps(answer)}\nEND"
 
 
-@pytest.mark.skipif(shutil.which("jq") is None, reason="the example reads JSON with jq")
+@pytest.mark.skipif(shutil.which("jq") is None, reason="needs jq: install the Debian package jq")
 def test_the_example_of_the_docs_answers_like_a_beam(capsys: pytest.CaptureFixture[str]) -> None:
     assert len(STRIP.read_text(encoding="utf-8").splitlines()) <= 10
     solution = face.solve(SCENE, f"exec:{STRIP}")

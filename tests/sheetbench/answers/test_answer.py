@@ -123,7 +123,6 @@ def test_a_history_goes_on_to_pandas_and_xarray(monkeypatch: pytest.MonkeyPatch)
 
 
 def test_a_history_is_a_dataset() -> None:
-    pytest.importorskip("xarray")
     found = HISTORY.to_xarray()
     assert float(found.displacement.sel(probe="P1", axis="z", time=1.0)) == 1.0
     assert found.displacement.attrs == {"units": "m"} and found["reaction x0"].dims == ("time", "axis")

@@ -163,6 +163,11 @@ def test_the_same_words_are_the_same_lattice(name: str, tmp_path: Path) -> None:
         assert constants(asked) == constants(expected), options
 
 
+def test_k_alone_is_the_uniform_lattice_of_that_k() -> None:
+    calibration = resolve(sb.load(SCENE), Lattice(5, k=700.0)).springs
+    assert calibration.method == "uniform" and calibration.springs.axial == 700.0
+
+
 @pytest.mark.parametrize("name", [name for name in VERBS if name.startswith("sb.") and name != "sb.solve"])
 def test_a_spec_is_what_its_flat_keywords_are(name: str, tmp_path: Path) -> None:
     """Flat keywords beside a spec change it."""

@@ -200,6 +200,15 @@ def test_motion_starts_in_the_tilted_shape_and_stays_there() -> None:
     assert np.abs(run.energies["kinetic"]).max() < 1e-15
 
 
+@pytest.mark.parametrize("support", [Clamped(edge="x0", tilt=0.3), Curved(edge="x0", curvature=4.0)])
+def test_motion_starts_in_the_shape_of_the_supports_alone(support: Clamped | Curved) -> None:
+    asked, springs = scene(support), lumped.calibrate(OBLONG, SILICONE, (5, 3))
+    run = lumped.simulate(asked.replace(gravity=GRAVITY), springs, 1e-3)
+    still = lumped.solve(asked, springs).displacement(asked.probe_points())
+    first = np.array([values[0] for values in run.probes.values()])
+    assert np.abs(first - still).max() < 1e-6 * np.abs(still).max()
+
+
 def test_a_path_is_traced_to_the_full_tilt() -> None:
     springs = lumped.calibrate(OBLONG, SILICONE, (5, 3))
     for gravity in (None, GRAVITY):

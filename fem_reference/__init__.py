@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cache
 from importlib import import_module
 from inspect import Parameter, signature
 from typing import Any
@@ -52,14 +53,13 @@ def solve(
     if scene.sheet.mesh is not None and "graded" in options(model):
         asked.setdefault("graded", False)
     check(model, asked)
-    solver = _solver(model)
-    if "progress" in signature(solver).parameters:
+    if "progress" in _parameters(model):
         asked["progress"] = progress
     if near is not None:
         if model != "shell":
             raise BadInput(f"{model}: is not begun near a shape; the shell is")
         asked["near"] = near
-    return solver(scene, **asked)
+    return _solver(model)(scene, **asked)
 
 
 def check(model: str, asked: Mapping[str, Any]) -> None:
@@ -78,8 +78,13 @@ def check(model: str, asked: Mapping[str, Any]) -> None:
 
 def options(model: str) -> dict[str, Any]:
     """A reference model's own options with their defaults. Raises BadInput for an unknown model."""
-    _, _, *own = signature(_solver(model)).parameters.values()  # behind scene and elements
+    _, _, *own = _parameters(model).values()  # behind scene and elements
     return {p.name: p.default for p in own if p.kind is not Parameter.KEYWORD_ONLY}
+
+
+@cache
+def _parameters(model: str) -> Mapping[str, Parameter]:
+    return signature(_solver(model)).parameters
 
 
 def _solver(model: str) -> Any:

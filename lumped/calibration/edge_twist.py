@@ -37,6 +37,7 @@ from lumped import spring_constants as constants
 from lumped.calibration.calibration import either
 from lumped.grid_lines import Lines, grid_lines
 from lumped.sections import Section
+from sheetbench.numerics.kept import kept
 from sheetbench.scenes import Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
@@ -96,6 +97,7 @@ def _of_edges(
     found: dict[bool, list[Any]] = {False: [], True: []}
     for axis in range(2):
         across, along = lines[axis], lines[1 - axis]
+        skewed = not _alike(across)
         edge = f"{'xy'[axis]}{int(far)}"
         places = range(len(along.widths)) if unequal else range(1)
         strips = [_strip(springs, lines, axis, place, layers, far) for place in places]
@@ -107,7 +109,7 @@ def _of_edges(
         along_edge = np.moveaxis(lost[..., axis], 1 - axis, 0)[-int(far)]
         for both, values in found.items():
             taken = []
-            mirrored = both and not _alike(across)
+            mirrored = both and skewed
             for place, strip in zip(places, strips, strict=True):
                 width, twisting, shear, shares = (_with_image(row, mirrored) for row in (widths, *strip))
                 factor = edge_factor(
@@ -165,6 +167,7 @@ def _shares(springs: SpringSet, spacing: tuple[float, float, float]) -> list[flo
     return [float(d / (d + c)) if d + c else 0.0 for d, c in pairs]
 
 
+@kept(last=32, most=1 << 14)  # strips along x and along y of a square sheet are one
 def edge_factor(
     cells: int, width: Each, twisting: Each, shear: Each, by_diagonals: Each, lost: float, both: bool
 ) -> float | None:

@@ -49,13 +49,13 @@ where it was stopped: `make trials TRIED=mujoco ARGS='--budget 60'` is one code 
 
 ## Adding a code
 
-1. `sheetbench suite --out suite` has the scenes; or start from
+1. `sheetbench suite --out suite` writes the scenes and a form; or start from
    `sheetbench calibrate SCENE --for CODE --out DIR`.
-2. Write a file as those in `studies/results` are:
-   code, title, licence, date, machine, command, rows.
-3. `python -m pytest tests/studies/test_trials.py` says what is wrong with it; a pull request runs
-   the same test.
-4. `sheetbench study trials` writes this page anew.
+2. `sheetbench score suite/answers-statics.csv` says how far your answers are off, and their place.
+3. Write `studies/results/CODE.json` as those that are there: code, title, licence, date, machine, command,
+   and a row for each scene and recipe (scene, recipe, mesh, status, error as a fraction, seconds).
+4. `sheetbench study trials` writes this page anew, or says what is wrong with the file. Send both as a pull
+   request; its test is `python -m pytest tests/studies/results`.
 
 A badge: `sheet-set {version}, two-edges-clamped: {badge}`.
 """
@@ -186,7 +186,13 @@ def _finding(document: dict[str, Any]) -> str:
     if curves := [error for error in _errors(document, OURS, "curves").values() if error is not None]:
         said.append(f"{len(curves)} curves with ours: {_percent(geometric_mean(curves))}.")
     said += WHY.get(document["code"], ())
-    return f"- **{document['title']}** (`{document['command']}`): {' '.join(said) or 'no answer to compare.'}"
+    return f"- **{document['title']}** (`{document['command']}`): {' '.join(said) or _means(document)}"
+
+
+def _means(document: dict[str, Any]) -> str:
+    """The mean of every recipe of a code that has none of ours."""
+    recipes = dict.fromkeys(row["recipe"] for row in document["rows"])
+    return "; ".join(f"{one}: {_mean(_errors(document, one).values())}" for one in recipes) + "."
 
 
 def _front(documents: list[dict[str, Any]], scene: str) -> str:
@@ -213,6 +219,7 @@ def _picture(documents: list[dict[str, Any]]) -> None:
 
     with rc_context(STYLE):
         figure = Figure(figsize=(7.0, 3.2), layout="constrained")
+        names = {document["title"]: document["title"] for document in documents}
         for axes, scene in zip(figure.subplots(1, 2, sharey=True), SCENES, strict=True):
             for number, document in enumerate(documents):
                 for row in document["rows"]:
@@ -223,9 +230,9 @@ def _picture(documents: list[dict[str, Any]]) -> None:
                             100 * row["error"],
                             "o" if ours else "x",
                             color=f"C{number}",
-                            label=document["title"] if row["recipe"] == OURS else None,
+                            label=names.pop(document["title"], None),
                         )
             axes.set(xscale="log", yscale="log", title=scene, xlabel="time to rest [s]")
         figure.axes[0].set_ylabel("error [%]   ● ours   × in use")
-        figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+        figure.legend(loc="outside lower center", ncols=3)
         figure.savefig(DOCS / "images" / "results.png", dpi=150)

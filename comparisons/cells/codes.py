@@ -158,7 +158,7 @@ CODES = {
                 Key(
                     "bending_compliance",
                     "rad/(N·m)",
-                    "1/k, ½ k θ² of an edge; the engine is given bending_relaxation = k W dt² instead",
+                    "1/k, ½ k θ² of an edge; the engine is given each hinge's bending_relaxation = k W dt²",
                     lambda c: 1.0 / c["hinge"],
                 ),
                 Key("rho", "kg/m²", "of the area: times thickness", lambda c: c["density"] * c["thickness"]),
@@ -169,7 +169,8 @@ CODES = {
             "to be divided by); materials/PBD/cloth.py («rho … is kg/m²»); pbd_entity.py («remesh("
             "edge_len_abs=particle_size)»)",
             "springs along the sides of triangles are near ν = 1/3; a flat sheet with any bending compliance "
-            "does not resist bending; the mesh that you give is replaced by one of its own",
+            "does not resist bending, and relaxation makes hinges near clamps stiffer, but where each has "
+            "its own; the mesh that you give is replaced by one of its own, but where the script keeps it",
             elements="springs",
             licence="Apache-2.0",
             runs=True,

@@ -9,8 +9,9 @@ import numpy as np
 from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, Support, held_axes
+from sheetbench.scenes import EDGES, Scene, Support, held_axes
 from sheetbench.scenes.patches import boxes_of, shares_of
+from sheetbench.scenes.region import edge_parts
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.supports import place
 
@@ -85,12 +86,31 @@ def clamped_stiffness(scene: Scene, lines: tuple[Lines, Lines]) -> np.ndarray:
     return factor
 
 
-def held_columns(lattice: Lattice, support: Support, name: str = "support") -> np.ndarray:
-    """Mass numbers that a support holds, by columns (m, layers): those of its edge, or those in or nearest to
-    its shape. Raises BadInput for a shape that holds none."""
+Reach = tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
+
+
+def reached_parts(scene: Scene) -> Reach:
+    """From where to where [m] a sheet that is no whole rectangle reaches the edges that hold it, by edge."""
+    if not scene.pierced:
+        return ()
+    edges = [support.edge for support in scene.supports if place(support) is None]
+    return tuple((edge, tuple(edge_parts(scene, edge))) for edge in edges)
+
+
+def held_columns(
+    lattice: Lattice, support: Support, reached: Reach = (), name: str = "support"
+) -> np.ndarray:
+    """Mass numbers that a support holds, by columns (m, layers): those of its edge within half a cell of the
+    parts that the sheet reaches, or those in or nearest to its shape. Raises BadInput for a shape that holds none."""
     shape = place(support)
     if shape is None:
-        return lattice.edge_columns(support.edge)
+        columns = lattice.edge_columns(support.edge)
+        if not reached:
+            return columns
+        at = lattice.lines[EDGES[support.edge].along_axis].at
+        before, after = (np.concatenate(each) for each in ((at[:1], at[:-1]), (at[1:], at[-1:])))
+        near = [(0.5 * (at + after) > a) & (0.5 * (before + at) < b) for a, b in dict(reached)[support.edge]]
+        return np.asarray(columns[np.any(near, axis=0)])
     columns = lattice.columns()
     inside = held_crossings(lattice.lines, shape)
     inside[np.isin(columns[:, :, 0], lattice.absent_masses)] = False

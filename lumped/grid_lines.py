@@ -7,10 +7,15 @@ Of n lines on a side a, graded by γ from 0 (all cells alike) to 1 (Chebyshev's 
 so that of many the cells at both ends have 1 − γ of the mean width, and those in the middle 1 + (½ π − 1) γ.
 Graded towards one end only they are the lines of one half of a side twice as long: 1 − γ at that end,
 1 + (½ π − 1) γ at the other.
+
+Of a drawn sheet whose shapes have sides along the axes the lines nearest to these are moved there, and those
+between them in proportion, so that rims, slits and clamps end where cells do. Sides closer to the one before
+than THINNEST of a mean cell have no line of their own; where there are too few lines for all none is moved.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +23,8 @@ import numpy as np
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.grading import Graded, Grading, amount, towards
 from sheetbench.scenes.grid import Grid
+
+THINNEST = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +82,8 @@ def grid_lines(
     lines = []
     for axis in (0, 1):
         ends = grading.ends(axis) if isinstance(grading, Grading) else (True, True)
-        lines.append(_lines(sheet.lengths[axis], grid[axis], by if any(ends) else 0.0, ends, half[axis]))
+        found = _lines(sheet.lengths[axis], grid[axis], by if any(ends) else 0.0, ends, half[axis])
+        lines.append(_through(found, grading.places[axis]) if isinstance(grading, Grading) else found)
     return lines[0], lines[1]
 
 
@@ -93,3 +101,22 @@ def _lines(length: float, count: int, grading: float, ends: tuple[bool, bool], h
     at = length * ((1.0 - grading) * t + 0.5 * grading * (1.0 - np.cos(np.pi * t)))
     widths = np.diff(at)
     return Lines(at, 0.5 * (widths + widths[::-1]), mean)  # mirror images to the last digit
+
+
+def _through(lines: Lines, places: Sequence[float]) -> Lines:
+    """The lines with some moved to the places [m], rising, and those between in proportion."""
+    last, end = len(lines.at) - 1, lines.at[-1]
+    apart = THINNEST * lines.mean
+    kept = [0.0]
+    for place in places:
+        if place - kept[-1] >= apart and end - place >= apart:
+            kept.append(place)
+    count = len(kept) - 1
+    if not 0 < count < last:
+        return lines
+    numbers = np.arange(last + 1)
+    nearest = np.rint(np.interp(kept, lines.at, numbers)).astype(int)
+    for n in range(1, count + 1):
+        nearest[n] = np.clip(nearest[n], nearest[n - 1] + 1, last - 1 - count + n)
+    at = np.interp(numbers, [*nearest, last], [*kept, end])
+    return Lines(at, np.diff(at), lines.mean)

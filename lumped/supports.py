@@ -21,7 +21,7 @@ from scipy.sparse.linalg import splu
 
 from lumped.actuators import Coupling
 from lumped.actuators.corners import Tie
-from lumped.coverage import held_columns
+from lumped.coverage import Reach, held_columns, reached_parts
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, Pattern
 from sheetbench.numerics.kept import frozen
@@ -128,11 +128,12 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     map of the actuator's rows. Columns of edges moved rigidly are the motion's, not the supports'. Of the
     same supports without actuators on the same small lattice they are the same every time."""
     small = coupling is None and lattice.mass_count <= SHARED_UP_TO
-    return (_kept if small else _constrain)(tuple(scene.supports), scene.sheet, lattice, coupling)
+    made = _kept if small else _constrain
+    return made(tuple(scene.supports), reached_parts(scene), scene.sheet, lattice, coupling)
 
 
 def _constrain(
-    supports: tuple[Support, ...], sheet: Sheet, lattice: Lattice, coupling: Coupling | None
+    supports: tuple[Support, ...], reached: Reach, sheet: Sheet, lattice: Lattice, coupling: Coupling | None
 ) -> Constraints:
     moved = np.zeros(lattice.mass_count, dtype=bool) if coupling is None else coupling.moved
     n = lattice.mass_count if coupling is None else coupling.size
@@ -140,7 +141,7 @@ def _constrain(
     mean_held: dict[tuple[int, int], np.ndarray] = {}  # (last mass of a column, axis) → the column
     holders: dict[str, tuple[np.ndarray, tuple[int, ...]]] = {}
     for name, support in named(supports).items():
-        masses = held_columns(lattice, support, name)
+        masses = held_columns(lattice, support, reached, name)
         masses = masses[~moved[masses[:, 0]]]
         axes = held_axes(support)
         holders[name] = (masses, axes)

@@ -8,6 +8,7 @@ STUDIES = {
     "advisor": "the advisor on scenes drawn at random: is the tolerance met, is the choice the cheapest?",
     "central": "the table of the calibration central, trained anew",
     "coverage": "how often the references' error bars hold the error, on drawn scenes",
+    "drawn": "lattice against shell on sheets with outlines, holes, fibres: errors and orders",
     "expected-errors": "the expected error of a lattice's grid on a hundred scenes, beside the true one",
     "leaderboard": "what models get wrong on statics and curves of the reference set, and their times",
     "master-curves": "the heavy cantilever and lateral buckling, without units: lattices and shells",

@@ -29,7 +29,7 @@ from comparisons.runs import load
 from sheetbench.choices import CALIBRATION
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Solution, Status
-from sheetbench.scenes.grading import Graded
+from sheetbench.scenes.grading import Graded, amount
 from sheetbench.scenes.grid import MASSES, near_square
 
 MESHES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
@@ -107,7 +107,7 @@ class Probing:
     def graded(self, lattices: list[Lattice]) -> list[Lattice]:
         """Those of these lattices that are to be graded too, as asked or by the scene's layers."""
         gradings = [(one, self.grading_of(one)[0]) for one in lattices]
-        return [one.but(grading=value) for one, value in gradings if value]
+        return [one.but(grading=value) for one, value in gradings if value and amount(value)]
 
     def grading_of(self, lattice: Lattice) -> tuple[Graded | None, str]:
         """Return the grading that a lattice may have, and why where that is chosen."""

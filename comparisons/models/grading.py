@@ -20,8 +20,9 @@ from comparisons.models.spec import GradingLike, Lattice, LatticePair
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, Scene
-from sheetbench.scenes.grading import Graded, Grading, of_settings, towards
+from sheetbench.scenes.grading import Graded, Grading, of_settings, through, towards
 from sheetbench.scenes.grid import LAYERS
+from sheetbench.scenes.region import sides_of_shapes
 from sheetbench.scenes.summary import few
 from sheetbench.scenes.supports import place
 
@@ -58,9 +59,12 @@ def fixed(grading: GradingLike) -> Graded | None:
 def grading_of(
     scene: Scene, grid: Sequence[int], lattice: Lattice | LatticePair
 ) -> tuple[Graded | None, str]:
-    """Return the grading, None where nothing is asked, and for "auto" the reason in a sentence. Raises
-    BadInput for what is neither."""
+    """Return the grading, None where nothing is asked and no shapes are drawn whose sides lines can be moved
+    to, and the reason in a sentence where it is chosen. Raises BadInput for what is none."""
     chosen = parse_grading(lattice.grading)
+    if chosen is None and scene.shaped_by and not one_size(grid, lattice):
+        moved = through(sides_of_shapes(scene))
+        return (moved, "cells end where the shapes do; --grading 0 for equal cells") if moved else (None, "")
     if not isinstance(chosen, str):
         return chosen, ""
     return (0.0, why_not) if (why_not := one_size(grid, lattice)) else _by_layers(scene, grid)

@@ -20,7 +20,7 @@ from lumped.actuators.actuator import Acting, Drive
 from lumped.actuators.chain import Chain
 from lumped.actuators.corners import SharedCorner, Tie, based_beside, held_ends, shared_corners, shared_ends
 from lumped.actuators.edge_motion import RigidMotion
-from lumped.coverage import held_columns
+from lumped.coverage import held_columns, reached_parts
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Scene
 
@@ -261,7 +261,7 @@ def _motions(scene: Scene, lattice: Lattice) -> tuple[RigidMotion, ...]:
 def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[Chain], list[SharedCorner]]:
     taken = moved.copy()
     for support in scene.supports:
-        taken[held_columns(lattice, support)] = True
+        taken[held_columns(lattice, support, reached_parts(scene))] = True
     shared = shared_corners(scene, lattice, taken)
     brought = shared_ends(scene, shared)
     found: list[Chain] = []

@@ -4,6 +4,8 @@ A number from 0 (cells of one size) to 1 is of every edge, a `Grading` of those 
 0.5:x0 or 0.5:x0,x1. Of two opposite edges both, one or neither may be named: where it is one the cells at the
 other are as long as in the middle of a sheet twice as long that is graded at both ends, where it is neither
 they are of one size.
+
+`places` are those that lines of the grid are moved to, the sides of a drawn sheet's shapes.
 """
 
 from __future__ import annotations
@@ -15,15 +17,21 @@ from typing import Any
 from sheetbench.errors import BadInput
 from sheetbench.scenes.sheet import EDGES
 
+Places = tuple[tuple[float, ...], tuple[float, ...]]
+
 
 @dataclass(frozen=True)
 class Grading:
-    """by: above 0, to 1; edges: those towards which cells are finer, some of the four."""
+    """by: from 0, to 1; edges: those towards which cells are finer, some of the four; places: x and y [m],
+    rising, that lines are moved to."""
 
     by: float
     edges: tuple[str, ...]
+    places: Places = ((), ())
 
     def __format__(self, form: str) -> str:
+        if any(self.places):
+            return f"{self.by:{form}} with lines on the sides of shapes"
         return f"{self.by:{form}}:{','.join(self.edges)}"
 
     def __str__(self) -> str:
@@ -51,6 +59,11 @@ def towards(by: float, edges: Iterable[str] | None = None) -> Graded:
     return by if not by or chosen == tuple(EDGES) else Grading(by, chosen)
 
 
+def through(places: Places) -> Graded:
+    """Cells of one size but for the lines that are moved to these places."""
+    return Grading(0.0, tuple(EDGES), places) if any(places) else 0.0
+
+
 def amount(grading: Graded) -> float:
     """The number, whatever edges it is of."""
     return grading.by if isinstance(grading, Grading) else grading
@@ -58,16 +71,23 @@ def amount(grading: Graded) -> float:
 
 def mirrored(grading: Graded, axis: int) -> bool:
     """Whether cells are the same from either end of an axis."""
-    return not isinstance(grading, Grading) or len(set(grading.ends(axis))) == 1
+    if not isinstance(grading, Grading):
+        return True
+    return len(set(grading.ends(axis))) == 1 and not grading.places[axis]
 
 
 def as_settings(grading: Graded) -> dict[str, Any]:
-    """As documents have it: `grading`, and `graded_edges` where it is not of all edges."""
+    """As documents have it: `grading`, `graded_edges` where it is not of all edges, `lines_at` where lines
+    are moved."""
     if isinstance(grading, Grading):
+        if any(grading.places):
+            return {"grading": grading.by, "lines_at": [list(one) for one in grading.places]}
         return {"grading": grading.by, "graded_edges": list(grading.edges)}
     return {"grading": grading}
 
 
 def of_settings(settings: Mapping[str, Any]) -> Graded:
     """What `as_settings` has written; 0 where nothing is said."""
+    if x_and_y := settings.get("lines_at"):
+        return through((tuple(x_and_y[0]), tuple(x_and_y[1])))
     return towards(settings.get("grading") or 0.0, settings.get("graded_edges"))

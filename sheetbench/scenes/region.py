@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sheetbench.errors import Impossible
+from sheetbench.scenes.grading import Places
 from sheetbench.scenes.loads import AnyLoad, AreaLoad, EdgeLoad, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint
 from sheetbench.scenes.shapes import APART, Shape
@@ -87,6 +88,30 @@ def edge_parts(scene: Scene, edge: str, where: Shape | None = None) -> list[tupl
     cut: list[Any] = [line.intersection(where.area) for line in lines]
     bounds = [part.bounds for each in cut for part in getattr(each, "geoms", [each]) if part.length > 0.0]
     return [(each[along], each[along + 2]) for each in bounds]
+
+
+def sides_of_shapes(scene: Scene) -> Places:
+    """x and y [m], rising, of the sides along the axes of the rim and of shapes that hold or load the sheet,
+    and of the ends of its sides at the edges; those within the edges."""
+    import shapely
+
+    found: tuple[set[float], set[float]] = (set(), set())
+    for name, edge in EDGES.items() if scene.pierced else ():
+        for part in edge_parts(scene, name):
+            found[edge.along_axis].symmetric_difference_update(part)  # parts may touch
+    shapes = [place(support) for support in scene.supports]
+    shapes += [getattr(load, "where", None) for load in scene.loads]
+    rims = [scene.region] if scene.pierced else []
+    for ring in shapely.get_rings([*rims, *(shape.area for shape in shapes if shape is not None)]):
+        for first, second in pairwise(ring.coords):
+            for axis in (0, 1):
+                if first[axis] == second[axis]:
+                    found[axis].add(first[axis])
+    x, y = (
+        tuple(sorted(at for at in one if APART * length < at < (1.0 - APART) * length))
+        for one, length in zip(found, scene.sheet.lengths, strict=True)
+    )
+    return x, y
 
 
 def edge_length(scene: Scene, edge: str, where: Shape | None = None) -> float:

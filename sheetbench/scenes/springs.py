@@ -21,7 +21,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Strict, Tag, model_validator
 
-from sheetbench.scenes.grading import Graded, towards
+from sheetbench.scenes.grading import Graded, through, towards
 from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, Number, Positive, Unit
 from sheetbench.scenes.sheet import EdgeName
 
@@ -171,6 +171,8 @@ class SpringTable(SpringSet):
     """How much smaller that lattice's cells are at the edges: 0, all alike, to 1; another one is refused."""
     graded_edges: tuple[EdgeName, ...] | None = None
     """The edges towards which they are smaller, where that is not all four."""
+    lines_at: Annotated[tuple[tuple[Finite, ...], tuple[Finite, ...]] | None, Unit("m")] = None
+    """x and y that lines of that lattice were moved to: the sides of a drawn sheet's shapes."""
     masses: Distribution = "tributary"
     """How frequencies share out its mass: as usual (tributary), or as a fit to them has it (gregory)."""
 
@@ -187,7 +189,7 @@ class SpringTable(SpringSet):
     @property
     def graded(self) -> Graded:
         """The grading of that lattice's lines."""
-        return towards(self.grading, self.graded_edges)
+        return through(self.lines_at) if self.lines_at else towards(self.grading, self.graded_edges)
 
     @property
     def constants(self) -> SpringSet:

@@ -1,0 +1,66 @@
+"""Grids of drawn sheets: lines on the sides of shapes, and what an edge's support holds there."""
+
+import numpy as np
+import pytest
+
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
+from lumped.assembly import Assembly
+from lumped.grid_lines import grid_lines
+from lumped.supports import constrain
+from sheetbench.scenes import Sheet, load
+from sheetbench.scenes.grading import as_settings, of_settings, through
+from sheetbench.scenes.region import sides_of_shapes
+
+SHEET = Sheet(length_x=0.16, length_y=0.04, thickness=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("places", "on_lines"),
+    [
+        ((0.035, 0.04, 0.06), (0.035, 0.04, 0.06)),  # two in one cell
+        ((0.035, 0.0351), (0.035,)),  # too close for a line each
+        ((0.0001, 0.1599), ()),  # too close to the edges
+        (tuple(np.linspace(0.01, 0.15, 20)), ()),  # too many for the lines
+    ],
+)
+def test_lines_are_moved_to_places(places, on_lines):
+    x, y = grid_lines(SHEET, (17, 5, 2), through((places, ())))
+    even = grid_lines(SHEET, (17, 5, 2))
+    assert len(x.at) == 17 and x.at[[0, -1]] == pytest.approx([0.0, 0.16]) and x.widths.min() > 1e-3
+    assert np.abs(np.subtract.outer(on_lines, x.at)).min(axis=1, initial=1.0) == pytest.approx(
+        np.zeros(len(on_lines)), abs=1e-15
+    )
+    assert on_lines or np.array_equal(x.at, even[0].at)
+    assert np.array_equal(y.at, even[1].at)
+
+
+def test_the_places_are_the_sides_of_shapes_and_the_ends_of_edges_and_are_written_with_springs():
+    strip = load("kirigami-strip")
+    x, y = places = sides_of_shapes(strip)
+    assert x == (0.035, 0.04, 0.06, 0.065, 0.085, 0.09, 0.11, 0.115) and y == (0.01, 0.03)
+    assert sides_of_shapes(load("ray-fin")) == ((), (0.02, 0.08))
+    assert sides_of_shapes(load("pouch"))[0] == (0.0125, 0.025, 0.075, 0.0875)
+    assert of_settings(as_settings(through(places))) == through(places)
+
+
+def test_a_slit_narrower_than_a_cell_is_open():
+    """Of 5 mm, with cells of 10 mm: it is as wide a column of cells that are not there."""
+    strip = load("kirigami-strip")
+    springs = resolve(strip, Lattice(grid=5)).calibrated()
+    lines, _ = grid_lines(strip.sheet, springs.grid, springs.grading)
+    slit = int(np.argmin(np.abs(lines.at - 0.035)))
+    assert lines.at[slit + 1] == pytest.approx(0.04)
+    assert not springs.present[1:, slit].any() and springs.present[0, slit]
+
+
+def test_an_edge_holds_the_masses_where_the_sheet_reaches_it():
+    """And one that lies within half a cell of there: all of an edge made octagons 5 % too stiff."""
+    corner = 0.045
+    outline = [(0, corner), (corner, 0), (0.15, 0), (0.15, 0.15), (0, 0.15)]
+    scene = load("one-edge-clamped").replace(sheet=Sheet(0.15, 0.15, 3e-3, outline=outline), probes={})
+    for grading, expected in ((None, corner), (0.0, 0.046875)):
+        springs = resolve(scene, Lattice(grid=17, grading=grading)).calibrated()
+        lattice = Assembly(scene.sheet, springs).lattice
+        masses, _ = constrain(scene, lattice).holders["x0"]
+        assert lattice.positions[masses, 1].min() == pytest.approx(expected)

@@ -101,7 +101,7 @@ def held_columns(
     lattice: Lattice, support: Support, reached: Reach = (), name: str = "support"
 ) -> np.ndarray:
     """Mass numbers that a support holds, by columns (m, layers): those of its edge within half a cell of the
-    parts that the sheet reaches, or those in or nearest to its shape. Raises BadInput for a shape that holds none."""
+    parts that the sheet reaches, or those in or nearest to its shape. Raises BadInput where it holds none."""
     shape = place(support)
     if shape is None:
         columns = lattice.edge_columns(support.edge)

@@ -106,17 +106,16 @@ class Resolved(Generic[S]):
             for slip in layer_slips(sheet, spec.layer_distance, "layer-distance"):
                 warn(Implausible(slip), stacklevel=2)
         own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading or 0.0}
-        if not self.scene.uniform or self.scene.pierced:
-            named = method_of(spec.calibration, spec.k)
-            cells = lumped.sections_of(self.scene, self.grid, grading or 0.0)
-            if "cells" in CALIBRATIONS[named].takes:
-                own["cells"] = cells
-            elif self.scene.uniform and not self.fitted and cells is not None:
-                found = lumped.calibrate(sheet, material, self.grid, spec.calibration, k=spec.k, **own)
-                return lumped.with_shares(found, sheet, material, cells)
-            else:
-                knowing = [name for name, method in CALIBRATIONS.items() if "cells" in method.takes]
-                lumped.require_alike(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
+        named = method_of(spec.calibration, spec.k)
+        cells = lumped.sections_of(self.scene, self.grid, grading or 0.0)
+        if "cells" in CALIBRATIONS[named].takes:
+            own["cells"] = cells
+        elif self.scene.uniform and self.scene.pierced and not self.fitted and cells is not None:
+            found = lumped.calibrate(sheet, material, self.grid, spec.calibration, k=spec.k, **own)
+            return lumped.with_shares(found, sheet, material, cells)
+        else:
+            knowing = [name for name, method in CALIBRATIONS.items() if "cells" in method.takes]
+            lumped.require_alike(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
         if _fitted(spec):
             from comparisons.models.training import fitted
 

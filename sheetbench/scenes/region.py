@@ -97,8 +97,7 @@ def sides_of_shapes(scene: Scene) -> Places:
 
     found: tuple[set[float], set[float]] = (set(), set())
     for name, edge in EDGES.items() if scene.pierced else ():
-        for part in edge_parts(scene, name):
-            found[edge.along_axis].symmetric_difference_update(part)  # parts may touch
+        found[edge.along_axis].update(at for part in edge_parts(scene, name) for at in part)
     shapes = [place(support) for support in scene.supports]
     shapes += [getattr(load, "where", None) for load in scene.loads]
     rims = [scene.region] if scene.pierced else []

@@ -214,7 +214,7 @@ def actuator(draw: st.DrawFn, edge: str) -> dict[str, Any]:
         "bending_stiffness": draw(st.sampled_from([0.002, 0.2])),
         "line_density": 0.05,
         "radius": 1.5e-3,
-        "face": draw(st.sampled_from(["middle", "top", "bottom"])),
+        "face": draw(st.sampled_from(["mid", "top", "bottom"])),
         "curvature": draw(numbers(-4.0, 4.0)),
     }
 

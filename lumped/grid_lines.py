@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sheetbench.scenes import Sheet
+from sheetbench.scenes import PiecewiseLinear, Sheet
 from sheetbench.scenes.grading import Graded, Grading, amount, towards
 from sheetbench.scenes.grid import Grid
 
@@ -115,8 +115,8 @@ def _through(lines: Lines, places: Sequence[float]) -> Lines:
     if not 0 < count < last:
         return lines
     numbers = np.arange(last + 1)
-    nearest = np.rint(np.interp(kept, lines.at, numbers)).astype(int)
+    nearest = np.rint(PiecewiseLinear(lines.at.tolist(), numbers.tolist()).at(np.array(kept))).astype(int)
     for n in range(1, count + 1):
         nearest[n] = np.clip(nearest[n], nearest[n - 1] + 1, last - 1 - count + n)
-    at = np.interp(numbers, [*nearest, last], [*kept, end])
+    at = PiecewiseLinear([*nearest.tolist(), last], [*kept, float(end)]).at(numbers)
     return Lines(at, np.diff(at), lines.mean)

@@ -73,6 +73,7 @@ def _arrows(axis: Axes, scene: Scene, longest: float) -> None:
             continue
         if abs(along[2]) < 0.7 * size:
             end = at + longest * along[:2] / size
+            axis.update_datalim([end])
             axis.annotate("", end, at, arrowprops={"arrowstyle": "->", "color": LOAD})
         else:
             axis.plot(*at, marker="." if along[2] > 0.0 else "x", color=LOAD, markersize=5)

@@ -199,9 +199,20 @@ def test_what_is_no_laminate_is_refused(layers, said):
         with_fibres(**FIBRES).replace(layers=layers)
 
 
-def test_the_solid_refuses_layers():
-    with pytest.raises(ValueError, match="layer: the solid has one material through its thickness"):
-        fem_reference.solve(with_fibres(**FIBRES).replace(layers=CROSS), "solid", elements=2)
+def test_the_solid_has_a_brick_or_more_for_every_layer():
+    """Bent and vibrating as the shell, whose shear stiffness is that of cylindrical bending."""
+    scene = with_fibres(load("one-edge-clamped"), **FIBRES).replace(layers=CROSS)
+    found, shell = (fem_reference.solve(scene, model, elements=6) for model in ("solid", "shell"))
+    assert found.status is Status.CONVERGED and found.balance.holds and found.settings["layers"] == 4
+    moved, expected = (each.displacement(scene.probe_points()) for each in (found, shell))
+    assert np.abs(moved - expected).max() < 0.01 * np.abs(expected).max()
+    own, known = (
+        fem_reference.modes(scene, model, elements=4, count=3).frequencies for model in ("solid", "shell")
+    )
+    assert np.allclose(own, known, rtol=0.01)
+    uneven = [{"thickness": h, "angle": 0.1 * h} for h in (0.00095, 0.0011, 0.00095)]
+    with pytest.raises(ValueError, match="layer: the solid has 12 bricks of one height at most"):
+        fem_reference.solve(scene.replace(layers=uneven), "solid", elements=2)
 
 
 @pytest.mark.skipif(CALCULIX.version() is None, reason=f"needs {CALCULIX.needs}")

@@ -40,6 +40,7 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import (
+    Constants,
     EdgeLoad,
     Pressure,
     Scene,
@@ -49,10 +50,11 @@ from sheetbench.scenes import (
     require_uniform,
 )
 from sheetbench.scenes.orthotropy import Ply, impossible_in_space
-from sheetbench.scenes.patches import constants_at
+from sheetbench.scenes.patches import constants_at, of_sheet
 from sheetbench.scenes.rigid_motions import require_static
 
 GRADINGS = ("edges", "uniform")
+MOST_BRICKS = 12  # through the thickness of a laminate
 
 
 def solve(
@@ -75,6 +77,7 @@ def solve(
     along_x, along_y = divisions(scene.sheet, elements)
     mesh = plan_mesh(scene, (along_x, along_y), grading)
     asked = {"elements": [along_x, along_y], "grading": grading}
+    layers = bricks_through(scene, layers)
     label = f"solid {along_x} × {along_y} × {layers}"
     return _solved(mesh, scene, label, asked, layers, law, clamp, progress=progress)
 
@@ -158,12 +161,9 @@ def _require_meshable(scene: Scene, law: str) -> None:
     another law, or loads that follow it."""
     if scene.uniform:
         return
-    if scene.layers:
-        raise BadInput(
-            "layer: the solid has one material through its thickness; plate, shell and lattice have layers"
-        )
-    if scene.material.kind == "orthotropic" and (wrong := impossible_in_space(Ply.of(scene.material))):
-        raise BadInput(f"material.{wrong}")
+    for ply in of_sheet(scene).plies:
+        if wrong := impossible_in_space(ply):
+            raise BadInput(f"{'layer' if scene.layers else 'material'}.{wrong}")
     taper = scene.sheet.taper_x or scene.sheet.taper_y
     for number, patch in enumerate(scene.patches, start=1):
         if patch.thickness is not None and (taper or patch.thickness != scene.sheet.thickness):
@@ -178,6 +178,34 @@ def _require_meshable(scene: Scene, law: str) -> None:
             "sheet.taper_x, sheet.taper_y: the solid has tapered sheets under weight and point loads alone; "
             "the shell has others too"
         )
+
+
+def bricks_through(scene: Scene, layers: int) -> int:
+    """Return how many bricks there are through the thickness: as many as asked for, of a laminate at least so
+    many, with faces between all plies. Raises BadInput where those are too many."""
+    if not scene.layers:
+        return layers
+    between = np.array([ply.low + 0.5 for ply in of_sheet(scene).plies])
+    for count in range(layers, MOST_BRICKS + 1):
+        if np.allclose(count * between, np.rint(count * between), rtol=0.0, atol=1e-6):
+            return count
+    raise BadInput(
+        f"layer: the solid has {MOST_BRICKS} bricks of one height at most through its thickness, and no such "
+        "number has a face between all layers; plate, shell and lattice have them"
+    )
+
+
+def _constants_of_bricks(scene: Scene, middles: np.ndarray, layers: int) -> Constants:
+    """Return the constants of bricks, of a laminate each those of its ply; middles (layers · m, 1, 2) [m]: of
+    their plan elements, layer by layer."""
+    found = constants_at(scene, middles)
+    if not scene.layers:
+        return found
+    heights = (np.arange(layers) + 0.5) / layers - 0.5
+    own = [next(ply for ply in found.plies if ply.low <= at <= ply.high) for at in heights]
+    values: list[Any] = [np.repeat(each, len(middles) // layers)[:, None] for each in zip(*own, strict=True)]
+    ply = Ply(*values)
+    return found.replace(plies=(ply._replace(low=-0.5, high=0.5),), density=ply.density)
 
 
 def plan_mesh(scene: Scene, elements: tuple[int, int], grading: str) -> MeshQuad:
@@ -205,13 +233,16 @@ def discretise(
     if layers < 1:
         raise BadInput(f"layers = {layers}: at least one through the thickness")
     _require_meshable(scene, law)
+    layers = bricks_through(scene, layers)
     columns = Columns.on(mesh, scene.sheet, layers)
     stacks = columns.positions.reshape(-1, 3)[columns.stacks]
     positions = np.concatenate([stacks[:, place] for place in columns.places])
     corners = columns.plan_nodes[columns.plan_elements]
     middles = np.tile(corners.mean(axis=1), (layers, 1))[:, None]
     bricks = Bricks.build(
-        positions, LAWS[law], scene.material if scene.uniform else constants_at(scene, middles)
+        positions,
+        LAWS[law],
+        scene.material if scene.uniform else _constants_of_bricks(scene, middles, layers),
     )
     sides = rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
     rods = rod.of_scene(scene, columns.plan_nodes, sides)

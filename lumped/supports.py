@@ -25,7 +25,7 @@ from lumped.coverage import Reach, held_columns, reached_parts
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, Pattern
 from sheetbench.numerics.kept import frozen
-from sheetbench.numerics.maps import Rows, csr_arrays
+from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.numerics.reduced import ReducedSystem, reduced
 from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
 from sheetbench.scenes.kinematics import bent_or_tilted, shifts
@@ -91,36 +91,24 @@ class Constraints:
             for body, place, end, column in self.coupling.corners():
                 exerted = residual[place] + body.binding.T @ residual[body.masses]
                 residual[column] += body.corner_force(end, exerted) / len(column)
-        on_masses = np.where(self.held, residual, 0.0)
-        per_edge = {}
-        for edge, (block, axes, weight) in self._shares.items():
-            share = np.zeros(3)
-            share[axes] = (on_masses[block] * weight).sum(axis=0)
-            per_edge[edge] = share
-        return per_edge, on_masses
-
-    def summed(self) -> sp.csr_array:
-        """The map of what holds the masses, (3 n,) [N], to the force of each support, (3 supports,); without
-        chains."""
-        rows, columns, values = [np.empty(0, int)], [np.empty(0, int)], [np.empty(0)]
-        for number, ((masses, axes), _, weight) in enumerate(self._shares.values()):
-            places = 3 * masses + np.array(axes)
-            rows.append(np.broadcast_to(3 * number + np.array(axes), places.shape).ravel())
-            columns.append(places.ravel())
-            values.append((weight * self.held[masses, axes]).ravel())
-        entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-        return sp.csr_array(sp.coo_array(entries, shape=(3 * len(self.holders), self.held.size)))
+        forces = product(self.summed, residual.ravel()).reshape(-1, 3)
+        return dict(zip(self.holders, forces, strict=True)), np.where(self.held, residual, 0.0)
 
     @cached_property
-    def _shares(self) -> dict[str, tuple[tuple[np.ndarray, list[int]], list[int], np.ndarray]]:
-        """Of every edge: its block of components, its axes, and what share of each component is its own."""
-        blocks = {
-            e: ((rows.reshape(-1, 1), list(axes)), list(axes)) for e, (rows, axes) in self.holders.items()
-        }
-        holders = np.zeros(self.held.shape)
-        for block, _ in blocks.values():
-            holders[block] += 1.0
-        return {edge: (block, axes, 1.0 / holders[block]) for edge, (block, axes) in blocks.items()}
+    def summed(self) -> Rows:
+        """The map of what holds the masses, (3 n,) [N], to the force of each support, (3 supports,), of which
+        a mass held by several counts equally to each; without chains."""
+        holders = np.zeros(self.held.size)
+        rows, columns = [np.empty(0, int)], [np.empty(0, int)]
+        for number, (masses, axes) in enumerate(self.holders.values()):
+            places = 3 * masses.reshape(-1, 1) + np.array(axes, int)
+            holders[places] += 1.0
+            rows.append(np.broadcast_to(3 * number + np.array(axes, int), places.shape).ravel())
+            columns.append(places.ravel())
+        row, column = np.concatenate(rows), np.concatenate(columns)
+        values = self.held.ravel()[column] / holders[column]
+        shape = (3 * len(self.holders), self.held.size)
+        return csr_arrays(sp.csr_array(sp.coo_array((values, (row, column)), shape=shape)))
 
 
 def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) -> Constraints:

@@ -12,7 +12,7 @@ from lumped import moduli, sections
 from lumped.calibration.calibration import Calibration, plan_spacing
 from lumped.calibration.cell_by_cell import Sides, cell_by_cell
 from lumped.calibration.closed_form import closed_form
-from lumped.calibration.least_squares import bounded_least_squares
+from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
 from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
@@ -67,7 +67,7 @@ def consistent(
         spacing = plan_spacing(sheet, grid)
         springs = closed_form(moduli.of_sheet(sheet, material, spacing), spacing, grid[2], **special)
     if springs is None:
-        springs = bounded_least_squares(sheet, material, grid, layer_distance)
+        springs = fit_moduli(sheet, material, grid, layer_distance).springs
     found = report(method, sheet, material, grid, springs, grading, cells)
     found = replace(found, of_material=of_material)
     return found if method == "consistent-interior" else with_twist(sheet, material, found)

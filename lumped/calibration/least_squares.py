@@ -4,12 +4,11 @@ The method for a layer distance that is given, for more layers than the closed f
 links, and a check of the closed form where both apply. Links and strain springs are kept nonnegative; area
 springs may have either sign; strain springs come in only where the others leave a miss, and then as weak as
 will do. Residuals are relative to the sheet's own moduli (off-diagonal terms to D11 and
-A11); bending and shear weigh more than stretching by default, since a soft sheet bends first.
+A11); bending and shear weigh more than stretching, since a soft sheet bends first.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -20,7 +19,7 @@ from lumped.calibration.report import report
 from lumped.lattice import Grid
 from sheetbench.scenes import Material, Sheet, SpringSet
 
-WEIGHTS = {"D": 1.0, "S": 1.0, "A": 0.3}
+STRETCHING = 0.3  # weight of A; those of D and S are 1
 PAIRS = ("axial", "cross", "mid_stretch")
 STRAINS = ("mid_stretch_x", "mid_stretch_y", "shear", "mid_shear")
 FREE = ("area", "mid_area")
@@ -37,24 +36,8 @@ UNKNOWNS = (
 
 
 def fit_moduli(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    layer_distance: float | None = None,
-    weights: Mapping[str, float] = WEIGHTS,
+    sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None = None
 ) -> Calibration:
-    """The method `moduli`. weights: of D, S and A, by letter."""
-    springs = bounded_least_squares(sheet, material, grid, layer_distance, weights)
-    return report("moduli", sheet, material, grid, springs)
-
-
-def bounded_least_squares(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    layer_distance: float | None = None,
-    weights: Mapping[str, float] = WEIGHTS,
-) -> SpringSet:
     """The springs of least weighted miss.
 
     Unknowns: the five link families, axial and cross along x and y apart, and the strain springs, all ≥ 0;
@@ -83,10 +66,10 @@ def bounded_least_squares(
     def misses(unknowns: np.ndarray) -> np.ndarray:
         springs = springs_of(unknowns)
         got = moduli.of_springs(springs, (*spacing, springs.layer_distance), layers)
-        rows = [weights["S"] * (got.shear - asked.shear) / asked.shear]
+        rows = [(got.shear - asked.shear) / asked.shear]
         for mine, theirs, weight in (
-            (got.bending, asked.bending, weights["D"]),
-            (got.membrane, asked.membrane, weights["A"]),
+            (got.bending, asked.bending, 1.0),
+            (got.membrane, asked.membrane, STRETCHING),
         ):
             in_plane = (mine - theirs)[:2, :2][upper] / theirs[0, 0]
             twist = (mine[2, 2] - theirs[2, 2]) / theirs[2, 2]
@@ -128,4 +111,4 @@ def bounded_least_squares(
     )
     if np.abs(misses(found)).max() > MET:
         found = least_squares(weak_strains, start, bounds=(low, high), **exact).x
-    return springs_of(found)
+    return report("moduli", sheet, material, grid, springs_of(found))

@@ -21,17 +21,8 @@ class StepFailed(ArithmeticError):
 
 @dataclass(frozen=True)
 class Advance:
-    """A step taken: the new state, the energy that dampers took [J] and the work done on the sheet [J]."""
-
-    state: State
-    dissipated: float
-    work: float
-
-
-@dataclass(frozen=True)
-class Passed:
-    """A state within the last step, and the energies that dampers took and that were put in since it began
-    [J]."""
+    """A step taken, or a part of one: the new state, the energies that dampers took and that were put in
+    since it began [J]."""
 
     state: State
     dissipated: float
@@ -90,5 +81,5 @@ class DenseIntegrator(Integrator):
     """One that tells the states within its steps, which need not end at samples."""
 
     @abstractmethod
-    def at(self, time: float) -> Passed:
+    def at(self, time: float) -> Advance:
         """The state at a time within the last step."""

@@ -24,7 +24,7 @@ from numba import njit
 from lumped.dynamics.implicit.compiled_stages import Stages, Step
 from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
-from lumped.dynamics.integrator import Advance, DenseIntegrator, Passed, StepFailed
+from lumped.dynamics.integrator import Advance, DenseIntegrator, StepFailed
 from lumped.dynamics.system import State, System
 from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
@@ -214,7 +214,7 @@ class Esdirk(DenseIntegrator):
         missed = self._relaxed(h * ERRORS)[:, 1] / maxwell.times[:, None]
         return float(np.abs(missed).max()) / largest if largest else 0.0
 
-    def at(self, time: float) -> Passed:
+    def at(self, time: float) -> Advance:
         """The state at a time within the last step, and what was taken and put in since its start."""
         stages, h = self._step
         if self._curve is None:
@@ -226,7 +226,7 @@ class Esdirk(DenseIntegrator):
             maxwell.stage(start, self._relaxed(h * theta ** np.arange(8) @ CUMULATIVE), 0.0)
             memory = maxwell.after(u)
             taken -= maxwell.stored(memory) - maxwell.stored(start)
-        return Passed(State(time, u, v, a, memory), taken, put_in)
+        return Advance(State(time, u, v, a, memory), taken, put_in)
 
     def _advance(self, start: State, stages: Stages, h: float) -> Advance:
         system, power = self.system, stages.power

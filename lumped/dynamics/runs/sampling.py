@@ -42,7 +42,7 @@ class Sampling:
                 system.damping.drag,
                 system.problem.loads.dead,
                 csr_arrays(self._probes.matrix(masses)),
-                csr_arrays(system.problem.constraints.summed()),
+                system.problem.constraints.summed,
             )
         self.width = width(self.columns)
 

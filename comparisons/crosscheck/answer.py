@@ -19,9 +19,9 @@ from sheetbench.scenes import Scene, Status
 
 EXPLANATION = (
     "u: the component of the largest displacement at the probes, extrapolated from three meshes "
-    "(Richardson), ± its grid convergence index. off: the largest component of a model's extrapolated "
-    "displacement less the shell's over the probes, of the shell's largest; ± both bars there. Two models "
-    "are distinguishable where they differ by more than both bars at a probe; others may still differ."
+    "(Richardson), ± its grid convergence index. off: how far a model's extrapolated displacements are from "
+    "the shell's, the largest component over the probes over the shell's largest; ± both bars there. Two "
+    "models are distinguishable where they differ by more than both bars at a probe; others may still differ."
 )
 
 

@@ -47,7 +47,7 @@ def solve(model: Resolved[Any], name: str = "") -> Solution:
     warm(spec.model)
     began = now()
     for lattice in filter(None, [model.coarse, model]):
-        if isinstance(spec, Lattice | LatticePair):
+        if spec.MASSES:
             assert lattice.springs
     preparing = now() - began
     solution = _solve(model, watch)

@@ -98,14 +98,29 @@ class Spec(ABC):
 
 
 @dataclass(frozen=True)
-class Lattice(Spec):
+class OnGrid(Spec):
+    """What lattices have in common: the grid, as `comparisons.models.grids` reads it."""
+
+    NAME: ClassVar[str]
+    MASSES: ClassVar = True
+    grid: GridLike = None
+
+    @property
+    def model(self) -> str:
+        return self.NAME
+
+    def counts(self, scene: Scene) -> list[int]:
+        return list(scene_grid(scene, self.grid))
+
+
+@dataclass(frozen=True)
+class Lattice(OnGrid):
     """A lattice: grid, as `comparisons.models.grids` reads it; calibration, a name or "auto"; k [N/m];
     layer_distance [m]; grading, a number, towards some edges, or "auto". linear: one step with the flat
     sheet's tangent; symmetry: solve a half or a quarter where scene and grid allow it; branch: one of
     `choices.BRANCHES`; masses: how modes share out the mass, one of `choices.MASSES`."""
 
     NAME: ClassVar = "lumped"
-    grid: GridLike = None
     calibration: str | None = None
     k: float | None = None
     layer_distance: float | None = None
@@ -114,14 +129,6 @@ class Lattice(Spec):
     symmetry: bool = False
     branch: str = "path"
     masses: str | None = None
-    MASSES: ClassVar = True
-
-    @property
-    def model(self) -> str:
-        return self.NAME
-
-    def counts(self, scene: Scene) -> list[int]:
-        return list(scene_grid(scene, self.grid))
 
     @classmethod
     def given(cls, lattice: Lattice | None, keywords: Mapping[str, Any]) -> Lattice:
@@ -130,26 +137,17 @@ class Lattice(Spec):
 
 
 @dataclass(frozen=True)
-class LatticePair(Spec):
+class LatticePair(OnGrid):
     """Two lattices and one answer extrapolated from both; coarser: the other grid, of half as many cells
     unless given."""
 
     NAME: ClassVar = "lumped-pair"
-    grid: GridLike = None
     coarser: GridLike = None
     calibration: str | None = None
     layer_distance: float | None = None
     grading: GradingLike = None
     linear: bool = False
     symmetry: bool = False
-    MASSES: ClassVar = True
-
-    @property
-    def model(self) -> str:
-        return self.NAME
-
-    def counts(self, scene: Scene) -> list[int]:
-        return list(scene_grid(scene, self.grid))
 
     def lattice(self, grid: GridLike) -> Lattice:
         """Return one of the two lattices."""

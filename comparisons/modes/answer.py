@@ -214,9 +214,8 @@ class Spectra(Answer, Sequence[Spectrum]):
         if self.about == "deformed" or self.sag is None or self.sag < FLAT * thickness:
             return []
         return [
-            "under its loads this sheet is not flat (a linear estimate moves it by "
-            f"{few(self.sag / thickness)} thicknesses), and these are the modes of the flat sheet; --about "
-            "deformed gives those about its equilibrium"
+            f"these are modes of the flat sheet, which its loads move by {few(self.sag / thickness)} "
+            "thicknesses (a linear estimate); --about deformed gives those about its equilibrium"
         ]
 
     def notes(self) -> list[str]:

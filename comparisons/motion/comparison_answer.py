@@ -124,7 +124,7 @@ class MotionComparison(Answer):
 
     def heading(self) -> tuple[str, str, str]:
         end = self.histories[self.reference].time[-1]
-        lead = f"moving for {end:g} s; differences from the {self.reference}"
+        lead = f"motion over {end:g} s; differences are from the {self.reference}"
         return self.scene.name, self.scene.title, lead
 
     def tables(self) -> tuple[Table, ...]:
@@ -207,7 +207,7 @@ def _bars(found: MotionComparison) -> list[str]:
     how = {"mesh": "with elements twice as large", "step": "with steps twice as long"}
     parts = (f"{number(100 * bar, '.2g')} % {how[name]}" for name, bar in known.items())
     changes = " and ".join(parts)
-    notes = [f"error of the {found.reference} itself: it changes by up to {changes}"]
+    notes = [f"{found.reference}: its own motion changes by up to {changes}"]
     largest, mesh = found.differences[0]["largest"], known.get("mesh")
     if largest is not None and mesh is not None and largest < mesh:
         notes.append(

@@ -10,6 +10,7 @@ from typing import Any
 from comparisons.scoring.reference import VERSION
 from studies.trials.study import CASES, OURS, RESULTS, SCENES, read_results
 
+NO_BREAK = "\u00a0"  # between a number and its unit, where tables are narrow
 DOCS = Path(__file__).parent.parent.parent / "docs"
 TEXT = """\
 # Results of other codes
@@ -147,7 +148,8 @@ def _cell(row: dict[str, Any] | None) -> str:
     if row is None:
         return "not run"
     spent = "" if row["seconds"] is None else f", {row['seconds']:.2g} s"
-    return (row["status"] if row["error"] is None else _percent(row["error"])) + spent
+    text = (row["status"] if row["error"] is None else _percent(row["error"])) + spent
+    return text.replace(" ", NO_BREAK).replace(f",{NO_BREAK}", ", ")
 
 
 def _scenes(suite: str) -> list[str]:
@@ -156,7 +158,7 @@ def _scenes(suite: str) -> list[str]:
 
 def _mean(errors: Iterable[float | None]) -> str:
     known = [error for error in errors if error is not None]
-    return f"{_percent(geometric_mean(known))} of {len(known)}" if known else "–"
+    return f"{_percent(geometric_mean(known))} of {len(known)}".replace(" ", NO_BREAK) if known else "–"
 
 
 def _errors(document: dict[str, Any], recipe: str, suite: str = "statics") -> dict[str, float | None]:
@@ -208,7 +210,7 @@ def _front(documents: list[dict[str, Any]], scene: str) -> str:
 
 
 def _percent(share: float) -> str:
-    return f"{100 * share:.1f} %"
+    return f"{100 * share:.{1 if share < 1.0 else 0}f} %"
 
 
 def _picture(documents: list[dict[str, Any]]) -> None:

@@ -10,7 +10,7 @@ Graded towards one end only they are the lines of one half of a side twice as lo
 
 Of a drawn sheet whose shapes have sides along the axes the lines nearest to these are moved there, and those
 between them in proportion, so that rims, slits and clamps end where cells do. Sides closer to the one before
-than THINNEST of a mean cell have no line of their own; where there are too few lines for all none is moved.
+than a tenth of a mean cell have no line of their own; where there are too few lines for all none is moved.
 """
 
 from __future__ import annotations
@@ -21,10 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.scenes import PiecewiseLinear, Sheet
-from sheetbench.scenes.grading import Graded, Grading, amount, towards
+from sheetbench.scenes.grading import Graded, Grading, amount, places_with_lines, towards
 from sheetbench.scenes.grid import Grid
-
-THINNEST = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,13 +104,8 @@ def _lines(length: float, count: int, grading: float, ends: tuple[bool, bool], h
 def _through(lines: Lines, places: Sequence[float]) -> Lines:
     """The lines with some moved to the places [m], rising, and those between in proportion."""
     last, end = len(lines.at) - 1, lines.at[-1]
-    apart = THINNEST * lines.mean
-    kept = [0.0]
-    for place in places:
-        if place - kept[-1] >= apart and end - place >= apart:
-            kept.append(place)
-    count = len(kept) - 1
-    if not 0 < count < last:
+    kept = [0.0, *places_with_lines(places, float(end), last + 1)]
+    if not (count := len(kept) - 1):
         return lines
     numbers = np.arange(last + 1)
     nearest = np.rint(PiecewiseLinear(lines.at.tolist(), numbers.tolist()).at(np.array(kept))).astype(int)

@@ -20,7 +20,15 @@ from comparisons.models.spec import GradingLike, Lattice, LatticePair
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, Scene
-from sheetbench.scenes.grading import Graded, Grading, of_settings, through, towards
+from sheetbench.scenes.grading import (
+    Graded,
+    Grading,
+    lines_for_all,
+    of_settings,
+    places_with_lines,
+    through,
+    towards,
+)
 from sheetbench.scenes.grid import LAYERS
 from sheetbench.scenes.region import sides_of_shapes
 from sheetbench.scenes.summary import few
@@ -64,10 +72,25 @@ def grading_of(
     chosen = parse_grading(lattice.grading)
     if chosen is None and scene.shaped_by and not one_size(grid, lattice):
         moved = through(sides_of_shapes(scene))
-        return (moved, "cells end where the shapes do; --grading 0 for equal cells") if moved else (None, "")
+        return (moved, _ends_of_cells(scene, grid, moved)) if isinstance(moved, Grading) else (None, "")
     if not isinstance(chosen, str):
         return chosen, ""
     return (0.0, why_not) if (why_not := one_size(grid, lattice)) else _by_layers(scene, grid)
+
+
+def _ends_of_cells(scene: Scene, grid: Sequence[int], grading: Grading) -> str:
+    """Return what lines that are moved to the sides of shapes do, and which sides have none."""
+    found = ["cells end where the shapes do; --grading 0 for equal cells"]
+    for axis, (places, length, count) in enumerate(
+        zip(grading.places, scene.sheet.lengths, grid[:2], strict=True)
+    ):
+        on_lines = places_with_lines(places, length, count)
+        if missed := [f"{1e3 * place:.4g}" for place in places if place not in on_lines]:
+            found.append(
+                f"sides at {'xy'[axis]} = {', '.join(missed)} mm lie within cells, where a slit is not open: "
+                f"that takes {lines_for_all(places, length)} masses along {'xy'[axis]}"
+            )
+    return "; ".join(found)
 
 
 def choice_notes(settings: Mapping[str, Any]) -> tuple[str, ...]:

@@ -10,13 +10,16 @@ they are of one size.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil
 from typing import Any
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes.sheet import EDGES
 
+THINNEST, ROUNDING = 0.1, 1e-9
 Places = tuple[tuple[float, ...], tuple[float, ...]]
 
 
@@ -62,6 +65,25 @@ def towards(by: float, edges: Iterable[str] | None = None) -> Graded:
 def through(places: Places) -> Graded:
     """Cells of one size but for the lines that are moved to these places."""
     return Grading(0.0, tuple(EDGES), places) if any(places) else 0.0
+
+
+def places_with_lines(places: Sequence[float], length: float, count: int) -> list[float]:
+    """Return those of the places [m], rising, on a side of this length that have one of its `count` lines:
+    those no closer to the one before and to the ends than THINNEST of a mean cell; none if lines are too few.
+    """
+    apart = THINNEST * length / (count - 1) * (1.0 - ROUNDING)
+    kept = [0.0]
+    for place in places:
+        if place - kept[-1] >= apart and length - place >= apart:
+            kept.append(place)
+    return kept[1:] if len(kept) < count else []
+
+
+def lines_for_all(places: Sequence[float], length: float) -> int:
+    """Return how many lines a side [m] is to have so that each of the places [m], rising, has one."""
+    ends = [0.0, *places, length]
+    narrowest = min(after - before for before, after in pairwise(ends))
+    return max(len(ends), ceil(THINNEST * length / narrowest * (1.0 - ROUNDING)) + 1)
 
 
 def amount(grading: Graded) -> float:

@@ -26,7 +26,7 @@ from sheetbench.scenes import Scene
 from studies.drawn.scenes import OBLIQUE
 
 GRIDS = (9, 17, 33)
-ELEMENTS = 24
+ELEMENTS = 32
 JUDGED = 17  # masses along the shorter side
 
 

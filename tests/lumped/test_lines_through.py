@@ -75,3 +75,12 @@ def test_cells_that_the_rim_of_a_clamp_cuts_are_stiffer_in_every_verb():
     assert springs.cells is not None
     factors = springs.cells.bending[..., 0, 0]
     assert factors.max() > 1.1 * factors.min()
+
+
+def test_a_slit_that_is_not_open_is_named_with_the_grid_that_opens_it():
+    """Of 0.2 mm, in a strip of 160 mm."""
+    slit = {"shape": {"rectangle": {"x": (0.06, 0.0602), "y": (0.0, 0.03)}}}
+    strip = load("kirigami-strip").replace(cutouts=[slit])
+    reason = resolve(strip, Lattice(grid=9)).reasons["grading_reason"]
+    assert "sides at x = 60.2 mm lie within cells, where a slit is not open: that takes 81 masses" in reason
+    assert "lie within" not in resolve(strip, Lattice(grid=(81, 21))).reasons["grading_reason"]

@@ -25,4 +25,4 @@ def test_orders_follow_from_the_errors() -> None:
 def test_lattices_are_as_near_as_asked(name: str) -> None:
     row = measure(SCENES[name])
     assert row.errors[17] <= row.allowed and np.isfinite(row.overall_order)
-    assert row.bar < 0.1 * row.allowed
+    assert row.bar < 0.3 * row.allowed

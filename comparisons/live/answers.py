@@ -18,7 +18,7 @@ from comparisons.live.panel import Question
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements
-from comparisons.report.plan import plan_mesh
+from comparisons.report.plan import on_sheet, plan_mesh
 from sheetbench.answers.files import plain
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 
@@ -54,8 +54,8 @@ class Answered:
 
     @property
     def masses(self) -> np.ndarray:
-        """Plan points (n, 2) [m] of the masses."""
-        return self.solution.mesh.points[:, :2]
+        """Plan points (n, 2) [m] of the masses, of those beyond a rim the nearest of the sheet."""
+        return on_sheet(self.scene, self.solution.mesh.points[:, :2])
 
     def document(self, known: np.ndarray | None) -> dict[str, Any]:
         """Return the message to the page; known: rest places of the masses that it has, of which only the

@@ -32,7 +32,7 @@ class Models:
     async def warm_up(self, scene: Scene, question: Question) -> None:
         """Let both solve the question once, so that nothing is left to import or compile."""
         with single_threaded():  # as the process starts
-            shell = self._shell(scene, question, np.zeros((1, 2)))
+            shell = self._shell(scene, question, scene.probe_points())
         await asyncio.gather(shell, self.lattice(scene, question), return_exceptions=True)
 
     async def lattice(self, scene: Scene, question: Question, last: Answered | None = None) -> Answered:

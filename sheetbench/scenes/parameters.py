@@ -83,6 +83,8 @@ def parameter(scene: Scene, name: str) -> Parameter:
 
 def _of_fibres(material: Material, name: str) -> Parameter:
     value = getattr(material, name) if name in FIBRES else None
+    if name == "angle" and material.kind == "orthotropic":
+        value = value or 0.0
     if value is None:
         given = [key for key in FIBRES if getattr(material, key) is not None]
         raise BadInput(

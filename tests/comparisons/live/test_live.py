@@ -10,6 +10,7 @@ import stat
 import threading
 import webbrowser
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -23,7 +24,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 import sheetbench as sb
 from comparisons.cli import interruption
-from comparisons.live import server
+from comparisons.live import answers, server
 from comparisons.live.newest import Newest
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import MESSAGE
@@ -281,3 +282,24 @@ def test_an_interrupt_in_the_midst_of_a_send_is_no_fault(panel, monkeypatch, cap
         server.run(panel, 0, lambda address: threading.Thread(target=visit, args=(address,)).start())
     gc.collect()  # a task whose exception nobody took says so when it goes
     assert not caplog.records
+
+
+def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is() -> None:
+    """Masses beyond a rim are compared at the nearest point of the sheet."""
+    fibres = {"kind": "orthotropic", "young_1": 1e8, "young_2": 2e7, "poisson_12": 0.3, "shear_12": 8e6}
+    scene = sb.load("one-edge-clamped").replace(
+        outline=[(0.0, 0.0), (0.188, 0.05), (0.188, 0.14), (0.0, 0.188)],
+        material={**fibres, "density": 1e3},
+        patches=[
+            {"shape": {"circle": {"centre": (0.05, 0.09), "radius": 0.02}}, "young": 1e9, "poisson": 0.3}
+        ],
+        loads=[{"kind": "area", "force_per_area": (0.0, 0.0, 1.0)}],
+    )
+    panel = Panel(scene, elements=2, lattice=Lattice(5))
+    assert {"young_1", "young_2", "angle", "patch1.young", "loads"} <= set(panel.sliders)
+    assert "uniform" not in panel.calibrations
+    question = panel.first()
+    moved = panel.scene_of(replace(question, values={**question.values, "angle": 0.5, "loads": 2.0}))
+    assert moved.material.angle == 0.5 and moved.loads[0].force_per_area[2] == 2.0
+    found = answers.lattice(moved, question)
+    assert answers.compared(found, answers.shell(moved, question, found.masses))["error"] < 0.2

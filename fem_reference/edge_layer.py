@@ -27,6 +27,7 @@ from sheetbench.scenes import EDGES, Scene
 
 LENGTH = 10.0**-0.5  # of the layer, in thicknesses
 SOFTENING = 0.315  # thicknesses over the width, by one edge
+ELASTIC = {"young", "poisson", "angle"}
 _SLOPES = np.array([[7.0, -8.0, 1.0], [-8.0, 16.0, -8.0], [1.0, -8.0, 7.0]]) / 3.0
 _VALUES = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 30.0
 
@@ -57,12 +58,20 @@ def missed(scene: Scene, counts: tuple[int, int], graded: bool) -> Missed:
 
 
 def missed_by(scene: Scene, settings: Mapping[str, Any]) -> Missed:
-    """What the mesh of an answer with these settings misses: graded unless they say otherwise."""
+    """What the mesh of an answer with these settings misses: graded unless they say otherwise.
+
+    Bricks, which have a `grading`, also have a layer about as wide as the sheet is thick where its stiffness
+    steps, and miss it: they converge in first order there.
+    """
     asked = settings["elements"]
     counts = divisions(scene.sheet, asked if isinstance(asked, int) else tuple(asked))
     even = settings.get("graded") is False or settings.get("grading") == "uniform"
-    bricks_with_rows = "grading" not in settings or has_lines(borders_of(scene))
-    return missed(scene, counts, bricks_with_rows and not even)
+    bricks = "grading" in settings
+    rows = not bricks or has_lines(borders_of(scene))
+    found = missed(scene, counts, rows and not even)
+    own = [(name, patch.own[name]) for patch in scene.patches for name in ELASTIC & set(patch.own)]
+    steps = bricks and any(value != getattr(scene.material, name) for name, value in own)
+    return found._replace(share=1.0) if steps else found
 
 
 def captured(cells: np.ndarray) -> float:

@@ -8,6 +8,7 @@ import lumped
 import lumped.plies
 import sheetbench as sb
 from comparisons.external.answer import refusal
+from comparisons.external.calculix.model import DRAWN
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from fem_reference.surface import plies
 from sheetbench.scenes import Material, SceneError, Status, load
@@ -226,4 +227,4 @@ def test_calculix_agrees_with_the_shell():
 
 def test_calculix_refuses_layers():
     scene = with_fibres(**FIBRES).replace(layers=CROSS)
-    assert "layer: it is given isotropic whole rectangles" in refusal(scene, "", "", fibres=True)
+    assert refusal(scene, "", "", drawn=DRAWN) == "layer: it is given sheets without"

@@ -66,7 +66,7 @@ def refusal(
     """
     unknown = [word for word in scene.drawn_by.split(", ") if word and word not in drawn]
     if unknown:
-        known = "others" if drawn else "isotropic whole rectangles that are the same all over"
+        known = "sheets without" if drawn else "isotropic whole rectangles that are the same all over"
         return f"{', '.join(unknown)}: it is given {known}"
     law = scene.material.law
     if law is not None and law not in laws:

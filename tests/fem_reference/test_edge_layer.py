@@ -5,6 +5,7 @@ import pytest
 
 import fem_reference
 from fem_reference.edge_layer import NOTHING, captured, missed, missed_by
+from fem_reference.uncertainty import estimate
 from sheetbench import scenes
 from sheetbench.scenes import Scene
 
@@ -49,3 +50,16 @@ def test_clamps_have_no_such_layer_and_even_meshes_miss_more() -> None:
     assert even.share > graded.share > 0.0
     assert graded == missed_by(scene, {"elements": 8})
     assert even == missed_by(scene, {"elements": 8, "grading": "uniform"})
+
+
+def test_bricks_miss_a_layer_where_stiffness_steps() -> None:
+    """CalculiX on `ray-fin` is 1.4, 1.0 and 0.7 % off the shell with 6, 8 and 12 across: first order."""
+    scene, bricks = scenes.load("ray-fin"), {"elements": [24, 12], "grading": "edges"}
+    plain = scene.replace(patches=())
+    same = scene.replace(patches=[scene.patches[0].replace(young=scene.material.young)])
+    assert missed_by(scene, bricks).share == 1.0 > missed_by(plain, bricks).share
+    assert missed_by(same, bricks) == missed_by(plain, bricks)
+    assert missed_by(scene, {"elements": [24, 12]}) == missed_by(plain, {"elements": [24, 12]})
+    answers = [np.array([[1.0 + off]]) for off in (0.00684, 0.00959, 0.01375)]
+    found = estimate(answers, [1 / 12, 1 / 8, 1 / 6], [missed_by(scene, bricks)] * 3)
+    assert found.bar.item() > 0.00684  # 0.0032 at the order of meshes that miss half of the rim

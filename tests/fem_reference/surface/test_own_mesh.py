@@ -44,7 +44,7 @@ def test_a_mesh_by_hand_gives_the_answer_of_our_mesh_within_their_bars(model, ow
     assert by_hand[0].status is ours[0].status is Status.CONVERGED and by_hand[0].balance.holds
     size = np.abs(ours[1].answer).max()
     off = np.abs(by_hand[1].answer - ours[1].answer).max() / size
-    assert off <= by_hand[1].error + ours[1].error < 0.1
+    assert off <= by_hand[1].error + ours[1].error < 0.2
     drawn = 8 if model == "solid" else 4  # cells an element
     assert len(by_hand[0].mesh.cells[0][1]) == drawn * own[0] * own[1]
 

@@ -98,7 +98,7 @@ class Twisted:
     narrow_drop: Annotated[float, Column("drop, narrow strip", form=".4f")]
     drop: Annotated[float, Column("drop", form=".4f")]
     narrow_aside: Annotated[float, Column("aside, narrow strip", form=".4f")]
-    aside: Annotated[float, Column("aside", form=".4f")]
+    aside: Annotated[float, Column("aside", form="z.4f")]
 
     @property
     def error(self) -> Annotated[float, Column("off by", "", "%", 100.0, ".2f")]:
@@ -113,9 +113,9 @@ class Tip:
 
     case: str
     code: str
-    along: Annotated[float, Column("along", form=".4f")]
-    down: Annotated[float, Column("down", form=".4f")]
-    aside: Annotated[float, Column("aside", form=".4f")]
+    along: Annotated[float, Column("along", form="z.4f")]
+    down: Annotated[float, Column("down", form="z.4f")]
+    aside: Annotated[float, Column("aside", form="z.4f")]
     error: Annotated[float, Column("off by", "", "%", 100.0, ".2f")]
 
 

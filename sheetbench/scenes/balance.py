@@ -95,7 +95,8 @@ def dead_force(
     mass [kg] of the sheet and lengths [m] by edge: as a model has them, where its outline or what it is made
     of is not the scene's to the last digit.
     """
-    sides = {name: edge_length(scene, name) for name in EDGES} | (lengths or {})
+    named = {getattr(acting, "edge", None) for acting in (*scene.actuators, *scene.loads)}
+    sides = {name: edge_length(scene, name) for name in EDGES if name in named} | (lengths or {})
     total = np.zeros(3)
     if scene.gravity is not None:
         mass = mass_of(scene) if mass is None else mass

@@ -5,7 +5,6 @@ What lies on a shape's boundary belongs to it. A region is one piece that hangs 
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -77,9 +76,10 @@ def edge_parts(scene: Scene, edge: str, where: Shape | None = None) -> list[tupl
     at = scene.sheet.lengths[normal] if far else 0.0
     found = []
     for ring in (scene.region.exterior, *scene.region.interiors):
-        for first, second in pairwise(ring.coords):
-            if max(abs(first[normal] - at), abs(second[normal] - at)) < APART * max(scene.sheet.lengths):
-                found.append((min(first[along], second[along]), max(first[along], second[along])))
+        corners = np.array(ring.coords)
+        there = np.abs(corners[:, normal] - at) < APART * max(scene.sheet.lengths)
+        sides = np.stack([corners[:-1, along], corners[1:, along]], axis=1)[there[:-1] & there[1:]]
+        found += [(low, high) for low, high in np.sort(sides, axis=1).tolist()]
     if where is None:
         return found
     from shapely import LineString

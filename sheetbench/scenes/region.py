@@ -5,6 +5,7 @@ What lies on a shape's boundary belongs to it. A region is one piece that hangs 
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np

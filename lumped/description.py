@@ -187,8 +187,7 @@ def _links(scene: Scene, assembly: Assembly) -> LinkTable:
     table = _table(springs, springs.stiffness, scene.material.dashpot_time * springs.stiffness)
     if scene.dampers is None:
         return table
-    own = table_dampers(assembly.lattice, assembly.pattern, scene.dampers).family
-    assert isinstance(own, Links)  # along the links, as the table has it
+    own = table_dampers(assembly.lattice, assembly.pattern, scene.dampers)
     beside = _table(own, np.zeros(len(own)), own.stiffness)
     places = {tuple(pair): row for row, pair in enumerate(table.masses.tolist())}
     at = np.array([places.get(tuple(pair), -1) for pair in beside.masses.tolist()], dtype=int)

@@ -14,6 +14,7 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.dynamics import drag
 from lumped.springs.all_families import table_dampers
+from lumped.springs.families import Family
 from sheetbench.scenes import Scene
 
 
@@ -32,7 +33,7 @@ class Damping:
         self.rate = scene.material.damping_rate * mass
         self.time = 0.0
         if scene.dampers is not None:
-            self.dampers = [table_dampers(assembly.lattice, assembly.pattern, scene.dampers)]
+            self.dampers: list[Family] = [table_dampers(assembly.lattice, assembly.pattern, scene.dampers)]
         else:
             time = scene.material.dashpot_time
             self.dampers = [family.damped(time) for family in assembly.springs] if time else []

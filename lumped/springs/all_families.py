@@ -22,7 +22,7 @@ from lumped.rest import Rest, rest_of
 from lumped.springs import cells, links
 from lumped.springs.cell_laws import FACE, RUBBER, AreaAndStrains, measures
 from lumped.springs.cells import CellArrays
-from lumped.springs.families import Cells, Dampers, DirectionalLinks, Family, Links
+from lumped.springs.families import Cells, DirectionalLinks, Family, Links
 from lumped.springs.links import LinkArrays
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.errors import BadInput
@@ -308,10 +308,10 @@ def _springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet, single: 
 _kept = lru_cache(maxsize=16)(_springs_of)
 
 
-def table_dampers(lattice: Lattice, pattern: Pattern, table: DamperSet) -> Dampers:
+def table_dampers(lattice: Lattice, pattern: Pattern, table: DamperSet) -> Links:
     """The dampers of a scene's [dampers] table, along the links. Raises BadInput for x, y and z apart."""
     along_links, *others = link_springs(lattice, pattern, table)
     if others:
         name = others[0].names[others[0].kind[0]]
         raise BadInput(f"dampers.{name}: a damper acts along its link; give one number, or x and y")
-    return Dampers(along_links)
+    return along_links

@@ -81,30 +81,23 @@ class Family(ABC):
         """Return the springs whose force is computed in single precision: these, with their rest data."""
         return self
 
-    def damped(self, time: float) -> Dampers:
-        """Return dampers of coefficient time [s] × stiffness."""
-        return Dampers(self.scaled(time))
+    def damped(self, time: float) -> Family:
+        """Return dampers that resist the rates of the measures: springs with coefficients time [s] ×
+        stiffness [N·s/m] in its place, of stress M ġ; they take the power ġ·M ġ."""
+        return self.scaled(time)
+
+    def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
+        """Add scale × the derivative of the dampers' force by the velocity to the 3×3 blocks."""
+        self.scaled(scale).add_tangent(u, self.no_stress, blocks, 0.0)
+
+    def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
+        """Add the derivative of the dampers' force at the velocity v (n, 3) [m/s] by the displacement to the
+        3×3 blocks, unsymmetric."""
+        self.loops.add_damping_tangent(u, v, self.arrays, blocks)
 
     def scaled(self, factor: float) -> Self:
         """Return the springs or dampers with so many times their stiffness."""
         return replace(self, stiffness=factor * self.stiffness)
-
-
-@dataclass(frozen=True)
-class Dampers:
-    """Dampers that resist the rates of a family's measures, their coefficients [N·s/m] in place of its
-    stiffness: stress M ġ, power taken ġ·M ġ. Velocities are (n, 3) [m/s]."""
-
-    family: Family
-
-    def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
-        """Add scale × the derivative of the force by the velocity to the 3×3 blocks."""
-        scaled = self.family.scaled(scale)
-        scaled.add_tangent(u, scaled.no_stress, blocks, 0.0)
-
-    def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
-        """Add the derivative of the force by the displacement to the 3×3 blocks, unsymmetric."""
-        self.family.loops.add_damping_tangent(u, v, self.family.arrays, blocks)
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,12 +170,10 @@ class DirectionalLinks(Links):
         """Return zero: this law has no energy."""
         return np.zeros(len(self))
 
-    def damped(self, time: float) -> Dampers:
+    def damped(self, time: float) -> Links:
         """Return dampers along the links, of the mean stiffness."""
         mean = time * self.stiffness.mean(axis=1)
-        return Dampers(
-            Links(self.nodes, mean, self.slots, self.offset, self.rest_length, self.kind, self.names)
-        )
+        return Links(self.nodes, mean, self.slots, self.offset, self.rest_length, self.kind, self.names)
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,6 +232,6 @@ class Cells(Family):
         sums = zip(self.names, energies.sum(axis=0).tolist(), there, strict=True)
         return {name: energy for name, energy, has in sums if name and has}
 
-    def damped(self, time: float) -> Dampers:
+    def damped(self, time: float) -> Cells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""
-        return Dampers(replace(self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None))
+        return replace(self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None)

@@ -17,7 +17,7 @@ import numpy as np
 from lumped.lattice import Lattice
 from lumped.pattern import ASKED, SHARED_UP_TO
 from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
-from lumped.springs.families import Cells, Dampers, DirectionalLinks, Family, Links
+from lumped.springs.families import Cells, DirectionalLinks, Family, Links
 from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
 from sheetbench.scenes.grid import Grid
 
@@ -87,12 +87,12 @@ class Topology(NamedTuple):
 
 
 def pack(
-    lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Dampers], single: bool = False
+    lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Family], single: bool = False
 ) -> Packing:
     """Springs and dampers of a lattice. single: rest data, and with them all forces, in single precision."""
     nx, ny, layers = lattice.grid
     plane = nx * ny
-    families = [*((family, False) for family in springs), *((each.family, True) for each in dampers)]
+    families = [*((family, False) for family in springs), *((family, True) for family in dampers)]
     runs, rest, used, mid = [], [np.empty(0)], 0, False
     kinds = {id(family.nodes): _kind(family) for family in springs}  # dampers are where their springs are
     for kind in ROWS:

@@ -99,7 +99,8 @@ def choice_notes(settings: Mapping[str, Any]) -> tuple[str, ...]:
     reason beside it is a lattice's."""
     found = []
     if why := settings.get("grading_reason"):
-        found.append(f"grading {of_settings(settings):g}: {why}")
+        given = settings.get("grading")  # of a specification text, of an answer what `as_settings` writes
+        found.append(f"grading {given if isinstance(given, str) else f'{of_settings(settings):g}'}: {why}")
     if why := settings.get("calibration_reason"):
         found.append(f"calibration {settings['calibration']}: {why}")
     return tuple(found)

@@ -56,7 +56,7 @@ where it was stopped: `make trials TRIED=mujoco ARGS='--budget 60'` is one code 
 3. Write `studies/results/CODE.json` as those that are there: code, title, licence, date, machine, command,
    and a row for each scene and recipe (scene, recipe, mesh, status, error as a fraction, seconds).
 4. `sheetbench study trials` writes this page anew, or says what is wrong with the file. Send both as a pull
-   request; its test is `python -m pytest tests/studies/results`.
+   request; `make test` has its test (`tests/studies/results`).
 
 A badge: `sheet-set {version}, two-edges-clamped: {badge}`.
 """

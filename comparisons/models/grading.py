@@ -70,12 +70,17 @@ def grading_of(
     """Return the grading, None where nothing is asked and no shapes are drawn whose sides lines can be moved
     to, and the reason in a sentence where it is chosen. Raises BadInput for what is none."""
     chosen = parse_grading(lattice.grading)
-    if chosen is None and scene.shaped_by and not one_size(grid, lattice):
-        moved = through(sides_of_shapes(scene))
-        return (moved, _ends_of_cells(scene, grid, moved)) if isinstance(moved, Grading) else (None, "")
+    if isinstance(moved := lines_on_shapes(scene, grid, lattice), Grading):
+        return None, _ends_of_cells(scene, grid, moved)
     if not isinstance(chosen, str):
         return chosen, ""
     return (0.0, why_not) if (why_not := one_size(grid, lattice)) else _by_layers(scene, grid)
+
+
+def lines_on_shapes(scene: Scene, grid: Sequence[int], lattice: Lattice | LatticePair) -> Graded:
+    """Return equal cells but for lines on the sides of shapes, where no grading is asked."""
+    asked = lattice.grading is not None or not scene.shaped_by or one_size(grid, lattice)
+    return 0.0 if asked else through(sides_of_shapes(scene))
 
 
 def _ends_of_cells(scene: Scene, grid: Sequence[int], grading: Grading) -> str:

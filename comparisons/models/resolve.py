@@ -14,7 +14,7 @@ from warnings import warn
 
 from comparisons.external import plugins
 from comparisons.models.context import context
-from comparisons.models.grading import fixed, grading_of, one_size
+from comparisons.models.grading import fixed, grading_of, lines_on_shapes, one_size
 from comparisons.models.grids import GridLike, scene_grid
 from comparisons.models.method import resolve_calibration
 from comparisons.models.sizes import require_room, size
@@ -105,9 +105,10 @@ class Resolved(Generic[S]):
         if spec.layer_distance is not None:
             for slip in layer_slips(sheet, spec.layer_distance, "layer-distance"):
                 warn(Implausible(slip), stacklevel=2)
-        own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading or 0.0}
+        grading = grading or lines_on_shapes(self.scene, self.grid, spec)
+        own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading}
         named = method_of(spec.calibration, spec.k)
-        cells = lumped.sections_of(self.scene, self.grid, grading or 0.0)
+        cells = lumped.sections_of(self.scene, self.grid, grading)
         if "cells" in CALIBRATIONS[named].takes:
             own["cells"] = cells
         elif self.scene.uniform and self.scene.pierced and not self.fitted and cells is not None:
@@ -182,7 +183,7 @@ def resolve_each(
     for one in given_lattices:
         meant = resolve(scene, one.but(grading=grading if one in takers else None), use="springs")
         found.append(meant.spec if meant.spec.grading else meant.spec.but(grading=None))
-        if why := meant.reasons.get("grading_reason"):
+        if meant.spec.grading is not None and (why := meant.reasons.get("grading_reason")):
             gradings.append(f"{meant.grid[0]} × {meant.grid[1]}, grading {meant.spec.grading:g}: {why}")
         if why := meant.reasons.get("calibration_reason"):
             methods.append(f"calibration {meant.spec.calibration}: {why}")

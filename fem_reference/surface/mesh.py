@@ -21,7 +21,7 @@ from sheetbench.scenes import EDGES, EdgeLoad, FieldMesh, PiecewiseLinear, Scene
 from sheetbench.scenes.grid import MESH, elements_of
 from sheetbench.scenes.plan_mesh import divided
 from sheetbench.scenes.region import area_in, edge_length
-from sheetbench.scenes.shapes import Shape
+from sheetbench.scenes.shapes import APART, Shape
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -253,7 +253,10 @@ def facets_on(mesh: MeshQuad, load: EdgeLoad) -> np.ndarray:
     facets = np.asarray(mesh.boundaries[load.edge])
     if load.where is None:
         return facets
-    return facets[load.where.contains(mesh.p[:, mesh.facets[:, facets]].mean(axis=1).T)]
+    import shapely
+
+    middles = shapely.points(mesh.p[:, mesh.facets[:, facets]].mean(axis=1).T)
+    return facets[shapely.distance(load.where.area, middles) < APART * np.ptp(mesh.p)]  # but for rounding
 
 
 def require_upright(mesh: MeshQuad) -> None:

@@ -34,7 +34,7 @@ class Grading:
 
     def __format__(self, form: str) -> str:
         if any(self.places):
-            return f"{self.by:{form}} with lines on the sides of shapes"
+            return f"{self.by:{form}}, lines on shapes"
         return f"{self.by:{form}}:{','.join(self.edges)}"
 
     def __str__(self) -> str:

@@ -10,8 +10,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from sheetbench.errors import BadInput, require_choice
-
 Option = Literal["k", "layer_distance", "grading", "targets", "cells"]
 
 
@@ -39,6 +37,7 @@ CALIBRATIONS: dict[str, Method] = {
         "consistent, and matches the bending of cells in their plane", CELL_BY_CELL
     ),
     "consistent-oblique": Method("consistent, and waves oblique to the grid are second order", CELL_BY_CELL),
+    "neo-hookean": Method("hyperelastic, of a material without a law or with this one", CELL_BY_CELL),
     "hyperelastic": Method(
         "layers as membranes of the material's law, neo-Hooke's where it has none, for any strain",
         CELL_BY_CELL,
@@ -59,9 +58,9 @@ EXTRAPOLATED = (
     "consistent-interior",
     "consistent-membrane",
     "consistent-oblique",
+    "neo-hookean",
     "hyperelastic",
 )
-REMOVED_CALIBRATIONS = {"neo-hookean": "hyperelastic"}  # and what does as much
 
 MASSES = {
     "higher-order": "inertia of edges corrected, coupled between neighbours",
@@ -103,14 +102,6 @@ def method_of(calibration: str | None, k: float | None) -> str:
     options those of `auto` are."""
     named = CALIBRATION if calibration == AUTO else calibration
     return named or ("uniform" if k is not None else CALIBRATION)
-
-
-def require_calibration(name: str, *others: str) -> None:
-    """Raise BadInput for a name that is neither a calibration's nor one of the others, and for one that is
-    gone."""
-    if instead := REMOVED_CALIBRATIONS.get(name):
-        raise BadInput(f"calibration = '{name}': removed; '{instead}' has the same springs")
-    require_choice("calibration", name, (*CALIBRATIONS, *others))
 
 
 def listed(names: Iterable[str]) -> str:

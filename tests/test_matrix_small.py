@@ -21,7 +21,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         (("--json",), ("--out", "{folder}")),
     ],
     "calibrate --export {export}": [
-        (("--method", "hyperelastic"), ("--method", "central")),
+        (("--method", "neo-hookean"), ("--method", "central")),
         (("two-edges-settling",), ("{pressed}",)),
         (("--for", "mujoco"), ("--for", "sofa")),
         (("--grid", "3"), ("--grid", "3x4")),

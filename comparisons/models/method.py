@@ -50,7 +50,7 @@ def resolve_calibration(scene: Scene, grid: Sequence[int], lattice: Lattice) -> 
 def method_for(scene: Scene) -> tuple[str, str]:
     """Return the name of a calibration, and why in a sentence."""
     if (strain := scales(scene).strain) > STRETCHED:
-        return RUBBER, f"q a/(E h) = {strain:.2g} is above {STRETCHED:g}: it stretches as rubber may"
+        return "neo-hookean", f"q a/(E h) = {strain:.2g} is above {STRETCHED:g}: it stretches as rubber may"
     held = {support.edge for support in scene.supports}
     known = all(isinstance(s, Clamped | Hinged | Curved) and s.motion is None for s in scene.supports)
     if scene.actuators or not held or not known or scene.shaped_by:

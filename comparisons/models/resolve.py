@@ -29,7 +29,6 @@ from sheetbench.choices import (
     REFERENCES,
     listed,
     method_of,
-    require_calibration,
 )
 from sheetbench.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes import Scene
@@ -198,7 +197,7 @@ def _fitted(spec: Spec) -> bool:
 
 def _check_lattice(spec: Lattice) -> None:
     if spec.calibration is not None:
-        require_calibration(spec.calibration, AUTO)
+        require_choice("calibration", spec.calibration, (*CALIBRATIONS, AUTO))
     require_positive("k", spec.k, "N/m")
     require_positive("layer-distance", spec.layer_distance, "m")
     require_choice("branch", spec.branch, BRANCHES)

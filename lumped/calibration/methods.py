@@ -45,6 +45,7 @@ MAKERS: dict[str, Callable[..., Calibration]] = {
     "consistent-interior": partial(consistent, method="consistent-interior"),
     "consistent-membrane": partial(consistent, method="consistent-membrane"),
     "consistent-oblique": partial(consistent, method="consistent-oblique"),
+    "neo-hookean": partial(hyperelastic, method="neo-hookean"),
     "hyperelastic": hyperelastic,
     "moduli": fit_moduli,
     "uniform": uniform,

@@ -47,13 +47,17 @@ def hyperelastic(
     layer_distance: float | None = None,
     grading: Graded = 0.0,
     cells: Section | None = None,
+    method: str = "hyperelastic",
 ) -> Calibration:
     """Layers of the material's law, of a material without one neo-Hooke's. cells: their sections, where they
-    differ: by a factor, or in Young's modulus and Poisson's ratio. Raise BadInput for other thicknesses, and
-    for fibres, which rubber does not have."""
+    differ: by a factor, or in Young's modulus and Poisson's ratio. method: `neo-hookean` is for a material
+    without another law. Raise BadInput for such a law, for other thicknesses, and for fibres, which rubber
+    does not have."""
+    if method == "neo-hookean" and material.law not in (None, method):
+        raise BadInput(f"calibration '{method}': the material's law is '{material.law}'; take 'hyperelastic'")
     layers, energy = grid[2], material.energy
     if material.kind == "orthotropic":
-        raise BadInput(f"calibration 'hyperelastic': {FIBRES}: rubber is isotropic; choose consistent")
+        raise BadInput(f"calibration '{method}': {FIBRES}: rubber is isotropic; choose consistent")
     _require_one_thickness(cells)
 
     def of_cell(sides: Sides, section: Section, distance: float | None = layer_distance) -> SpringSet:
@@ -89,7 +93,7 @@ def hyperelastic(
         springs = cell_by_cell(of_cell, sheet, material, grid, grading, cells, layer_distance)
     else:
         springs = of_cell(plan_spacing(sheet, grid), Section.of(Constants.of(sheet, material)))
-    return with_twist(sheet, material, report("hyperelastic", sheet, material, grid, springs, grading, cells))
+    return with_twist(sheet, material, report(method, sheet, material, grid, springs, grading, cells))
 
 
 def _require_one_thickness(cells: Section | None) -> None:

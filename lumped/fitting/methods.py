@@ -10,7 +10,7 @@ from lumped.calibration.methods import MAKERS, described
 from lumped.fitting.fits import Target, fit_modal, fit_static
 from lumped.sections import Section
 from sheetbench import choices
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Cells, Material, Sheet
 from sheetbench.scenes.grading import Graded
@@ -47,7 +47,7 @@ def calibrate(
     >>> springs.method, springs.grid, round(springs.layer_distance, 6)
     ('consistent', (9, 9, 2), 0.003706)
     """
-    choices.require_calibration(method)
+    require_choice("calibration", method, CALIBRATIONS)
     chosen = CALIBRATIONS[method]
     asked: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "targets": tuple(targets) or None}
     asked |= {"grading": grading or None, "cells": cells}

@@ -9,7 +9,7 @@ import numpy as np
 from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EDGES, Scene, Support, held_axes
+from sheetbench.scenes import EDGES, Scene, Support, Symmetric, held_axes
 from sheetbench.scenes.patches import boxes_of, shares_of
 from sheetbench.scenes.region import edge_parts
 from sheetbench.scenes.shapes import Shape
@@ -90,11 +90,12 @@ Reach = tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
 
 
 def reached_parts(scene: Scene) -> Reach:
-    """From where to where [m] a sheet that is no whole rectangle reaches the edges that hold it, by edge."""
+    """From where to where [m] a sheet that is no whole rectangle reaches the edges that hold it, by edge: but
+    for planes of symmetry, on which every mass stays."""
     if not scene.pierced:
         return ()
-    edges = [support.edge for support in scene.supports if place(support) is None]
-    return tuple((edge, tuple(edge_parts(scene, edge))) for edge in edges)
+    held = [s for s in scene.supports if place(s) is None and not isinstance(s, Symmetric)]
+    return tuple((support.edge, tuple(edge_parts(scene, support.edge))) for support in held)
 
 
 def held_columns(
@@ -104,12 +105,12 @@ def held_columns(
     parts that the sheet reaches, or those in or nearest to its shape. Raises BadInput where it holds none."""
     shape = place(support)
     if shape is None:
-        columns = lattice.edge_columns(support.edge)
-        if not reached:
+        columns, parts = lattice.edge_columns(support.edge), dict(reached).get(support.edge)
+        if parts is None:
             return columns
         at = lattice.lines[EDGES[support.edge].along_axis].at
         before, after = (np.concatenate(each) for each in ((at[:1], at[:-1]), (at[1:], at[-1:])))
-        near = [(0.5 * (at + after) > a) & (0.5 * (before + at) < b) for a, b in dict(reached)[support.edge]]
+        near = [(0.5 * (at + after) > a) & (0.5 * (before + at) < b) for a, b in parts]
         return np.asarray(columns[np.any(near, axis=0)])
     columns = lattice.columns()
     inside = held_crossings(lattice.lines, shape)

@@ -36,7 +36,11 @@ from studies.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_
 from studies.transfer.tasks import FINE
 
 # `consistent` has their moduli
-OTHERS = ("consistent-interior", "consistent-membrane", "consistent-oblique", "hyperelastic")
+OTHERS = (
+    *(f"consistent-{name}" for name in ("interior", "membrane", "oblique")),
+    "neo-hookean",
+    "hyperelastic",
+)
 METHODS = tuple(name for name in CALIBRATIONS if name not in OTHERS)
 FITTED = tuple(name for name in METHODS if CALIBRATIONS[name].fitted)
 PARTS = ("static", "limits", "modal", "aspect", "left-out")

@@ -92,7 +92,11 @@ def test_sofas_scene_holds_the_lattice() -> None:
         lattice = described(scene, 3)
         root = ElementTree.fromstring(to_sofa(lattice, scene))
         found = lattice_of(root)
-        for kind, constants in (("rubber", (0, 8)), ("face", (0,))):  # SOFA has no such springs
+        for kind, constants in (
+            ("coupling", (0, 3)),
+            ("rubber", (0, 8)),
+            ("face", (0,)),
+        ):  # SOFA has no such springs
             found[f"{kind}_corners"] = np.zeros((0, 4, 1), int)
             found |= {f"{kind}_rest": np.zeros(0), f"{kind}_stiffness": np.zeros(constants)}
         u = READER["equilibrium"](found, READER["differences"](found), 1)

@@ -123,7 +123,7 @@ def of_solutions(
         for solution, size in zip(solutions, sizes, strict=True)
         if solution.comparable
     ]
-    if len(usable) < 2 or usable[0][1] != sizes[0]:
+    if len({size for _, size, _ in usable}) < 2 or usable[0][1] != sizes[0]:
         return None
     answers, of_sizes, layers = zip(*usable, strict=True)
     return estimate(answers, of_sizes, layers)

@@ -47,9 +47,10 @@ def command(
     unknown: Annotated[
         str,
         option(
-            "young (or E), poisson (nu), density (rho), thickness (h), curvature_EDGE, tilt_EDGE (of a "
-            "clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch, drag (of "
-            "the air); several with commas.",
+            "young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other constants of "
+            "fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE, tilt_EDGE "
+            "(of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch, drag "
+            "(of the air); several with commas.",
             "NAMES",
         ),
     ] = "young",

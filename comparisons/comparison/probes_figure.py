@@ -52,7 +52,7 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     for solution, marker, colour, by in zip(others, cycle(MARKERS), cycle(SERIES), aside, strict=False):
         at = [place for place, probe in enumerate(probes) if (probe, solution.model) in found]
         off = [max(LEAST, found[probes[place], solution.model]) for place in at]
-        axis.plot(np.add(at, by), off, marker, color=colour, ms=4.5, label=plain(solution.label, longest=40))
+        axis.plot(np.add(at, by), off, marker, color=colour, ms=4.5, label=plain(solution.label, longest=60))
     axis.set_yscale("log")
     axis.set_ylim(bottom=bottom)
     axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -63,7 +63,9 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     axis.set_ylabel(f"off the {reference.model} [%]")
     axis.grid(axis="y", which="major", color="#e4e4e4", lw=0.5)
     axis.set_axisbelow(True)
-    figure.legend(loc="outside lower center", ncols=2 if style.narrow else 4, frameon=False, fontsize=6.5)
+    columns = 2 if max((len(solution.label) for solution in others), default=0) > 40 else 4
+    columns //= 2 if style.narrow else 1
+    figure.legend(loc="outside lower center", ncols=columns, frameon=False, fontsize=6.5)
     if style.titled:
         figure.suptitle(plain(comparison.scene.title or comparison.scene.name, longest=105), fontsize=8)
     return figure

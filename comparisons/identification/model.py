@@ -12,7 +12,7 @@ import numpy as np
 from comparisons.identification import surface
 from comparisons.identification.measurements import Displacements, Measured
 from comparisons.identification.prediction import Predictor, lattice, motion, reference
-from comparisons.models.grading import fixed
+from comparisons.models.grading import fixed, lines_on_shapes
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice
 from sheetbench.scenes import History, Scene
@@ -40,7 +40,8 @@ class Model:
 def lattice_model(scene: Scene, asked: Lattice) -> Model:
     """Return the lattice asked for, what it leaves open chosen by the scene's own values."""
     chosen = resolve(scene, asked, own=False)
-    settings = {**chosen.settings, **as_settings(fixed(chosen.spec.grading) or 0.0)}
+    grading = fixed(chosen.spec.grading) or lines_on_shapes(scene, chosen.grid, chosen.spec)
+    settings = {**chosen.settings, **as_settings(grading)}
 
     def springs(here: Scene) -> Calibration:
         return chosen.on(here).springs

@@ -85,7 +85,7 @@ def lines_on_shapes(scene: Scene, grid: Sequence[int], lattice: Lattice | Lattic
 
 def _ends_of_cells(scene: Scene, grid: Sequence[int], grading: Grading) -> str:
     """Return what lines that are moved to the sides of shapes do, and which sides have none."""
-    found = ["cells end where the shapes do; --grading 0 for equal cells"]
+    found = ["the grid's lines are moved to the sides of the shapes; --grading 0 keeps cells of one size"]
     for axis, (places, length, count) in enumerate(
         zip(grading.places, scene.sheet.lengths, grid[:2], strict=True)
     ):
@@ -104,8 +104,9 @@ def choice_notes(settings: Mapping[str, Any]) -> tuple[str, ...]:
     reason beside it is a lattice's."""
     found = []
     if why := settings.get("grading_reason"):
-        given = settings.get("grading")  # of a specification text, of an answer what `as_settings` writes
-        found.append(f"grading {given if isinstance(given, str) else f'{of_settings(settings):g}'}: {why}")
+        given = settings.get("grading")  # a text of a specification, None where none is given
+        shown = given if isinstance(given, str) else f"{of_settings(settings):g}"
+        found.append(why if given is None else f"grading {shown}: {why}")
     if why := settings.get("calibration_reason"):
         found.append(f"calibration {settings['calibration']}: {why}")
     return tuple(found)

@@ -103,17 +103,17 @@ def compare_motion(
             settings |= {"progress": reached, "store": kept}
         return simulate(of, duration, every=spacing, **settings)
 
-    own = moved(model, "moving the lattice", every, frames=frames)
+    own = moved(model, "simulating the lattice", every, frames=frames)
     histories, spacing = {model.spec.model: own}, own.settings["every"]
     for one in (one for one in beside if one.model not in left_out):
         name = unlike(plugins.shown_name(one.model), (*histories, finest.kind))
         try:
-            histories[name] = moved(resolve(scene, one, "motion"), f"moving the {name}", spacing)
+            histories[name] = moved(resolve(scene, one, "motion"), f"simulating the {name}", spacing)
         except BadInput as refusal:
             if not leave_out:
                 raise
             left_out[one.model] = str(refusal)
-    named = f"moving the {finest.kind}"
+    named = f"simulating the {finest.kind}"
     truth = moved(resolve(scene, finest), named, spacing, frames=frames)
     bars: dict[str, float | None] = {}
     if uncertainty and truth.succeeded:

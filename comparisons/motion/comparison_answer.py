@@ -196,7 +196,7 @@ def _runs(found: MotionComparison) -> Table:
         RunRow(name, h.label, h.integrator, str(h.status), h.steps, h.setup_seconds, h.solve_seconds)
         for name, h in found.histories.items()
     )
-    return Table.of(RunRow, rows, "What it took", "runs")
+    return Table.of(RunRow, rows, "Steps and time of each model", "runs")
 
 
 def _bars(found: MotionComparison) -> list[str]:

@@ -34,7 +34,7 @@ class Measures:
     peak: Annotated[float | None, MILLIMETRES("z.3f", "first peak")] = None
     peak_time: Annotated[float | None, MILLISECONDS("z.2f", "at")] = None
     period: Annotated[float | None, MILLISECONDS("z.2f")] = None
-    decay: Annotated[float | None, NUMBER("z.4f", "decay a period")] = None
+    decay: Annotated[float | None, NUMBER("z.4f", "decay per period")] = None
     last: float | None = None
     model: str = ""
 

@@ -103,7 +103,7 @@ def _statics() -> Iterator[Case]:
             load("curved-edge"),
             "the published model's test 2: a narrow layer at a bent edge stiffens the sheet",
         ),
-        (load("curved-edge-down"), "the same the other way, which weight helps"),
+        (load("curved-edge-down"), "the published model's test 2 bent downward, which weight helps"),
         (load("actuated-edge"), "an edge bound to an actuated chain"),
         (
             _scene("poisson-0", CORNER, material=_with(NITRILE, poisson=0.0)),
@@ -244,7 +244,7 @@ def _curves() -> Iterator[Case]:
         yield _curve(curves.bend_twist(number), f"a strip turned by 45° bends and twists, Γ = {number:g}")
     for number in (10.0, 13.0, 15.0, 20.0, 30.0):
         leans = curves.on_edge(number, off=curves.LEANS)
-        yield _curve(leans, f"a strip on edge, which an upright one leaves at Γ* = 14.9, at {number:g}")
+        yield _curve(leans, f"a strip on edge at Γ = {number:g}; an upright one buckles at Γ* = 14.9")
 
 
 def _curve(scene: Scene, why: str) -> Case:

@@ -56,7 +56,7 @@ class CaseRow:
     rms: Annotated[float, PERCENT(".3g")]
     bar: Annotated[float, PERCENT(".3g", "reference's bar")]
     distinguishable: bool
-    seconds: Annotated[float | None, MILLISECONDS(".3g", "time")]
+    seconds: Annotated[float | None, MILLISECONDS(".1f", "time")]
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Standing:
 
     model: str
     score: Annotated[float, PERCENT(".3g")]
-    seconds: Annotated[float | None, MILLISECONDS(".3g", "time")]
+    seconds: Annotated[float | None, MILLISECONDS(".1f", "time")]
     whose: str
     worst: Annotated[str, Column("where")] = ""
     worst_error: Annotated[float | None, PERCENT(".3g", "worst")] = None
@@ -194,6 +194,7 @@ class Score(ShownAnswer):
             if any(one.seconds is not None for one in self.standing if one.model != OWN):
                 made = document()["made_with"]["machine"].get("processor", "another machine")
                 notes.append(f"times of the others are geometric means, measured on {made}")
+                notes.append("on the front: no other model is both faster and better")
             notes.append(self.place)
         return notes
 

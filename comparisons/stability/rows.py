@@ -8,9 +8,9 @@ Row = dict[str, Any]
 Cell = dict[str, Any]
 LARGE = 0.05  # an error that has to be explained
 VARIED = {
-    "load": "loads, times",
-    "slenderness": "thickness, times",
-    "young": "E, times",
+    "load": "loads, times the scene's",
+    "slenderness": "thickness, times the scene's",
+    "young": "E, times the scene's",
     "grid": "cells along the shorter side",
     "damping": "damping of the lowest mode, of critical",
     "time-step": "time step [ms]",

@@ -119,7 +119,7 @@ class Tradeoff(Answer):
             )
             for i, r in enumerate(self.rows)
         )  # fmt: skip
-        costs = "Cost and error; solve: median of the repeats, from the quickest to the slowest"
+        costs = "Cost and error; solve: median of the repeats; from, to: the quickest and the slowest"
         orders = "Observed orders: errors in the size of a cell, time in the unknowns"
         return Table.of(CostRow, rows, costs, "tradeoff"), Table.of(Orders, self.orders, orders, "orders")
 
@@ -143,7 +143,10 @@ class Tradeoff(Answer):
 
     def complaints(self) -> list[str]:
         failed = [row for row in self.rows if row.status != Status.CONVERGED]
-        unmeasured = f"no errors: the reference, {self.reference.label}: {self.reference.status}"
+        unmeasured = (
+            f"the reference, {self.reference.label}, has no known uncertainty: {self.reference.status}, and "
+            "fewer than two of its meshes differ and have an answer"
+        )
         return [*(f"{r.label}: {r.status}: {r.message}" for r in failed)] + [unmeasured] * (
             not self.succeeded
         )

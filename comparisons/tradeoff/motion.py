@@ -157,7 +157,7 @@ def _uncertainty(scene: Scene, runs: Sequence[Run], outcomes: Sequence[Finished]
         for one, history in zip(runs, meshes, strict=False)
         if history is not None
     ]
-    if len(usable) < 2:
+    if len({size for _, size in usable}) < 2:
         return None
     by_mesh = estimate([u for u, _ in usable], [size for _, size in usable]).error
     return by_mesh + largest(longer, truth) / 3.0

@@ -89,7 +89,7 @@ def _bars(
 ) -> tuple[float | None, float | None]:
     """Uncertainty of the finest of the reference's answers, at the probes and over the sheet."""
     usable = [(o.row, size) for o, size in zip(judged, sizes, strict=True) if _comparable(o)]
-    if len(usable) < 2 or not _comparable(judged[0]):
+    if len({size for _, size in usable}) < 2 or not _comparable(judged[0]):
         return None, None
     used = [size for _, size in usable]
     layers = [missed_by(scene, row["settings"]) for row, _ in usable]

@@ -130,7 +130,7 @@ def _column(name: str, hint: Any) -> Column:
 
 def number(value: float, form: str = "g") -> str:
     """Return a number as people read it: with a minus sign, not a hyphen."""
-    return format(value, form).replace("-", "−")
+    return format(value, form).removesuffix(".").replace("-", "−")
 
 
 def quantity(value: float, si: str, form: str = ".4g") -> str:

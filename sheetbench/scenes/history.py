@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     import xarray
 
 UNDAMPED = (
-    "nothing damps this sheet: it swings on and does not settle; give [material] loss_factor, damping_time "
-    "or damping_rate, or [air] its drag, if it is to"
+    "nothing damps this sheet: it swings on and does not settle; to damp it, give [material] loss_factor, "
+    "damping_time or damping_rate, or [air] its drag"
 )
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
 
@@ -111,7 +111,7 @@ class History(Answer):
             rows.append(ProbeRow(name, moved, off))
         end = self.time[-1] if len(self.time) else 0.0
         caption = f"Displacement at {end:g} s, and largest component on the way"
-        return (Table.of(ProbeRow, rows, caption, "probes"),)
+        return (Table.of(ProbeRow, rows, caption, "probes", details=() if of else ("error",)),)
 
     def figures(self) -> tuple[Picture, ...]:
         """Probes and energies over time."""

@@ -16,14 +16,18 @@ from comparisons.identification import starts
 from comparisons.identification.figure import compose
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, Surface
+from comparisons.identification.model import lattice_model
 from comparisons.identification.outliers import outliers
 from comparisons.identification.prediction import Prediction
 from comparisons.identification.residual_test import UNLIKELY, explained, runs
 from comparisons.identification.starts import Fit, nearest
 from comparisons.identification.unknowns import Unknown, unknown
+from comparisons.models.grading import lines_on_shapes
+from comparisons.models.spec import Lattice
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.face import solve
+from sheetbench.scenes.grading import of_settings
 
 SEED = scenes.load("two-edges-clamped")
 TRUE = 1.23e6
@@ -300,3 +304,10 @@ def test_unknowns_are_identified_on_springs_with_a_layer_distance() -> None:
     assert found.settings["layer_distance"] == 0.004
     with pytest.raises(BadInput, match="k = 550 N/m given the springs do not depend on it"):
         identify(scene, data, "young", grid=3, k=550.0)
+
+
+def test_the_finer_lattice_of_a_drawn_sheet_has_lines_on_shapes_too():
+    fin, asked = scenes.load("ray-fin"), Lattice((9, 5, 2))
+    chosen = of_settings(lattice_model(fin, asked).settings)
+    finer = lattice_model(fin, Lattice((17, 9, 2), grading=chosen))
+    assert chosen == of_settings(finer.settings) == lines_on_shapes(fin, asked.grid, asked) != 0.0

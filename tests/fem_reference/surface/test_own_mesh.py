@@ -76,3 +76,7 @@ def test_a_part_of_an_edge_is_loaded_where_elements_end(high, share):
     else:
         lift = sum(fem_reference.solve(scene, "plate").reactions.values())[2]
         assert lift == pytest.approx(-0.2 * share * 0.06)
+
+
+def test_a_mesh_without_coarser_ones_has_no_error_bar():
+    assert solve_with_bar(fin(own=(4, 2)), np.array([[0.2, 0.05]]), elements=4)[1] is None

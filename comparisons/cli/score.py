@@ -18,7 +18,7 @@ def command(
     suite: Annotated[
         str | None,
         option(
-            "What it answers: statics, motion, modes or curves; as its header and cases say unless given.",
+            "The suite answered: statics, motion, modes or curves. Default: by the file's header and cases.",
             "NAME",
             "--suite",
         ),

@@ -19,7 +19,7 @@ PLAN = (
     "share that is on the sheet; its springs and masses have that already.\n"
 )
 OWN = ("material", "layer", "patch", "cutout")  # lines of a scene in words
-MISSING = "Masses beyond the outline and in cutouts are left out; `i`, `j`, `k` are places on the grid.\n"
+MISSING = "Masses beyond the outline and in cutouts are left out; `i`, `j`, `k` number lines and layers.\n"
 PAGE = """\
 # {title}
 

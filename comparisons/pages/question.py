@@ -20,7 +20,7 @@ def question(study: Study) -> list[tuple[str, str]]:
 
 
 def _settings(settings: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Return a line a model, and one for what belongs to none."""
+    """Return a line a model, and one for what belongs to none; reasons of choices are among the notes."""
     nested = {k: v for k, v in settings.items() if isinstance(v, dict)}
     flat = {k: v for k, v in settings.items() if k not in nested}
     lines = [(name, _line(values)) for name, values in nested.items() if values]
@@ -29,7 +29,7 @@ def _settings(settings: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 def _line(values: Mapping[str, Any]) -> str:
     shown = ((key.replace("_", " "), short(value)) for key, value in _several(values).items())
-    return ", ".join(f"{key} {value}" for key, value in shown if value)
+    return ", ".join(f"{key} {value}" for key, value in shown if value and not key.endswith(" reason"))
 
 
 def _several(values: Mapping[str, Any]) -> dict[str, Any]:

@@ -188,9 +188,11 @@ def _remove(path: Path, name: str) -> None:
     place = path / name
     if not place.parent.resolve().is_relative_to(path.resolve()):
         return
-    if name.endswith("/") and place.is_dir() and not place.is_symlink():
+    if name.endswith("/") and _own(place):
+        for run in filter(_own, place.iterdir()):  # one of several that stream there
+            _remove(place, f"{run.name}/")
         for file in place.iterdir():
-            if not file.is_dir():
+            if not _own(file):
                 file.unlink()
     elif not place.is_dir():
         place.unlink(missing_ok=True)
@@ -199,3 +201,7 @@ def _remove(path: Path, name: str) -> None:
             break
         if emptied.is_dir():
             emptied.rmdir()
+
+
+def _own(place: Path) -> bool:
+    return place.is_dir() and not place.is_symlink()

@@ -146,3 +146,16 @@ def test_a_folder_that_cannot_be_had_is_refused(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setattr(os, "access", lambda path, mode: False)
     with pytest.raises(BadInput, match="cannot be written to; make it writable"):
         folder(tmp_path)
+
+
+def test_overwriting_removes_runs_that_stream_to_folders_in_a_folder(tmp_path: Path) -> None:
+    victim = tmp_path / "victim"
+    victim.mkdir()
+    (victim / "mine.csv").touch()
+    out = tmp_path / "out"
+    runs = Folder(out, "compare", ["sheetbench", "compare"]).reserve("runs/")
+    (runs / "shell-1").mkdir(parents=True)
+    (runs / "shell-1" / "steps.csv").touch()
+    (runs / "link").symlink_to(victim)
+    again = Folder(out, "compare", ["sheetbench", "compare"], overwrite=True)
+    assert not again.reserve("runs/").exists() and (victim / "mine.csv").exists()

@@ -13,7 +13,7 @@ from lumped.sections import Section
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Table
 from sheetbench.scenes import PerDirection, Sheet, SpringSet
-from sheetbench.scenes.grading import Graded, as_settings
+from sheetbench.scenes.grading import Graded, as_settings, remark
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.springs import Distribution, Either
 
@@ -58,7 +58,7 @@ class Calibration(Answer):
     def title(self) -> str:
         """Grid, method and grading in a few words."""
         grid = "×".join(map(str, self.grid))
-        return f"{grid} {self.method}" + (f", grading {self.grading:g}" if self.grading else "")
+        return f"{grid} {self.method}{remark(self.grading)}"
 
     def halved(self, axis: int) -> Calibration:
         """These springs on the half of the grid up to a plane of symmetry across the axis, 0 or 1.
@@ -102,8 +102,7 @@ class Calibration(Answer):
     def heading(self) -> tuple[str, str, str]:
         """Method, grid and grading."""
         nx, ny, layers = self.grid
-        graded = f", grading {self.grading:g}" if self.grading else ""
-        return f"{self.method} calibration", f"of {nx} × {ny} × {layers} masses{graded}", ""
+        return f"{self.method} calibration", f"of {nx} × {ny} × {layers} masses{remark(self.grading)}", ""
 
     def tables(self) -> tuple[Table, ...]:
         """The springs, and the moduli that they meet."""

@@ -48,6 +48,12 @@ class Grading:
 Graded = float | Grading
 
 
+def remark(grading: Graded) -> str:
+    """What a title adds of a grading: ", grading 0.3", ", lines on shapes", nothing of equal cells."""
+    by = grading.by if isinstance(grading, Grading) else grading
+    return ", lines on shapes" if grading and not by else f", grading {grading:g}" if grading else ""
+
+
 def towards(by: float, edges: Iterable[str] | None = None) -> Graded:
     """Graded by a number from 0 to 1 towards the edges named, all of them for None: the number where
     that is towards all or 0. Raises BadInput for anything else."""

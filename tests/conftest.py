@@ -1,9 +1,7 @@
 """What tests of several files stand on: answers without a solver, a campaign's store."""
 
 import signal
-from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import fake_solutions
 import pytest
@@ -11,27 +9,25 @@ from campaigns import Here
 from hypothesis import HealthCheck, settings
 from matplotlib.figure import Figure
 from matrix_options import scene_files
-from matrix_rows import Tally, check, tally
+from matrix_rows import check, tally
 
 from comparisons.comparison import comparison as displacement
-from comparisons.models.resolve import Resolved
 from comparisons.report import offscreen
 from comparisons.runs import executors
 from comparisons.runs.campaign import campaign, carry_out
-from comparisons.runs.store import Store
 from comparisons.stability import extremes
 from sheetbench.answers import style
 from sheetbench.scenes import Solution
 
 
-def pytest_configure() -> None:
+def pytest_configure():
     """Ctrl-C is heard in the background too, and by processes of tests; no drawn example has a time limit."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
     settings.load_profile("any machine")
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(items):
     """Tests of studies, and those that need a browser, are for `make nightly`."""
     for item in items:
         if "studies" in item.path.parts[-2:] or "browser" in getattr(item, "fixturenames", ()):
@@ -39,11 +35,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 @pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
+def quick(monkeypatch):
     """Answers without a solver; a test may put its own in."""
     answers: dict[str, Solution] = {}
 
-    def answer(asked: Resolved[Any], name: str = "") -> Solution:
+    def answer(asked, name=""):
         model = asked.spec.model
         size = -0.01 if model == "lumped" else -0.0101
         return answers.get(model) or fake_solutions.solution(asked.scene, name or model, size)
@@ -53,17 +49,17 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
 
 
 @pytest.fixture(autouse=True)
-def coarse_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+def coarse_pictures(monkeypatch):
     """Pictures have fewer pixels, for their painting and packing not to take longer than what they show."""
     monkeypatch.setattr(style, "DPI", 60)
     monkeypatch.setattr(style, "PIXELS", 360)
 
 
 @pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+def undrawn(monkeypatch):
     """Pictures are empty files, for tests of what else a run says and leaves."""
 
-    def touch(self: Figure, place: Any, *_: object, **__: object) -> None:
+    def touch(self, place, *_, **__):
         Path(place).touch()
 
     monkeypatch.setattr(Figure, "savefig", touch)
@@ -71,20 +67,20 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
+def store(tmp_path):
     with campaign(tmp_path) as opened:
         yield opened
 
 
 @pytest.fixture
-def in_process(monkeypatch: pytest.MonkeyPatch) -> None:
+def in_process(monkeypatch):
     """Campaigns run in this process: no worker has to start."""
     monkeypatch.setattr(executors, "processes", Here)
     monkeypatch.setitem(carry_out.__kwdefaults__, "pool", Here)
 
 
 @pytest.fixture
-def few(in_process: None, monkeypatch: pytest.MonkeyPatch) -> None:
+def few(in_process, monkeypatch):
     """Campaigns run here, and maps have two runs along each axis."""
     monkeypatch.setattr(
         extremes, "FACTORS", {name: (1.0, max(all_)) for name, all_ in extremes.FACTORS.items()}
@@ -95,30 +91,23 @@ def few(in_process: None, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(scope="module")
-def places(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+def places(tmp_path_factory):
     """What the matrices' rows have in braces: files by name."""
     return scene_files(tmp_path_factory.mktemp("scenes"))
 
 
 @pytest.fixture(scope="module")
-def counted() -> Iterator[Tally]:
+def counted():
     with tally() as found:
         yield found
 
 
 @pytest.fixture
-def ends(
-    places: dict[str, str],
-    counted: Tally,
-    tmp_path: Path,
-    undrawn: None,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> Callable[..., int]:
+def ends(places, counted, tmp_path, undrawn, monkeypatch, capsys):
     """Run a command line of the matrices, names in braces filled in, and check how it ends."""
     known = {**places, "folder": str(tmp_path / "out"), "export": str(tmp_path / "export")}
 
-    def ends(*arguments: str) -> int:
+    def ends(*arguments):
         return check([one.format(**known) for one in arguments], counted, monkeypatch, capsys)
 
     return ends

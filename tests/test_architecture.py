@@ -33,12 +33,12 @@ ALLOWED = {
 }
 
 
-def text_of(path: Path) -> str:
+def text_of(path):
     return path.read_text(encoding="utf-8")
 
 
 @cache
-def nodes_of(path: Path) -> list[ast.AST]:
+def nodes_of(path):
     """All of a file's code, read once."""
     return list(ast.walk(ast.parse(text_of(path))))
 
@@ -57,7 +57,7 @@ PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons", "studies")
 
 
 @cache
-def names_in(path: Path) -> set[str]:
+def names_in(path):
     """Names that a file imports; a literal's counts too, but for that of the plug-ins' entry points."""
     names = set()
     for node in nodes_of(path):
@@ -71,7 +71,7 @@ def names_in(path: Path) -> set[str]:
     return names - {"sheetbench.models"}
 
 
-def imported(path: Path) -> set[str]:
+def imported(path):
     """Our packages that a file imports, the ground of all apart from the face."""
     parts = (name.split(".") for name in names_in(path))
     ours = [part for part in parts if part[0] in PACKAGES]
@@ -128,12 +128,12 @@ def test_contributors_read_of_every_room():
     assert not rooms, f"CONTRIBUTING.md has no row of {', '.join(sorted(rooms))}"
 
 
-def module_of(path: Path) -> str:
+def module_of(path):
     """The module's name; a folder's `__init__` under a name of its own: it only re-exports."""
     return ".".join(path.relative_to(ROOT).with_suffix("").parts)
 
 
-def without_types(path: Path) -> list[ast.AST]:
+def without_types(path):
     """A file's code without what it imports for types alone, which no program runs."""
     blocks = [node for node in nodes_of(path) if isinstance(node, ast.If)]
     for_types = [node for node in blocks if ast.unparse(node.test) == "TYPE_CHECKING"]
@@ -141,7 +141,7 @@ def without_types(path: Path) -> list[ast.AST]:
     return [node for node in nodes_of(path) if node not in left_out]
 
 
-def counted(path: Path, package: str) -> bool:
+def counted(path, package):
     """Whether imports for types count: not of the face, the command line and studies."""
     solver = package in ("lumped", "fem_reference")
     return solver or (package == "comparisons" and "cli" not in path.parts)
@@ -154,7 +154,7 @@ def test_no_file_imports_itself_by_way_of_others(package):
     files = {module_of(path): path for path in (ROOT / package).rglob("*.py")}
     exported: dict[str, set[str]] = {}
 
-    def modules(path: Path) -> set[str]:
+    def modules(path):
         found = set()
         for node in nodes_of(path) if counted(path, package) else without_types(path):
             if isinstance(node, ast.ImportFrom):
@@ -216,7 +216,7 @@ def test_imports_within_functions_are_for_a_quick_start_alone():
                         assert slow, f"{place}:{node.lineno} imports {module} within a function"
 
 
-def names_from(path: Path) -> list[tuple[str, str]]:
+def names_from(path):
     """(module, name) of every name that a file imports from a module of ours, and its own module's name."""
     return [
         (str(node.module), alias.name)

@@ -15,17 +15,17 @@ pytestmark = pytest.mark.smoke
 KEPT = json.loads(FILE.read_text(encoding="utf-8"))
 
 
-def places(found: dict) -> np.ndarray:
+def places(found):
     """(n, 3) [m]."""
     return np.array(list(found["displacement"].values()))
 
 
-def test_the_table_has_every_scene_and_model() -> None:
+def test_the_table_has_every_scene_and_model():
     assert {(name, model) for name, models in KEPT.items() for model in models} == set(CASES)
 
 
 @pytest.mark.parametrize(("name", "model"), CASES)
-def test_the_answers_are_those_of_the_table(name: str, model: str) -> None:
+def test_the_answers_are_those_of_the_table(name, model):
     kept, found = KEPT[name][model], answer(name, model)
     assert found["status"] == kept["status"] and list(found["displacement"]) == list(kept["displacement"])
     u = places(kept)
@@ -33,7 +33,7 @@ def test_the_answers_are_those_of_the_table(name: str, model: str) -> None:
     np.testing.assert_allclose(places(found), u, rtol=0.0, atol=within)
 
 
-def test_threads_and_processes_change_nothing() -> None:
+def test_threads_and_processes_change_nothing():
     name, models = "two-edges-clamped", ("lattice", "shell")
     found = {}
     for threads in (1, 2):

@@ -18,12 +18,12 @@ PAGES = sorted((ROOT / "docs").glob("*.md"))
 GENERATED = ("verbs/", "examples/")  # by `make docs`
 
 
-def blocks(page: Path, languages: str) -> list[tuple[str, str]]:
+def blocks(page, languages):
     """The fenced blocks of a page: language and text."""
     return re.findall(rf"^```({languages})\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)
 
 
-def commands(block: str) -> list[list[str]]:
+def commands(block):
     """The words of every sheetbench command in a block."""
     return [
         shlex.split(line, comments=True)[1:] for line in block.splitlines() if line.startswith("sheetbench ")
@@ -32,9 +32,7 @@ def commands(block: str) -> list[list[str]]:
 
 @pytest.mark.nightly
 @pytest.mark.usefixtures("in_process")
-def test_tutorial_runs_as_written(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_tutorial_runs_as_written(tmp_path, monkeypatch, capsys):
     shutil.copy(ROOT / "examples/other-codes/read_lattice.py", tmp_path)
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(str(tmp_path))
@@ -52,7 +50,7 @@ def test_tutorial_runs_as_written(
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_commands_name_verbs_and_scenes_that_exist(page: Path) -> None:
+def test_commands_name_verbs_and_scenes_that_exist(page):
     for _, text in blocks(page, "sh"):
         for verb, *arguments in commands(text):
             assert verb in VERBS
@@ -61,13 +59,13 @@ def test_commands_name_verbs_and_scenes_that_exist(page: Path) -> None:
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_links_lead_somewhere(page: Path) -> None:
+def test_links_lead_somewhere(page):
     for link in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
         if "://" not in link and not link.startswith(GENERATED):
             assert (page.parent / link).exists(), link
 
 
-def test_scenes_of_the_documentation_load(tmp_path: Path) -> None:
+def test_scenes_of_the_documentation_load(tmp_path):
     path = tmp_path / "scene.toml"
     (text,) = [t for _, t in blocks(ROOT / "docs/first-steps.md", "toml") if "[sheet]" in t]
     path.write_text(text, encoding="utf-8")
@@ -75,7 +73,7 @@ def test_scenes_of_the_documentation_load(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("page", sorted((ROOT / "docs/api").glob("*.md")), ids=lambda page: page.stem)
-def test_the_reference_of_the_python_interface_names_what_exists(page: Path) -> None:
+def test_the_reference_of_the_python_interface_names_what_exists(page):
     text = page.read_text(encoding="utf-8")
     for name in re.findall(r"auto(?:module|class|function):: (\S+)$", text, re.M):
         pkgutil.resolve_name(name if "." in name or name in sys.modules else f"sheetbench.{name}")

@@ -13,7 +13,7 @@ PROGRAM = (sys.executable, "-m", "sheetbench")
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
 @pytest.mark.parametrize("asked", [("scenes",), ("scenes", "--json"), ("--help",), ("--version",)], ids=str)
-def test_an_output_that_cannot_be_written_is_said_in_a_line(asked: tuple[str, ...]) -> None:
+def test_an_output_that_cannot_be_written_is_said_in_a_line(asked):
     with open("/dev/full", "wb") as full:
         done = subprocess.run([*PROGRAM, *asked], stdout=full, stderr=subprocess.PIPE, text=True)
     assert done.returncode == 2
@@ -23,15 +23,13 @@ def test_an_output_that_cannot_be_written_is_said_in_a_line(asked: tuple[str, ..
 @pytest.mark.parametrize(
     "asked", [("report",), ("suite", "--out"), ("check", "one-edge-clamped", "--out")], ids=str
 )
-def test_a_name_that_is_too_long_is_said_in_a_line(
-    capsys: pytest.CaptureFixture[str], asked: tuple[str, ...]
-) -> None:
+def test_a_name_that_is_too_long_is_said_in_a_line(capsys, asked):
     assert run(*asked, 300 * "a") == 2
     assert "too long" in one_line(capsys)
 
 
 @pytest.mark.parametrize("size", ["0", "²", "9" * 12])
-def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing(size: str) -> None:
+def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing(size):
     usual, odd = (
         subprocess.run([*PROGRAM, "scenes"], env=given, capture_output=True, text=True)
         for given in (
@@ -42,16 +40,14 @@ def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing(size: str) -> 
     assert (odd.returncode, odd.stdout, odd.stderr) == (0, usual.stdout, "")
 
 
-def test_a_drawing_needs_no_window_whatever_matplotlib_is_told(tmp_path: Path) -> None:
+def test_a_drawing_needs_no_window_whatever_matplotlib_is_told(tmp_path):
     few = ["modes", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--out", str(tmp_path)]
     environment = {**os.environ, "MPLBACKEND": "nope"}
     done = subprocess.run([*PROGRAM, *few], env=environment, capture_output=True, text=True)
     assert done.returncode == 0 and "nope" not in done.stderr and list(tmp_path.glob("*.png"))
 
 
-def test_a_file_without_an_end_is_refused_before_memory_ends(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_file_without_an_end_is_refused_before_memory_ends(tmp_path, capsys):
     assert run("check", "/dev/zero") == 2
     assert "/dev/zero: larger than 64 MB, which no such file is" in one_line(capsys)
     assert run("score", "/dev/zero") == 2

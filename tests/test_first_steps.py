@@ -20,11 +20,11 @@ PAGE = Path(__file__).parent.parent / "docs" / "scene.md"
 SHEET, MATERIAL = Sheet(0.3, 0.2, 0.002), Material(1.2e6, 0.45, 1100.0)
 
 
-def test_the_reference_page_is_that_of_the_types() -> None:
+def test_the_reference_page_is_that_of_the_types():
     assert PAGE.read_text(encoding="utf-8") == markdown(), "make docs-scene"
 
 
-def test_the_reference_page_has_every_key_with_its_unit() -> None:
+def test_the_reference_page_has_every_key_with_its_unit():
     page, schema = markdown(), json_schema(Scene)
     assert (PAGE.parent / "images" / "scene.svg").is_file()
     for table in schema["$defs"].values():
@@ -34,13 +34,13 @@ def test_the_reference_page_has_every_key_with_its_unit() -> None:
                 assert node["description"] in page
 
 
-def blocks_out_of_force(text: str) -> list[str]:
+def blocks_out_of_force(text):
     """The commented blocks of a template, without their leading "# "."""
     below = text.partition("# All keys")[2].split("\n\n")[1:]
     return ["\n".join(line.removeprefix("# ") for line in block.splitlines()) for block in below]
 
 
-def test_every_block_of_a_new_scene_can_be_put_in_force() -> None:
+def test_every_block_of_a_new_scene_can_be_put_in_force():
     text = template("mine", SHEET, MATERIAL)
     blocks = blocks_out_of_force(text)
     assert len(blocks) == 10
@@ -56,7 +56,7 @@ def test_every_block_of_a_new_scene_can_be_put_in_force() -> None:
     assert kinds.count(Held) == 1
 
 
-def test_new_writes_a_scene_that_check_explains(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_new_writes_a_scene_that_check_explains(tmp_path, capsys):
     path = str(tmp_path / "strip.toml")
     options = ("--side", "0.3x0.2", "--young", "1e5", "--thickness", "0.002", "--clamped", "x0,x1")
     assert run("new", path, *options) == 0
@@ -74,7 +74,7 @@ def test_new_writes_a_scene_that_check_explains(tmp_path: Path, capsys: pytest.C
     assert printed.err == ""
 
 
-def test_new_keeps_what_is_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_new_keeps_what_is_there(tmp_path, capsys):
     path = tmp_path / "mine.toml"
     path.write_text("dear\n")
     assert run("new", str(path)) == 2
@@ -84,7 +84,7 @@ def test_new_keeps_what_is_there(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert load(path).name == "mine"
 
 
-def test_check_warns_and_says_what_floats(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_warns_and_says_what_floats(tmp_path, capsys):
     path = tmp_path / "loose.toml"
     loose = template("loose", SHEET, Material(1.2, 0.45, 1100.0), ())
     path.write_text(loose, encoding="utf-8")
@@ -97,7 +97,7 @@ def test_check_warns_and_says_what_floats(tmp_path: Path, capsys: pytest.Capture
     assert {part["part"] for part in document["parts"]} >= {"sheet", "material", "weight", "lattice", "shell"}
 
 
-def test_the_schema_is_one_document_with_every_unit(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_schema_is_one_document_with_every_unit(capsys):
     assert run("schema") == 0
     schema = json.loads(capsys.readouterr().out)
     assert schema == json.loads(json.dumps(for_editors(Scene)))
@@ -126,11 +126,11 @@ SQUARE = {"rectangle": {"x": [0.0, 0.1], "y": [0.0, 0.1]}}
         ("cutout", {"shape": {**SQUARE, "circle": {"centre": [0.0, 0.0], "radius": 0.02}}}, ()),
     ],
 )
-def test_the_schema_needs_what_the_parser_needs(part: str, keys: dict[str, object], left_out: Any) -> None:
+def test_the_schema_needs_what_the_parser_needs(part, keys, left_out):
     jsonschema = pytest.importorskip("jsonschema")
     base = scenes.load("one-edge-clamped").document()
 
-    def accepted(keys: dict[str, object]) -> list[bool]:
+    def accepted(keys):
         value: Any = {**keys, "density": 1e3} if part == "material" else [keys]
         document = {**{key: base[key] for key in ("name", "sheet", "material")}, part: value}
         try:
@@ -147,14 +147,14 @@ def test_the_schema_needs_what_the_parser_needs(part: str, keys: dict[str, objec
 
 
 @pytest.mark.parametrize("name", scenes.catalogue())
-def test_a_scene_written_is_read_back_as_it_was(tmp_path: Path, name: str) -> None:
+def test_a_scene_written_is_read_back_as_it_was(tmp_path, name):
     scene = load(name)
     path = tmp_path / "again.toml"
     path.write_text(to_toml(scene), encoding="utf-8")
     assert load(path) == scene
 
 
-def test_words_say_which_way_things_act() -> None:
+def test_words_say_which_way_things_act():
     support = [
         {"edge": "x0", "kind": "clamped", "tilt": -0.02},
         {"edge": "x1", "kind": "held", "components": ["y", "z"]},

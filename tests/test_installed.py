@@ -8,7 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 
 
-def test_the_packages_are_found_by_path_from_any_folder(tmp_path: Path) -> None:
+def test_the_packages_are_found_by_path_from_any_folder(tmp_path):
     """setuptools' import hook, which editors and mypy do not follow, is no path."""
     code = "from importlib.machinery import PathFinder as P; print(all(map(P.find_spec, {names})))"
     names = ["sheetbench", "lumped", "fem_reference", "comparisons"]
@@ -18,7 +18,7 @@ def test_the_packages_are_found_by_path_from_any_folder(tmp_path: Path) -> None:
     assert found.stdout.strip() == "True", "run `make install` again"
 
 
-def test_every_installation_of_the_makefile_is_by_path() -> None:
+def test_every_installation_of_the_makefile_is_by_path():
     text = "".join((ROOT / place).read_text(encoding="utf-8") for place in ("Makefile", "studies/Makefile"))
     assert "EDITABLE := --config-settings editable_mode=compat --editable" in text
     # but of other codes alone, in environments of their own

@@ -5,12 +5,11 @@ printed (`pytest -s tests/test_matrix.py`). The other verbs: test_matrix_verbs.p
 test_matrix_small.py.
 """
 
-from collections.abc import Callable
 from itertools import combinations, product
 
 import pytest
 from matrix_options import GRIDS, OUTPUTS, SCENES, SPRINGS
-from matrix_rows import Row, named, pairwise
+from matrix_rows import named, pairwise
 
 REFERENCES = (
     ("--reference", "plate"),
@@ -30,7 +29,7 @@ HOW = ((), ("--symmetry",), ("--uncertainty",), ("--no-uncertainty",))
 ROWS = pairwise([SPRINGS, SCENES, MORE, REFERENCES, OUTPUTS, GRIDS, HOW])
 
 
-def test_rows_have_every_pair() -> None:
+def test_rows_have_every_pair():
     dimensions = [SPRINGS, SCENES, MORE, REFERENCES, OUTPUTS, GRIDS, HOW]
     wanted = sum(len(a) * len(b) for a, b in combinations(dimensions, 2))
     pairs = {(i, a, j, b) for row in ROWS for (i, a), (j, b) in combinations(enumerate(row), 2)}
@@ -40,6 +39,6 @@ def test_rows_have_every_pair() -> None:
 
 
 @pytest.mark.parametrize("row", ROWS, ids=named)
-def test_compare(row: Row, ends: Callable[..., int]) -> None:
+def test_compare(row, ends):
     springs, scene, *others = row
     ends("compare", *scene, "--elements", "2", *springs, *(part for one in others for part in one))

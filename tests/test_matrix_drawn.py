@@ -2,11 +2,8 @@
 parts that differ, and what holds and loads it. A row is one small command line.
 """
 
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
-from matrix_rows import Row, named, pairwise
+from matrix_rows import named, pairwise
 
 FIBRES = """kind = "orthotropic"
 young_1 = 1e8
@@ -57,7 +54,7 @@ VERBS = (
 ROWS = pairwise([tuple((verb,) for verb in VERBS), *(tuple((kind,) for kind in kinds) for kinds in KINDS)])
 
 
-def text(kinds: list[str]) -> str:
+def text(kinds):
     """A scene of these kinds; a laminate is the same all over."""
     if "laminate" in kinds:
         kinds = [kind for kind in kinds if kind not in KINDS[2]]
@@ -68,7 +65,7 @@ def text(kinds: list[str]) -> str:
     )
 
 
-def refused(verb: str, kinds: list[str]) -> bool:
+def refused(verb, kinds):
     """A linear system has no followers; the solid has no steps in its thickness, nor followers on a taper."""
     if verb.startswith("linearise"):
         return "pressed" in kinds
@@ -78,7 +75,7 @@ def refused(verb: str, kinds: list[str]) -> bool:
 
 @pytest.mark.usefixtures("few")
 @pytest.mark.parametrize("row", ROWS, ids=named)
-def test_drawn(row: Row, ends: Callable[..., int], tmp_path: Path) -> None:
+def test_drawn(row, ends, tmp_path):
     verb, *kinds = (part for one in row for part in one)
     (tmp_path / "drawn.toml").write_text(text(kinds), encoding="utf-8")
     name, *options = verb.split()

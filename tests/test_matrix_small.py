@@ -4,12 +4,11 @@ Left out: `live`, a server, and `report --open`, a browser.
 """
 
 import csv
-from collections.abc import Callable
 
 import pytest
 from commands import run
 from matrix_options import OUTPUTS
-from matrix_rows import Row, named, pairwise
+from matrix_rows import named, pairwise
 
 from comparisons.scoring.cases import SUITES
 
@@ -92,7 +91,7 @@ ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(di
 
 
 @pytest.fixture(scope="module")
-def places(places: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+def places(places, tmp_path_factory):
     """With studies for a report, and answers to the reference set, every one the same number."""
     folder = tmp_path_factory.mktemp("studies")
     places = {
@@ -117,5 +116,5 @@ def places(places: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> 
 
 @pytest.mark.usefixtures("few")
 @pytest.mark.parametrize(("verb", "row"), ROWS, ids=[f"{verb} {named(row)}" for verb, row in ROWS])
-def test_verb(verb: str, row: Row, ends: Callable[..., int]) -> None:
+def test_verb(verb, row, ends):
     ends(*verb.split(), *(part for one in row for part in one))

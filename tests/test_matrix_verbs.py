@@ -3,11 +3,9 @@
 Fits are met by `calibrate`, on every scene and grid, and by `compare`.
 """
 
-from collections.abc import Callable
-
 import pytest
 from matrix_options import CLOSED, GRIDS, OUTPUTS, SCENES
-from matrix_rows import Row, named, pairwise
+from matrix_rows import named, pairwise
 
 from sheetbench.choices import CALIBRATIONS, INTEGRATORS, MASSES
 
@@ -67,5 +65,5 @@ ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(di
 
 
 @pytest.mark.parametrize(("verb", "row"), ROWS, ids=[f"{verb} {named(row)}" for verb, row in ROWS])
-def test_verb(verb: str, row: Row, ends: Callable[..., int]) -> None:
+def test_verb(verb, row, ends):
     ends(verb, *(part for one in row for part in one), *MORE.get(verb, ()))

@@ -12,7 +12,7 @@ from run_notebooks import NOTEBOOKS, executed
 pytestmark = pytest.mark.nightly
 
 
-def printed(notebook: nbformat.NotebookNode) -> list[str]:
+def printed(notebook):
     """What every cell with code prints."""
     return [
         "".join(
@@ -26,7 +26,7 @@ def printed(notebook: nbformat.NotebookNode) -> list[str]:
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_notebook_runs_and_prints_what_it_keeps(path: Path) -> None:
+def test_a_notebook_runs_and_prints_what_it_keeps(path):
     kept, now = nbformat.read(path, as_version=4), executed(path)
     assert printed(kept) == printed(now)
     counts = [cell.execution_count for cell in kept.cells if cell.cell_type == "code"]
@@ -40,5 +40,5 @@ def test_a_notebook_runs_and_prints_what_it_keeps(path: Path) -> None:
     assert drawn
 
 
-def test_there_are_notebooks() -> None:
+def test_there_are_notebooks():
     assert len(NOTEBOOKS) >= 2

@@ -18,22 +18,20 @@ QUESTIONS, COMPARING = (
 )
 
 
-def blocks(language: str, text: str = TEXT) -> list[str]:
+def blocks(language, text=TEXT):
     """The fenced blocks of a language. There must be some: a test that collects nothing proves nothing."""
     found = re.findall(rf"^```{language}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     assert found, f"no {language} block"
     return found
 
 
-def make_files() -> str:
+def make_files():
     return "".join(
         path.read_text(encoding="utf-8") for path in (ROOT / "Makefile", ROOT / "studies" / "Makefile")
     )
 
 
-def test_python_runs(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_python_runs(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # what the examples save
     namespace: dict[str, object] = {}
     for block in blocks("python"):
@@ -41,7 +39,7 @@ def test_python_runs(
     assert "%" in capsys.readouterr().out
 
 
-def test_commands_name_verbs_and_scenes_that_exist(tmp_path: Path) -> None:
+def test_commands_name_verbs_and_scenes_that_exist(tmp_path):
     commands = re.findall(r"sheetbench (\w[^\n`]*)", "\n".join([*blocks("sh"), *blocks("sh", QUESTIONS)]))
     assert commands
     for command in commands:
@@ -51,7 +49,7 @@ def test_commands_name_verbs_and_scenes_that_exist(tmp_path: Path) -> None:
             assert arguments[0] in scenes.catalogue() or arguments[0].endswith(".toml")
 
 
-def test_make_targets_exist() -> None:
+def test_make_targets_exist():
     makefile = make_files()
     targets = re.findall(r"make ([\w-]+)", TEXT + (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"))
     assert {"demo", "test", "check", "tests-of"} <= set(targets)
@@ -59,7 +57,7 @@ def test_make_targets_exist() -> None:
         assert re.search(rf"^{target}:", makefile, re.MULTILINE)
 
 
-def test_pictures_exist_and_are_small() -> None:
+def test_pictures_exist_and_are_small():
     pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", TEXT)
     assert pictures
     for picture in pictures:
@@ -67,20 +65,20 @@ def test_pictures_exist_and_are_small() -> None:
         assert (ROOT / picture).stat().st_size < most
 
 
-def test_numbers_in_the_pictures_are_those_of_the_text_and_of_a_solve() -> None:
+def test_numbers_in_the_pictures_are_those_of_the_text_and_of_a_solve():
     for name in ("two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down", "actuated-edge"):
         with Image.open(ROOT / "docs/images" / f"{name}.png") as image:
             kept = image.info["Description"]
         assert kept == compare(name, uncertainty=False).figures()[0].description, f"{name}.png: make pictures"
     with Image.open(ROOT / "docs/images/two-edges-clamped.png") as image:
-        shown = float(re.search(r"error at the probes ([\d.]+) %", image.info["Description"])[1])  # type: ignore[index]
+        shown = float(re.search(r"error at the probes ([\d.]+) %", image.info["Description"])[1])
     caption = re.search(r"lattice is ([\d.]+) % off the converged shell", TEXT)
     row = re.search(r"^\| lumped \| .*\| ([\d.]+) \| converged", TEXT, re.MULTILINE)
     assert caption and row
     assert float(row[1]) == shown and float(caption[1]) == round(shown, 1)
 
 
-def test_the_page_of_the_catalogue_has_every_scene_with_a_picture() -> None:
+def test_the_page_of_the_catalogue_has_every_scene_with_a_picture():
     page = (ROOT / "docs" / "catalogue.md").read_text(encoding="utf-8")
     sections = {part.partition("\n")[0]: part for part in page.split("\n## ")[1:]}
     assert sections.keys() == scenes.catalogue().keys()
@@ -88,7 +86,7 @@ def test_the_page_of_the_catalogue_has_every_scene_with_a_picture() -> None:
         assert scenes.load(name).title in section and "![" in section and f" {name} " in section
 
 
-def test_every_picture_is_drawn_by_a_make_target_and_shown_somewhere() -> None:
+def test_every_picture_is_drawn_by_a_make_target_and_shown_somewhere():
     pages = "\n".join(
         path.read_text(encoding="utf-8") for path in (*ROOT.glob("docs/*.md"), ROOT / "README.md")
     )
@@ -104,7 +102,7 @@ def test_every_picture_is_drawn_by_a_make_target_and_shown_somewhere() -> None:
             )
 
 
-def test_displacements_in_the_table_are_those_that_compare_gives() -> None:
+def test_displacements_in_the_table_are_those_that_compare_gives():
     printed = {
         (cells[0], cells[1]): cells[2:5]
         for line in COMPARING.split("<!-- table -->")[1].split("<!-- end of table -->")[0].splitlines()

@@ -6,7 +6,6 @@ from inspect import signature
 from typing import get_args
 
 import pytest
-from click import Parameter
 
 import fem_reference
 import lumped
@@ -16,7 +15,7 @@ from sheetbench.choices import REFERENCES
 from studies.transfer.study import FITTED, METHODS
 
 
-def test_every_name_is_there_and_described() -> None:
+def test_every_name_is_there_and_described():
     assert list(lumped.CALIBRATIONS) == list(choices.CALIBRATIONS)
     assert set(lumped.INTEGRATORS) == set(choices.INTEGRATORS)
     given, more = get_args(lumped.Inertia)
@@ -27,7 +26,7 @@ def test_every_name_is_there_and_described() -> None:
         assert method.fitted == ("targets" in signature(method.make).parameters)
 
 
-def test_the_usual_choices_are_those_of_the_functions() -> None:
+def test_the_usual_choices_are_those_of_the_functions():
     assert signature(lumped.calibrate).parameters["method"].default == choices.CALIBRATION
     assert signature(lumped.simulate).parameters["integrator"].default == choices.INTEGRATOR
     assert signature(fem_reference.solve).parameters["model"].default == choices.REFERENCE
@@ -36,7 +35,7 @@ def test_the_usual_choices_are_those_of_the_functions() -> None:
     assert choices.REFERENCE in choices.REFERENCES
 
 
-def test_the_published_study_keeps_its_methods_in_their_order() -> None:
+def test_the_published_study_keeps_its_methods_in_their_order():
     assert FITTED == ("fit-static", "fit-modal")
     others = ["consistent", "moduli", "uniform", "cauchy", "central", "axial", "van-gelder", "lloyd"]
     assert [name for name in METHODS if name not in FITTED] == others
@@ -57,12 +56,12 @@ def test_the_published_study_keeps_its_methods_in_their_order() -> None:
         ("tradeoff", "calibration", choices.CALIBRATIONS),
     ],
 )
-def test_help_names_every_choice(verb: str, option: str, names: dict[str, object]) -> None:
+def test_help_names_every_choice(verb, option, names):
     (said,) = [p for p in verb_group().commands[verb].params if p.name == option]
     assert all(name in said.help for name in names)
 
 
-def test_the_names_are_known_without_what_they_stand_for() -> None:
+def test_the_names_are_known_without_what_they_stand_for():
     slow = (
         "import sys, sheetbench.choices; print(*{'numpy', 'numba', 'pydantic', 'lumped'} & set(sys.modules))"
     )
@@ -70,7 +69,7 @@ def test_the_names_are_known_without_what_they_stand_for() -> None:
     assert found.stdout.split() == []
 
 
-def test_a_switch_is_off_unless_given() -> None:
+def test_a_switch_is_off_unless_given():
     commands = verb_group().commands.items()
     switches = {
         (verb, p.name): p.default for verb, command in commands for p in command.params if is_switch(p)
@@ -78,6 +77,6 @@ def test_a_switch_is_off_unless_given() -> None:
     assert len(switches) > 50 and not [name for name, on in switches.items() if on]
 
 
-def is_switch(parameter: Parameter) -> bool:
+def is_switch(parameter):
     """Whether an option takes no value and has no --no-… of its own."""
     return getattr(parameter, "is_flag", False) and not parameter.secondary_opts

@@ -2,7 +2,6 @@
 solver gets them."""
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -18,7 +17,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from comparisons.runs.tasks import function
 from comparisons.tradeoff import motion, statics, timing
-from sheetbench.scenes import Scene, SpringTable
+from sheetbench.scenes import SpringTable
 
 CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe", "build_problem")
 WORDS = frozenset({"grid", "calibration", "k", "layer_distance", "grading"})
@@ -44,11 +43,11 @@ class Used(BaseException):
     """The springs that a solver was given."""
 
 
-def used(scene: Scene, springs: lumped.Calibration, *_: Any, **__: Any) -> None:
+def used(scene, springs, *_, **__):
     raise Used(springs)
 
 
-def carried_out(runs: list[Any], *_: Any, **__: Any) -> None:
+def carried_out(runs, *_, **__):
     """The lattices among the runs of a campaign, here."""
     for one in runs:
         if one.arguments.get("model", "lumped") == "lumped":
@@ -56,7 +55,7 @@ def carried_out(runs: list[Any], *_: Any, **__: Any) -> None:
 
 
 @pytest.fixture(autouse=True)
-def caught(monkeypatch: pytest.MonkeyPatch) -> None:
+def caught(monkeypatch):
     for name in CONSUMERS:
         monkeypatch.setattr(lumped, name, used)
     for module in (crosscheck, motion, statics):
@@ -68,14 +67,14 @@ def caught(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(server, "run", lambda panel, *_: used(panel.scene, _of_panel(panel)))
 
 
-def _of_panel(panel: Any) -> lumped.Calibration:
+def _of_panel(panel):
     return resolve(panel.scene, panel.first().lattice).springs
 
 
-def verb(name: str, *others: str, renamed: dict[str, str] | None = None) -> Callable[..., None]:
+def verb(name, *others, renamed=None):
     """The command line with the options of a lattice."""
 
-    def ask(scene: str, folder: Path, **options: Any) -> None:
+    def ask(scene, folder, **options):
         flags = {f"--{(renamed or {}).get(key, key).replace('_', '-')}": options[key] for key in options}
         more = [part.format(scene=scene, folder=folder) for part in others]
         run(name, *more, *(str(part) for pair in flags.items() for part in pair))
@@ -83,10 +82,10 @@ def verb(name: str, *others: str, renamed: dict[str, str] | None = None) -> Call
     return ask
 
 
-def python(ask: Callable[..., Any]) -> Callable[..., None]:
+def python(ask):
     """A function of the package: a grid as text is a number there, or numbers."""
 
-    def call(scene: str, folder: Path, grid: Any = None, **options: Any) -> None:
+    def call(scene, folder, grid=None, **options):
         shape = {} if grid is None else {"grid": int(grid) if str(grid).isdigit() else grid}
         found = ask(sb.load(scene), folder, **shape, **options)
         if isinstance(found, lumped.Calibration):
@@ -95,14 +94,14 @@ def python(ask: Callable[..., Any]) -> Callable[..., None]:
     return call
 
 
-def of_advice(scene: Scene, folder: Path, **options: Any) -> lumped.Calibration:
+def of_advice(scene, folder, **options):
     """Of the last lattice of 9 × 9 masses that may be chosen."""
     found = [c for c in Probing(scene, Lattice(**options)).candidates(linear=False) if c.model == "lumped"]
     (*_, last) = [c for c in found if c.settings["grid"] == [9, 9, 2]]
     return resolve(scene, last).springs
 
 
-def listed(scene: Scene, folder: Path, grid: Any = 9, calibration: str = "consistent", **options: Any) -> Any:
+def listed(scene, folder, grid=9, calibration="consistent", **options):
     return sb.tradeoff(scene, grid=[grid], calibration=[calibration], shell=(), **options)
 
 
@@ -148,7 +147,7 @@ UNABLE = {"live": ("5x7", "0.4:x0")}  # one number for the grid, one grading for
 
 
 @pytest.mark.parametrize("name", VERBS)
-def test_the_same_words_are_the_same_lattice(name: str, tmp_path: Path) -> None:
+def test_the_same_words_are_the_same_lattice(name, tmp_path):
     ask, words = VERBS[name]
     (tmp_path / "measured.csv").write_text(FILE, encoding="utf-8")
     scene = sb.load(SCENE)
@@ -163,13 +162,13 @@ def test_the_same_words_are_the_same_lattice(name: str, tmp_path: Path) -> None:
         assert constants(asked) == constants(expected), options
 
 
-def test_k_alone_is_the_uniform_lattice_of_that_k() -> None:
+def test_k_alone_is_the_uniform_lattice_of_that_k():
     calibration = resolve(sb.load(SCENE), Lattice(5, k=700.0)).springs
     assert calibration.method == "uniform" and calibration.springs.axial == 700.0
 
 
 @pytest.mark.parametrize("name", [name for name in VERBS if name.startswith("sb.") and name != "sb.solve"])
-def test_a_spec_is_what_its_flat_keywords_are(name: str, tmp_path: Path) -> None:
+def test_a_spec_is_what_its_flat_keywords_are(name, tmp_path):
     """Flat keywords beside a spec change it."""
     (tmp_path / "measured.csv").write_text(FILE, encoding="utf-8")
     spec = sb.Lattice(grid=5, calibration="uniform", k=550.0)
@@ -181,7 +180,7 @@ def test_a_spec_is_what_its_flat_keywords_are(name: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("name", [name for name in VERBS if name not in CHOSEN])
-def test_so_are_a_scene_s_own_springs(name: str, tmp_path: Path) -> None:
+def test_so_are_a_scene_s_own_springs(name, tmp_path):
     """Where nothing is named the scene's own [springs] are meant, but where springs are to be made; in any
     case their grid is the usual one."""
     ask, words = VERBS[name]
@@ -200,7 +199,7 @@ def test_so_are_a_scene_s_own_springs(name: str, tmp_path: Path) -> None:
             assert tuple(expected.grid) == (4, 6, 2)
 
 
-def constants(found: Any) -> Any:
+def constants(found):
     """What a lattice is made of."""
     springs = found.value.args[0] if isinstance(found, pytest.ExceptionInfo) else found
     document = springs.document()

@@ -1,7 +1,6 @@
 """What tables, a picture and lists of cells hold, where nothing else would notice another number."""
 
 import csv
-from collections.abc import Mapping
 from inspect import signature
 from operator import itemgetter
 from pathlib import Path
@@ -16,7 +15,7 @@ import lumped
 from comparisons.advice import probing
 from comparisons.cli import modes
 from comparisons.linearisation.answer import Linearisation
-from comparisons.models.spec import Spec, spec_of
+from comparisons.models.spec import spec_of
 from comparisons.modes.spectra import spectra
 from comparisons.reproduction import figure
 from comparisons.runs.store import Finished
@@ -29,26 +28,25 @@ from comparisons.tradeoff.row import TradeoffRow
 from lumped.calibration.tables import moduli
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, WIDTHS
-from sheetbench.answers.table import Table
 from studies.reproduction.tables import nearest
 from studies.stability import STUDIES
 
 PUBLISHED = Path(__file__).parents[2] / "docs" / "stability"
 
 
-def shown(table: Table) -> dict[str, str]:
+def shown(table):
     """The first row as people read it, by column."""
     return dict(zip((column.name for column in table.columns), table.shown_rows()[0], strict=True))
 
 
-def test_a_modulus_is_off_its_target_by_the_difference() -> None:
+def test_a_modulus_is_off_its_target_by_the_difference():
     modulus = {"name": "D11", "asked": 2.0, "got": 1.5}
     calibration = {"moduli": [modulus], "springs": {}, "grid": [3, 3, 2]}
     row = shown(moduli(calibration))
     assert float(row["off target by"].replace("−", "-")) == -25.0
 
 
-def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
+def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front():
     row = TradeoffRow("shell", "", {}, "converged", "", "shell", None, "", "")
     table, _ = Tradeoff(scenes.load("two-edges-clamped"), (), row, None, None).tables()
     assert [column.name for column in table.brief().columns] == [
@@ -56,15 +54,15 @@ def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
     ]  # fmt: skip
 
 
-def test_time_is_predicted_by_the_models_own_family() -> None:
-    def lattice(masses: int) -> Spec:
+def test_time_is_predicted_by_the_models_own_family():
+    def lattice(masses):
         return spec_of("lumped", {"grid": [masses, masses, 2]})
 
     shell, plate = (spec_of(model, {"elements": [8, 8]}) for model in ("shell", "plate"))
     took = ((lattice(5), 0.001), (shell, 0.1), (lattice(9), 0.008))
     trials = {one: SimpleNamespace(candidate=one, seconds=seconds) for one, seconds in took}
     asked = (shell, lattice(17), shell.but(count=(16, 16)), plate)
-    found = [probing.Probing.predicted_seconds(SimpleNamespace(trials=trials), one) for one in asked]  # type: ignore[arg-type]
+    found = [probing.Probing.predicted_seconds(SimpleNamespace(trials=trials), one) for one in asked]
     # as measured; 8 times as long for 4 times the cells; by the usual power of one; by the unknowns alone
     assert found == pytest.approx([0.1, 0.064, 0.1 * 4**probing.EXPONENT, probing.unknowns(plate) * 1e-5])
 
@@ -73,17 +71,17 @@ def test_time_is_predicted_by_the_models_own_family() -> None:
     ("slenderness", "slenderness"), ("slenderness", "load_number"), ("load", "size"),
     ("damping", "damping_ratio"), ("mass", "ratio"), ("curved-edge", "turn"),
 ])  # fmt: skip
-def test_quick_maps_reach_as_far_as_full_ones(name: str, key: str) -> None:
+def test_quick_maps_reach_as_far_as_full_ones(name, key):
     quick, full = ([cell[key] for cell in STUDIES[name].cells(full)] for full in (False, True))
     assert (min(quick), max(quick)) == (min(full), max(full)) and set(quick) <= set(full)
 
 
-def test_maps_are_as_wide_as_both_columns_of_a_paper() -> None:
+def test_maps_are_as_wide_as_both_columns_of_a_paper():
     widths = [study.size[0] for study in STUDIES.values()]
     assert widths == pytest.approx([WIDTHS["double"]] * len(widths), abs=0.05)
 
 
-def test_tiles_reach_half_way_to_their_neighbours() -> None:
+def test_tiles_reach_half_way_to_their_neighbours():
     _, axis = subplots()
     rows = [{"x": x, "y": y} for x in (4.0, 1.0, 3.0) for y in (1.0, 100.0)]
     stability_figure.tiles(
@@ -96,33 +94,33 @@ def test_tiles_reach_half_way_to_their_neighbours() -> None:
     assert (*axis.get_xlim(), *axis.get_ylim()) == pytest.approx((0.0, 4.5, 0.1, 1000.0))
 
 
-def test_a_tradeoffs_axis_holds_its_errors_and_the_bar_in_percent() -> None:
+def test_a_tradeoffs_axis_holds_its_errors_and_the_bar_in_percent():
     rows = [SimpleNamespace(error=error) for error in (0.002, 0.3, 0.0)]
     _, axis = subplots()
-    tradeoff_figure._floor(axis, SimpleNamespace(rows=rows, uncertainty=0.01), "bar")  # type: ignore[arg-type]
+    tradeoff_figure._floor(axis, SimpleNamespace(rows=rows, uncertainty=0.01), "bar")
     assert axis.get_ylim() == pytest.approx((0.6 * 0.2, 1.6 * 30.0))
 
 
-def test_a_front_without_a_bar_has_every_row_that_errs_less_for_more_time() -> None:
+def test_a_front_without_a_bar_has_every_row_that_errs_less_for_more_time():
     rows = [SimpleNamespace(error=e, seconds_per_second=t) for e, t in ((0.2, 1.0), (0.1, 2.0), (0.1, 3.0))]
     for bar, front in ((None, [0, 1]), (0.5, [0])):
         found = SimpleNamespace(rows=rows, uncertainty=bar)
-        assert DynamicTradeoff.front.fget(found) == front  # type: ignore[attr-defined]
+        assert DynamicTradeoff.front.fget(found) == front
 
 
-def test_unless_told_otherwise_functions_and_commands_ask_for_as_many_modes() -> None:
+def test_unless_told_otherwise_functions_and_commands_ask_for_as_many_modes():
     asked = (spectra, lumped.modes, fem_reference.modes, modes.command)
     assert [signature(call).parameters["count"].default for call in asked] == [10] * 4
 
 
-def test_a_pole_is_shown_in_hertz_and_its_damping_in_percent() -> None:
+def test_a_pole_is_shown_in_hertz_and_its_damping_in_percent():
     found = SimpleNamespace(upper=np.array([-3.0 + 4.0j]), damping_ratios=np.array([0.6]))
-    row = shown(Linearisation._poles(found))  # type: ignore[arg-type]
+    row = shown(Linearisation._poles(found))
     assert float(row["frequency"]) == pytest.approx(5.0 / (2.0 * np.pi), rel=1e-4)
     assert (float(row["damping ratio"]), float(row["imaginary"])) == (60.0, 4.0)
 
 
-def test_grading_changes_no_rate_and_a_calibration_does() -> None:
+def test_grading_changes_no_rate_and_a_calibration_does():
     even, graded, other = (
         spec_of("lumped", {"grid": [9, 9], "calibration": name, **more})
         for name, more in (("consistent", {}), ("consistent", {"grading": 0.5}), ("uniform", {}))
@@ -130,23 +128,23 @@ def test_grading_changes_no_rate_and_a_calibration_does() -> None:
     assert probing._rate(even) == probing._rate(graded) != probing._rate(other)
 
 
-def test_a_fit_is_shown_in_the_tables_units() -> None:
+def test_a_fit_is_shown_in_the_tables_units():
     sought = {"young": 2.5e6, "k": 321.0, "layer_distance": 1.5e-3, "tilt": np.pi / 6.0, "curvature": 4.0}
     fit = SimpleNamespace(
         tests=(1,), kind="sheet", source="model", sought=sought, by="misfit", rms=0.25, error=0.5, entries=12,
         matches=np.array([True, True, False]),
     )  # fmt: skip
-    row = shown(nearest(SimpleNamespace(fits=[fit])))  # type: ignore[arg-type]
+    row = shown(nearest(SimpleNamespace(fits=[fit])))
     assert [float(row[name]) for name in ("E", "k", "lz", "tilt", "κ")] == [2.5, 321.0, 1.5, 30.0, 4.0]
     assert (float(row["rms"]), float(row["error"]), row["met"]) == (25.0, 50.0, "2 of 12")
 
 
-def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer() -> None:
+def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer():
     run = SimpleNamespace(
         time=np.array([0.0, 1.0]), probes={"P4": np.array([[0.0, 0.0, 0.0], [1e-3, 2e-3, 3e-3]])}
     )
     settling = SimpleNamespace(runs={"consistent": run}, rest={"consistent": np.array([4e-3, 5e-3, 6e-3])})
-    panels = figure.motion(settling, PLAIN).axes[:3]  # type: ignore[arg-type]
+    panels = figure.motion(settling, PLAIN).axes[:3]
     for axis, panel in enumerate(panels):
         moved, rest = panel.lines[:2]
         np.testing.assert_allclose(moved.get_ydata(), [0.0, 1.0 + axis])
@@ -154,10 +152,10 @@ def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer() -> N
     assert [panel.get_xlabel() for panel in panels] == ["", "", "time [s]"]
 
 
-def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used() -> None:
+def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used():
     scene, weights, sizes = scenes.load("one-edge-clamped"), np.ones(2), [1.0, 2.0, 4.0]
 
-    def solved(error: float, status: str = "converged") -> Finished:
+    def solved(error, status="converged"):
         moved = [[0.0, 0.0, 1.0 + error]] * 2
         row = {"probes": dict(zip("ab", moved, strict=True)), "field": moved, "settings": {"elements": 4}}
         return Finished("key", status, row | {"load_factor": 1.0}, "", "", "", 0.0)
@@ -170,7 +168,7 @@ def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used() -> None:
 @pytest.mark.parametrize(
     "name", ["stiffness", "grid", "load", "damping", "mass", "slenderness", "curved-edge"]
 )
-def test_full_maps_have_the_published_cells(name: str) -> None:
+def test_full_maps_have_the_published_cells(name):
     """Every published row is a cell, with as many samples of it."""
     with (PUBLISHED / f"{name}.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -179,16 +177,16 @@ def test_full_maps_have_the_published_cells(name: str) -> None:
     keys = {key for cell in cells for key in cell} & set(heads.values())
     assert keys
 
-    def values(row: Mapping[str, object]) -> tuple[str, ...]:
+    def values(row):
         return tuple(plain(row.get(key)) for key in sorted(keys))
 
     published = [{key: row[head] for head, key in heads.items()} for row in rows]
     assert sorted(map(values, cells)) == sorted(map(values, published))
 
 
-def plain(value: object) -> str:
+def plain(value):
     """A value of a cell, or of a file, as the same text; nothing where there is none."""
     try:
-        return f"{float(value):g}"  # type: ignore[arg-type]
+        return f"{float(value):g}"
     except (TypeError, ValueError):
         return str(value or "")

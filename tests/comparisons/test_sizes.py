@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from commands import json_of, run
@@ -19,7 +18,6 @@ from comparisons.tradeoff.statics import tradeoff
 from fem_reference.footprint import footprint as of_reference
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene
 from sheetbench.scenes.size import factors
 
 GB = 10**9
@@ -27,14 +25,14 @@ SCENE = "two-edges-clamped"
 
 
 @pytest.fixture
-def strip() -> Scene:
+def strip():
     """A sheet 4672 times as long as wide."""
     scene = scenes.load("one-edge-clamped")
     sheet = scene.sheet.model_copy(update={"length_x": 0.01, "length_y": 46.72, "thickness": 1e-4})
     return scene.model_copy(update={"sheet": sheet, "probes": {"tip": (0.0, 46.72)}})
 
 
-def room(monkeypatch: pytest.MonkeyPatch, amount: float | None) -> None:
+def room(monkeypatch, amount):
     monkeypatch.setattr(memory, "available", lambda: amount)
 
 
@@ -50,7 +48,7 @@ print(with_peak_memory(lambda: sb.solve("two-edges-clamped", model, **settings))
 """
 
 
-def test_peaks_are_within_a_factor_of_two_of_what_is_told() -> None:
+def test_peaks_are_within_a_factor_of_two_of_what_is_told():
     """In processes of their own, above what the code takes."""
     asked = {"lumped": {"grid": [33, 33, 2]}, "shell": {"elements": 20}}
     running = {
@@ -65,7 +63,7 @@ def test_peaks_are_within_a_factor_of_two_of_what_is_told() -> None:
         assert told is not None and 0.5 < told.memory / peak < 2.0
 
 
-def test_sizes_grow_with_every_count() -> None:
+def test_sizes_grow_with_every_count():
     for a, b in ((2, 3), (9, 17), (33, 65), (129, 257), (1000, 2000)):
         for small, large in (((a, 9, 2), (b, 9, 2)), ((9, a, 2), (9, b, 2)), ((9, 9, a), (9, 9, b))):
             one, other = lumped.footprint(small), lumped.footprint(large)
@@ -77,7 +75,7 @@ def test_sizes_grow_with_every_count() -> None:
     assert of_reference("solid", (8, 8), 1).memory < of_reference("solid", (8, 8), 2).memory
 
 
-def test_a_strip_is_banded_and_a_square_dissected() -> None:
+def test_a_strip_is_banded_and_a_square_dissected():
     """Of n × m nodes with n ≪ m: proportional to m, and never more than the band of the shorter side."""
     for n in (2, 5, 33):
         nonzeros, operations = factors((n, 10_000), 3)
@@ -91,7 +89,7 @@ def test_a_strip_is_banded_and_a_square_dissected() -> None:
     )
 
 
-def test_a_grid_of_six_gigabytes_needs_a_machine_that_has_them(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_grid_of_six_gigabytes_needs_a_machine_that_has_them(monkeypatch):
     scene, asked = scenes.load(SCENE), spec_of("lumped", {"grid": 257})
     room(monkeypatch, 16 * GB)
     sizes.require_room(scene, asked)
@@ -106,7 +104,7 @@ def test_a_grid_of_six_gigabytes_needs_a_machine_that_has_them(monkeypatch: pyte
         sizes.require_room(scene, spec_of("lumped", {"grid": fitting + 1}))
 
 
-def test_a_long_thin_sheet_is_refused_with_what_fits(strip: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_long_thin_sheet_is_refused_with_what_fits(strip, monkeypatch):
     """Four elements across are 75 000 in all."""
     room(monkeypatch, 4 * GB)
     with pytest.raises(BadInput, match=r"shell 4x18688: .* --elements 2 would fit"):
@@ -118,7 +116,7 @@ def test_a_long_thin_sheet_is_refused_with_what_fits(strip: Scene, monkeypatch: 
         sb.advise(strip)
 
 
-def test_half_a_sheet_takes_half(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_half_a_sheet_takes_half(monkeypatch):
     scene = scenes.load("one-edge-clamped")
     for model, settings in (("lumped", {"grid": 129}), ("shell", {"elements": 64})):
         whole, part = (sizes.size(scene, spec_of(model, settings | s)) for s in ({}, {"symmetry": True}))
@@ -126,9 +124,7 @@ def test_half_a_sheet_takes_half(monkeypatch: pytest.MonkeyPatch) -> None:
         assert 0.4 < part.memory / whole.memory < 0.6
 
 
-def test_every_candidate_is_looked_at_before_the_first_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_every_candidate_is_looked_at_before_the_first_run(tmp_path, monkeypatch):
     room(monkeypatch, 3 * GB)
     scene = scenes.load(SCENE)
     listed = [spec_of("lumped", {"grid": 3}), spec_of("solid", {"elements": 64})]
@@ -169,7 +165,7 @@ VERBS = {
 
 
 @pytest.fixture
-def arguments(verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def arguments(verb, tmp_path, monkeypatch):
     """Those of the verb, where next to nothing is free."""
     room(monkeypatch, 1000.0)
     measured = tmp_path / "measured.csv"
@@ -178,22 +174,18 @@ def arguments(verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> lis
 
 
 @pytest.mark.parametrize("verb", VERBS)
-def test_every_verb_refuses_what_does_not_fit(
-    verb: str, arguments: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_every_verb_refuses_what_does_not_fit(verb, arguments, capsys):
     assert run(verb.partition(" ")[0], *arguments) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert "of memory, and 0.001 MB are free here" in said and "--large" in said
 
 
 @pytest.mark.parametrize("verb", ["compare", "compare motions", "identify", "modes", "simulate"])
-def test_large_goes_on_all_the_same(
-    verb: str, arguments: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_large_goes_on_all_the_same(verb, arguments, capsys):
     assert json_of(capsys, verb.partition(" ")[0], *arguments, "--large")
 
 
-def written(root: Path, files: dict[str, str]) -> None:
+def written(root, files):
     for name, text in files.items():
         path = root / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -219,9 +211,7 @@ FIRST = {
 
 
 @pytest.mark.parametrize(("files", "left"), [({}, 4096 * 10**6), (SECOND, 10**9), (FIRST, 15 * 10**8)])
-def test_what_is_free_is_the_least_that_anything_leaves(
-    files: dict[str, str], left: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_is_free_is_the_least_that_anything_leaves(files, left, tmp_path, monkeypatch):
     """The machine, and control groups with their parents; pages of files are given back."""
     written(tmp_path, FREE | files)
     monkeypatch.setattr(memory, "ROOT", tmp_path)
@@ -233,18 +223,16 @@ def test_what_is_free_is_the_least_that_anything_leaves(
     assert memory.available() == 300_000_000 - 102_400_000
 
 
-def test_without_any_word_of_memory_nothing_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_any_word_of_memory_nothing_is_refused(monkeypatch):
     room(monkeypatch, None)
     sizes.require_room(scenes.load(SCENE), spec_of("lumped", {"grid": 5000}))
 
 
-def test_amounts_as_people_say_them() -> None:
+def test_amounts_as_people_say_them():
     assert [amounts.memory(x) for x in (5.4e9, 269e9, 8e6, 2.5e12)] == ["5.4 GB", "269 GB", "8 MB", "2.5 TB"]
 
 
-def test_an_export_too_large_for_the_memory_is_refused_before_its_first_array(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_export_too_large_for_the_memory_is_refused_before_its_first_array(tmp_path, capsys):
     wanted = ("--grid", "100000", "--method", "uniform", "--export", str(tmp_path / "out"))
     assert run("calibrate", "two-edges-clamped", *wanted) == 2
     said = capsys.readouterr().err

@@ -16,7 +16,7 @@ from sheetbench.files import only_writer, require_file, whole, writing
 from sheetbench.scenes import BadInput
 
 
-def test_a_file_is_whole_or_as_it_was(tmp_path: Path) -> None:
+def test_a_file_is_whole_or_as_it_was(tmp_path):
     path = tmp_path / "file.txt"
     path.write_text("before")
     with pytest.raises(ZeroDivisionError), whole(path) as partial:
@@ -29,7 +29,7 @@ def test_a_file_is_whole_or_as_it_was(tmp_path: Path) -> None:
     assert [found.name for found in tmp_path.iterdir()] == ["file.txt"]
 
 
-def stand(path: Path, kind: str) -> None:
+def stand(path, kind):
     """Put something that is no regular file in a file's place."""
     if kind == "link":
         path.symlink_to(path.with_name("victim"))
@@ -40,7 +40,7 @@ def stand(path: Path, kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", ["link", "folder", "pipe"])
-def test_what_is_no_regular_file_is_neither_replaced_nor_followed(tmp_path: Path, kind: str) -> None:
+def test_what_is_no_regular_file_is_neither_replaced_nor_followed(tmp_path, kind):
     path, victim = tmp_path / "file.txt", tmp_path / "victim"
     victim.write_text("mine")
     stand(path, kind)
@@ -53,7 +53,7 @@ def test_what_is_no_regular_file_is_neither_replaced_nor_followed(tmp_path: Path
         require_file(Path(os.devnull))
 
 
-def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path: Path) -> None:
+def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path):
     victim = tmp_path / "victim"
     victim.write_text("mine")
     (tmp_path / f".file.{os.getpid()}.partial.txt").symlink_to(victim)
@@ -68,9 +68,7 @@ def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path: Path)
     [("report", "{folder}", "--out", "{file}"), ("new", "{file}", "--overwrite")],
     ids=lambda asked: asked[0],
 )
-def test_verbs_that_write_one_file_replace_no_other_kind(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], asked: tuple[str, ...], kind: str
-) -> None:
+def test_verbs_that_write_one_file_replace_no_other_kind(tmp_path, capsys, asked, kind):
     studies, path = tmp_path / "studies", tmp_path / "pages" / "page.toml"
     Folder(studies, "modes", ["sheetbench", "modes"]).report(Report("modes", "t", {}))
     path.parent.mkdir()
@@ -81,7 +79,7 @@ def test_verbs_that_write_one_file_replace_no_other_kind(
     assert path.lstat() == before and [found.name for found in path.parent.iterdir()] == ["page.toml"]
 
 
-def test_what_killed_writers_left_is_cleared_and_what_living_ones_write_is_not(tmp_path: Path) -> None:
+def test_what_killed_writers_left_is_cleared_and_what_living_ones_write_is_not(tmp_path):
     dead = subprocess.Popen([sys.executable, "-c", ""])
     dead.wait()
     left = tmp_path / f".file.{dead.pid}.partial.txt"
@@ -108,19 +106,19 @@ def test_what_killed_writers_left_is_cleared_and_what_living_ones_write_is_not(t
         (errno.EACCES, "permission denied: make it writable"),
     ],
 )
-def test_what_stands_in_the_way_is_said_with_the_remedy(tmp_path: Path, number: int, said: str) -> None:
+def test_what_stands_in_the_way_is_said_with_the_remedy(tmp_path, number, said):
     path = tmp_path / "file.txt"
     with pytest.raises(BadInput, match=f"{path}: cannot be written, {said}"), whole(path):
         raise OSError(number, os.strerror(number))
     assert not list(tmp_path.iterdir())
 
 
-def test_a_fault_elsewhere_is_not_laid_at_the_files_door(tmp_path: Path) -> None:
+def test_a_fault_elsewhere_is_not_laid_at_the_files_door(tmp_path):
     with pytest.raises(FileNotFoundError, match="font"), writing(tmp_path / "file.txt"):
         Path("/nowhere/font.ttf").read_bytes()
 
 
-def test_a_folder_has_one_writer_until_that_ends_or_dies(tmp_path: Path) -> None:
+def test_a_folder_has_one_writer_until_that_ends_or_dies(tmp_path):
     refused = pytest.raises(BadInput, match=f"{tmp_path}: another process writes here")
     with only_writer(tmp_path), refused, only_writer(tmp_path):
         pass
@@ -133,7 +131,7 @@ def test_a_folder_has_one_writer_until_that_ends_or_dies(tmp_path: Path) -> None
         pass
 
 
-def test_a_folder_that_cannot_be_had_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_cannot_be_had_is_refused(tmp_path, monkeypatch):
     (tmp_path / "link").symlink_to(tmp_path / "nothing")
     with pytest.raises(BadInput, match="a link to nothing stands there"):
         folder(tmp_path / "link")
@@ -148,7 +146,7 @@ def test_a_folder_that_cannot_be_had_is_refused(tmp_path: Path, monkeypatch: pyt
         folder(tmp_path)
 
 
-def test_overwriting_removes_runs_that_stream_to_folders_in_a_folder(tmp_path: Path) -> None:
+def test_overwriting_removes_runs_that_stream_to_folders_in_a_folder(tmp_path):
     victim = tmp_path / "victim"
     victim.mkdir()
     (victim / "mine.csv").touch()

@@ -10,14 +10,14 @@ from sheetbench import scenes
 from sheetbench.scenes import Scene
 
 
-def test_the_layer_is_found_by_small_elements_and_missed_by_large_ones() -> None:
+def test_the_layer_is_found_by_small_elements_and_missed_by_large_ones():
     assert captured(np.full(60, 0.2)) == pytest.approx(1.0, abs=1e-5)
     for length in (100.0, 1000.0):  # the mass alone, of elements of one length
         assert captured(np.full(20, length)) == pytest.approx(6.0 * 2.0**0.5 / length, rel=15.0 / length)
     assert np.all(np.diff([captured(np.full(20, t)) for t in (0.5, 1.0, 2.0, 4.0, 8.0)]) < 0.0)
 
 
-def hinged(thickness: float) -> Scene:
+def hinged(thickness):
     return Scene.model_validate(
         {
             "name": "hinged",
@@ -30,7 +30,7 @@ def hinged(thickness: float) -> Scene:
 
 
 @pytest.mark.parametrize(("thickness", "elements"), [(0.003, 12), (0.006, 12), (0.012, 8), (0.025, 8)])
-def test_hinged_plates_are_too_stiff_by_two_thirds_of_what_is_missed(thickness: float, elements: int) -> None:
+def test_hinged_plates_are_too_stiff_by_two_thirds_of_what_is_missed(thickness, elements):
     scene, middle = hinged(thickness), np.array([[0.5, 0.5]])
     truth, coarse = (
         fem_reference.solve(scene, "plate", elements=n).displacement(middle)[0, 2] for n in (40, elements)
@@ -39,7 +39,7 @@ def test_hinged_plates_are_too_stiff_by_two_thirds_of_what_is_missed(thickness: 
     assert 1.0 - coarse / truth == pytest.approx(0.63 * lost, rel=0.15)
 
 
-def test_clamps_have_no_such_layer_and_even_meshes_miss_more() -> None:
+def test_clamps_have_no_such_layer_and_even_meshes_miss_more():
     clamped = scenes.load("two-edges-clamped").model_copy(update={"supports": ()})
     held = Scene.model_validate(
         {**clamped.document(), "support": [{"kind": "clamped", "edge": e} for e in ("x0", "x1", "y0", "y1")]}
@@ -52,7 +52,7 @@ def test_clamps_have_no_such_layer_and_even_meshes_miss_more() -> None:
     assert even == missed_by(scene, {"elements": 8, "grading": "uniform"})
 
 
-def test_bricks_miss_a_layer_where_stiffness_steps() -> None:
+def test_bricks_miss_a_layer_where_stiffness_steps():
     """CalculiX on `ray-fin` is 1.4, 1.0 and 0.7 % off the shell with 6, 8 and 12 across: first order."""
     scene, bricks = scenes.load("ray-fin"), {"elements": [24, 12], "grading": "edges"}
     plain = scene.replace(patches=())

@@ -7,10 +7,10 @@ from rod_cases import driven, shell
 
 import fem_reference
 import lumped
-from sheetbench.scenes import EdgeMotion, Gravity, Solution, Status
+from sheetbench.scenes import EdgeMotion, Gravity, Status
 
 
-def motion(displacement: tuple, rotation: tuple, edge: str = "x1") -> EdgeMotion:
+def motion(displacement, rotation, edge="x1"):
     still = (0.0, 0.0, 0.0)
     return EdgeMotion(
         kind="motion",
@@ -22,7 +22,7 @@ def motion(displacement: tuple, rotation: tuple, edge: str = "x1") -> EdgeMotion
 
 
 @pytest.mark.parametrize(("model", "scale"), [("shell", 1.0), ("solid", 1.0), ("plate", 1e-4)])
-def test_an_edge_moved_rigidly_takes_a_free_sheet_with_it(model: str, scale: float) -> None:
+def test_an_edge_moved_rigidly_takes_a_free_sheet_with_it(model, scale):
     """Without strain; the plate by a small motion, in which nothing is longer to first order."""
     shift, turn = scale * np.array([0.01, -0.02, 0.03]), scale * np.array([0.5, -0.3, 0.2])
     moved = motion(tuple(shift), tuple(turn), "y1")
@@ -39,7 +39,7 @@ def test_an_edge_moved_rigidly_takes_a_free_sheet_with_it(model: str, scale: flo
     np.testing.assert_allclose(solution.displacement([[0.094, 0.188]])[0], shift, atol=1e-12)
 
 
-def lattice(scene: Solution) -> Solution:
+def lattice(scene):
     return lumped.solve(scene, lumped.calibrate(SHEET, RUBBER, grid=(17, 17), method="consistent"))
 
 
@@ -47,9 +47,7 @@ def lattice(scene: Solution) -> Solution:
     ("model", "scale", "within", "of_force"),
     [("lumped", 1.0, 5e-3, 0.03), ("plate", 1e-3, 3e-3, 5e-3), ("solid", 1.0, 3e-3, 0.02)],
 )
-def test_every_model_moves_it_as_the_shell_does(
-    model: str, scale: float, within: float, of_force: float
-) -> None:
+def test_every_model_moves_it_as_the_shell_does(model, scale, within, of_force):
     moved = motion((0.0, 1e-3 * scale, 0.01 * scale), (0.1 * scale, -0.1 * scale, 2e-3 * scale))
     scene = driven(moved, gravity=Gravity(acceleration=(0.0, 0.0, -9.81 * scale)))
     points = np.random.default_rng(0).uniform(0.0, 0.188, (50, 2))

@@ -11,14 +11,14 @@ import pytest
 import fem_reference
 import lumped
 from comparisons.comparison.branches import shape
-from sheetbench.scenes import Curved, Gravity, Material, Scene, Sheet, Solution, Status
+from sheetbench.scenes import Curved, Gravity, Material, Scene, Sheet, Status
 
 LIMIT, AT_LIMIT = 0.7645, -15.1e-3  # shares of the weight, and uz at P3 [m], by CalculiX
 SHARES = (0.0, 0.4, 0.65, 0.74, 0.995 * LIMIT, 1.005 * LIMIT)
 P3 = [(0.15, 0.075)]
 
 
-def bent(share: float) -> Scene:
+def bent(share):
     """With a share of the weight, by its density."""
     return Scene(
         name="bent", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
@@ -28,13 +28,13 @@ def bent(share: float) -> Scene:
     )  # fmt: skip
 
 
-def sag(found: Solution) -> float:
+def sag(found):
     assert found.status is Status.CONVERGED, found.message
     return float(found.displacement(P3)[0, 2])
 
 
 @pytest.mark.parametrize("elements", [12, pytest.param(16, marks=pytest.mark.slow)])
-def test_bent_first_the_shell_folds_at_the_weight_at_which_calculix_does(elements: int) -> None:
+def test_bent_first_the_shell_folds_at_the_weight_at_which_calculix_does(elements):
     """Measured: between 0.7656 and 0.7664 on 12 elements, 0.7648 and 0.7656 on 16, with −15.17 mm."""
     before, found, sags = bent(0.0), fem_reference.solve(bent(0.0), model="shell", elements=elements), []
     for share in SHARES[1:]:
@@ -50,7 +50,7 @@ def test_bent_first_the_shell_folds_at_the_weight_at_which_calculix_does(element
     assert folded < 2.0 * AT_LIMIT
 
 
-def test_bent_first_the_lattice_folds_there_as_its_cells_shrink() -> None:
+def test_bent_first_the_lattice_folds_there_as_its_cells_shrink():
     """Measured: 0.888 on 9 masses a side, 0.797 on 17, 0.780 on 25, 0.773 on 33."""
     for masses, below, above in ((9, 0.87, 0.91), (17, 0.785, 0.81)):
         scene = bent(0.0)

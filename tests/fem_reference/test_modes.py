@@ -12,12 +12,12 @@ NAFEMS = Sheet(length_x=10.0, length_y=10.0, thickness=0.05)
 THIN = Sheet(length_x=1.0, length_y=1.0, thickness=1e-3)
 
 
-def clamped(sheet: Sheet, *edges: str, material: Material = STEEL) -> Scene:
+def clamped(sheet, *edges, material=STEEL):
     supports = [{"edge": edge, "kind": "clamped"} for edge in edges]
     return Scene(name="modes", sheet=sheet, material=material, supports=supports)
 
 
-def factor(scene: Scene) -> float:
+def factor(scene):
     """Turns Hz into ω a² √(ρh/D)."""
     sheet, material = scene.sheet, scene.material
     bending = material.young * sheet.thickness**3 / (12 * (1 - material.poisson**2))

@@ -10,44 +10,31 @@ from numpy.testing import assert_allclose
 import fem_reference
 import lumped
 from sheetbench import scenes
-from sheetbench.scenes import (
-    Chain,
-    Clamped,
-    Curved,
-    EdgeMotion,
-    Held,
-    Hinged,
-    Scene,
-    Solution,
-    Status,
-    Symmetric,
-)
+from sheetbench.scenes import Chain, Clamped, Curved, EdgeMotion, Held, Hinged, Scene, Status, Symmetric
 from sheetbench.scenes.supports import Motion
 
 WEIGHT = 9.81 * 1200.0 * 0.005 * 0.2 * 0.1
 CORNER = (0.2, 0.0)
 
 
-def motion(edge="x1", displacement=(0.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.0)) -> EdgeMotion:
+def motion(edge="x1", displacement=(0.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.0)):
     """At its last pose from t = 0 on."""
     moved = {"displacement": (displacement,), "rotation": (rotation,)}
     return EdgeMotion(kind="motion", edge=edge, time=(0.0,), **moved)
 
 
-def chain(**changes) -> Chain:
+def chain(**changes):
     data = dict(edge="y0", segments=8, bending_stiffness=0.02, line_density=0.05, radius=2e-3)
     return Chain(**{**data, **changes})
 
 
-def scene(supports, *actuators, gravity=GRAVITY) -> Scene:
+def scene(supports, *actuators, gravity=GRAVITY):
     return Scene(
         name="corner", sheet=OBLONG, material=SILICONE, gravity=gravity, support=supports, actuator=actuators
     )
 
 
-def solve(
-    asked: Scene, model: str, elements: tuple[int, int] = (12, 6), grid: tuple[int, int] = (21, 11)
-) -> Solution:
+def solve(asked, model, elements=(12, 6), grid=(21, 11)):
     if model == "lumped":
         found = lumped.solve(asked, lumped.calibrate(OBLONG, SILICONE, grid))
     else:
@@ -70,14 +57,14 @@ COMPATIBLE = {
 
 
 @cache
-def answer(name: str, model: str) -> Solution:
+def answer(name, model):
     """Of a compatible case: what several tests look at."""
     supports, *actuators = COMPATIBLE[name]
     return solve(scene(supports, *actuators), model)
 
 
 @pytest.mark.parametrize("name", COMPATIBLE)
-def test_models_agree_where_both_can_be_obeyed(name: str) -> None:
+def test_models_agree_where_both_can_be_obeyed(name):
     """Within 1 % of the largest displacement; the moved edge is where it was put, corners included."""
     _, *actuators = COMPATIBLE[name]
     points = np.random.default_rng(3).uniform(0.0, 1.0, (60, 2)) * OBLONG.lengths
@@ -92,7 +79,7 @@ def test_models_agree_where_both_can_be_obeyed(name: str) -> None:
 
 @pytest.mark.parametrize("name", COMPATIBLE)
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
-def test_a_corner_counts_to_the_motion_alone(name: str, model: str) -> None:
+def test_a_corner_counts_to_the_motion_alone(name, model):
     """Reactions of the supports and the actuators' forces carry the sheet's weight, none counted twice."""
     supports, *_ = COMPATIBLE[name]
     found = answer(name, model)
@@ -103,7 +90,7 @@ def test_a_corner_counts_to_the_motion_alone(name: str, model: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["hinged, turned about its own line", "symmetric, lifted"])
-def test_the_plate_is_their_limit_of_small_motions(name: str) -> None:
+def test_the_plate_is_their_limit_of_small_motions(name):
     supports, one = COMPATIBLE[name]
     small = motion(
         displacement=tuple(1e-4 * np.array(one.displacement[0])),
@@ -119,7 +106,7 @@ def test_the_plate_is_their_limit_of_small_motions(name: str) -> None:
 
 
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
-def test_a_chain_goes_where_the_corner_goes_in_whatever_order(model: str) -> None:
+def test_a_chain_goes_where_the_corner_goes_in_whatever_order(model):
     bound, moved = chain(curvature=2.0), motion(displacement=LIFT)
     first, second = (
         solve(scene((CLAMP,), *both), model, (4, 2), (9, 5)) for both in ((bound, moved), (moved, bound))
@@ -133,7 +120,7 @@ def test_a_chain_goes_where_the_corner_goes_in_whatever_order(model: str) -> Non
     )
 
 
-def test_wrenches_are_about_the_middle_of_the_moved_edge() -> None:
+def test_wrenches_are_about_the_middle_of_the_moved_edge():
     """Where the middle is now: a free sheet hung from an edge turned by a quarter has no moment about it.
 
     A balance, which holds on any mesh.
@@ -163,12 +150,12 @@ def test_wrenches_are_about_the_middle_of_the_moved_edge() -> None:
         ((), [chain(edge="x0", base="start"), motion("y0", rotation=(0.1, 0, 0))], "base.*chain.*x0"),
     ],
 )
-def test_what_cannot_both_be_obeyed_is_refused(supports, actuators, said: str) -> None:
+def test_what_cannot_both_be_obeyed_is_refused(supports, actuators, said):
     with pytest.raises(ValueError, match=said):
         scene(supports, *actuators)
 
 
-def test_a_motion_is_looked_at_all_the_time() -> None:
+def test_a_motion_is_looked_at_all_the_time():
     """Back at rest in the end, or a full turn between two samples: what happens meanwhile counts."""
     there_and_back = {"time": (0.0, 1.0, 2.0), "displacement": ((0, 0, 0), LIFT, (0, 0, 0))}
     a_turn = {"time": (0.0, 1.0), "rotation": ((0, 0, 0), (2.0 * np.pi, 0, 0))}
@@ -177,7 +164,7 @@ def test_a_motion_is_looked_at_all_the_time() -> None:
             scene((CLAMP, Hinged(edge="y0")), EdgeMotion(kind="motion", edge="x1", **table))
 
 
-def test_a_turn_about_the_corner_itself() -> None:
+def test_a_turn_about_the_corner_itself():
     """Obeys the hinge as a pose; on the way there the straight line between two samples does not."""
     arm = np.array([0.0, -0.05])
     turned = np.array([[np.cos(0.4), -np.sin(0.4)], [np.sin(0.4), np.cos(0.4)]]) @ arm
@@ -188,7 +175,7 @@ def test_a_turn_about_the_corner_itself() -> None:
         scene((Hinged(edge="y0"),), EdgeMotion(kind="motion", edge="x1", **table))
 
 
-def test_a_support_that_moves_counts_at_all_times_and_in_statics_where_it_ends() -> None:
+def test_a_support_that_moves_counts_at_all_times_and_in_statics_where_it_ends():
     table = {"time": (0.0, 1.0, 2.0), "displacement": ((0, 0, 0), LIFT, (0, 0, 0))}
     moving = Clamped(edge="y0", motion=Motion(**table))
     asked = scene((moving,), EdgeMotion(kind="motion", edge="x1", **table), gravity=None)
@@ -205,7 +192,7 @@ def test_a_support_that_moves_counts_at_all_times_and_in_statics_where_it_ends()
     assert_allclose(u, [LIFT, LIFT], atol=1e-12)
 
 
-def test_supports_that_move_their_corner_apart_are_refused() -> None:
+def test_supports_that_move_their_corner_apart_are_refused():
     table = Motion(time=(0.0, 1.0), displacement=((0, 0, 0), LIFT))
     with pytest.raises(
         ValueError, match=r"edge x0 and the clamped support on edge y0 .* z by 0.01 m at t = 1"
@@ -216,7 +203,7 @@ def test_supports_that_move_their_corner_apart_are_refused() -> None:
     scene((CLAMP, Held(edge="y0", components=("z",), motion=sideways)))  # along x it holds nothing
 
 
-def test_in_dynamics_too_the_corner_follows_the_motion() -> None:
+def test_in_dynamics_too_the_corner_follows_the_motion():
     table = {"time": (0.0, 0.02), "displacement": ((0.0, 0.0, 0.0), PULL)}
     asked = scene((CLAMP, Held(edge="y0", components=("z",))), EdgeMotion(kind="motion", edge="x1", **table))
     asked = asked.model_copy(update={"probes": {"corner": CORNER, "far": (0.2, 0.1)}})
@@ -226,7 +213,7 @@ def test_in_dynamics_too_the_corner_follows_the_motion() -> None:
         assert_allclose(place[:, 1:], 0.0, atol=1e-12)
 
 
-def test_a_tilt_that_a_motion_forbids_is_not_sought() -> None:
+def test_a_tilt_that_a_motion_forbids_is_not_sought():
     from comparisons.identification.unknowns import BadInput, unknown
 
     asked = scene((Clamped(edge="y0"),), motion())

@@ -18,13 +18,13 @@ POINTS = np.array([(0.05, 0.02), (0.1, 0.0), (0.02, 0.04)])
 MODELS = ["lumped", "plate", "shell", "solid"]
 
 
-def scene(*supports, actuators=(), gravity=WEIGHT) -> Scene:
+def scene(*supports, actuators=(), gravity=WEIGHT):
     return Scene(
         name="moved", sheet=SHEET, material=RUBBER, gravity=gravity, supports=supports, actuators=actuators
     )
 
 
-def solve(asked: Scene, model: str):
+def solve(asked, model):
     if model == "lumped":
         springs = lumped.calibrate(SHEET, RUBBER, grid=(11, 5), method="consistent")
         found = lumped.solve(asked, springs)
@@ -35,7 +35,7 @@ def solve(asked: Scene, model: str):
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_a_clamp_that_moves_is_an_edge_moved_rigidly(model) -> None:
+def test_a_clamp_that_moves_is_an_edge_moved_rigidly(model):
     still = Clamped(edge="x0")
     moved = solve(scene(still, Clamped(edge="x1", motion=Motion(**COURSE))), model)
     edge = EdgeMotion(kind="motion", edge="x1", **COURSE)
@@ -46,7 +46,7 @@ def test_a_clamp_that_moves_is_an_edge_moved_rigidly(model) -> None:
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_sheets_and_all_their_supports_move_as_one(model) -> None:
+def test_sheets_and_all_their_supports_move_as_one(model):
     """The held edge moves in z alone, which is all that it holds: a translation strains nothing."""
     along = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.003, 0.0, 0.004)))
     free_along = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.5, 0.5, 0.004)))
@@ -58,7 +58,7 @@ def test_sheets_and_all_their_supports_move_as_one(model) -> None:
     assert_allclose(moved.displacement(POINTS), expected, atol=1e-8)
 
 
-def test_a_run_that_settles_ends_where_statics_are() -> None:
+def test_a_run_that_settles_ends_where_statics_are():
     """The hinge's corner masses, held by a clamp that moves alike, are moved once."""
     rise = Motion(time=(0.0, 0.05), displacement=((0.0, 0.0, 0.0), LIFT))
     damped = RUBBER.replace(damping_time=0.02)

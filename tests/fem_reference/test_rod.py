@@ -27,7 +27,7 @@ from sheetbench.scenes import Gravity, Scene, Status
         *(("solid", {"elements": 4, "layers": n}) for n in (1, 2)),
     ],
 )
-def test_a_stiff_rod_held_at_its_middle_is_the_curved_support(model: str, options: dict, name: str) -> None:
+def test_a_stiff_rod_held_at_its_middle_is_the_curved_support(model, options, name):
     rigid = scenes.load(name)
     curvature = rigid.supports[0].curvature
     stiff = chain(edge="x0", bending_stiffness=1e3, line_density=1e-6, curvature=curvature, base="middle")
@@ -41,7 +41,7 @@ def test_a_stiff_rod_held_at_its_middle_is_the_curved_support(model: str, option
 
 
 @pytest.mark.parametrize("load", [1.0, 5.0, 20.0])
-def test_a_rod_under_its_own_weight_is_the_heavy_elastica(load: float) -> None:
+def test_a_rod_under_its_own_weight_is_the_heavy_elastica(load):
     scene = alone(Gravity(acceleration=(0.0, 0.0, -load)), base="start")
     tip = shell(scene, (1, 16)).displacement([[0.0, 1.0]])[0]
     assert [-tip[2], -tip[1]] == pytest.approx(heavy_elastica.PUBLISHED[load], rel=2e-3)
@@ -49,7 +49,7 @@ def test_a_rod_under_its_own_weight_is_the_heavy_elastica(load: float) -> None:
 
 @pytest.mark.parametrize("plane", ["normal", "spatial", "inplane"])
 @pytest.mark.parametrize("curvature", [1.0, 2 * np.pi, -3.0])
-def test_intrinsic_curvature_bends_a_free_rod_into_an_arc(plane: str, curvature: float) -> None:
+def test_intrinsic_curvature_bends_a_free_rod_into_an_arc(plane, curvature):
     """Ends go up ("normal", "spatial") or outwards; in the plane the floppy strip wrinkles, which is said."""
     solution = shell(alone(curvature=curvature, plane=plane), (1, 16))
     assert solution.load_factor == 1.0
@@ -64,13 +64,13 @@ def test_intrinsic_curvature_bends_a_free_rod_into_an_arc(plane: str, curvature:
 
 
 @pytest.mark.parametrize("name", ["normal", "spatial", "inplane"])
-def test_a_sheet_with_a_rod_takes_few_more_factorisations_than_without(name: str) -> None:
+def test_a_sheet_with_a_rod_takes_few_more_factorisations_than_without(name):
     """Stresses of rods are extrapolated with the sheet's; without that a stiff rod takes a hundred."""
     bare, bent = (shell(driven(*rods), 4) for rods in ((), (chain(**CHAINS[name]),)))
     assert bent.status is Status.CONVERGED and bent.iterations <= 2 * bare.iterations
 
 
-def test_one_curvature_a_joint_and_a_table() -> None:
+def test_one_curvature_a_joint_and_a_table():
     """Straight, then an arc: 16 segments from the start have 16 joints, the first of half a segment."""
     joints = (0.0,) * 8 + (2.0,) * 8
     bounds, values = rod.pieces(alone(base="start", curvature=joints).actuators[0], 1.0)
@@ -88,7 +88,7 @@ def test_one_curvature_a_joint_and_a_table() -> None:
 
 
 @pytest.mark.parametrize(("base", "joints"), [("free", 5), ("start", 6), ("end", 6), ("middle", 6)])
-def test_pieces_cover_the_edge(base: str, joints: int) -> None:
+def test_pieces_cover_the_edge(base, joints):
     values = tuple(float(i) for i in range(joints))
     bounds, found = rod.pieces(chain(segments=6, base=base, curvature=values), 0.6)
     assert len(found) == joints and len(bounds) == joints + 1
@@ -96,7 +96,7 @@ def test_pieces_cover_the_edge(base: str, joints: int) -> None:
 
 
 @pytest.mark.parametrize("face", ["top", "bottom"])
-def test_a_rod_on_a_face_stretches_the_edge(face: str) -> None:
+def test_a_rod_on_a_face_stretches_the_edge(face):
     """Its axis keeps its length at the height c, so the edge lies on an arc of radius 1/κ + c."""
     thick, curvature = STRIP.model_copy(update={"thickness": 0.01}), 2.0
     height = (0.006 if face == "top" else -0.006) * 1.0
@@ -108,7 +108,7 @@ def test_a_rod_on_a_face_stretches_the_edge(face: str) -> None:
 
 
 @pytest.mark.parametrize("name", CHAINS)
-def test_agrees_with_a_chain_of_many_segments_on_a_fine_lattice(name: str) -> None:
+def test_agrees_with_a_chain_of_many_segments_on_a_fine_lattice(name):
     """Two derivations that share nothing; what is left is the lattice's and the chain's discretisation."""
     scene = driven(chain(**CHAINS[name]))
     reference = shell(scene, 12)
@@ -123,7 +123,7 @@ def test_agrees_with_a_chain_of_many_segments_on_a_fine_lattice(name: str) -> No
     np.testing.assert_allclose(force.sum(axis=0)[:3], expected.sum(axis=0)[:3], atol=1e-6)
 
 
-def test_forces_balance() -> None:
+def test_forces_balance():
     scene = driven(chain(curvature=4.0))
     solution = shell(scene)
     sheet, own = 1678.0 * 0.003 * 0.188**2 * 9.81, 0.05 * 0.188 * 9.81
@@ -137,7 +137,7 @@ def test_forces_balance() -> None:
     np.testing.assert_allclose(held.actuators["y0"].sum(axis=0)[:3], [0.0, 0.0, sheet], atol=1e-7)
 
 
-def test_a_pair_is_one_rod_on_the_mean_axis() -> None:
+def test_a_pair_is_one_rod_on_the_mean_axis():
     pair = driven(chain(face="top", curvature=6.0), chain(face="bottom", curvature=2.0))
     single = driven(chain(bending_stiffness=0.4, line_density=0.1, curvature=4.0))
     points = pair.probe_points()
@@ -148,7 +148,7 @@ def test_a_pair_is_one_rod_on_the_mean_axis() -> None:
     assert list(together.actuators) == ["x1.1", "x1.2"]
 
 
-def test_the_tangent_is_the_derivative_of_the_force() -> None:
+def test_the_tangent_is_the_derivative_of_the_force():
     """Along the spheres of both directors, with rods on two edges that share a corner."""
     scene = Scene(
         name="t", sheet=SHEET, material=RUBBER, gravity=GRAVITY, probes={"A": (0, 0)},
@@ -160,7 +160,7 @@ def test_the_tangent_is_the_derivative_of_the_force() -> None:
     rest = np.concatenate([np.tile(UP, (structure.count, 1)), structure.rods.own])
     directors = unit(rest + 0.3 * rng.uniform(-1.0, 1.0, rest.shape))
 
-    def state(positions: np.ndarray, directors: np.ndarray) -> State:
+    def state(positions, directors):
         change = directors - rest
         return State(np.array([positions, change[: structure.count]]), change[structure.count :])
 
@@ -170,7 +170,7 @@ def test_the_tangent_is_the_derivative_of_the_force() -> None:
     frames, number, turns = structure.frames(here), structure.number[:, :3], structure.turns
     step = np.random.default_rng(2).uniform(-1.0, 1.0, structure.unknowns)
 
-    def force(t: float) -> np.ndarray:
+    def force(t):
         turned = np.einsum("nck,nk->nc", frames, t * np.where(turns >= 0, step[turns], 0.0))
         now = unit(directors + turned)
         moved = positions + t * np.where(number >= 0, step[number], 0.0)
@@ -186,19 +186,19 @@ def test_the_tangent_is_the_derivative_of_the_force() -> None:
     np.testing.assert_allclose(matrix @ step, difference, rtol=1e-5, atol=1e-5 * np.abs(difference).max())
 
 
-def unit(vectors: np.ndarray) -> np.ndarray:
+def unit(vectors):
     """Of unit length."""
     return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
 
 
 @pytest.mark.parametrize("model", ["plate", "shell", "solid"])
-def test_modes_are_those_of_the_sheet_alone(model: str) -> None:
+def test_modes_are_those_of_the_sheet_alone(model):
     with_rod = fem_reference.modes(driven(chain()), model, 3, count=3)
     without = fem_reference.modes(driven(), model, 3, count=3)
     np.testing.assert_allclose(with_rod.frequencies, without.frequencies, rtol=1e-12)
 
 
-def test_segments_share_the_force_and_the_moment_about_their_middles() -> None:
+def test_segments_share_the_force_and_the_moment_about_their_middles():
     """On a straight edge, where products with the position are integrated exactly."""
     structure, nodes = discretise(rectangle(STRIP, (1, 4), graded=False), alone(segments=5))
     (only,) = structure.rods.rods
@@ -212,7 +212,7 @@ def test_segments_share_the_force_and_the_moment_about_their_middles() -> None:
     np.testing.assert_allclose(on_segments.sum(axis=0), on_nodes.sum(axis=0), atol=1e-12)
 
 
-def test_a_straight_rod_of_intrinsic_curvature_stores_what_straightening_takes() -> None:
+def test_a_straight_rod_of_intrinsic_curvature_stores_what_straightening_takes():
     """½ EI κ₀² L at full load, a quarter at half; EI and the length are 1."""
     structure, _ = discretise(rectangle(STRIP, (1, 4), graded=False), alone(curvature=2.0))
     assert structure.rod_energy(structure.rest()) == pytest.approx(2.0, rel=1e-9)
@@ -220,7 +220,7 @@ def test_a_straight_rod_of_intrinsic_curvature_stores_what_straightening_takes()
 
 
 @pytest.mark.parametrize(("edge", "across"), [("x1", (1.0, 0.0, 0.0)), ("y1", (0.0, 1.0, 0.0))])
-def test_a_rods_own_vectors_lie_in_the_sheet_across_its_edge(edge: str, across: tuple[float, ...]) -> None:
+def test_a_rods_own_vectors_lie_in_the_sheet_across_its_edge(edge, across):
     structure, _ = discretise(rectangle(SHEET, 2), driven(chain(edge=edge)))
     own = structure.rods.own
     assert len(own) == 5

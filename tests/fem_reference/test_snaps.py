@@ -5,31 +5,31 @@ import pytest
 from one_unknown import Spring
 
 from fem_reference.solving.equilibrium import SNAPS, trace
-from fem_reference.solving.path import Path, StepFailed
+from fem_reference.solving.path import StepFailed
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Status
 
 pytestmark = pytest.mark.smoke
 
 
-def humps(rise: float, symmetric: bool = True) -> Spring:
+def humps(rise, symmetric=True):
     """From every whole u the force rises by a quarter, then falls back."""
 
-    def force(u: float) -> float:
+    def force(u):
         part = u - np.floor(u)
         return rise * np.floor(u) + part - part**2
 
     return Spring(force, lambda u: 1.0 - 2.0 * (u - np.floor(u)), symmetric)
 
 
-def foothold(path: Path, load_factor: float, rise: float) -> float:
+def foothold(path, load_factor, rise):
     """u on the rising half of the next hump."""
     hump = np.floor(path.state) + 1.0
     path.factorisations += 1
     return float(hump + 0.5 - np.sqrt(0.25 - (load_factor - rise * hump)))
 
 
-def nothing(path: Path, load_factor: float) -> float:
+def nothing(path, load_factor):
     raise StepFailed(Status.STEP_LIMIT, "it creeps no further", 0.0)
 
 

@@ -32,26 +32,24 @@ NODES = np.concatenate([PLAN, PLAN[4:].mean(axis=0, keepdims=True)])[None]
 
 
 @pytest.fixture
-def rng() -> np.random.Generator:
+def rng():
     return np.random.default_rng(5)
 
 
-def slopes(function, at: np.ndarray, step: float = 1e-6) -> np.ndarray:
+def slopes(function, at, step=1e-6):
     """∂f/∂x by central differences, the last axis that of x (…, n)."""
     moves = step * np.eye(at.shape[-1])
     return np.stack([(function(at + m) - function(at - m)) / (2.0 * step) for m in moves], axis=-1)
 
 
-def test_every_model_has_the_laws_that_the_command_line_lists() -> None:
+def test_every_model_has_the_laws_that_the_command_line_lists():
     assert [*STRAIN_LAWS, *WORDS] == list(LAWS) == list(SOLID_LAWS)
     assert fem_reference.options("shell")["law"] == fem_reference.options("solid")["law"] == STRAIN_LAW
 
 
 @pytest.mark.parametrize("poisson", [-0.2, 0.0, 0.3, 0.49])
 @pytest.mark.parametrize("law", LAWS)
-def test_shell_laws_are_triads_with_hookes_law_at_small_strain(
-    law: str, poisson: float, rng: np.random.Generator
-) -> None:
+def test_shell_laws_are_triads_with_hookes_law_at_small_strain(law, poisson, rng):
     of, strain = material(law, poisson), rng.uniform(-0.1, 0.1, (4, 3))
     function = partial(LAWS[law].response, of)
     found = function(strain)
@@ -66,9 +64,7 @@ def test_shell_laws_are_triads_with_hookes_law_at_small_strain(
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_elements_through_the_thickness_are_energies_with_their_tangents(
-    law: str, rng: np.random.Generator
-) -> None:
+def test_elements_through_the_thickness_are_energies_with_their_tangents(law, rng):
     element = HyperelasticElement.of(NODES, material(law), 0.2, LAWS[law])
     strain = 0.05 * rng.normal(size=(1, 54))
     energy = lambda e: np.array([sum(element.energies(e).values())])  # noqa: E731
@@ -79,7 +75,7 @@ def test_elements_through_the_thickness_are_energies_with_their_tangents(
     assert slow.moduli(strain) == pytest.approx(slopes(slow.stress, strain), rel=1e-6, abs=1e-8)
 
 
-def test_the_same_integrals_with_st_venants_law_are_the_linear_element(rng: np.random.Generator) -> None:
+def test_the_same_integrals_with_st_venants_law_are_the_linear_element(rng):
     linear = Element.build(NODES, section_of(material(STRAIN_LAW), 0.2))
     through = HyperelasticElement.of(NODES, material(STRAIN_LAW), 0.2, LAWS[STRAIN_LAW])
     strain = rng.normal(size=(1, 54))
@@ -88,14 +84,14 @@ def test_the_same_integrals_with_st_venants_law_are_the_linear_element(rng: np.r
     assert through.energies(strain) == pytest.approx(linear.energies(strain), rel=1e-11)
 
 
-def test_strips_stretch_as_closed_forms_say_one_way_and_both_ways() -> None:
+def test_strips_stretch_as_closed_forms_say_one_way_and_both_ways():
     rows = list(rows_of(["strain-laws"]))
     assert len(rows) == 2 * len(STRAIN_LAWS) * len(WAYS) * len(STRAINS)
     assert all(row.passed and row.source == EXACT for row in rows)
     assert {row.case for row in rows} == {"strain-laws"}
 
 
-def test_rubbers_stretch_to_twice_their_length_as_closed_forms_say() -> None:
+def test_rubbers_stretch_to_twice_their_length_as_closed_forms_say():
     rows = list(rows_of(["rubber"]))
     assert len(rows) == 2 * len(RUBBERS) * 3 * len(LARGE) and len(RUBBERS) == 1 + len(WORDS)
     assert all(row.passed for row in rows), [row for row in rows if not row.passed]
@@ -103,7 +99,7 @@ def test_rubbers_stretch_to_twice_their_length_as_closed_forms_say() -> None:
 
 @pytest.mark.parametrize("model", ["shell", "solid"])
 @pytest.mark.parametrize("rubber", RUBBERS, ids=lambda rubber: rubber.law)
-def test_a_scenes_rubber_is_pulled_to_twice_its_length(rubber: Material, model: str) -> None:
+def test_a_scenes_rubber_is_pulled_to_twice_its_length(rubber, model):
     """The material's law without being asked for, and no word of strains outside the model."""
     pull = stress(rubber.law, "one way", 1.0, rubber) * rubber.young * 0.01
     scene = pulled((pull, 0.0), material=rubber)
@@ -113,7 +109,7 @@ def test_a_scenes_rubber_is_pulled_to_twice_its_length(rubber: Material, model: 
     assert moved == pytest.approx(scene.sheet.length_x, rel=1e-6)
 
 
-def test_a_law_without_its_constants_is_refused_with_what_to_write() -> None:
+def test_a_law_without_its_constants_is_refused_with_what_to_write():
     for model in ("shell", "solid"):
         with pytest.raises(BadInput, match=r"'gent'.*no constants.*\[material\] law = 'gent' with shear and"):
             fem_reference.solve(pulled((1.0, 0.0)), model, elements=2, law="gent")
@@ -121,7 +117,7 @@ def test_a_law_without_its_constants_is_refused_with_what_to_write() -> None:
 
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("poisson", [0.0, 0.3, 0.45])
-def test_forces_begin_with_hookes_law_and_bend_as_said(law: str, poisson: float) -> None:
+def test_forces_begin_with_hookes_law_and_bend_as_said(law, poisson):
     of = material(law, poisson)
     for strain in (1e-3, 1e-2):
         begins = strain * (1.0 + curving(law, of) * strain)
@@ -130,7 +126,7 @@ def test_forces_begin_with_hookes_law_and_bend_as_said(law: str, poisson: float)
 
 @pytest.mark.parametrize("model", ["shell", "solid"])
 @pytest.mark.parametrize("law", LAWS)
-def test_a_patch_of_uneven_elements_is_stretched_evenly(model: str, law: str) -> None:
+def test_a_patch_of_uneven_elements_is_stretched_evenly(model, law):
     even = {"graded": True} if model == "shell" else {"grading": "edges"}
     scene = pulled((1000.0, 300.0), material=material(law, young=1e6))
     points = np.random.default_rng(1).uniform(0.0, 1.0, (9, 2)) * scene.sheet.lengths
@@ -141,7 +137,7 @@ def test_a_patch_of_uneven_elements_is_stretched_evenly(model: str, law: str) ->
     assert solution.displacement(points)[:, :2] == pytest.approx(expected, rel=1e-7, abs=1e-12)
 
 
-def bent(length: float = 0.2) -> Scene:
+def bent(length=0.2):
     """A clamped strip that bends far under its weight."""
     return Scene.model_validate(
         {
@@ -154,7 +150,7 @@ def bent(length: float = 0.2) -> Scene:
     )
 
 
-def test_large_rotations_at_small_strain_know_no_law() -> None:
+def test_large_rotations_at_small_strain_know_no_law():
     scene = bent()
     tips = {
         law: fem_reference.solve(scene, "shell", elements=3, law=law).displacement(scene.probe_points())
@@ -168,9 +164,7 @@ def test_large_rotations_at_small_strain_know_no_law() -> None:
 
 @pytest.mark.parametrize("calibration", ["consistent", "consistent-interior"])
 @pytest.mark.parametrize("strain", [0.01, 0.03, 0.1])
-def test_what_a_lattice_and_each_law_differ_by_is_told_before_they_are_compared(
-    strain: float, calibration: str
-) -> None:
+def test_what_a_lattice_and_each_law_differ_by_is_told_before_they_are_compared(strain, calibration):
     """From 1 to 10 % stretch, once the grid's own error at small strain (none here) is known."""
     sheet, rubber = Sheet(length_x=0.1, length_y=0.1, thickness=0.005), Material(1e6, 0.3, 1000.0)
     scene = pulled((strain * rubber.young * sheet.thickness, 0.0), sheet, rubber)
@@ -185,7 +179,7 @@ def test_what_a_lattice_and_each_law_differ_by_is_told_before_they_are_compared(
         assert off == pytest.approx(told, abs=5.0 * strain**2)
 
 
-def test_links_along_a_square_lattices_sides_and_diagonals_bend_as_derived() -> None:
+def test_links_along_a_square_lattices_sides_and_diagonals_bend_as_derived():
     """c = ⅜ (1 − ν²) of a thin sheet's links at ν = ⅓, where there are no area springs."""
     sheet, third = Sheet(length_x=0.1, length_y=0.1, thickness=1e-4), Material(1e6, 1.0 / 3.0, 1000.0)
     scene = pulled((1.0, 0.0), sheet, third)
@@ -193,7 +187,7 @@ def test_links_along_a_square_lattices_sides_and_diagonals_bend_as_derived() -> 
     assert found == pytest.approx(1.0 / 3.0, rel=0.1)
 
 
-def test_a_lattice_has_its_law_whatever_is_cut_from_its_sheet() -> None:
+def test_a_lattice_has_its_law_whatever_is_cut_from_its_sheet():
     sheet = Sheet(length_x=0.1, length_y=0.1, thickness=0.005)
     fin = sheet.replace(outline=[(0.0, 0.0), (0.1, 0.03), (0.1, 0.07), (0.0, 0.1)])  # edge y0 is a point
     whole = pulled((1.0, 0.0), sheet)
@@ -202,7 +196,7 @@ def test_a_lattice_has_its_law_whatever_is_cut_from_its_sheet() -> None:
     assert c == pytest.approx(own, rel=1e-6)
 
 
-def test_compare_says_what_is_due_to_laws_of_strain() -> None:
+def test_compare_says_what_is_due_to_laws_of_strain():
     scene = pulled((200.0, 0.0))
     found = compare(scene, grid=5, calibration="consistent", elements=4)
     assert "% stretch" in found.laws and "(st-venant-kirchhoff)" in found.laws and "up to" in found.laws
@@ -210,7 +204,7 @@ def test_compare_says_what_is_due_to_laws_of_strain() -> None:
     assert not compare(bent(0.05), grid=5, calibration="consistent", elements=4).laws
 
 
-def test_the_law_is_an_option_of_the_reference(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_law_is_an_option_of_the_reference(capsys):
     asked = ["compare", "one-edge-clamped", "--lumped", "5", "--calibration", "consistent", "--elements", "4"]
     reference = json_of(capsys, *asked, "--law", "biot")["solutions"][1]
     assert reference["settings"]["law"] == "biot" and 0.0 < reference["stretch"] < 0.01
@@ -222,7 +216,7 @@ def test_the_law_is_an_option_of_the_reference(capsys: pytest.CaptureFixture[str
 
 
 @pytest.mark.parametrize(("law", "found"), [("mooney-rivlin", 1.0), ("neo-hookean", 0.594)])
-def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law: str, found: float) -> None:
+def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law, found):
     """Neo-Hooke's has a limit point of inflation, Mooney's with c2 = c1/4 none up to here."""
     rubber = next(rubber for rubber in RUBBERS if rubber.law == law)
     sheet = Sheet(length_x=0.1, length_y=0.1, thickness=0.001)
@@ -234,7 +228,7 @@ def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law: str,
     assert solution.comparable or f"beyond load factor {found:.2f}"[:-1] in solution.message
 
 
-def test_gent_beyond_its_limit_is_told_with_the_limit() -> None:
+def test_gent_beyond_its_limit_is_told_with_the_limit():
     gent = next(rubber for rubber in RUBBERS if rubber.law == "gent").replace(limit=2.0)
     far = {"edge": "x1", "motion": {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [0.15, 0.0, 0.0]]}}
     supports = (Clamped(edge="x0"), Clamped.model_validate(far))

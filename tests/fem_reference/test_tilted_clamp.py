@@ -16,8 +16,6 @@ from sheetbench.scenes import (
     Hinged,
     Scene,
     SceneError,
-    Sheet,
-    Solution,
     Status,
     Symmetric,
 )
@@ -26,11 +24,11 @@ CUTS = (Symmetric(edge="y0"), Symmetric(edge="y1"))
 SEED = scenes.load("one-edge-clamped")
 
 
-def scene(*supports, gravity=None, **changes) -> Scene:
+def scene(*supports, gravity=None, **changes):
     return Scene(name="tilted", sheet=OBLONG, material=SILICONE, support=supports, gravity=gravity, **changes)
 
 
-def solve(asked: Scene, model: str, size: tuple[int, int] = (8, 4)) -> Solution:
+def solve(asked, model, size=(8, 4)):
     """size: elements, or cells of the lattice, along x and y; the shell's are even, the solid's graded."""
     if model.startswith("lumped"):
         springs = lumped.calibrate(asked.sheet, asked.material, (size[0] + 1, size[1] + 1))
@@ -45,11 +43,11 @@ def solve(asked: Scene, model: str, size: tuple[int, int] = (8, 4)) -> Solution:
     return found
 
 
-def points_of(sheet: Sheet) -> np.ndarray:
+def points_of(sheet):
     return np.random.default_rng(2).uniform(0.0, 1.0, (40, 2)) * sheet.lengths
 
 
-def rigid(edge: str, tilt: float, points: np.ndarray) -> np.ndarray:
+def rigid(edge, tilt, points):
     """Of a sheet that turns with its clamp, (n, 3): u = −r (n (cos τ − 1) + e_z sin τ), r from the edge."""
     at = EDGES[edge]
     inside = np.abs(points[:, at.normal_axis] - (OBLONG.lengths[at.normal_axis] if at.far_end else 0.0))
@@ -59,14 +57,14 @@ def rigid(edge: str, tilt: float, points: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid", "solid, full"])
 @pytest.mark.parametrize(("edge", "tilt"), [("x0", 0.05), ("x1", -0.6), ("y0", 1.2), ("y1", 1.5)])
-def test_a_weightless_sheet_turns_with_its_clamp(model: str, edge: str, tilt: float) -> None:
+def test_a_weightless_sheet_turns_with_its_clamp(model, edge, tilt):
     found = solve(scene(Clamped(edge=edge, tilt=tilt)), model, (4, 2))
     points = points_of(OBLONG)
     assert np.abs(found.displacement(points) - rigid(edge, tilt, points)).max() < 1e-9 * max(OBLONG.lengths)
 
 
 @pytest.mark.parametrize("edge", EDGES)
-def test_the_plate_turns_by_small_angles(edge: str) -> None:
+def test_the_plate_turns_by_small_angles(edge):
     found = solve(scene(Clamped(edge=edge, tilt=0.3)), "plate", (4, 2))
     points = points_of(OBLONG)
     small = 1e6 * rigid(edge, 0.3e-6, points) * [0.0, 0.0, 1.0]
@@ -74,7 +72,7 @@ def test_the_plate_turns_by_small_angles(edge: str) -> None:
 
 
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
-def test_planes_of_symmetry_let_the_clamp_between_them_turn(model: str) -> None:
+def test_planes_of_symmetry_let_the_clamp_between_them_turn(model):
     found = solve(scene(Clamped(edge="x0", tilt=0.4), *CUTS), model, (4, 2))
     points = points_of(OBLONG)
     assert np.abs(found.displacement(points) - rigid("x0", 0.4, points)).max() < 1e-9 * max(OBLONG.lengths)
@@ -83,7 +81,7 @@ def test_planes_of_symmetry_let_the_clamp_between_them_turn(model: str) -> None:
 SMALL = 1e-5  # rad: the answers' own nonlinearity is 2 (τ L/h)² = 3e-7 of them
 
 
-def bent_beam(first: float, second: float, x: np.ndarray, shear: float = 0.0) -> np.ndarray:
+def bent_beam(first, second, x, shear=0.0):
     """Deflection of a beam of the sheet's length with ends clamped at slopes −first and +second, w = 0 there.
 
     Equal tilts bend it to a constant curvature, w = −τ x (1 − x/L); opposite ones (τ, −τ) to the cubic
@@ -101,7 +99,7 @@ SHEAR = (OBLONG.thickness / OBLONG.length_x) ** 2 / (1.0 - 0.3**2) * 2.0 * (1.0 
 @pytest.mark.parametrize(
     ("model", "within"), [("plate", 1e-9), ("shell", 2e-6), ("solid", 2e-6), ("lumped", 2e-6)]
 )
-def test_ends_tilted_alike_bend_the_strip_to_one_curvature(model: str, within: float) -> None:
+def test_ends_tilted_alike_bend_the_strip_to_one_curvature(model, within):
     """Both τ > 0: the strip sags by τ L/4."""
     found = solve(scene(Clamped(edge="x0", tilt=SMALL), Clamped(edge="x1", tilt=SMALL), *CUTS), model)
     x = np.linspace(0.0, OBLONG.length_x, 9)
@@ -114,7 +112,7 @@ def test_ends_tilted_alike_bend_the_strip_to_one_curvature(model: str, within: f
 @pytest.mark.parametrize(
     ("model", "within"), [("plate", 1e-8), ("shell", 1e-8), ("solid", 1e-3), ("lumped", 5e-3)]
 )
-def test_ends_tilted_opposite_ways_bend_the_strip_to_the_cubic(model: str, within: float) -> None:
+def test_ends_tilted_opposite_ways_bend_the_strip_to_the_cubic(model, within):
     found = solve(
         scene(Clamped(edge="x0", tilt=SMALL), Clamped(edge="x1", tilt=-SMALL), *CUTS), model, (16, 2)
     )
@@ -128,7 +126,7 @@ def test_ends_tilted_opposite_ways_bend_the_strip_to_the_cubic(model: str, withi
 
 
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
-def test_turned_ends_stretch_the_strip_to_second_order_only(model: str) -> None:
+def test_turned_ends_stretch_the_strip_to_second_order_only(model):
     """½ ∫ w'² dx = τ² L/6 more arc, so that N = E h/(1 − ν²) τ²/6 a width; the linear plate has none."""
     tilt = 1e-3
     asked = scene(Clamped(edge="x0", tilt=tilt), Clamped(edge="x1", tilt=tilt), *CUTS)
@@ -137,13 +135,13 @@ def test_turned_ends_stretch_the_strip_to_second_order_only(model: str) -> None:
     assert abs(solve(asked, "plate").reactions["x1"][0]) < 1e-9 * pull
 
 
-def tilted_seed(tilt: float, **material: float) -> Scene:
+def tilted_seed(tilt, **material):
     (clamp,) = SEED.supports
     changed = {"supports": (clamp.model_copy(update={"tilt": tilt}),)}
     return SEED.model_copy(update=changed | {"material": SEED.material.model_copy(update=material)})
 
 
-def test_models_agree_on_a_tilted_sheet_under_its_weight() -> None:
+def test_models_agree_on_a_tilted_sheet_under_its_weight():
     asked = tilted_seed(0.05)
     points = asked.probe_points()
     shell = solve(asked, "shell", (12, 12)).displacement(points)
@@ -152,7 +150,7 @@ def test_models_agree_on_a_tilted_sheet_under_its_weight() -> None:
     assert relative(solve(SEED, "shell", (12, 12)).displacement(points), shell) > 0.05  # the tilt counts
 
 
-def test_the_linear_models_agree_on_a_stiff_tilted_sheet() -> None:
+def test_the_linear_models_agree_on_a_stiff_tilted_sheet():
     """Fifty times as stiff, so that it slopes little; only uz, for a linear answer knows no shortening."""
     asked = tilted_seed(0.01, young=50 * SEED.material.young)
     points = asked.probe_points()
@@ -163,7 +161,7 @@ def test_the_linear_models_agree_on_a_stiff_tilted_sheet() -> None:
 
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
 @pytest.mark.parametrize(("edge", "axis"), [("x0", (0.0, 1.0, 0.0)), ("y1", (1.0, 0.0, 0.0))])
-def test_a_tilt_is_the_edge_moved_by_that_rotation(model: str, edge: str, axis: tuple) -> None:
+def test_a_tilt_is_the_edge_moved_by_that_rotation(model, edge, axis):
     """Two ways of saying the same, which share no code."""
     turned = tuple(0.3 * a for a in axis)
     motion = EdgeMotion(kind="motion", edge=edge, time=(0.0,), rotation=(turned,))
@@ -174,7 +172,7 @@ def test_a_tilt_is_the_edge_moved_by_that_rotation(model: str, edge: str, axis: 
 
 
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
-def test_supports_carry_the_weight(model: str) -> None:
+def test_supports_carry_the_weight(model):
     asked = scene(Clamped(edge="x0", tilt=0.2), Held(edge="x1", components=("z",)), gravity=GRAVITY)
     weight = 9.81 * SILICONE.density * OBLONG.thickness * OBLONG.length_x * OBLONG.length_y
     found = solve(asked, model)
@@ -183,7 +181,7 @@ def test_supports_carry_the_weight(model: str) -> None:
 
 
 @pytest.mark.parametrize("other", [Hinged(edge="y0"), Held(edge="y0", components=("z",))])
-def test_a_corner_shared_with_a_hinge_obeys_both(other: Hinged | Held) -> None:
+def test_a_corner_shared_with_a_hinge_obeys_both(other):
     asked = scene(Clamped(edge="x0", tilt=0.2), other, gravity=GRAVITY)
     points = points_of(OBLONG)
     shell = solve(asked, "shell", (16, 8)).displacement(points)
@@ -191,7 +189,7 @@ def test_a_corner_shared_with_a_hinge_obeys_both(other: Hinged | Held) -> None:
     assert relative(solve(asked, "lumped", (32, 16)).displacement(points), shell) < 0.02
 
 
-def test_motion_starts_in_the_tilted_shape_and_stays_there() -> None:
+def test_motion_starts_in_the_tilted_shape_and_stays_there():
     asked = scene(Clamped(edge="x0", tilt=0.3))
     run = lumped.simulate(asked, lumped.calibrate(OBLONG, SILICONE, (5, 3)), 0.02)
     still = rigid("x0", 0.3, asked.probe_points())
@@ -201,7 +199,7 @@ def test_motion_starts_in_the_tilted_shape_and_stays_there() -> None:
 
 
 @pytest.mark.parametrize("support", [Clamped(edge="x0", tilt=0.3), Curved(edge="x0", curvature=4.0)])
-def test_motion_starts_in_the_shape_of_the_supports_alone(support: Clamped | Curved) -> None:
+def test_motion_starts_in_the_shape_of_the_supports_alone(support):
     asked, springs = scene(support), lumped.calibrate(OBLONG, SILICONE, (5, 3))
     run = lumped.simulate(asked.replace(gravity=GRAVITY), springs, 1e-3)
     still = lumped.solve(asked, springs).displacement(asked.probe_points())
@@ -209,7 +207,7 @@ def test_motion_starts_in_the_shape_of_the_supports_alone(support: Clamped | Cur
     assert np.abs(first - still).max() < 1e-6 * np.abs(still).max()
 
 
-def test_a_path_is_traced_to_the_full_tilt() -> None:
+def test_a_path_is_traced_to_the_full_tilt():
     springs = lumped.calibrate(OBLONG, SILICONE, (5, 3))
     for gravity in (None, GRAVITY):
         asked = scene(Clamped(edge="x0", tilt=0.3), gravity=gravity)
@@ -219,7 +217,7 @@ def test_a_path_is_traced_to_the_full_tilt() -> None:
         assert path.displacements["P4"][-1] == pytest.approx(place, abs=1e-9 * OBLONG.length_x)
 
 
-def test_frequencies_are_those_of_the_flat_sheet() -> None:
+def test_frequencies_are_those_of_the_flat_sheet():
     upright, tilted = scene(Clamped(edge="x0")), scene(Clamped(edge="x0", tilt=0.5))
     springs = lumped.calibrate(OBLONG, SILICONE, (5, 3))
     assert np.array_equal(
@@ -241,7 +239,7 @@ def test_frequencies_are_those_of_the_flat_sheet() -> None:
         Curved(edge="y1", curvature=1.0),
     ],
 )
-def test_what_holds_the_director_otherwise_at_a_corner_is_refused(other: Clamped | Curved) -> None:
+def test_what_holds_the_director_otherwise_at_a_corner_is_refused(other):
     tilted = Clamped(edge="x0", tilt=0.1)
     for pair in ((tilted, other), (other, tilted)):
         with pytest.raises(ValueError, match="corner") as said:
@@ -251,7 +249,7 @@ def test_what_holds_the_director_otherwise_at_a_corner_is_refused(other: Clamped
     scene(Clamped(edge="x0"), upright)
 
 
-def test_degrees_are_refused(tmp_path) -> None:
+def test_degrees_are_refused(tmp_path):
     text = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8")
     path = tmp_path / "scene.toml"
     path.write_text(text.replace('kind = "clamped"', 'kind = "clamped"\ntilt = 5.0'), encoding="utf-8")

@@ -1,7 +1,6 @@
 """The reference's error bar: orders and bars of made-up answers, true errors covered, what compare says."""
 
 import json
-from typing import Any
 
 import fake_solutions
 import numpy as np
@@ -10,25 +9,24 @@ import pytest
 import fem_reference
 from comparisons.comparison import comparison as displacement
 from comparisons.comparison.comparison import compare
-from comparisons.models.resolve import Resolved
 from comparisons.models.spec import Elements
 from fem_reference.edge_layer import Missed, missed_by
 from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
-from sheetbench.scenes import Solution, Status
+from sheetbench.scenes import Status
 
 SIZES = [1 / 16, 1 / 12, 1 / 8]
 
 
-def made(order: float, size: float = 0.3, sizes: list[float] = SIZES) -> list[np.ndarray]:
+def made(order, size=0.3, sizes=SIZES):
     """Answers 1 + size hᵖ."""
     return [np.array([[1.0 + size * h**order]]) for h in sizes]
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0, 3.3])
 @pytest.mark.parametrize("sizes", [SIZES, [0.1, 0.2, 0.4], [1 / 16, 1 / 11, 1 / 8]])
-def test_the_order_and_the_limit_of_a_power_law_are_found(order: float, sizes: list[float]) -> None:
+def test_the_order_and_the_limit_of_a_power_law_are_found(order, sizes):
     found = estimate(made(order, sizes=sizes), sizes)
     assert found.order.item() == pytest.approx(order, rel=1e-6)
     assert found.extrapolated.item() == pytest.approx(1.0, abs=1e-9)
@@ -36,20 +34,20 @@ def test_the_order_and_the_limit_of_a_power_law_are_found(order: float, sizes: l
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0, 3.0])
-def test_the_bar_of_a_power_law_is_1_35_times_the_error(order: float) -> None:
+def test_the_bar_of_a_power_law_is_1_35_times_the_error(order):
     found = estimate(made(order), SIZES)
     assert found.bar.item() == pytest.approx(1.35 * 0.3 * SIZES[0] ** order, rel=1e-6)
     assert found.error == pytest.approx(found.bar.item() / found.answer.item())
 
 
-def test_a_high_order_is_not_banked_on() -> None:
+def test_a_high_order_is_not_banked_on():
     found = estimate(made(4.0), SIZES)
     assert found.order.item() == pytest.approx(4.0)
     assert found.bar.item() > 2.0 * 0.3 * SIZES[0] ** 4
 
 
 @pytest.mark.parametrize("odd", [0.6, 1.0, 5.0])
-def test_the_order_of_one_component_moves_no_bar(odd: float) -> None:
+def test_the_order_of_one_component_moves_no_bar(odd):
     """Six points at order 2, but for one: its bar is by its own changes at the field's order."""
     field = [np.repeat(f, 6, axis=0) for f in made(2.0)]
     for f, other in zip(field, made(odd), strict=True):
@@ -64,7 +62,7 @@ def test_the_order_of_one_component_moves_no_bar(odd: float) -> None:
     assert own < found.bar[2, 0] < own + 0.35 * 1.001 * max(own, alone.bar.item() / 1.35)
 
 
-def test_a_component_that_changes_little_by_chance_has_the_bar_of_its_neighbours() -> None:
+def test_a_component_that_changes_little_by_chance_has_the_bar_of_its_neighbours():
     field = [np.repeat(f, 4, axis=0) for f in made(2.0)]
     field[1][3], field[2][3] = field[0][3] + 1e-8, field[0][3] - 1e-8
     found = estimate([np.hstack([f, 1e-3 + 0.0 * f]) for f in field], SIZES)
@@ -74,9 +72,7 @@ def test_a_component_that_changes_little_by_chance_has_the_bar_of_its_neighbours
 
 
 @pytest.mark.parametrize("answers", [(1.0, 1.1, 1.0), (1.0, 1.2, 1.3), (1.0, 1.1, 1.12)])
-def test_swinging_or_growing_changes_are_taken_at_the_order_of_the_elements(
-    answers: tuple[float, ...],
-) -> None:
+def test_swinging_or_growing_changes_are_taken_at_the_order_of_the_elements(answers):
     found = estimate([np.array([[value]]) for value in answers], SIZES)
     assert not found.trusted.any()
     cubes = [(size / SIZES[0]) ** 3 for size in SIZES]
@@ -86,7 +82,7 @@ def test_swinging_or_growing_changes_are_taken_at_the_order_of_the_elements(
     assert found.extrapolated.item() == answers[0]
 
 
-def test_what_the_meshes_miss_of_the_layer_is_in_the_bar() -> None:
+def test_what_the_meshes_miss_of_the_layer_is_in_the_bar():
     """Answers that are too stiff by half of η, and by nothing else."""
     missed = [Missed(0.2, 0.01), Missed(0.3, 0.016), Missed(0.5, 0.03)]
     answers = [np.array([[1.0 - 0.5 * layer.stiffening]]) for layer in missed]
@@ -99,7 +95,7 @@ def test_what_the_meshes_miss_of_the_layer_is_in_the_bar() -> None:
 
 
 @pytest.mark.parametrize(("share", "order"), [(0.0, 3.0), (0.5, 2.0), (1.0, 1.0)])
-def test_a_layer_that_the_mesh_misses_lowers_the_order_that_is_banked_on(share: float, order: float) -> None:
+def test_a_layer_that_the_mesh_misses_lowers_the_order_that_is_banked_on(share, order):
     """To 3 − 2 s, from answers that show order 3."""
     answers, powers = made(3.0), [(size / SIZES[0]) ** order for size in SIZES]
     pairs = [(0, 1), (0, 2), (1, 2)]
@@ -108,26 +104,26 @@ def test_a_layer_that_the_mesh_misses_lowers_the_order_that_is_banked_on(share: 
     assert found.bar.item() == pytest.approx(1.35 * max(each), rel=1e-6)
 
 
-def test_rounding_is_no_evidence() -> None:
+def test_rounding_is_no_evidence():
     answers = [np.array([[1.0, 1e-17 * k, 0.5]]) for k in (1, -3, 2)]
     found = estimate(answers, SIZES)
     assert found.trusted.all() and np.isnan(found.order).all() and np.isnan(found.overall_order)
     assert found.bar.max() < 1e-15
 
 
-def test_two_meshes_assume_order_2_and_factor_3() -> None:
+def test_two_meshes_assume_order_2_and_factor_3():
     found = estimate(made(2.0)[::2], SIZES[::2])
     assert found.bar.item() == pytest.approx(3 * 0.3 * SIZES[0] ** 2)
     assert np.isnan(found.order).all() and not found.trusted.any()
 
 
 @pytest.mark.parametrize(("count", "sizes"), [(1, SIZES[:1]), (3, SIZES[::-1]), (3, SIZES[:2])])
-def test_misuse(count: int, sizes: list[float]) -> None:
+def test_misuse(count, sizes):
     with pytest.raises(ValueError, match=r"meshes|rise"):
         estimate(made(2.0)[:count], sizes)
 
 
-def test_meshes() -> None:
+def test_meshes():
     assert coarser(16) == [16, 12, 8] and coarser(2) == [2, 1] and coarser(1) == [1]
 
 
@@ -140,7 +136,7 @@ def test_meshes() -> None:
         ("curved-edge-down", "plate"),
     ],
 )
-def test_the_bar_covers_the_true_error_at_the_default_mesh(name: str, model: str) -> None:
+def test_the_bar_covers_the_true_error_at_the_default_mesh(name, model):
     scene = scenes.load(name)
     points = scene.probe_points()
     truth = fem_reference.solve(scene, model, elements=32).displacement(points)
@@ -150,7 +146,7 @@ def test_the_bar_covers_the_true_error_at_the_default_mesh(name: str, model: str
     assert found.error < (1e-3 if model == "shell" else 1e-2)
 
 
-def test_a_mesh_without_an_answer_is_left_out() -> None:
+def test_a_mesh_without_an_answer_is_left_out():
     scene = scenes.load("one-edge-clamped")
     good = [fake_solutions.solution(scene, "shell", size) for size in (-0.01, -0.0101, -0.0103)]
     bad = fake_solutions.solution(scene, "shell", status=Status.DIVERGED, load_factor=0.5)
@@ -161,11 +157,11 @@ def test_a_mesh_without_an_answer_is_left_out() -> None:
 
 
 @pytest.fixture
-def by_mesh(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
+def by_mesh(monkeypatch):
     """Answers without a solver: the reference's error is 8 % at one element and falls like h²."""
     sizes = {"lumped": -0.0100, "limit": -0.0100, "share": 0.08}
 
-    def answer(model: Resolved[Any], name: str = "") -> Solution:
+    def answer(model, name=""):
         if not isinstance(model.spec, Elements):
             return fake_solutions.solution(model.scene, name, sizes["lumped"])
         n = model.spec.elements
@@ -179,9 +175,7 @@ def by_mesh(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
 
 
 @pytest.mark.parametrize(("lumped", "told_apart"), [(-0.0100, False), (-0.0101, True)])
-def test_compare_says_what_its_mesh_cannot_tell_apart(
-    by_mesh: dict[str, float], lumped: float, told_apart: bool
-) -> None:
+def test_compare_says_what_its_mesh_cannot_tell_apart(by_mesh, lumped, told_apart):
     by_mesh["lumped"] = lumped
     found = compare("one-edge-clamped", calibration="consistent", elements=8)
     assert found.bar is not None
@@ -199,9 +193,9 @@ def test_compare_says_what_its_mesh_cannot_tell_apart(
     assert "observed order 2.0" in said
 
 
-def test_it_is_off_when_not_wanted_and_for_the_solid_unless_wanted(by_mesh: dict[str, float]) -> None:
-    def asked(**settings: object) -> bool:
-        return compare("one-edge-clamped", calibration="consistent", **settings).bar is not None  # type: ignore[arg-type]
+def test_it_is_off_when_not_wanted_and_for_the_solid_unless_wanted(by_mesh):
+    def asked(**settings):
+        return compare("one-edge-clamped", calibration="consistent", **settings).bar is not None
 
     assert asked() and asked(reference="plate")
     assert not asked(uncertainty=False)

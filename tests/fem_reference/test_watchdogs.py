@@ -14,13 +14,13 @@ from lumped.dynamics.runs import watchdog
 from lumped.dynamics.system import State
 from lumped.statics import faults
 from lumped.statics.solver import build_problem
-from sheetbench.scenes import EdgeLoad, Scene, Status
+from sheetbench.scenes import EdgeLoad, Status
 from studies.stability.equilibria import loaded, sheet
 
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not
 
 
-def calibrated(scene: Scene, n: int = 5):
+def calibrated(scene, n=5):
     return lumped.calibrate(scene.sheet, scene.material, grid=(n, n))
 
 
@@ -30,7 +30,7 @@ def problem():
     return build_problem(scene, calibrated(scene))
 
 
-def pressed(share: float) -> Scene:
+def pressed(share):
     """A sheet pressed in its plane by a share of E h."""
     scene = sheet(0.016, 0.02)
     force = share * scene.material.young * scene.sheet.thickness

@@ -3,9 +3,6 @@
 A few hundred examples, the same ones every time; `make fuzz` draws 24 000 others (`fuzz.long`).
 """
 
-from pathlib import Path
-from typing import Any
-
 import pytest
 from fuzz import trials
 from fuzz.grammar import command_lines, measured, shaped, sound, texts
@@ -14,7 +11,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 pytestmark = pytest.mark.smoke
 
 
-def tries(examples: int) -> settings:
+def tries(examples):
     """So many examples, the same ones every time."""
     return settings(
         max_examples=examples,
@@ -28,19 +25,19 @@ def tries(examples: int) -> settings:
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("fuzz")
 
 
 @tries(200)
 @given(text=texts())
-def test_a_scenes_file_is_read_or_refused_in_a_line(folder: Path, text: bytes) -> None:
+def test_a_scenes_file_is_read_or_refused_in_a_line(folder, text):
     trials.reads(folder, text)
 
 
 @tries(20)
 @given(text=texts())
-def test_a_scene_is_checked_and_written_only_where_asked(folder: Path, text: bytes) -> None:
+def test_a_scene_is_checked_and_written_only_where_asked(folder, text):
     place = folder / "check"
     place.mkdir(exist_ok=True)
     trials.checks(place, text)
@@ -48,19 +45,19 @@ def test_a_scene_is_checked_and_written_only_where_asked(folder: Path, text: byt
 
 @tries(20)
 @given(data=sound())
-def test_a_sound_scene_is_solved_and_what_converges_is_in_balance(folder: Path, data: dict[str, Any]) -> None:
+def test_a_sound_scene_is_solved_and_what_converges_is_in_balance(folder, data):
     trials.solves(folder, data)
 
 
 @tries(60)
 @given(data=shaped())
-def test_a_scene_of_shapes_is_refused_or_solved_in_balance(folder: Path, data: dict[str, Any]) -> None:
+def test_a_scene_of_shapes_is_refused_or_solved_in_balance(folder, data):
     trials.solves_shapes(folder, data)
 
 
 @tries(30)
 @given(asked=command_lines())
-def test_a_command_line_is_obeyed_or_refused(folder: Path, asked: list[str]) -> None:
+def test_a_command_line_is_obeyed_or_refused(folder, asked):
     place = folder / "commands"
     place.mkdir(exist_ok=True)
     trials.obeys(place, asked)
@@ -68,5 +65,5 @@ def test_a_command_line_is_obeyed_or_refused(folder: Path, asked: list[str]) -> 
 
 @tries(30)
 @given(asked=measured())
-def test_a_measured_file_is_read_or_refused(folder: Path, asked: tuple[bytes, bool]) -> None:
+def test_a_measured_file_is_read_or_refused(folder, asked):
     trials.measures(folder, asked)

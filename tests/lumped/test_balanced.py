@@ -1,7 +1,6 @@
 """Balanced truncation of a lattice for control: the bound foretold holds, slow inputs are exact."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,17 +17,17 @@ DAMPED = with_material(BARE, damping_time=2e-3, damping_rate=0.5)
 
 
 @pytest.fixture(scope="module")
-def whole() -> lumped.StateSpace:
+def whole():
     springs = lumped.calibrate(DAMPED.sheet, DAMPED.material, grid=3)
     return lumped.linearise(DAMPED, springs, "flat").state_space(None)
 
 
-def sampled(space: lumped.StateSpace) -> np.ndarray:
+def sampled(space):
     """Frequencies [Hz], the resonances among them."""
     return np.sort(np.r_[0.0, np.geomspace(0.01, 5.0 * space.frequencies[-1], 300), space.frequencies])
 
 
-def worst(whole: lumped.StateSpace, found: lumped.Balanced) -> float:
+def worst(whole, found):
     """Largest gain from the scaled inputs to the outputs' error at the sampled frequencies."""
     at = sampled(whole)
     off = (whole.response(at) - found.space.response(at)) * found.scale
@@ -36,7 +35,7 @@ def worst(whole: lumped.StateSpace, found: lumped.Balanced) -> float:
 
 
 @pytest.mark.parametrize("order", [1, 4, 9, 20])
-def test_no_frequency_is_further_off_than_foretold(whole: lumped.StateSpace, order: int) -> None:
+def test_no_frequency_is_further_off_than_foretold(whole, order):
     found = whole.balanced(order)
     assert found.order == order and len(found.space.a) == order
     assert found.space.poles.real.max() < 0.0
@@ -48,7 +47,7 @@ def test_no_frequency_is_further_off_than_foretold(whole: lumped.StateSpace, ord
     assert np.linalg.norm(known, axis=0) == pytest.approx(1.0)
 
 
-def test_one_oscillator_has_the_singular_values_of_the_textbook() -> None:
+def test_one_oscillator_has_the_singular_values_of_the_textbook():
     """ω² y + 2 ζ ω ẏ + ÿ = ω² w has σ = (√(1 + ζ²) ± ζ)/4ζ."""
     omega, zeta = 30.0, 0.02
     a = np.array([[0.0, omega], [-omega, -2.0 * zeta * omega]])
@@ -60,19 +59,19 @@ def test_one_oscillator_has_the_singular_values_of_the_textbook() -> None:
     assert found.hankel == pytest.approx((np.sqrt(1.0 + zeta**2) + np.array([zeta, -zeta])) / (4.0 * zeta))
 
 
-def test_the_fewest_states_within_a_tolerance(whole: lumped.StateSpace) -> None:
+def test_the_fewest_states_within_a_tolerance(whole):
     found = whole.balanced(tolerance=0.5)
     assert found.bound <= 0.5 < whole.balanced(found.order - 1).bound
     assert worst(whole, found) <= 0.5 and found.order < len(whole.a)
 
 
-def test_steps_are_answered_by_few_states(whole: lumped.StateSpace) -> None:
+def test_steps_are_answered_by_few_states(whole):
     few, time = whole.balanced(tolerance=0.05).space, np.linspace(0.0, 0.2, 200)
     full, found = whole.after_step(time, 0), few.after_step(time, 0)
     assert np.abs(full - found).max() < 0.05 * np.abs(full).max()
 
 
-def test_what_cannot_be_balanced_is_refused(whole: lumped.StateSpace) -> None:
+def test_what_cannot_be_balanced_is_refused(whole):
     springs = lumped.calibrate(BARE.sheet, BARE.material, grid=3)
     undamped = BARE.replace(material={**BARE.material.model_dump(), "damping_time": 0.0, "damping_rate": 0.0})
     with pytest.raises(BadInput, match="not damped"):
@@ -83,7 +82,7 @@ def test_what_cannot_be_balanced_is_refused(whole: lumped.StateSpace) -> None:
         whole.balanced()
 
 
-def test_the_verb_says_what_it_promises(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_verb_says_what_it_promises(tmp_path, capsys):
     asked = ["two-edges-settling", "--lumped", "3", "--modes", "0", "--about", "flat", "--json"]
     assert run("linearise", *asked, "--reduce", "balanced:6", "--out", str(tmp_path)) == 0
     document = json.loads(capsys.readouterr().out)

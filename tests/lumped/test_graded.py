@@ -27,7 +27,7 @@ def assembly_of(grading, grid=(6, 5), method="consistent"):
     return Assembly(OBLONG, lumped.calibrate(OBLONG, SILICONE, grid, method, grading=grading))
 
 
-def test_lines_are_even_at_0_and_chebyshevs_at_1() -> None:
+def test_lines_are_even_at_0_and_chebyshevs_at_1():
     x, y = grid_lines(OBLONG, (6, 5, 2), 0.0)
     assert np.allclose(x.at, np.linspace(0.0, 0.2, 6)) and np.allclose(y.widths, 0.025)
     x, y = grid_lines(OBLONG, (6, 5, 2), 1.0)
@@ -44,7 +44,7 @@ def test_lines_are_even_at_0_and_chebyshevs_at_1() -> None:
 
 @pytest.mark.parametrize("grading", GRADINGS)
 @pytest.mark.parametrize("method", ["consistent-interior", "consistent", "consistent-membrane"])
-def test_every_cell_meets_every_modulus(grading: float, method: str) -> None:
+def test_every_cell_meets_every_modulus(grading, method):
     springs = lumped.calibrate(SHEET, RUBBER, (7, 6), method, grading=grading)
     assert all(abs(row["miss"]) < 1e-9 for row in springs.moduli) and len(springs.moduli) == 10
     assert as_settings(grading).items() <= springs.document().items()
@@ -60,7 +60,7 @@ def test_every_cell_meets_every_modulus(grading: float, method: str) -> None:
     ],
     ids=["bending along x", "bending along y", "twisting"],
 )
-def test_pure_bending_and_twisting_are_in_equilibrium(grading: float, field) -> None:
+def test_pure_bending_and_twisting_are_in_equilibrium(grading, field):
     """No inner mass of the flat sheet is left with a force, to the rounding of the stiffness."""
     assembly = assembly_of(grading)
     lattice = assembly.lattice
@@ -71,7 +71,7 @@ def test_pure_bending_and_twisting_are_in_equilibrium(grading: float, field) -> 
 
 
 @pytest.mark.parametrize("strain", [(1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (1.0, -0.3, 0.0), (0.0, 0.0, 1.0)])
-def test_stretching_and_shearing_store_the_sheets_energy_but_for_its_thickness(strain) -> None:
+def test_stretching_and_shearing_store_the_sheets_energy_but_for_its_thickness(strain):
     """Edges moved as a uniform strain has it. Each cell would have its own change of thickness, and masses
     that four of them share have one: the energy is the sheet's within two thousandths."""
     assembly = assembly_of(0.5, (9, 5))
@@ -95,7 +95,7 @@ def test_stretching_and_shearing_store_the_sheets_energy_but_for_its_thickness(s
 
 
 @pytest.mark.parametrize("method", ["consistent-interior", "consistent"])
-def test_rigid_motions_cost_nothing(method: str) -> None:
+def test_rigid_motions_cost_nothing(method):
     assembly = assembly_of(0.7, method=method)
     x = assembly.lattice.positions.copy()  # a rotation takes no array that is not to be written to
     scale, _ = assembly.force(0.01 * x)
@@ -104,7 +104,7 @@ def test_rigid_motions_cost_nothing(method: str) -> None:
     assert abs(energy) < 1e-12 * scale and np.abs(force).max() < 1e-9 * scale / 0.005
 
 
-def test_mass_is_the_sheets_around_each_mass_and_free_fall_is_rigid() -> None:
+def test_mass_is_the_sheets_around_each_mass_and_free_fall_is_rigid():
     scene = Scene(name="free", sheet=OBLONG, material=SILICONE, gravity={"acceleration": (0.0, 0.0, -9.81)})
     problem = lumped.build_problem(scene, lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=0.6))
     for distribution in ("tributary", "gregory"):
@@ -116,7 +116,7 @@ def test_mass_is_the_sheets_around_each_mass_and_free_fall_is_rigid() -> None:
 
 
 @cache
-def shell_of(young: float, name: str) -> tuple[Scene, np.ndarray]:
+def shell_of(young, name):
     """A scene of the catalogue on another material, and the shell's answer at its probes."""
     scene = load(name)
     scene = scene.replace(material=scene.material.replace(young=young))
@@ -136,7 +136,7 @@ def shell_of(young: float, name: str) -> tuple[Scene, np.ndarray]:
         ("consistent", 5.45e6, "two-edges-clamped", 17, 0.0013),
     ],
 )
-def test_narrow_layers_at_the_edges(method: str, young: float, name: str, masses_: int, held: float) -> None:
+def test_narrow_layers_at_the_edges(method, young, name, masses_, held):
     """Error at the probes of the largest displacement, against the shell: cell by cell as a prototype of this
     construction had it (0.91, 0.39, 1.18, 0.04 %), and as measured with the edges' twist. Even grids have
     6.5, 1.8, 3.4 and 0.86 %, with or without."""
@@ -156,7 +156,7 @@ def test_narrow_layers_at_the_edges(method: str, young: float, name: str, masses
         ("consistent-membrane", (2.4e-3, 7e-4)),
     ],
 )
-def test_the_order_of_convergence(method: str, held: tuple[float, float]) -> None:
+def test_the_order_of_convergence(method, held):
     """Linear, two edges clamped, 17 and 33 masses, cells halved at one grading: second order."""
     scene, errors = load("two-edges-clamped"), []
     for n in (17, 33):
@@ -168,7 +168,7 @@ def test_the_order_of_convergence(method: str, held: tuple[float, float]) -> Non
 
 
 @pytest.mark.parametrize("method", ["consistent-interior", "consistent"])
-def test_springs_of_a_scene_file_are_the_calibrations(method: str) -> None:
+def test_springs_of_a_scene_file_are_the_calibrations(method):
     """Through JSON and back, every digit; another grading is refused, and other counts of cells."""
     scene = load("one-edge-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, (5, 6), method, grading=0.7)
@@ -189,7 +189,7 @@ def test_springs_of_a_scene_file_are_the_calibrations(method: str) -> None:
         lumped.given(scene.model_copy(update={"springs": cells}), (7, 5))
 
 
-def test_a_force_between_masses_and_an_edges_load_keep_their_moments() -> None:
+def test_a_force_between_masses_and_an_edges_load_keep_their_moments():
     """A point load's work on a bilinear displacement, an edge's load on a linear one, of unequal cells."""
     scene = Scene(
         name="loads",
@@ -213,7 +213,7 @@ def test_a_force_between_masses_and_an_edges_load_keep_their_moments() -> None:
 
 @pytest.mark.parametrize("grid, degree", [((6, 5, 2), 3), ((4, 3, 2), 2), ((2, 2, 2), 1)])
 @pytest.mark.parametrize("grading", [0.0, 0.5])
-def test_between_masses_the_surface_is_cubic_where_there_are_lines_for_it(grading, grid, degree) -> None:
+def test_between_masses_the_surface_is_cubic_where_there_are_lines_for_it(grading, grid, degree):
     """Every product of powers up to that degree, anywhere on the sheet; at a mass its own displacement."""
     springs = lumped.calibrate(OBLONG, SILICONE, grid, "consistent-interior", grading=grading)
     lattice = Assembly(OBLONG, springs).lattice
@@ -230,7 +230,7 @@ def test_between_masses_the_surface_is_cubic_where_there_are_lines_for_it(gradin
 
 
 @pytest.mark.parametrize("grading, held", [(0.0, 0.006), (0.5, 0.006)])
-def test_points_between_masses_are_as_near_as_masses(grading: float, held: float) -> None:
+def test_points_between_masses_are_as_near_as_masses(grading, held):
     """A sheet that sags within four hinges; on a bilinear surface it is up to 3 % off."""
     scene = transfer_scenes()["four-edges-hinged"]
     points = np.array([[0.04, 0.05], [0.07, 0.094], [0.08, 0.08], [0.107, 0.12]])
@@ -240,7 +240,7 @@ def test_points_between_masses_are_as_near_as_masses(grading: float, held: float
 
 
 @pytest.mark.parametrize("grading, share", [(0.5, 0.67), (1.0, 0.33)])
-def test_an_explicit_step_shrinks_nearly_as_the_smallest_cell(grading: float, share: float) -> None:
+def test_an_explicit_step_shrinks_nearly_as_the_smallest_cell(grading, share):
     """9 × 9 of the seed's sheet: its smallest cells are 0.65 and 0.30 times as wide as even ones."""
     scene = load("two-edges-clamped")
     steps, widths = [], []
@@ -253,14 +253,14 @@ def test_an_explicit_step_shrinks_nearly_as_the_smallest_cell(grading: float, sh
     assert 1.0 < (steps[1] / steps[0]) / (widths[1] / widths[0]) < 1.2
 
 
-def test_two_free_edges_leave_their_corner_its_twisting_stiffness(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_two_free_edges_leave_their_corner_its_twisting_stiffness(monkeypatch):
     """Cells much narrower than the layer in which a free edge lets its twist go keep little of their twisting
     stiffness; what two edges take from their corner's cell adds, and with less than nothing left there the
     sheet has an unstable equilibrium. Here h/10: 33 × 33 of the seed's sheet at grading 1, and even grids."""
     sheet = Sheet(length_x=0.02, length_y=0.02, thickness=0.01)
     scene = load("two-edges-clamped").replace(sheet=sheet.model_dump(), probes={})
 
-    def verdict() -> Status:
+    def verdict():
         springs = lumped.calibrate(sheet, scene.material, 9, "consistent", grading=1.0)
         return lumped.solve(scene, springs).status
 
@@ -269,7 +269,7 @@ def test_two_free_edges_leave_their_corner_its_twisting_stiffness(monkeypatch: p
     assert verdict() is Status.UNSTABLE
 
 
-def test_what_has_no_cell_by_cell_form_is_refused() -> None:
+def test_what_has_no_cell_by_cell_form_is_refused():
     for method in ("uniform", "moduli", "cauchy", "central", "axial", "van-gelder", "lloyd"):
         with pytest.raises(
             BadInput, match=r"grading = 0.5: .*takes no grading; grading goes with 'consistent'"
@@ -284,14 +284,14 @@ def test_what_has_no_cell_by_cell_form_is_refused() -> None:
         lumped.solve(load("one-edge-clamped"), springs, weights="full")
 
 
-def test_sensitivities_scale_the_cells_alike() -> None:
+def test_sensitivities_scale_the_cells_alike():
     """Of E, through a new calibration, and of a spring by its mean over the cells: against differences."""
     scene = load("one-edge-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, 5, grading=0.5)
     found = lumped.sensitivity(scene, springs, ["young", "diagonal", "area"])
     points = scene.probe_points()
 
-    def displaced(name: str, value: float) -> np.ndarray:
+    def displaced(name, value):
         if name != "young":
             return lumped.solve(scene, springs.with_constant(name, value)).displacement(points)
         changed = scene.replace(material=scene.material.replace(young=value))

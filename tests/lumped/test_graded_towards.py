@@ -21,7 +21,7 @@ LEFT = Grading(0.6, ("x0",))
 TURNED = {"x0": "x1", "x1": "x0"}
 
 
-def test_lines_towards_one_edge_are_half_of_a_side_twice_as_long() -> None:
+def test_lines_towards_one_edge_are_half_of_a_side_twice_as_long():
     doubled = OBLONG.replace(length_x=0.4)
     twice, _ = grid_lines(doubled, (11, 5, 2), 0.6)
     x, y = grid_lines(OBLONG, (6, 5, 2), LEFT)
@@ -34,7 +34,7 @@ def test_lines_towards_one_edge_are_half_of_a_side_twice_as_long() -> None:
     assert np.array_equal(both.at, whole[0].at) and np.ptp(other.widths) == 0.0
 
 
-def test_what_is_asked_is_read_as_people_write_it() -> None:
+def test_what_is_asked_is_read_as_people_write_it():
     assert parse_grading("0.6:x0") == LEFT and str(LEFT) == "0.6:x0" and parse_grading(LEFT) is LEFT
     assert parse_grading("0.5:x1,x0") == Grading(0.5, ("x0", "x1"))
     assert parse_grading("0.5:y1,y0,x0,x1") == 0.5 and parse_grading("0:x0") == 0.0
@@ -46,7 +46,7 @@ def test_what_is_asked_is_read_as_people_write_it() -> None:
         towards(0.5, ())
 
 
-def test_a_sheet_and_its_mirror_image_have_mirrored_answers() -> None:
+def test_a_sheet_and_its_mirror_image_have_mirrored_answers():
     """Clamped at x0 and graded there, or both at x1: springs of either end know their own edge."""
     left = load("one-edge-clamped")
     right = left.replace(supports=[{"edge": "x1", "kind": "clamped"}])
@@ -59,7 +59,7 @@ def test_a_sheet_and_its_mirror_image_have_mirrored_answers() -> None:
     assert relative(found[1] * [-1.0, 1.0, 1.0], found[0]) < 1e-9
 
 
-def test_the_twist_of_either_edge_is_that_of_the_strip_that_begins_with_it() -> None:
+def test_the_twist_of_either_edge_is_that_of_the_strip_that_begins_with_it():
     """Graded at x0 with only x1 free its cells are the long ones; with both free each end has its own."""
     springs = lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=LEFT).springs
     turned = lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=Grading(0.6, ("x1",))).springs
@@ -73,14 +73,14 @@ def test_the_twist_of_either_edge_is_that_of_the_strip_that_begins_with_it() -> 
     assert np.any(alone[:, -1]) and not np.any(alone[:, :-1])
 
 
-def test_a_half_is_cut_only_where_its_image_is_the_other() -> None:
+def test_a_half_is_cut_only_where_its_image_is_the_other():
     scene = transfer_scenes()["opposite-edges-hinged"]
     asked = {"grid": 5, "calibration": "consistent", "symmetry": True}
     assert solve(scene, "lumped", grading=0.5, **asked).settings["symmetry"] == ["x", "y"]
     assert solve(scene, "lumped", grading="0.5:x0", **asked).settings["symmetry"] == ["y"]
 
 
-def test_auto_grades_towards_the_one_edge_that_holds_the_sheet() -> None:
+def test_auto_grades_towards_the_one_edge_that_holds_the_sheet():
     """Where that edge is clamped and the load bends the sheet beside it; not where the edge itself is bent,
     which lets the sheet stretch at its other edges too."""
     scenes = transfer_scenes()
@@ -92,7 +92,7 @@ def test_auto_grades_towards_the_one_edge_that_holds_the_sheet() -> None:
     assert isinstance(grading_of(scenes["tenth-of-young"], (9, 9, 2), Lattice(grading="auto"))[0], float)
 
 
-def test_towards_the_clamp_a_soft_sheet_is_nearer() -> None:
+def test_towards_the_clamp_a_soft_sheet_is_nearer():
     """Over 5 × 5 points of soft-one-edge, 9 masses, `consistent-membrane`: 1.49 % of the largest displacement
     with cells of one size, 1.11 graded towards all edges by 0.3, 0.72 as auto has it."""
     scene = transfer_scenes()["tenth-of-young-one-edge"]

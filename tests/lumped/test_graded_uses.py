@@ -1,7 +1,5 @@
 """What uses a lattice, on a graded grid of few masses: chains, files, frequencies, motion, fits."""
 
-from pathlib import Path
-
 import meshio
 import numpy as np
 import pytest
@@ -10,17 +8,17 @@ import lumped
 from comparisons.report.vtk import write_solution
 from lumped.fitting.fits import StaticTarget
 from lumped.grid_lines import grid_lines
-from sheetbench.scenes import Scene, Status, load
+from sheetbench.scenes import Status, load
 
 GRADING = 0.6
 SCENE = load("two-edges-clamped")
 
 
-def springs_of(scene: Scene, grid: int = 5, grading: float = GRADING) -> lumped.Calibration:
+def springs_of(scene, grid=5, grading=GRADING):
     return lumped.calibrate(scene.sheet, scene.material, grid, grading=grading)
 
 
-def test_a_chain_is_bound_where_the_lines_are() -> None:
+def test_a_chain_is_bound_where_the_lines_are():
     """Four segments whose joints lie between the lines: forces balance, the clamp carries all."""
     scene = load("actuated-edge")
     chain = scene.actuators[0].model_copy(update={"segments": 4})
@@ -31,7 +29,7 @@ def test_a_chain_is_bound_where_the_lines_are() -> None:
     assert found.reactions["x0"][2] == pytest.approx(weight, rel=1e-6)
 
 
-def test_a_file_of_the_answer_has_the_lines_places(tmp_path: Path) -> None:
+def test_a_file_of_the_answer_has_the_lines_places(tmp_path):
     springs = springs_of(SCENE)
     found = lumped.solve(SCENE, springs)
     write_solution(tmp_path / "graded.vtu", found)
@@ -40,14 +38,14 @@ def test_a_file_of_the_answer_has_the_lines_places(tmp_path: Path) -> None:
         assert np.unique(points[:, axis].round(9)) == pytest.approx(lines.at, abs=1e-8)
 
 
-def test_frequencies() -> None:
+def test_frequencies():
     """The first of the seed's sheet, 5.1650 Hz by the plate (`test_masses`), and three near the even ones."""
     graded, even = (lumped.modes(SCENE, springs_of(SCENE, 5, g), 3).frequencies for g in (GRADING, 0.0))
     assert graded[0] == pytest.approx(5.1650, rel=0.01)
     assert graded == pytest.approx(even, rel=0.05)
 
 
-def test_a_fit_finds_the_springs_it_was_shown() -> None:
+def test_a_fit_finds_the_springs_it_was_shown():
     """Displacements of a graded lattice are met by one of the same grading."""
     points = SCENE.probe_points()
     shown = springs_of(SCENE, 3)

@@ -38,7 +38,7 @@ WORST = {
 
 
 @pytest.mark.parametrize("name", PLATE)
-def test_six_frequencies_on_six_supports(name: str) -> None:
+def test_six_frequencies_on_six_supports(name):
     """Within 1.6 % at 9 × 9 × 2 and 0.55 % at 17 × 17 × 2 (the fifth with opposite edges clamped, 0.543);
     tributary masses are up to 7.9 and 2.4 % off."""
     scene = transfer_scenes()[name]
@@ -52,7 +52,7 @@ def test_six_frequencies_on_six_supports(name: str) -> None:
 
 @pytest.mark.parametrize("grading", [0.0, 0.6])
 @pytest.mark.parametrize("layers", [2, 3])
-def test_moments_of_the_mass(layers: int, grading: float) -> None:
+def test_moments_of_the_mass(layers, grading):
     """Total, first, second and mixed moments are the sheet's: products of linear motions are integrated
     exactly, on uneven cells too, and rotary inertia is the sheet's however far apart the layers are.
     Tributary masses have a second moment l²/(2 L²) too large."""
@@ -71,7 +71,7 @@ def test_moments_of_the_mass(layers: int, grading: float) -> None:
 
 
 @pytest.mark.parametrize("grading", [0.0, 0.6])
-def test_a_free_edge_has_the_inertia_of_a_slope_at_the_first_inner_line(grading: float) -> None:
+def test_a_free_edge_has_the_inertia_of_a_slope_at_the_first_inner_line(grading):
     """f = 1 and g = x² show it, whose l²/12 [(f g)′] is nothing at x = 0: taken l inside it is l³/6 too much,
     and l³/12 by the difference quotient, which a hinge has."""
     hinges = Scene.model_validate({**SCENE.model_dump(), "supports": [{"edge": "x0", "kind": "hinged"}]})
@@ -84,7 +84,7 @@ def test_a_free_edge_has_the_inertia_of_a_slope_at_the_first_inner_line(grading:
     assert free - hinged == pytest.approx(1000.0 * 0.002 * 0.3 * first**3 / 12.0, rel=1e-9)
 
 
-def test_edges_that_hold_the_director_share_nothing() -> None:
+def test_edges_that_hold_the_director_share_nothing():
     """Nor do layers at h/√3, whose rotary inertia is the sheet's."""
     lattice = build(SHEET, (5, 6, 2), 0.002 / np.sqrt(3.0), twisting=frozenset())
     found = mass_matrix(SCENE, lattice, "higher-order").toarray()
@@ -92,18 +92,18 @@ def test_edges_that_hold_the_director_share_nothing() -> None:
 
 
 @pytest.mark.parametrize("grid", [(2, 2), (2, 5), (3, 3)])
-def test_few_masses_keep_a_positive_inertia(grid: tuple[int, int]) -> None:
+def test_few_masses_keep_a_positive_inertia(grid):
     lattice = build(SHEET, (*grid, 2), 0.002, twisting=EVERY)
     assert np.linalg.eigvalsh(mass_matrix(SCENE, lattice, "higher-order").toarray())[0] > 0.0
 
 
-def test_springs_fitted_to_frequencies_keep_their_masses() -> None:
+def test_springs_fitted_to_frequencies_keep_their_masses():
     springs = lumped.calibrate(SHEET, SCENE.material, 5)
     assert lumped.usual_masses(springs) == "higher-order"
     assert lumped.usual_masses(replace(springs, masses="gregory")) == "gregory"
 
 
-def test_frequencies_are_those_of_the_bending_stiffness_whatever_the_layers_distance() -> None:
+def test_frequencies_are_those_of_the_bending_stiffness_whatever_the_layers_distance():
     """`consistent-membrane`, its layers further apart, bends as `consistent` does and so vibrates like it."""
     scene = transfer_scenes()["opposite-edges-clamped"]
     one, other = (

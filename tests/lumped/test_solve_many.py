@@ -5,7 +5,7 @@ import pytest
 
 import lumped
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, SceneError, Status, load
+from sheetbench.scenes import SceneError, Status, load
 
 SCENE = load("two-edges-clamped")
 SPRINGS = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(5, 5))
@@ -65,7 +65,7 @@ def test_a_case_that_fails_costs_no_other():
     assert statuses[0] == statuses[2] == Status.CONVERGED and statuses[1] != Status.CONVERGED
 
 
-def replace_gravity(scene: Scene, times: float) -> Scene:
+def replace_gravity(scene, times):
     gravity = scene.gravity
     values = {"acceleration": tuple(times * a for a in gravity.acceleration)}
     return scene.model_copy(update={"gravity": type(gravity)(**values)})

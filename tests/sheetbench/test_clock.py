@@ -12,15 +12,15 @@ from sheetbench import clock, kernels
 from sheetbench.scenes import load
 
 
-def test_compiling_counts_as_no_time() -> None:
+def test_compiling_counts_as_no_time():
     assert kernels  # which tells the clock of what numba compiles
 
     @numba.njit
-    def inner(x: float) -> float:
+    def inner(x):
         return x + 1.0
 
     @numba.njit
-    def outer(x: float) -> float:
+    def outer(x):
         return inner(x) + 1.0
 
     wall, began, before = perf_counter(), clock.now(), clock.compiled()
@@ -32,13 +32,13 @@ def test_compiling_counts_as_no_time() -> None:
     assert clock.compiled() == before and clock.now() >= began
 
 
-def test_another_thread_s_clock_goes_on() -> None:
+def test_another_thread_s_clock_goes_on():
     began = clock.now()
     with clock.stopped(), clock.stopped():
         moment = clock.now()
         elapsed: list[float] = []
 
-        def other() -> None:
+        def other():
             start = clock.now()
             sleep(0.01)
             elapsed.append(clock.now() - start)
@@ -51,7 +51,7 @@ def test_another_thread_s_clock_goes_on() -> None:
 
 
 @pytest.mark.parametrize("model", ["lumped", *fem_reference.MODELS])
-def test_setting_up_and_solving_take_no_longer_than_the_call(model: str) -> None:
+def test_setting_up_and_solving_take_no_longer_than_the_call(model):
     scene, began = load("one-edge-clamped"), clock.now()
     if model == "lumped":
         answer = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, (3, 3)))

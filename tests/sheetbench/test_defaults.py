@@ -1,7 +1,5 @@
 """A folder's own options, from a file."""
 
-from pathlib import Path
-
 import pytest
 from commands import json_of, one_line, run
 
@@ -11,12 +9,12 @@ VERBS = ("compare", "modes")
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
-def test_options_of_the_file_come_before_those_of_the_command(folder: Path, capsys) -> None:
+def test_options_of_the_file_come_before_those_of_the_command(folder, capsys):
     text = '[compare]\ngrid = "3"\nlayer_distance = -1\nuncertainty = false\nmodel = ["a", "b"]\n'
     text += "symmetry = true\n"
     (folder / FILE).write_text(text + "[modes]\ncount = 2\n", encoding="utf-8")
@@ -29,7 +27,7 @@ def test_options_of_the_file_come_before_those_of_the_command(folder: Path, caps
     assert capsys.readouterr().err == ""
 
 
-def test_a_command_takes_them(folder: Path, capsys) -> None:
+def test_a_command_takes_them(folder, capsys):
     (folder / FILE).write_text("[modes]\ncount = 2\nelements = 2\ngrid = 3\n", encoding="utf-8")
     lattice, shell = json_of(capsys, "modes", "one-edge-clamped", "--count", "1")["solutions"]
     assert lattice["settings"]["grid"] == [3, 3, 2] and shell["settings"]["elements"] == [2, 2]
@@ -46,7 +44,7 @@ def test_a_command_takes_them(folder: Path, capsys) -> None:
         ("[modes]\nmany = 2\n", "--many"),
     ],
 )
-def test_a_file_that_cannot_be_meant_is_refused_in_a_line(folder: Path, capsys, text: str, said: str) -> None:
+def test_a_file_that_cannot_be_meant_is_refused_in_a_line(folder, capsys, text, said):
     (folder / FILE).write_text(text, encoding="utf-8")
     assert run("modes", "one-edge-clamped", "--quiet") == 2
     assert said in one_line(capsys)

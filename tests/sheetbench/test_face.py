@@ -20,7 +20,7 @@ HEAVY = ["numpy", "scipy", "pydantic", "numba", "skfem", "meshio", "pyvista", "v
 HEAVY += ["rich", "typer", "lumped", "fem_reference", "comparisons", "sheetbench.scenes"]
 
 
-def python(*arguments: str, **environment: str) -> str:
+def python(*arguments, **environment):
     """What a fresh interpreter prints."""
     around = {**os.environ, **environment}
     done = subprocess.run(
@@ -29,19 +29,19 @@ def python(*arguments: str, **environment: str) -> str:
     return done.stdout.strip()
 
 
-def test_importing_sheetbench_imports_nothing_heavy() -> None:
+def test_importing_sheetbench_imports_nothing_heavy():
     code = "import sys, sheetbench; print([m for m in sys.argv[1:] if m in sys.modules])"
     assert python("-c", code, *HEAVY) == "[]"
 
 
-def test_a_scene_is_read_without_any_solver() -> None:
+def test_a_scene_is_read_without_any_solver():
     solvers = [name for name in HEAVY if name not in ("numpy", "pydantic", "sheetbench.scenes")]
     code = f"import sys, sheetbench as sb; sb.load('{NAME}')"
     code += "; print([m for m in sys.argv[1:] if m in sys.modules])"
     assert python("-c", code, *solvers) == "[]"
 
 
-def test_every_name_is_there() -> None:
+def test_every_name_is_there():
     for name in sb.__all__:
         assert getattr(sb, name) is not None
     assert [name for name in dir(sb) if not name.startswith("__")] == sorted(sb.__all__)
@@ -50,11 +50,11 @@ def test_every_name_is_there() -> None:
         sb.weigh  # noqa: B018
 
 
-def test_it_is_a_command_too() -> None:
+def test_it_is_a_command_too():
     assert python("-m", "sheetbench", "--version") == "sheetbench 0.1.0"
 
 
-def test_a_users_own_modules_do_not_shadow_ours(tmp_path: Path) -> None:
+def test_a_users_own_modules_do_not_shadow_ours(tmp_path):
     for taken in ("scenes.py", "report.py", "models.py", "catalogue.py"):
         (tmp_path / taken).write_text("raise SystemExit('mine')\n")
     script = tmp_path / "run.py"
@@ -62,7 +62,7 @@ def test_a_users_own_modules_do_not_shadow_ours(tmp_path: Path) -> None:
     assert python(str(script)) == NAME
 
 
-def test_compiled_kernels_are_kept_outside_the_packages(tmp_path: Path) -> None:
+def test_compiled_kernels_are_kept_outside_the_packages(tmp_path):
     ask = "import lumped, numba; print(numba.config.CACHE_DIR)"
     forget = "import os; os.environ.pop('NUMBA_CACHE_DIR', None); "
     quick = {"NUMBA_DISABLE_JIT": "1"}
@@ -72,7 +72,7 @@ def test_compiled_kernels_are_kept_outside_the_packages(tmp_path: Path) -> None:
     assert python("-c", ask, NUMBA_CACHE_DIR=theirs, **quick) == theirs
 
 
-def test_the_packages_say_that_they_are_typed() -> None:
+def test_the_packages_say_that_they_are_typed():
     for package in (sb, lumped, fem_reference, sys.modules["comparisons"]):
         assert (Path(str(package.__file__)).parent / "py.typed").is_file()
 
@@ -96,7 +96,7 @@ VERBS: dict[str, Callable[[Any], Any]] = {
 
 
 @pytest.mark.parametrize("verb", VERBS)
-def test_a_scene_a_name_and_a_path_are_the_same_to_every_verb(tmp_path: Path, verb: str) -> None:
+def test_a_scene_a_name_and_a_path_are_the_same_to_every_verb(tmp_path, verb):
     scene = sb.load(NAME)
     path = tmp_path / "saved.toml"
     scene.save(path)
@@ -107,19 +107,19 @@ def test_a_scene_a_name_and_a_path_are_the_same_to_every_verb(tmp_path: Path, ve
 
 
 @pytest.mark.parametrize("verb", ["advise", "calibrate", "check", "compare", "modes", "solve", "tradeoff"])
-def test_a_name_that_is_none_is_refused(verb: str) -> None:
+def test_a_name_that_is_none_is_refused(verb):
     with pytest.raises(sb.SceneError, match="no-such-sheet: no such file"):
         getattr(sb, verb)("no-such-sheet")
 
 
-def test_grids_are_numbers_or_tuples() -> None:
+def test_grids_are_numbers_or_tuples():
     assert sb.calibrate(NAME, grid=5) == sb.calibrate(NAME, grid=(5, 5)) == sb.calibrate(NAME, grid=(5, 5, 2))
     scene = sb.load(NAME)
     direct = lumped.calibrate(scene.sheet, scene.material, grid=5)
     assert direct == lumped.calibrate(scene.sheet, scene.material, grid=(5, 5)) == sb.calibrate(scene, grid=5)
 
 
-def test_identify_reads_a_file_and_finds_the_modulus_again(tmp_path: Path) -> None:
+def test_identify_reads_a_file_and_finds_the_modulus_again(tmp_path):
     softer = sb.load(NAME).model_copy(update={"material": sb.Material(4.0e7, 0.48, 1678.0)})
     points = np.array([[0.1, 0.05], [0.1, 0.15], [0.188, 0.094]])
     moved = sb.solve(softer, grid=3).displacement(points)
@@ -130,7 +130,7 @@ def test_identify_reads_a_file_and_finds_the_modulus_again(tmp_path: Path) -> No
     assert found.unknowns["young"].value == pytest.approx(4.0e7, rel=1e-4)
 
 
-def test_a_trade_off_is_asked_in_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_trade_off_is_asked_in_lists(tmp_path, monkeypatch):
     asked: list[Any] = []
     monkeypatch.setattr(statics, "tradeoff", lambda scene, candidates, store, **_: asked.extend(candidates))
     out = tmp_path / "kept"
@@ -140,7 +140,7 @@ def test_a_trade_off_is_asked_in_lists(tmp_path: Path, monkeypatch: pytest.Monke
     assert (out / "campaign.sqlite").is_file()
 
 
-def test_a_saved_scene_holds_every_digit(tmp_path: Path) -> None:
+def test_a_saved_scene_holds_every_digit(tmp_path):
     moved = sb.EdgeMotion(
         kind="motion", time=[0.0, 1.0], edge="x1", displacement=[[0.0] * 3, [0.01, 0.0, 0.0]]
     )

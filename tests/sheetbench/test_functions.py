@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 ONLY_IN_THE_TERMINAL = {"live", "new", "scenes", "study"}
 
 
-def test_every_verb_is_a_function_or_is_said_not_to_be_one() -> None:
+def test_every_verb_is_a_function_or_is_said_not_to_be_one():
     page = (ROOT / "docs" / "first-steps.md").read_text(encoding="utf-8")
     for verb in VERBS:
         if verb in ONLY_IN_THE_TERMINAL:
@@ -23,13 +23,13 @@ def test_every_verb_is_a_function_or_is_said_not_to_be_one() -> None:
             assert inspect.isfunction(getattr(sb, verb)) and f"`{verb}`" in page
 
 
-def test_the_reference_has_every_function_by_the_name_that_is_called() -> None:
+def test_the_reference_has_every_function_by_the_name_that_is_called():
     page = (ROOT / "docs" / "api" / "verbs.md").read_text(encoding="utf-8")
     functions = {name for name in sb.__all__ if inspect.isfunction(getattr(sb, name))}
     assert set(re.findall(r"autofunction:: (\w+)$", page, re.M)) == functions
 
 
-def test_springs_are_found_from_numbers_as_the_command_line_finds_them() -> None:
+def test_springs_are_found_from_numbers_as_the_command_line_finds_them():
     found = sb.calibrate(young="0.6 MPa", poisson=0.45, thickness="2 mm", side=(0.12, 0.04), grid=3)
     sheet, material = sb.Sheet(0.12, 0.04, 0.002), sb.Material(0.6e6, 0.45, 1000.0)
     scene = sb.Scene("s", sheet, material, supports=(sb.Clamped("y0"),), loads=(sb.Pressure(1.0),))
@@ -39,7 +39,7 @@ def test_springs_are_found_from_numbers_as_the_command_line_finds_them() -> None
         sb.calibrate(young=1e6)
 
 
-def test_a_lattice_is_exported_from_python(tmp_path: Path) -> None:
+def test_a_lattice_is_exported_from_python(tmp_path):
     folder = sb.export("one-edge-clamped", tmp_path / "lattice", grid=3)
     assert {"nodes.csv", "links.csv", "lattice.npz", "README.md"} <= {path.name for path in folder.iterdir()}
     held = np.load(folder / "lattice.npz")
@@ -48,7 +48,7 @@ def test_a_lattice_is_exported_from_python(tmp_path: Path) -> None:
     assert np.array_equal(held["link_stiffness"], again["link_stiffness"])
 
 
-def test_the_other_functions_return_what_their_verbs_report_on(tmp_path: Path) -> None:
+def test_the_other_functions_return_what_their_verbs_report_on(tmp_path):
     assert sb.schema()["properties"]["sheet"] and sb.suite("modes").tables()
     sb.export("one-edge-clamped", tmp_path / "lattice", grid=3)
     assert sb.report(tmp_path) == tmp_path / "report.html" and (tmp_path / "report.html").is_file()
@@ -63,5 +63,5 @@ def test_the_other_functions_return_what_their_verbs_report_on(tmp_path: Path) -
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.py")), ids=lambda path: path.stem)
-def test_examples_import_the_package_alone(path: Path) -> None:
+def test_examples_import_the_package_alone(path):
     assert not re.search(r"^(from|import) comparisons", path.read_text(encoding="utf-8"), re.M)

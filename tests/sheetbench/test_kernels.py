@@ -7,7 +7,6 @@ import stat
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -60,7 +59,7 @@ def test_steps_are_compiled_once_whether_edges_are_driven_or_not():
     assert layouts == {"C"}
 
 
-def test_the_first_compilation_is_announced_and_the_second_run_compiles_nothing(tmp_path: Path):
+def test_the_first_compilation_is_announced_and_the_second_run_compiles_nothing(tmp_path):
     said = [
         subprocess.run(
             [sys.executable, "-c", ASK],
@@ -74,7 +73,7 @@ def test_the_first_compilation_is_announced_and_the_second_run_compiles_nothing(
     assert said == [SAID + "\n", ""]
 
 
-def ask(place: Path, cache: Path) -> str:
+def ask(place, cache):
     """What is said, compiling included, by a process that runs a kernel from a checkout at `place`."""
     return subprocess.run(
         [sys.executable, "-c", ASK],
@@ -87,7 +86,7 @@ def ask(place: Path, cache: Path) -> str:
 
 
 @pytest.mark.parametrize("at", ["the cache", "a kernel's folder"])
-def test_a_folder_that_others_may_write_to_is_refused(tmp_path: Path, at: str) -> None:
+def test_a_folder_that_others_may_write_to_is_refused(tmp_path, at):
     """What lies there is unpickled: somebody else's was executed."""
     cache = tmp_path / "cache"
     cache.mkdir(mode=0o755)
@@ -106,7 +105,7 @@ def test_a_folder_that_others_may_write_to_is_refused(tmp_path: Path, at: str) -
     assert not [path for path in cache.rglob("*") if path.is_file()]
 
 
-def test_folders_of_kernels_are_the_users_alone_whatever_the_umask(tmp_path: Path) -> None:
+def test_folders_of_kernels_are_the_users_alone_whatever_the_umask(tmp_path):
     done = subprocess.run(
         ["sh", "-c", 'umask 0 && exec "$0" -c "$1"', sys.executable, ASK],
         env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")},
@@ -116,7 +115,7 @@ def test_folders_of_kernels_are_the_users_alone_whatever_the_umask(tmp_path: Pat
     assert {stat.S_IMODE(path.stat().st_mode) for path in made} == {0o700}
 
 
-def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled_and_what_came_with_it(tmp_path: Path):
+def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled_and_what_came_with_it(tmp_path):
     unneeded = shutil.ignore_patterns("__pycache__")
     copy, cache, empty = tmp_path / "copy", tmp_path / "cache", tmp_path / "empty"
     for package in ("sheetbench", "lumped"):
@@ -145,7 +144,7 @@ caching.IndexDataCacheFile.save = save
 """
 
 
-def test_a_kernel_is_kept_by_one_process_at_a_time(tmp_path: Path):
+def test_a_kernel_is_kept_by_one_process_at_a_time(tmp_path):
     """Else a process would load, for its own arguments, what another compiled for others: and crash."""
     env = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     said = subprocess.run(
@@ -158,7 +157,7 @@ def test_the_processor_is_the_common_one_unless_numba_is_there_before():
     show = "import os; print(os.environ.get('NUMBA_CPU_NAME'))"
     env = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_CPU")}
 
-    def told(*lines: str) -> str:
+    def told(*lines):
         command = [sys.executable, "-c", "\n".join([*lines, show])]
         return subprocess.run(command, env=env, cwd=ROOT, capture_output=True, text=True, check=True).stdout
 
@@ -167,7 +166,7 @@ def test_the_processor_is_the_common_one_unless_numba_is_there_before():
     assert told("import numba", "import sheetbench.kernels") == "None\n"
 
 
-def test_kernels_of_former_sources_go_after_a_month(tmp_path: Path):
+def test_kernels_of_former_sources_go_after_a_month(tmp_path):
     folders = [tmp_path / f"sheetbench.numerics.maps-{digest}" for digest in ("new", "old", "young")]
     for folder in folders:
         folder.mkdir()

@@ -1,7 +1,5 @@
 """The advisor's validation: the scenes drawn at random, and a part of the study."""
 
-from pathlib import Path
-
 import pytest
 from campaigns import Here
 
@@ -12,7 +10,7 @@ from studies.advisor import study as advisor_study
 from studies.advisor.study import scenes_at_random, study
 
 
-def test_scenes_drawn_are_the_same_for_the_same_seed_and_within_range() -> None:
+def test_scenes_drawn_are_the_same_for_the_same_seed_and_within_range():
     drawn = [scene for scene, _ in zip(scenes_at_random(3), range(40), strict=False)]
     again = [scene for scene, _ in zip(scenes_at_random(3), range(40), strict=False)]
     assert drawn == again and len({scene.sheet for scene in drawn}) == 40
@@ -25,7 +23,7 @@ def test_scenes_drawn_are_the_same_for_the_same_seed_and_within_range() -> None:
 
 
 @pytest.mark.usefixtures("in_process")
-def test_a_few_random_scenes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_few_random_scenes(tmp_path, monkeypatch):
     monkeypatch.setattr(advisor_study, "processes", Here)
     rivals = advisor_study.rows
     monkeypatch.setattr(advisor_study, "rows", lambda scene: rivals(scene)[1::4])
@@ -39,7 +37,7 @@ def test_a_few_random_scenes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 
 @pytest.mark.slow
-def test_sixty_random_scenes(tmp_path: Path) -> None:
+def test_sixty_random_scenes(tmp_path):
     with campaign(tmp_path) as store:
         found = study(store, workers=2)
     assert len(found.cases) == 60 * len(advisor_study.TOLERANCES)

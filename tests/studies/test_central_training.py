@@ -6,7 +6,7 @@ from lumped.calibration.central_table import ROWS
 from studies.central.training import trained_to_bend
 
 
-def test_the_table_is_what_its_scenes_ask_for() -> None:
+def test_the_table_is_what_its_scenes_ask_for():
     """Of one row: the numbers are as fine as the search, the errors flat about their least."""
     row = next(row for row in ROWS if row[0] == 0.45)
     a, b, worst, cauchy = trained_to_bend(0.45)

@@ -2,15 +2,12 @@
 
 import json
 from itertools import islice
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from campaigns import Here
 
 from comparisons.cli import main
-from comparisons.runs.store import Store
 from sheetbench import scenes
 from sheetbench.scenes.rigid_motions import require_static
 from studies.coverage import row as docs_row
@@ -21,7 +18,7 @@ from studies.coverage.study import GOAL, LOOSE, coverage, measured
 TRUTH = {"plate": 20, "shell": 16}  # enough beside 8 elements, and quick
 
 
-def test_scenes_are_drawn_the_same_and_have_every_support_and_load() -> None:
+def test_scenes_are_drawn_the_same_and_have_every_support_and_load():
     drawn = list(islice(drawn_scenes(), 2 * len(ARRANGEMENTS)))
     assert drawn == list(islice(drawn_scenes(SEED), len(drawn)))
     assert drawn[0] != next(drawn_scenes(SEED + 1))
@@ -35,10 +32,10 @@ def test_scenes_are_drawn_the_same_and_have_every_support_and_load() -> None:
     assert any(scene.actuators for scene in drawn) and any(scene.gravity is None for scene in drawn)
 
 
-def test_a_component_is_inside_where_its_error_is_below_its_bar() -> None:
+def test_a_component_is_inside_where_its_error_is_below_its_bar():
     scene = scenes.load("two-edges-clamped")
 
-    def row(miss: float) -> dict[str, Any]:
+    def row(miss):
         """A field that is off by a share at P4, in uz, and by a hundredth of that elsewhere."""
         u = np.full((len(scene.probes), 3), 1e-3) * (1.0 + 0.01 * miss)
         u[:, 0] = 1e-12  # below rounding
@@ -46,7 +43,7 @@ def test_a_component_is_inside_where_its_error_is_below_its_bar() -> None:
         u[-1, 2] *= 1.0 + miss
         return {"displacement": u, "settings": {"elements": [8, 8], "graded": True}}
 
-    def found(truth: float) -> list[bool]:
+    def found(truth):
         rows = {n: row(0.01 * (8 / n) ** 2) for n in (8, 6, 4)} | {48: row(0.0)}
         rows[48]["displacement"][-1, 2] *= 1.0 + truth
         components = list(measured(scene, "plate", 8, rows))
@@ -57,7 +54,7 @@ def test_a_component_is_inside_where_its_error_is_below_its_bar() -> None:
     assert all(found(0.0)) and found(-0.1).count(False) == 1
 
 
-def test_what_is_complained_of_is_what_is_not_met() -> None:
+def test_what_is_complained_of_is_what_is_not_met():
     held, missed = (
         study.Component("a", model, 8, "P", "uz", answer=2.0, truth=1.0, bar=bar, order=2.0)
         for model, bar in (("plate", 2.0), ("shell", 0.5))
@@ -66,7 +63,7 @@ def test_what_is_complained_of_is_what_is_not_met() -> None:
     assert said.startswith("shell, 8 elements: 0.0 % inside")
 
 
-def test_bars_of_plate_and_shell_hold_on_six_drawn_scenes(store: Store) -> None:
+def test_bars_of_plate_and_shell_hold_on_six_drawn_scenes(store):
     """Of a seed that the rule was set on: as many as all forty shall have, but for three of a hundred, which
     six scenes' chance may take."""
     found = coverage(store, count=6, models=("plate", "shell"), meshes=(8,), truth=TRUTH, seed=27, pool=Here)
@@ -76,9 +73,7 @@ def test_bars_of_plate_and_shell_hold_on_six_drawn_scenes(store: Store) -> None:
         assert row["inside"] >= GOAL - 0.03 and row["loose"] <= 1.5 * LOOSE
 
 
-def test_the_command_writes_what_it_counted(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], in_process: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_command_writes_what_it_counted(tmp_path, capsys, in_process, monkeypatch):
     monkeypatch.setitem(study.TRUTH, "plate", 20)
     asked = ["study", "coverage", "--scenes", "1", "--model", "plate", "--json", "--out", str(tmp_path)]
     with pytest.raises(SystemExit) as caught:

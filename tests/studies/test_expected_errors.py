@@ -11,7 +11,7 @@ from studies.expected_errors.study import STORED, error_pairs, lattice, scenes, 
 ROWS: dict[str, Any] = json.loads(STORED.read_text())
 
 
-def test_on_the_stored_scenes_it_is_within_a_factor_of_two_and_never_below_a_third() -> None:
+def test_on_the_stored_scenes_it_is_within_a_factor_of_two_and_never_below_a_third():
     """On four of five of all cases that are told of, and of each group; `make expected-errors`."""
     assert set(ROWS) == set(scenes())
     for group in ("hard", "catalogue", "transfer", "drawn"):
@@ -21,7 +21,7 @@ def test_on_the_stored_scenes_it_is_within_a_factor_of_two_and_never_below_a_thi
 
 
 @pytest.mark.parametrize("name", ["hinged-corner", "auxetic-two", "pull-hard"])
-def test_the_stored_displacements_are_the_lattices(name: str) -> None:
+def test_the_stored_displacements_are_the_lattices(name):
     """Of scenes that the rule by layers' widths got wrong."""
     stored = ROWS[name]
     for row in stored["lattices"][:2]:
@@ -32,7 +32,7 @@ def test_the_stored_displacements_are_the_lattices(name: str) -> None:
 
 
 @pytest.mark.slow
-def test_the_stored_lattices_are_todays() -> None:
+def test_the_stored_lattices_are_todays():
     for name, (_, scene) in scenes().items():
         for row in ROWS[name]["lattices"]:
             answer = lattice(scene, tuple(row["grid"]))

@@ -18,17 +18,17 @@ ROWS = [
 ]
 
 
-def test_ours_is_faster_only_where_it_is_as_good() -> None:
+def test_ours_is_faster_only_where_it_is_as_good():
     assert [faster(row, ROWS) for row in ROWS] == [None, None, pytest.approx(10.0), None, None, None]
 
 
-def test_quick_solves_are_repeated_and_long_ones_are_not() -> None:
+def test_quick_solves_are_repeated_and_long_ones_are_not():
     quick, long = iter([0.5, 0.4, 0.3, 0.4, 9.9]), iter([2.0])
     assert repeated(lambda: next(quick)) == (0.4, 0.3, 0.4)
     assert repeated(lambda: next(long)) == (2.0,)
 
 
-def test_a_table_a_question() -> None:
+def test_a_table_a_question():
     found = Peers(ROWS).report()
     assert [table.name for table in found.tables] == ["statics", "settling"]
     (row,) = [row for row in found.document["rows"] if row["size"] == "16 × 16"]
@@ -36,7 +36,7 @@ def test_a_table_a_question() -> None:
     assert "absent: needs luck" in found.to_markdown()
 
 
-def test_scipy_is_given_the_lattices_own_jacobian() -> None:
+def test_scipy_is_given_the_lattices_own_jacobian():
     """Against central differences of the right-hand side, in a bent state at rest: of dampers that turn
     the matrices of an implicit step leave the turning out."""
     equations = settling.Equations(load(settling.SCENE))

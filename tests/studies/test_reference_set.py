@@ -10,17 +10,11 @@ from studies.leaderboard import study as leaderboard
 from studies.reference_set import study as regenerate
 
 
-def test_one_command_makes_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_one_command_makes_it(monkeypatch):
     """On coarse meshes and one case of each suite, with the keys and cases of the file."""
     chosen = [case for case in cases() if case.name in ("thick", "corner-struck", "modes-one-edge")]
     monkeypatch.setattr(regenerate, "cases", lambda: chosen)
-    for name, value in (
-        ("ELEMENTS", 4),
-        ("SOLID", 2),
-        ("OTHERS", {}),
-        ("MOVING", (2, 1e-4)),
-        ("GRID", 3),
-    ):
+    for name, value in (("ELEMENTS", 4), ("SOLID", 2), ("OTHERS", {}), ("MOVING", (2, 1e-4)), ("GRID", 3)):
         monkeypatch.setattr(regenerate, name, value)
     found = regenerate.regenerate(lambda text: None)
     kept = {case["name"]: case for case in document()["cases"]}
@@ -30,7 +24,7 @@ def test_one_command_makes_it(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found["standing"] == document()["standing"]
 
 
-def test_a_suite_made_anew_leaves_the_others_values(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_suite_made_anew_leaves_the_others_values(monkeypatch):
     chosen = [case for case in cases() if case.name in ("thick", "cantilever-1")]
     monkeypatch.setattr(regenerate, "cases", lambda: chosen)
     monkeypatch.setattr(regenerate, "CURVES", 3)

@@ -2,7 +2,6 @@
 
 import json
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,22 +9,22 @@ from commands import run
 
 from comparisons.reproduction.published import scene
 from sheetbench.scenes.seed import seed_inputs
-from studies.reproduction.chords import Chord, of_table
+from studies.reproduction.chords import of_table
 from studies.reproduction.inputs import checks
 from studies.reproduction.nearest import ENOUGH, SQUARES, Scan, fits, matches
 from studies.reproduction.printed_errors import Cell, cells, means
 from studies.reproduction.sheets import Sheets
-from studies.reproduction.study import Forensics, study
+from studies.reproduction.study import study
 
 SMALL = (3, 3, 2)
 
 
 @pytest.fixture(scope="module")
-def errors() -> Forensics:
+def errors():
     return study(["errors"])
 
 
-def test_every_printed_error_is_of_the_larger_value() -> None:
+def test_every_printed_error_is_of_the_larger_value():
     """By hand: 0.02/0.35 = 5.71 % of the experiment is printed 5.7; 0.06/0.87 = 6.90 % of the model, 6.8."""
     found = {(cell.test, cell.component, cell.probe): cell for cell in cells()}
     assert len(found) == 24 and all(cell.by_larger for cell in found.values())
@@ -40,12 +39,12 @@ def test_every_printed_error_is_of_the_larger_value() -> None:
     assert mean["printed"] == pytest.approx(0.0492, abs=5e-5) and mean["of_experiment"] > mean["printed"]
 
 
-def test_a_printed_error_of_neither_is_said_to_be() -> None:
+def test_a_printed_error_of_neither_is_said_to_be():
     cell = Cell(1, "ux", "P1", 0.09, 0.0571, 0.0606, 0.0571, "neither", "")
     assert cell.changes and not cell.by_larger
 
 
-def test_inputs_against_one_another() -> None:
+def test_inputs_against_one_another():
     found = {check.what: check for check in checks() if check.what != "k"}
     assert found["mass of a point"].agrees and not found["equations"].agrees
     assert found["equations"].computed == 486
@@ -54,11 +53,11 @@ def test_inputs_against_one_another() -> None:
     assert found["layer distance"].agrees is None
 
 
-def chord(found: list[Chord], start: str, end: str) -> Chord:
+def chord(found, start, end):
     return next(one for one in found if (one.start, one.end) == (start, end))
 
 
-def test_a_rolled_sheet_asks_for_its_own_turning_and_for_no_stretch() -> None:
+def test_a_rolled_sheet_asks_for_its_own_turning_and_for_no_stretch():
     """A sheet rolled about y to a radius R: from x0 to P3 it turns through a/R, and c = 2 R sin(a/2R)."""
     asked = scene(2)
     x, radius = asked.probe_points()[:, 0], 0.1
@@ -69,7 +68,7 @@ def test_a_rolled_sheet_asks_for_its_own_turning_and_for_no_stretch() -> None:
     assert 0.9 * 0.094 / (2 * radius) < one.turning < 0.094 / radius  # the least of any curve of that chord
 
 
-def test_a_stretched_sheet_is_seen_less_what_digits_leave_open() -> None:
+def test_a_stretched_sheet_is_seen_less_what_digits_leave_open():
     points = scene(1).probe_points()
     moved = np.column_stack([0.002 * points, np.zeros(4)])
     one = chord(of_table(1, "model", moved), "P1", "P3")
@@ -77,7 +76,7 @@ def test_a_stretched_sheet_is_seen_less_what_digits_leave_open() -> None:
     assert not any(c.stretch for c in of_table(1, "model", 0.01 * moved))  # within the digits
 
 
-def test_published_distances_that_no_sheet_has() -> None:
+def test_published_distances_that_no_sheet_has():
     found = of_table(2, "model")
     assert chord(found, "P3", "P4").stretch == pytest.approx(0.0046, abs=1e-4)
     assert np.degrees(chord(found, "P1", "P3").turning) == pytest.approx(54.7, abs=0.1)
@@ -90,9 +89,7 @@ def test_published_distances_that_no_sheet_has() -> None:
         ("lattice", {"layer_distance": 0.012, "k": 800.0}, 0.008),
     ],
 )
-def test_a_sheet_is_found_from_its_own_table(
-    kind: str, true: dict[str, float], start: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_sheet_is_found_from_its_own_table(kind, true, start, monkeypatch):
     """E, tilt, k and lz come back as they were; a plate turned as a whole is what the tilt says it is."""
     sheets = Sheets(kind, [scene(1)], SMALL)
     monkeypatch.setattr("studies.reproduction.nearest.sheets_of", lambda *_: sheets)
@@ -106,7 +103,7 @@ def test_a_sheet_is_found_from_its_own_table(
     assert not matches(1.2 * table, table).all()
 
 
-def test_supports_turned_as_one_turn_a_stiff_sheet_rigidly() -> None:
+def test_supports_turned_as_one_turn_a_stiff_sheet_rigidly():
     """E a million times as large: uz = −sin τ · distance from the turning axis, and nothing along it."""
     tilt, side = 0.1, seed_inputs()["side"]
     sheets = Sheets("sheet", [scene(1)], SMALL)
@@ -116,7 +113,7 @@ def test_supports_turned_as_one_turn_a_stiff_sheet_rigidly() -> None:
     np.testing.assert_allclose(moved[:, 0], (np.cos(tilt) - 1.0) * away / np.sqrt(2.0), atol=1e-6 * side)
 
 
-def test_the_document(errors: Forensics) -> None:
+def test_the_document(errors):
     document = errors.document()
     assert {"parts", "inputs", "known_faults", "findings", "checks", "errors"} == set(document)
     assert document["errors"]["means"]["quoted"] == 0.048
@@ -125,9 +122,7 @@ def test_the_document(errors: Forensics) -> None:
     assert document["findings"][1]["finding"].startswith("The printed errors have a mean of 4.92 %")
 
 
-def test_the_verb_writes_a_page_and_says_what_it_found(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_verb_writes_a_page_and_says_what_it_found(tmp_path, capsys):
     assert run("study", "reproduction", "--part", "errors", "--out", str(tmp_path)) == 0
     shown = " ".join(capsys.readouterr().out.split())
     assert "24 of 24 printed errors" in shown

@@ -12,7 +12,7 @@ from studies.rubber.study import STRETCHES, Constant, Square, Strip
 
 
 @pytest.mark.parametrize("let_go", [False, True])
-def test_every_row_is_in_the_answer(let_go: bool) -> None:
+def test_every_row_is_in_the_answer(let_go):
     errors = {f"{100 * at:g} %": -at for at in STRETCHES}
     time = np.linspace(0.0, 1.0, 5)
     block = Block(

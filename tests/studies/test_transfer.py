@@ -148,7 +148,7 @@ def test_the_whole_study(study):
     assert all(np.abs(modal[name, "fit-modal"][0]).max() < 0.01 for name in SEED)
 
 
-def test_springs_and_grading_are_those_of_auto_where_that_is_a_method() -> None:
+def test_springs_and_grading_are_those_of_auto_where_that_is_a_method():
     """Only the methods that take a grading have one."""
     soft = transfer_scenes()["tenth-of-young"]
     one = soft.replace(supports=(Clamped("x0"),))

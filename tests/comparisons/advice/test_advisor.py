@@ -2,12 +2,9 @@
 
 import json
 import shlex
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
-from typing import Any
 
-import numpy as np
 import pytest
 from answers import once
 from commands import json_of, run
@@ -15,27 +12,26 @@ from commands import json_of, run
 import fem_reference
 from comparisons.advice import probing
 from comparisons.advice.advisor import advise
-from comparisons.advice.answer import Advice
 from comparisons.comparison import comparison
 from comparisons.comparison.comparison import error
 from comparisons.models import solve as solvers
-from comparisons.models.resolve import Resolved, resolve
+from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice, Spec, spec_of
 from fem_reference.pulled_strip import pulled
 from fem_reference.verification.strain_laws import stress
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Solution
+from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
 
 SECONDS = 1e-5  # an unknown and factorisation
 answer = once(solvers.solve)  # one for all tests: what is looked at is what the advisor makes of it
 
 
 @pytest.fixture(autouse=True)
-def clock(monkeypatch: pytest.MonkeyPatch) -> None:
+def clock(monkeypatch):
     """Every solve takes what its size says, however busy the machine is."""
 
-    def answer_in_time(model: Resolved[Any]) -> Solution:
+    def answer_in_time(model):
         solution = answer(model)
         seconds = SECONDS * solution.unknowns * (1 + solution.iterations)
         return replace(solution, solve_seconds=seconds)
@@ -44,13 +40,13 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @cache
-def truth(text: str) -> np.ndarray:
+def truth(text):
     """What a shell that the advisor does not see says at the probes of a scene, as JSON, (n, 3)."""
     scene = Scene.model_validate_json(text)
     return fem_reference.solve(scene, model="shell", elements=16).displacement(scene.probe_points())
 
 
-def actual_error(advice: Advice) -> float:
+def actual_error(advice):
     """Error of the choice against the shell."""
     assert advice.choice is not None
     chosen = answer(resolve(advice.scene, advice.choice))
@@ -60,13 +56,13 @@ def actual_error(advice: Advice) -> float:
     return found
 
 
-def lighter(scene: Scene, share: float) -> Scene:
+def lighter(scene, share):
     """The scene under a share of its weight."""
     gravity = Gravity(acceleration=(0.0, 0.0, -9.81 * share))
     return scene.model_copy(update={"gravity": gravity})
 
 
-def test_scales_of_the_seed_sheet() -> None:
+def test_scales_of_the_seed_sheet():
     found = scales(scenes.load("two-edges-clamped"))
     rigidity = 54.5e6 * 0.003**3 / 12 / (1 - 0.48**2)
     assert found.load_number == pytest.approx(1678 * 9.81 * 0.003 * 0.188**3 / rigidity)
@@ -74,7 +70,7 @@ def test_scales_of_the_seed_sheet() -> None:
     assert found.strain == pytest.approx(1678 * 9.81 * 0.188 / 54.5e6)
 
 
-def test_the_load_number_is_of_the_length_that_hangs() -> None:
+def test_the_load_number_is_of_the_length_that_hangs():
     """A strip held at a short edge; at a long one, and at both, it reaches over its shorter side."""
     sheet = Sheet(length_x=0.12, length_y=0.04, thickness=0.002)
     strip = scenes.load("one-edge-clamped").replace(sheet=sheet, supports=[Clamped(edge="x0")], probes={})
@@ -87,7 +83,7 @@ def test_the_load_number_is_of_the_length_that_hangs() -> None:
         assert near.span == 0.04 and near.span_load_number == near.load_number
 
 
-def test_a_busy_machine_and_all_digits_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_busy_machine_and_all_digits_are_shown(monkeypatch):
     """An error of 1.04 % is not the "1" that a tolerance of 1 % would let pass."""
     monkeypatch.setattr("comparisons.runs.load.average", lambda: 100.0)
     advice = advise("one-edge-clamped", 0.2)
@@ -102,7 +98,7 @@ def test_a_busy_machine_and_all_digits_are_shown(monkeypatch: pytest.MonkeyPatch
 
 @pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped", "curved-edge"])
 @pytest.mark.parametrize("tolerance", [0.05, 0.01, 0.003])
-def test_the_choice_meets_the_tolerance(name: str, tolerance: float) -> None:
+def test_the_choice_meets_the_tolerance(name, tolerance):
     """The shell's own model error, 0.5 % on the curved edge by its law of strain, counts."""
     advice = advise(scenes.load(name), tolerance)
     assert advice.model is not None
@@ -110,7 +106,7 @@ def test_the_choice_meets_the_tolerance(name: str, tolerance: float) -> None:
     assert actual_error(advice) <= tolerance
 
 
-def test_a_loose_tolerance_costs_no_more_than_a_tight_one() -> None:
+def test_a_loose_tolerance_costs_no_more_than_a_tight_one():
     scene = scenes.load("curved-edge")
     loose, tight = advise(scene, 0.05), advise(scene, 0.003)
     assert loose.seconds is not None and tight.seconds is not None
@@ -118,7 +114,7 @@ def test_a_loose_tolerance_costs_no_more_than_a_tight_one() -> None:
     assert tight.choice is not None and tight.choice.model == "shell"
 
 
-def test_lattices_are_tried_with_what_auto_chooses() -> None:
+def test_lattices_are_tried_with_what_auto_chooses():
     """The curved edge: the springs that `--grading auto` takes with no calibration named, even and graded,
     nearer than the usual ones on the same grid, and the advice says why, or why not."""
     curved = advise(scenes.load("curved-edge"), 0.01, grading="auto")
@@ -146,13 +142,13 @@ def test_lattices_are_tried_with_what_auto_chooses() -> None:
     assert line.endswith("--lumped 9x9x2 --calibration consistent-membrane --grading 0.3")
 
 
-def test_the_advice_says_why_nothing_is_graded() -> None:
+def test_the_advice_says_why_nothing_is_graded():
     even = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.05, grading="auto")
     assert even.grading.startswith("no grading") and "no narrow layer" in even.grading
     assert not any(row.spec.settings.get("grading") for row in even.tried)
 
 
-def test_what_the_scene_does_not_need_is_left_out() -> None:
+def test_what_the_scene_does_not_need_is_left_out():
     light = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.02)
     assert light.choice is not None
     assert light.choice.settings.get("linear") or light.choice.model == "plate"
@@ -167,7 +163,7 @@ def test_what_the_scene_does_not_need_is_left_out() -> None:
     assert {"bending", "membrane stiffening", "large displacements"} <= set(heavy.needs)
 
 
-def test_within_a_budget_the_most_accurate_is_chosen() -> None:
+def test_within_a_budget_the_most_accurate_is_chosen():
     scene = scenes.load("two-edges-clamped")
     short, long = advise(scene, None, 0.02), advise(scene, None, 0.2)
     assert short.succeeded and long.succeeded
@@ -177,26 +173,24 @@ def test_within_a_budget_the_most_accurate_is_chosen() -> None:
     assert not hopeless.succeeded and hopeless.choice is None and "no model solves this" in hopeless.message
 
 
-def test_a_scene_with_actuators() -> None:
+def test_a_scene_with_actuators():
     advice = advise(scenes.load("actuated-edge"), 0.05)
     assert "actuators" in advice.needs
     assert actual_error(advice) <= 0.05
 
 
-def test_the_document_has_the_promised_keys(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_document_has_the_promised_keys(capsys):
     document = json_of(capsys, "advise", "one-edge-clamped", "--tolerance", "0.02")
     assert set(document["choice"]) == {"model", "settings"}
     assert document["predicted"]["error"] <= 0.02 and document["predicted"]["solve_seconds"] > 0
     assert "bending" in document["needs"]
 
 
-def test_the_printed_command_solves_the_choice(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_printed_command_solves_the_choice(capsys, monkeypatch):
     advice = json_of(capsys, "advise", "curved-edge", "--tolerance", "0.02")
     solved: list[Spec] = []
 
-    def recorded(model: Resolved[Any], name: str = "") -> Solution:
+    def recorded(model, name=""):
         solved.append(model.spec)
         return replace(answer(model), model=name or model.spec.model)
 
@@ -209,13 +203,13 @@ def test_the_printed_command_solves_the_choice(
     assert any(choice.items() <= settings.items() for settings in known)
 
 
-def _told(settings: Mapping[str, object]) -> dict[str, object]:
+def _told(settings):
     """Settings that are not left open, as JSON has them."""
     return {name: json.loads(json.dumps(value)) for name, value in settings.items() if value is not None}
 
 
 @pytest.mark.parametrize(("law", "said"), [(None, "(consistent) is off by more than 2 % "), ("yeoh", "")])
-def test_what_is_stretched_hears_how_far_its_lattice_is_a_rubber(law: str | None, said: str) -> None:
+def test_what_is_stretched_hears_how_far_its_lattice_is_a_rubber(law, said):
     """A strip 5 % longer; where the sentence says that 2 % are off, they are, to the next order of strain."""
     constants = {"young": 1e6} if law is None else {"law": law, "c1": 1.7e5, "c2": -2e3, "c3": 60.0}
     material = Material.model_validate({"poisson": 0.45, "density": 1e3, **constants})
@@ -230,7 +224,7 @@ def test_what_is_stretched_hears_how_far_its_lattice_is_a_rubber(law: str | None
         assert moved.displacement([[0.2, 0.1]])[0, 0] / (0.2 * stretch) == pytest.approx(0.98, abs=2e-3)
 
 
-def test_an_unstable_scene_gets_no_choice_but_the_reason() -> None:
+def test_an_unstable_scene_gets_no_choice_but_the_reason():
     base = scenes.load("one-edge-clamped")
     upright = base.model_copy(
         update={"gravity": Gravity(acceleration=(-200.0, 0.0, 0.0)), "supports": (Clamped(edge="x0"),)}

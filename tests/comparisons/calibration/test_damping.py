@@ -1,7 +1,5 @@
 """Damping from what is known of a material: the relation, the modes that have it, measured moduli."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -20,12 +18,12 @@ FOUR = (
 
 
 @pytest.mark.parametrize("known", FOUR)
-def test_four_ways_to_say_the_same(known: dict[str, float]) -> None:
+def test_four_ways_to_say_the_same(known):
     """δ = 2πζ/√(1 − ζ²) at ζ = 0.06."""
     assert keys(**known, at=5.0)["loss_factor"] == pytest.approx(0.12, rel=1e-6)
 
 
-def test_modes_get_the_damping_that_their_kind_of_damper_has() -> None:
+def test_modes_get_the_damping_that_their_kind_of_damper_has():
     scene = load("one-edge-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, (4, 4))
     omega = 2.0 * np.pi * lumped.modes(scene, springs, count=6).frequencies
@@ -39,7 +37,7 @@ def test_modes_get_the_damping_that_their_kind_of_damper_has() -> None:
     assert band[0].frequency_hz > omega[0] / (2.0 * np.pi)  # branches stiffen
 
 
-def test_a_pole_is_that_of_the_equation_of_motion() -> None:
+def test_a_pole_is_that_of_the_equation_of_motion():
     """One branch is a third-order system: its characteristic polynomial, in closed form."""
     a, tau, omega = 0.4, 0.03, 40.0
     roots = np.roots([tau, 1.0, omega**2 * tau * (1.0 + a), omega**2])
@@ -50,7 +48,7 @@ def test_a_pole_is_that_of_the_equation_of_motion() -> None:
 TRUE = Branches((0.3, 0.2), (0.01, 0.5))
 
 
-def test_moduli_of_a_dynamic_test_and_of_a_relaxation_become_branches(tmp_path: Path) -> None:
+def test_moduli_of_a_dynamic_test_and_of_a_relaxation_become_branches(tmp_path):
     """Within 2 %: two branches a decade cannot sit on the true times."""
     at = np.geomspace(0.05, 100.0, 40)
     storage, loss = TRUE.storage_and_loss(at)
@@ -79,9 +77,9 @@ def test_moduli_of_a_dynamic_test_and_of_a_relaxation_become_branches(tmp_path: 
         ({"quality": -1.0, "at": 5.0}, "--quality = -1: must be greater than 0"),
     ],
 )
-def test_what_does_not_go_together_is_refused(known: dict[str, float], named: str) -> None:
+def test_what_does_not_go_together_is_refused(known, named):
     with pytest.raises(BadInput, match=named):
-        keys(**known)  # type: ignore[arg-type]
+        keys(**known)
 
 
 @pytest.mark.parametrize(
@@ -93,13 +91,13 @@ def test_what_does_not_go_together_is_refused(known: dict[str, float], named: st
         ("time,modulus [mm]\n1,1e6\n", "is a length"),
     ],
 )
-def test_tables_of_moduli_that_are_none_are_refused(tmp_path: Path, text: str, named: str) -> None:
+def test_tables_of_moduli_that_are_none_are_refused(tmp_path, text, named):
     file = tmp_path / "moduli.csv"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(BadInput, match=named):
         keys(prony=file)
 
 
-def test_the_scenes_own_damping_gives_way() -> None:
+def test_the_scenes_own_damping_gives_way():
     damped = load("one-edge-clamped").replace(damping_time=1e-3)
     assert subject(damped, keys(quality=10.0, at=5.0)).material.damping_time == 0.0

@@ -9,7 +9,6 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
 import fem_reference
-from comparisons.cells.cell import Cell
 from comparisons.cells.coefficients import STIFF, nearest
 from comparisons.cells.homogenise import moduli_of
 from comparisons.cells.meshes import mesh
@@ -22,7 +21,7 @@ THICKNESS, WEIGHT, SIDE = SCENE.sheet.thickness, 1e-3, 0.188  # m, N/m²: small 
 POINTS = np.array([[0.5, 0.5], [0.5, 0.75], [0.75, 0.5], [0.75, 0.75], [0.9, 0.9]])
 
 
-def deflection(cell: Cell, values: dict[str, float], edges: str, size: np.ndarray) -> np.ndarray:
+def deflection(cell, values, edges, size):
     """w at POINTS of a sheet of this size, clamped at y0 and, where edges has it, at x0: nodes on and beyond
     those edges are held, and hinges on them twice as stiff, for they bend half a cell. Along free sides there
     are the elements that lie within."""
@@ -39,7 +38,7 @@ def deflection(cell: Cell, values: dict[str, float], edges: str, size: np.ndarra
     number: dict[tuple[int, ...], int] = {}
     places, rows, columns, entries, weights = [], [], [], [], []
 
-    def held(at: np.ndarray) -> np.ndarray:
+    def held(at):
         return (at[..., 1] <= near[1]) | (("x0" in edges) & (at[..., 0] <= near[0]))
 
     for i, j in np.ndindex(*(high - low).astype(int)):
@@ -76,7 +75,7 @@ def deflection(cell: Cell, values: dict[str, float], edges: str, size: np.ndarra
     return LinearNDInterpolator(nodes[lower, :2], found[ways - 1 :: ways][lower])(POINTS * size)
 
 
-def off(name: str, edges: str, squares: int) -> np.ndarray:
+def off(name, edges, squares):
     """Mesh less plate at POINTS, over the plate's largest."""
     spacing = SIDE / squares
     high = round(squares / 0.75**0.5) * 0.75**0.5 * spacing if name == "equilateral" else SIDE  # whole rows

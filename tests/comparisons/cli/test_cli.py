@@ -5,7 +5,6 @@ import subprocess
 import sys
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 import fake_solutions
 import numpy as np
@@ -15,16 +14,15 @@ from scene_files import written
 
 from comparisons.cli import interruption
 from comparisons.comparison import comparison as displacement
-from comparisons.models.resolve import Resolved
 from sheetbench import scenes
-from sheetbench.scenes import Solution, Status
+from sheetbench.scenes import Status
 
 pytestmark = pytest.mark.smoke
 
 HEAVY = ("numpy", "scipy", "pydantic", "matplotlib", "pyvista", "vtkmodules", "numba", "skfem", "meshio")
 
 
-def test_importing_the_command_line_imports_nothing_heavy() -> None:
+def test_importing_the_command_line_imports_nothing_heavy():
     code = "import sys, comparisons.cli; print([m for m in sys.argv[1:] if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code, *HEAVY], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
@@ -42,27 +40,25 @@ finally:
 """
 
 
-def test_a_comparison_imports_nothing_that_it_does_not_use() -> None:
+def test_a_comparison_imports_nothing_that_it_does_not_use():
     asked = [sys.executable, "-c", COMPARE, *UNUSED]
     done = subprocess.run(asked, capture_output=True, text=True, check=True)
     assert done.stderr.splitlines()[-1] == "[]"
 
 
 @pytest.mark.parametrize("asked", [(), ("--help",)])
-def test_help_lists_the_verbs(asked: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_lists_the_verbs(asked, capsys):
     assert run(*asked) == 0
     printed = capsys.readouterr().out
     assert all(verb in printed for verb in ("scenes", "compare", "calibrate"))
 
 
-def test_version_is_said_alone(capsys: pytest.CaptureFixture[str]) -> None:
+def test_version_is_said_alone(capsys):
     assert run("--version") == 0
     assert capsys.readouterr().out == f"sheetbench {version('sheetbench')}\n"
 
 
-def test_a_shell_can_complete_the_verbs(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_shell_can_complete_the_verbs(monkeypatch, capsys):
     monkeypatch.setenv("_SHEETBENCH_COMPLETE", "complete_bash")
     monkeypatch.setenv("COMP_WORDS", "sheetbench s")
     monkeypatch.setenv("COMP_CWORD", "1")
@@ -79,9 +75,7 @@ def test_a_shell_can_complete_the_verbs(
         ("2x2", ["simulate", "--duration", "0.01"]),
     ],
 )
-def test_a_grid_whose_masses_are_all_held_is_named(
-    tmp_path: Path, grid: str, verb: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_grid_whose_masses_are_all_held_is_named(tmp_path, grid, verb, capsys):
     edges = "".join(f'[[support]]\nedge = "{edge}"\nkind = "clamped"\n' for edge in ("x0", "x1", "y0", "y1"))
     text = "name = 'frame'\n[sheet]\nlength_x = 0.2\nlength_y = 0.2\nthickness = 0.002\n"
     text += "[material]\nyoung = 1e6\npoisson = 0.3\ndensity = 1000.0\n"
@@ -94,10 +88,8 @@ def test_a_grid_whose_masses_are_all_held_is_named(
 @pytest.mark.parametrize(
     "fault", [ValueError("of ours"), TypeError("of ours"), np.linalg.LinAlgError("of ours")]
 )
-def test_a_fault_of_ours_is_not_passed_off_as_bad_input(
-    fault: Exception, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def stumble(*_: object, **__: object) -> None:
+def test_a_fault_of_ours_is_not_passed_off_as_bad_input(fault, monkeypatch, capsys):
+    def stumble(*_, **__):
         raise fault
 
     monkeypatch.setattr(displacement, "solve", stumble)
@@ -109,7 +101,7 @@ def test_a_fault_of_ours_is_not_passed_off_as_bad_input(
 
 
 @pytest.mark.usefixtures("quick")
-def test_printed_table_has_units_error_time_and_status(capsys: pytest.CaptureFixture[str]) -> None:
+def test_printed_table_has_units_error_time_and_status(capsys):
     assert run("compare", "two-edges-clamped") == 0
     printed = capsys.readouterr().out
     for part in ("[mm]", "[ms]", "−10.100", "0.99", "converged", "factorisations", "54.5 MPa"):
@@ -118,9 +110,7 @@ def test_printed_table_has_units_error_time_and_status(capsys: pytest.CaptureFix
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(
-    quick: dict[str, Solution], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(quick, tmp_path, capsys):
     scene = scenes.load("two-edges-clamped")
     quick["lumped"] = fake_solutions.solution(scene, status=Status.DIVERGED, load_factor=0.4)
     assert run("compare", "two-edges-clamped", "--calibration", "uniform", "--out", str(tmp_path)) == 3
@@ -134,10 +124,8 @@ def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(
     assert (tmp_path / "lumped.vtu").exists()
 
 
-def test_what_is_finished_is_kept_when_a_later_model_fails(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    def answer(model: Resolved[Any], name: str = "") -> Solution:
+def test_what_is_finished_is_kept_when_a_later_model_fails(monkeypatch, tmp_path):
+    def answer(model, name=""):
         if model.spec.model == "shell":
             raise KeyboardInterrupt
         return fake_solutions.solution(model.scene, name)
@@ -149,10 +137,8 @@ def test_what_is_finished_is_kept_when_a_later_model_fails(
     assert run_of_compare["files"] == ["lumped.vtu"] and not run_of_compare["finished"]
 
 
-def test_an_interrupt_within_compiled_code_is_an_interrupt(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def answer(*_: object, **__: object) -> Solution:
+def test_an_interrupt_within_compiled_code_is_an_interrupt(monkeypatch, capsys):
+    def answer(*_, **__):
         raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
 
     monkeypatch.setattr(displacement, "solve", answer)
@@ -160,7 +146,7 @@ def test_an_interrupt_within_compiled_code_is_an_interrupt(
     assert capsys.readouterr().err.strip().endswith("interrupted; nothing was kept")
 
 
-def test_scenes_lists_the_catalogue_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_scenes_lists_the_catalogue_whole(tmp_path, capsys):
     assert run("scenes") == 0
     printed = capsys.readouterr().out
     assert all(name in printed for name in scenes.catalogue())
@@ -171,7 +157,7 @@ def test_scenes_lists_the_catalogue_whole(tmp_path: Path, capsys: pytest.Capture
     assert listed["finished"] and "one-edge-clamped.toml" in listed["files"]
 
 
-def test_a_long_version_says_what_is_installed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_long_version_says_what_is_installed(capsys):
     assert run("--version", "--verbose") == 0
     said = dict(line.split(":", 1) for line in capsys.readouterr().out.splitlines())
     assert said["sheetbench"].split(",")[0].strip() == version("sheetbench")
@@ -179,7 +165,7 @@ def test_a_long_version_says_what_is_installed(capsys: pytest.CaptureFixture[str
     assert f"numpy {version('numpy')}" in said["packages"] and Path(said["kernels"].strip()).is_absolute()
 
 
-def test_calibrate_from_options_and_from_a_scene_agree(capsys: pytest.CaptureFixture[str]) -> None:
+def test_calibrate_from_options_and_from_a_scene_agree(capsys):
     options = ("--young", "54.5e6", "--poisson", "0.48", "--thickness", "0.003", "--side", "0.188")
     by_options = json_of(capsys, "calibrate", *options, "--grid", "9")
     by_scene = json_of(capsys, "calibrate", "two-edges-clamped")

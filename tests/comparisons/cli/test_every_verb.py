@@ -23,21 +23,19 @@ OF_NONE = {"calibrate", "crosscheck"}  # whose answer is of a sheet, or of sever
 
 
 @pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, undrawn: None, in_process: None) -> None:
+def here(tmp_path, monkeypatch, undrawn, in_process):
     monkeypatch.chdir(tmp_path)
     write_inputs(tmp_path)
 
 
-def asked(verb: str) -> list[str]:
+def asked(verb):
     """Its command line without a folder."""
     line = SMALL[verb]
     return line[: line.index("--out")] if "--out" in line else line
 
 
 @pytest.mark.parametrize("verb", OUT)
-def test_its_folder_holds_the_printed_document_and_is_for_one_question(
-    verb: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_its_folder_holds_the_printed_document_and_is_for_one_question(verb, tmp_path, capsys):
     """Asked again it answers again, from what a campaign or a run has kept; asked of another scene it is
     refused with the way out."""
     folder = tmp_path / "out"
@@ -60,7 +58,7 @@ def test_its_folder_holds_the_printed_document_and_is_for_one_question(
 
 
 @pytest.mark.parametrize("verb", OUT)
-def test_what_is_no_folder_is_refused(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_is_no_folder_is_refused(verb, capsys):
     Path("taken").write_text("")
     for out, said in (("", "--out = ''"), ("taken", "taken")):
         assert run(*asked(verb), "--out", out) == 2

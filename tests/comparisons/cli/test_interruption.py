@@ -1,7 +1,5 @@
 """Ctrl-C on a terminal: a line, status 130, no traceback, nobody left behind, and what was kept goes on."""
 
-from pathlib import Path
-
 import pytest
 from terminals import COMMAND, Terminal
 
@@ -18,7 +16,7 @@ main()
 """
 
 
-def test_it_is_in_time() -> None:
+def test_it_is_in_time():
     assert interruption.PATIENCE < 2.0
 
 
@@ -36,9 +34,7 @@ TRADEOFF = ["tradeoff", "two-edges-clamped", "--solid", "48", "--workers", "2", 
     ],
     ids=["simulate", "tradeoff", "compare"],
 )
-def test_a_long_command_is_interrupted(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: str, arguments: list[str], begun: str, left: str
-) -> None:
+def test_a_long_command_is_interrupted(tmp_path, monkeypatch, code, arguments, begun, left):
     monkeypatch.chdir(tmp_path)
     terminal = Terminal(code, *arguments)
     terminal.wait_for(begun)
@@ -56,7 +52,7 @@ main()
 """
 
 
-def test_a_second_interrupt_shows_no_traceback(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_second_interrupt_shows_no_traceback(tmp_path, monkeypatch):
     """It met what was being cleared up, and the end of the interpreter."""
     monkeypatch.chdir(tmp_path)
     terminal = Terminal(

@@ -3,7 +3,6 @@
 import io
 import re
 from concurrent.futures import Executor, Future
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -35,14 +34,14 @@ QUICK, SLOW = Size(100, 1e6, 0.1), Size(1_234_567, 1e9, 300.0)
 
 
 @pytest.fixture
-def said() -> tuple[Lines, list[str], list[float]]:
+def said():
     """Lines of a clock that is set by hand."""
     told: list[str] = []
     now = [100.0]
     return Lines(told.append, lambda: now[0]), told, now
 
 
-def test_what_is_soon_over_is_not_said_in_a_pipe(said: tuple[Lines, list[str], list[float]]) -> None:
+def test_what_is_soon_over_is_not_said_in_a_pipe(said):
     lines, told, now = said
     lines.say(Work("solving lumped", QUICK))
     now[0] += QUIET / 2
@@ -50,7 +49,7 @@ def test_what_is_soon_over_is_not_said_in_a_pipe(said: tuple[Lines, list[str], l
     assert told == []
 
 
-def test_what_lasts_is_said_now_and_then(said: tuple[Lines, list[str], list[float]]) -> None:
+def test_what_lasts_is_said_now_and_then(said):
     lines, told, now = said
     one = Work("solving shell", QUICK)
     lines.say(one)
@@ -68,7 +67,7 @@ def test_what_lasts_is_said_now_and_then(said: tuple[Lines, list[str], list[floa
     assert len(told) == 2  # nothing new
 
 
-def test_what_will_last_is_said_before_it_starts(said: tuple[Lines, list[str], list[float]]) -> None:
+def test_what_will_last_is_said_before_it_starts(said):
     lines, told, _ = said
     lines.say(Work("solving solid", SLOW))
     lines.say(Work("solving solid", SLOW).at(0.25))
@@ -76,7 +75,7 @@ def test_what_will_last_is_said_before_it_starts(said: tuple[Lines, list[str], l
     assert str(Work("solving solid", SLOW).at(0.25)).endswith("about 5 min): 25 % of the load")
 
 
-def test_the_clock_is_looked_at_while_nothing_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_clock_is_looked_at_while_nothing_is_said(monkeypatch):
     monkeypatch.setattr(cli_lines, "QUIET", 0.0)
     monkeypatch.setattr(cli_lines, "LOOK", 1e-3)
     told: list[str] = []
@@ -87,23 +86,19 @@ def test_the_clock_is_looked_at_while_nothing_is_said(monkeypatch: pytest.Monkey
     assert told == ["working …"]
 
 
-def test_a_short_command_is_quiet_in_a_pipe(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_short_command_is_quiet_in_a_pipe(monkeypatch, capsys):
     monkeypatch.setattr(cli_lines, "QUIET", 3600.0)  # however slow this machine is today
     assert run(*SMALL) == 0
     assert capsys.readouterr().err == ""
 
 
-def test_a_long_command_says_size_and_time_first(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_long_command_says_size_and_time_first(monkeypatch, capsys):
     monkeypatch.setattr(work, "LONG", 0.0)
     assert run(*SMALL) == 0
     assert "solving shell, 2 × 2 elements (125 unknowns, about 0 s) …" in capsys.readouterr().err.splitlines()
 
 
-def test_a_large_grid_is_announced_with_its_unknowns_and_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_large_grid_is_announced_with_its_unknowns_and_its_time(monkeypatch):
     """`compare --grid 300` on a strip of 3 by 1: told before the first array is there, nothing is solved."""
     sheet, material = parts()
     strip = sb.Scene(
@@ -122,7 +117,7 @@ def test_a_large_grid_is_announced_with_its_unknowns_and_its_time(monkeypatch: p
 
 
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
-def test_every_iteration_is_told_with_its_load_factor(model: str) -> None:
+def test_every_iteration_is_told_with_its_load_factor(model):
     told: list[Iteration] = []
     if model == "lumped":
         solution = lumped.solve(SCENE, lumped.calibrate(*parts(), grid=5), progress=told.append)
@@ -131,16 +126,16 @@ def test_every_iteration_is_told_with_its_load_factor(model: str) -> None:
     assert tuple(told) == solution.history and told[-1].load_factor == 1.0
 
 
-def parts() -> tuple[sb.Sheet, sb.Material]:
+def parts():
     scene = sb.load(SCENE)
     return scene.sheet, scene.material
 
 
-def test_progress_is_no_option_of_a_model() -> None:
+def test_progress_is_no_option_of_a_model():
     assert all("progress" not in fem_reference.options(model) for model in fem_reference.MODELS)
 
 
-def test_a_comparison_tells_what_it_solves_and_how_far_it_is() -> None:
+def test_a_comparison_tells_what_it_solves_and_how_far_it_is():
     told: list[Work] = []
     sb.compare(sb.load(SCENE), grid=3, elements=4, progress=told.append)
     begun = [one.doing for one in told if one.share is None]
@@ -156,7 +151,7 @@ def test_a_comparison_tells_what_it_solves_and_how_far_it_is() -> None:
     assert all(one.size is not None and one.size.unknowns > 0 for one in told)
 
 
-def test_other_verbs_tell_too(tmp_path: Path) -> None:
+def test_other_verbs_tell_too(tmp_path):
     told: list[Any] = []
     sb.modes(SCENE, grid=3, elements=2, count=2, progress=told.append)
     assert [one.doing for one in told] == ["modes of lumped", "modes of shell"]
@@ -172,7 +167,7 @@ def test_other_verbs_tell_too(tmp_path: Path) -> None:
     assert any(isinstance(one, str) and one.startswith("young = ") for one in told)
 
 
-def test_a_fit_tells_what_it_is_trained_on() -> None:
+def test_a_fit_tells_what_it_is_trained_on():
     told: list[Work] = []
     spec = Lattice(4, "fit-modal")
     with running(progress=told.append):
@@ -180,7 +175,7 @@ def test_a_fit_tells_what_it_is_trained_on() -> None:
     assert [one.doing.split()[0] for one in told] == ["training", "training", "fitting"]
 
 
-def test_a_campaign_tells_which_run_goes_on(tmp_path: Path) -> None:
+def test_a_campaign_tells_which_run_goes_on(tmp_path):
     seen: list[Progress] = []
     runs = [task("square", x=x) for x in (1.0, 2.0)]
     with campaign(tmp_path) as store:
@@ -196,10 +191,10 @@ def test_a_campaign_tells_which_run_goes_on(tmp_path: Path) -> None:
 class Two(Executor):
     """A pool whose runs end when both have begun."""
 
-    def __init__(self, workers: int) -> None:
+    def __init__(self, workers):
         self.begun: list[tuple[Future[Any], Any, tuple[Any, ...]]] = []
 
-    def submit(self, work: Any, /, *arguments: Any, **named: Any) -> Future[Any]:
+    def submit(self, work, /, *arguments, **named):
         future: Future[Any] = Future()
         self.begun.append((future, work, arguments))
         if len(self.begun) == 2:
@@ -208,7 +203,7 @@ class Two(Executor):
         return future
 
 
-def test_runs_side_by_side_are_all_told(tmp_path: Path) -> None:
+def test_runs_side_by_side_are_all_told(tmp_path):
     seen: list[Progress] = []
     with campaign(tmp_path) as store:
         runs = [task("square", x=x) for x in (1.0, 2.0)]
@@ -217,7 +212,7 @@ def test_runs_side_by_side_are_all_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("terminal", [True, False])
-def test_a_campaign_shows_the_run_that_goes_on(monkeypatch: pytest.MonkeyPatch, terminal: bool) -> None:
+def test_a_campaign_shows_the_run_that_goes_on(monkeypatch, terminal):
     monkeypatch.setattr(cli_lines, "QUIET", 0.0)
     screen = io.StringIO()
     monkeypatch.setattr(console, "err", Console(file=screen, force_terminal=terminal, width=100))
@@ -231,7 +226,7 @@ def test_a_campaign_shows_the_run_that_goes_on(monkeypatch: pytest.MonkeyPatch, 
     assert "70 s left" in screen.getvalue()
 
 
-def test_an_even_pace_tells_what_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_even_pace_tells_what_is_left(monkeypatch):
     now = [10.0]
     monkeypatch.setattr(work, "perf_counter", lambda: now[0])
     pace = Pace(2.0)

@@ -1,7 +1,6 @@
 """--quiet and --no-pictures: every verb takes them; quiet leaves results, warnings and errors."""
 
 import logging
-from collections.abc import Callable
 
 import pytest
 from commands import one_line, run
@@ -18,10 +17,8 @@ SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--n
 
 
 @pytest.mark.parametrize("verb", VERBS)
-def test_every_verb_can_be_quiet_and_without_pictures(
-    verb: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def quietly() -> None:
+def test_every_verb_can_be_quiet_and_without_pictures(verb, monkeypatch, capsys):
+    def quietly():
         raise BadInput("it is asked to be quiet")
 
     monkeypatch.setattr(console, "quietly", quietly)  # the verb itself does not begin
@@ -36,12 +33,12 @@ def test_every_verb_can_be_quiet_and_without_pictures(
 
 
 @pytest.fixture
-def chatty(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+def chatty(monkeypatch):
     """A command that says all that there is to say."""
     monkeypatch.setattr(cli_lines, "QUIET", 0.0)
     monkeypatch.setattr(work, "LONG", 0.0)
 
-    def command() -> None:
+    def command():
         with console.campaign_progress() as show:
             show(Progress(1, 2, "a run", "converged", None))
         console.tell("kernels are compiled first")
@@ -52,9 +49,7 @@ def chatty(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
 
 
 @pytest.mark.parametrize("quiet", [False, True])
-def test_quiet_leaves_results_and_warnings(
-    chatty: Callable[..., None], quiet: bool, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_quiet_leaves_results_and_warnings(chatty, quiet, capsys):
     chatty(quiet=quiet, no_pictures=False)
     printed = capsys.readouterr()
     assert printed.out == "the result\n"
@@ -62,9 +57,7 @@ def test_quiet_leaves_results_and_warnings(
     assert printed.err.splitlines() == [*progress, "a warning"]
 
 
-def test_a_quiet_comparison_prints_its_result_alone(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_quiet_comparison_prints_its_result_alone(monkeypatch, capsys):
     monkeypatch.setattr(work, "LONG", 0.0)
     assert run(*SMALL, "--quiet") == 0
     quiet = capsys.readouterr()
@@ -73,7 +66,7 @@ def test_a_quiet_comparison_prints_its_result_alone(
     assert "solving shell" in capsys.readouterr().err
 
 
-def test_quiet_is_quiet_of_what_the_packages_log(capsys: pytest.CaptureFixture[str]) -> None:
+def test_quiet_is_quiet_of_what_the_packages_log(capsys):
     from comparisons.cli import messages
 
     with messages.in_lines(), console.quietly():

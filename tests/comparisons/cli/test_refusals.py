@@ -129,9 +129,7 @@ for verb, command in SHORT.items():
 
 @pytest.mark.smoke
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.replace(HUGE, "99…"))
-def test_it_is_refused_in_a_line(
-    row: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_it_is_refused_in_a_line(row, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Path("measured.csv").write_text("x,y,ux,uy,uz\n0.094,0.094,,,-0.0024\n0.188,0.188,,,-0.0134\n")
     assert run(*shlex.split(row)) == 2

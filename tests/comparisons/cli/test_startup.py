@@ -2,22 +2,19 @@
 
 import gc
 
-import pytest
 from commands import run
 
 from comparisons.cli import startup
 
 
-def test_collections_are_as_usual_once_a_verb_works() -> None:
+def test_collections_are_as_usual_once_a_verb_works():
     startup.begin()
     assert gc.get_threshold()[0] == startup.ALLOCATIONS > startup.USUAL[0]
     assert run("check", "two-edges-clamped") == 0
     assert gc.get_threshold() == startup.USUAL
 
 
-def test_the_list_of_verbs_is_whole_in_a_narrow_terminal(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_list_of_verbs_is_whole_in_a_narrow_terminal(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "60")
     assert run("--help") == 0
     words = " ".join(capsys.readouterr().out.split())

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import pytest
 from commands import one_line, run
 
 from comparisons.cli import removed, study
@@ -12,7 +11,7 @@ from studies import STUDIES
 ROOT = Path(__file__).parents[3]
 
 
-def test_studies_are_listed_and_each_has_a_help_page(capsys: pytest.CaptureFixture[str]) -> None:
+def test_studies_are_listed_and_each_has_a_help_page(capsys):
     assert run("study") == 0
     listed = capsys.readouterr().out
     for name in STUDIES:
@@ -21,16 +20,14 @@ def test_studies_are_listed_and_each_has_a_help_page(capsys: pytest.CaptureFixtu
         assert f"sheetbench study {name}" in capsys.readouterr().out
 
 
-def test_every_study_is_in_the_documentation_and_has_a_make_target() -> None:
+def test_every_study_is_in_the_documentation_and_has_a_make_target():
     page = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     targets = (ROOT / "studies" / "Makefile").read_text(encoding="utf-8")
     for name in STUDIES:
         assert f"| `{name}` |" in page and f"sheetbench study {name}" in targets
 
 
-def test_an_installed_package_says_where_studies_are(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_installed_package_says_where_studies_are(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(study, "CHECKOUT", tmp_path)
     assert run("study", "coverage") == 2
     assert "studies are not installed with the package; clone the repository" in one_line(capsys)
@@ -38,7 +35,7 @@ def test_an_installed_package_says_where_studies_are(
     assert "clone the repository" in capsys.readouterr().out
 
 
-def test_what_is_gone_is_refused_with_what_replaces_it(capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_is_gone_is_refused_with_what_replaces_it(capsys):
     for verb, instead in removed.VERBS.items():
         assert verb not in VERBS
         assert run(verb, "two-edges-clamped") == 2

@@ -30,7 +30,7 @@ from comparisons.runs.campaign import Progress
         ("ascii", "❤", "?"),
     ],
 )
-def test_what_an_encoding_lacks_is_spelled(encoding: str, text: str, printed: str) -> None:
+def test_what_an_encoding_lacks_is_spelled(encoding, text, printed):
     stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
     characters.adapt(stream)
     stream.write(text)
@@ -39,9 +39,7 @@ def test_what_an_encoding_lacks_is_spelled(encoding: str, text: str, printed: st
 
 
 @pytest.mark.parametrize("width", [50, 80, 160])
-def test_a_campaigns_bar_stands_before_its_first_run_is_done(
-    monkeypatch: pytest.MonkeyPatch, width: int
-) -> None:
+def test_a_campaigns_bar_stands_before_its_first_run_is_done(monkeypatch, width):
     screen = io.StringIO()
     monkeypatch.setattr(console, "err", Console(file=screen, force_terminal=True, width=width))
     with console.campaign_progress() as progress:
@@ -72,7 +70,7 @@ Screens = dict[tuple[str, str], tuple[int, str, str]]
 
 
 @pytest.fixture(scope="module")
-def screens(tmp_path_factory: pytest.TempPathFactory) -> Screens:
+def screens(tmp_path_factory):
     """(verb, way) → exit status, standard output and standard error, of every verb in every way."""
     folder = tmp_path_factory.mktemp("terminal")
     write_inputs(folder)
@@ -96,26 +94,24 @@ def screens(tmp_path_factory: pytest.TempPathFactory) -> Screens:
 
 
 @pytest.mark.parametrize("verb", ["check", "advise"])
-def test_a_command_to_copy_is_one_line(screens: Screens, verb: str) -> None:
+def test_a_command_to_copy_is_one_line(screens, verb):
     command = screens[verb, "50"][1].partition("Solve it with:")[2].strip()
     assert command.startswith(f"sheetbench compare {SMALL[verb][1]}") and "\n" not in command
 
 
-def numbers(text: str) -> list[str]:
+def numbers(text):
     """The numbers of a text as they are printed, but for powers and halves, which are one sign elsewhere."""
     plain = text.replace("−", "-").replace("1/2", "½")
     return re.findall(r"(?<!\^)-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", plain)
 
 
-def test_every_verb_is_tried() -> None:
+def test_every_verb_is_tried():
     assert set(SMALL) == set(VERBS) - {"live"}  # which ends by Ctrl-C alone: test_live.py
 
 
 @pytest.mark.parametrize("width", [50, 80, 160])
 @pytest.mark.parametrize("verb", VERBS)
-def test_a_help_page_cuts_nothing_off(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], verb: str, width: int
-) -> None:
+def test_a_help_page_cuts_nothing_off(monkeypatch, capsys, verb, width):
     monkeypatch.setenv("COLUMNS", str(width))
     monkeypatch.setattr("typer.rich_utils.MAX_WIDTH", width)  # as it reads the variable where it is imported
     assert run(verb, "--help") == 0
@@ -124,7 +120,7 @@ def test_a_help_page_cuts_nothing_off(
 
 
 @pytest.mark.parametrize("verb", VERBS)
-def test_a_help_page_keeps_its_brackets(verb: str) -> None:
+def test_a_help_page_keeps_its_brackets(verb):
     command = verb_group().commands[verb]
     for text in (command.help, *(getattr(option, "help", None) for option in command.params)):
         assert not re.search(r"(?<!\\)\[[a-z/@#]", text or "", re.IGNORECASE)  # it would be rich's markup
@@ -132,7 +128,7 @@ def test_a_help_page_keeps_its_brackets(verb: str) -> None:
 
 @pytest.mark.parametrize("way", ["wide", *WAYS])
 @pytest.mark.parametrize("verb", SMALL)
-def test_a_verb_on_a_terminal_ends_well(screens: Screens, verb: str, way: str) -> None:
+def test_a_verb_on_a_terminal_ends_well(screens, verb, way):
     status, out, err = screens[verb, way]
     assert status == 0, f"{out}\n{err}"
     assert "Traceback" not in out + err
@@ -142,7 +138,7 @@ def test_a_verb_on_a_terminal_ends_well(screens: Screens, verb: str, way: str) -
 
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("verb", SMALL)
-def test_no_number_is_cut(screens: Screens, verb: str, way: str) -> None:
+def test_no_number_is_cut(screens, verb, way):
     whole, shown = (Counter(numbers(screens[verb, one][1])) for one in ("wide", way))
     if verb not in ("new", "advise"):  # a file's name, times that decide what is tried
         assert not whole - shown and not set(shown) - set(whole)
@@ -150,14 +146,14 @@ def test_no_number_is_cut(screens: Screens, verb: str, way: str) -> None:
 
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("verb", FIGURES)
-def test_the_main_figures_are_shown(screens: Screens, verb: str, way: str) -> None:
+def test_the_main_figures_are_shown(screens, verb, way):
     figures = FIGURES[verb](json.loads(screens[verb, "json"][1]))
     printed = [(float(n), 0.51 * 10.0 ** _last_digit(n)) for n in numbers(screens[verb, way][1])]
     for figure in figures:
         assert any(abs(scale * figure - n) <= digit for scale in SCALES for n, digit in printed), figure
 
 
-def _last_digit(number: str) -> int:
+def _last_digit(number):
     """The power of ten of a printed number's last digit."""
     mantissa, _, exponent = number.partition("e")
     return int(exponent or 0) - len(mantissa.partition(".")[2])

@@ -1,7 +1,6 @@
 """Quantities with units where a person types them: options, the questions of `new`; and -V, help VERB."""
 
 import json
-from pathlib import Path
 
 import pytest
 import typer
@@ -11,7 +10,7 @@ import sheetbench as sb
 from comparisons.cli import new
 
 
-def test_options_take_units(capsys: pytest.CaptureFixture[str]) -> None:
+def test_options_take_units(capsys):
     common = ("calibrate", "--poisson", "0.45", "--grid", "3", "--json")
     options = ("--young", "0.6 MPa", "--thickness", "2mm", "--side", "12cmx40 mm", "--density", "1.1 g/cm3")
     assert run(*common, *options) == 0
@@ -24,11 +23,11 @@ def test_options_take_units(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.fixture
-def typed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def typed(monkeypatch):
     """The answers typed to the questions, in their order; "" takes what is offered."""
     answers: list[str] = []
 
-    def prompt(question: str, default: str) -> str:
+    def prompt(question, default):
         return answers.pop(0) or default
 
     monkeypatch.setattr(typer, "prompt", prompt)
@@ -37,9 +36,7 @@ def typed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return answers
 
 
-def test_new_asks_again_and_converts(
-    tmp_path: Path, typed: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_new_asks_again_and_converts(tmp_path, typed, capsys):
     typed += [
         "120 mm",
         "4 cm",
@@ -63,16 +60,14 @@ def test_new_asks_again_and_converts(
     assert "needed is a length" in said and "decimal point" in said and "z0" in said
 
 
-def test_new_warns_before_it_writes(
-    tmp_path: Path, typed: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_new_warns_before_it_writes(tmp_path, typed, capsys):
     typed += ["120", "40", "2", "", "", "", "", "", "n"]
     assert run("new", str(tmp_path / "mm.toml")) == 0
     assert "lengths are in metres" in capsys.readouterr().err
     assert not (tmp_path / "mm.toml").exists()
 
 
-def test_the_version_and_the_help_of_a_verb_have_short_ways(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_version_and_the_help_of_a_verb_have_short_ways(capsys):
     assert run("-V") == 0 and capsys.readouterr().out.startswith("sheetbench ")
     assert run("check", "--help") == 0
     page = capsys.readouterr().out

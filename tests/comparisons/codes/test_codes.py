@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -15,7 +14,7 @@ from comparisons.cells.cell import HINGES, _hinge, _triangle
 from comparisons.cells.homogenise import moduli_of
 from comparisons.codes.files import WRITERS
 from comparisons.codes.mesh import sheet_mesh
-from comparisons.codes.setup import CodeSetup, setup
+from comparisons.codes.setup import setup
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, PointLoad
@@ -26,29 +25,29 @@ SCENE = scenes.load("two-edges-clamped").replace(
 Law = tuple[float, float, float]  # λ h, μ h, and k of ½ k 3 L²/(A₁ + A₂) θ², as `homogenise --hinge height`
 
 
-def written(code: str, folder: Path) -> CodeSetup:
+def written(code, folder):
     made = setup(SCENE, code, 4, best=False)
     for name, write in made.files().items():
         write(folder / name)
     return made
 
 
-def read_obj(path: Path) -> tuple[np.ndarray, np.ndarray]:
+def read_obj(path):
     lines = [line.split() for line in path.read_text().splitlines()]
     places = np.array([line[1:] for line in lines if line[0] == "v"], dtype=float)
     faces = [[int(corner.split("/")[0]) - 1 for corner in line[1:]] for line in lines if line[0] == "f"]
     return places, np.array(faces)
 
 
-def plane(young: float, nu: float) -> tuple[float, float]:
+def plane(young, nu):
     return young * nu / (1 - nu**2), young / 2 / (1 + nu)
 
 
-def solid(young: float, nu: float) -> tuple[float, float]:
+def solid(young, nu):
     return young * nu / (1 + nu) / (1 - 2 * nu), young / 2 / (1 + nu)
 
 
-def sofa(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
+def sofa(folder):
     """E/(1 − ν²) times area; λ = ⅔ (ha + hb)/(ha hb)² L k of a vector that is ha hb/(ha + hb) θ long."""
     root = ElementTree.parse(folder / "sofa.scn").getroot()
     parts = {one.tag: one.attrib for one in root.iter()}
@@ -59,7 +58,7 @@ def sofa(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
     return places, triangles, (*plane(young, nu), float(bending["bendingStiffness"]) / 9)
 
 
-def arcsim(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
+def arcsim(folder):
     """Its samples are doubled, shear acts as 2 k₃ G₁₂ twice; ke L²/(2 A) θ²/4."""
     material = json.loads((folder / "material.json").read_text())
     k0, k1, _, k3 = 2 * np.array(material["stretching"][0])
@@ -67,7 +66,7 @@ def arcsim(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
     return *read_obj(folder / "sheet.obj"), (k1, k3 / 2, material["bending"][0][0] / 12)
 
 
-def c_ipc(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
+def c_ipc(folder):
     text = (folder / "c_ipc_sheet.py").read_text()
     _, young, nu, h, _ = map(float, re.search(r"initialize\((.*)\)", text)[1].split(","))
     bent = float(re.search(r"bendingStiffMult = (.*)", text)[1]) * young * h**3 / 24 / (1 - nu**2)
@@ -75,7 +74,7 @@ def c_ipc(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
     return *read_obj(folder / "sheet.obj"), (h * lame, h * mu, 2 * bent)
 
 
-def ppf(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
+def ppf(folder):
     sheet = json.loads((folder / "sheet.json").read_text())
     text = (folder / "ppf_sheet.py").read_text()
     own = dict(re.findall(r'obj\.param\.set\("([\w-]+)", ([\d.e+-]+)\)', text))
@@ -88,9 +87,7 @@ def ppf(folder: Path) -> tuple[np.ndarray, np.ndarray, Law]:
 READERS = {"sofa": sofa, "arcsim": arcsim, "c-ipc": c_ipc, "ppf": ppf}
 
 
-def stiffness(
-    places: np.ndarray, triangles: np.ndarray, hinges: np.ndarray, law: Law, ways: int = 1
-) -> np.ndarray:
+def stiffness(places, triangles, hinges, law, ways=1):
     """Of all triangles and hinges, by the elements of `comparisons.cells`. ways: 3 of bending energies that
     are quadratic in places, and so see displacements in the plane as they see those out of it."""
     total = np.zeros((3 * len(places), 3 * len(places)))
@@ -103,7 +100,7 @@ def stiffness(
     return total
 
 
-def _add(total: np.ndarray, corners: list[int], part: np.ndarray) -> None:
+def _add(total, corners, part):
     rows = np.concatenate([3 * corner + np.arange(3) for corner in corners])
     total[np.ix_(rows, rows)] += part
 
@@ -160,7 +157,7 @@ def test_mujocos_forces_are_our_energys_on_the_same_mesh(tmp_path):
         )
 
 
-def numbers(text: str, before: str) -> list[float]:
+def numbers(text, before):
     """Those in the brackets after some words of a stage."""
     return [
         float(one)

@@ -19,7 +19,7 @@ COLUMN = Scene(
 )  # fmt: skip
 
 
-def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch() -> None:
+def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch():
     found = compare(BENT, grid=9, elements=8, uncertainty=False, companion=False)
     lattice, shell = found.solutions
     assert lattice.status is shell.status is Status.CONVERGED
@@ -30,7 +30,7 @@ def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch() -> N
     assert np.abs(found.probes(shell)["P3"][2]) < 0.015  # not hanging down
 
 
-def test_models_that_stay_on_different_branches_get_no_error() -> None:
+def test_models_that_stay_on_different_branches_get_no_error():
     """A halved sheet is not begun in the other's shape: the lattice is 70 % off, on any grid."""
     found = compare(BENT, grid=9, elements=8, companion=False, symmetry=True)
     lattice, shell = found.solutions
@@ -43,7 +43,7 @@ def test_models_that_stay_on_different_branches_get_no_error() -> None:
 
 
 @pytest.mark.parametrize("branch", ["path", "buckled"])
-def test_a_perfect_column_has_no_error_until_it_is_let_buckle(branch) -> None:
+def test_a_perfect_column_has_no_error_until_it_is_let_buckle(branch):
     found = compare(COLUMN, grid=3, elements=2, branch=branch, companion=False)
     lattice, shell = found.solutions
     assert {one["branch"] for one in found.document()["solutions"]} == {branch} or branch == "buckled"

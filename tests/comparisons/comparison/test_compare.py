@@ -25,23 +25,23 @@ SMALL = {"grid": (5, 5, 2), "elements": 4}
 
 
 @pytest.fixture(scope="module")
-def scene() -> Scene:
+def scene():
     return scenes.load("two-edges-clamped")
 
 
 @pytest.fixture(scope="module")
-def real(scene: Scene) -> Comparison:
+def real(scene):
     return compare(scene, grid=(5, 5, 2), elements=4)
 
 
-def test_error_is_the_largest_component_over_the_probes() -> None:
+def test_error_is_the_largest_component_over_the_probes():
     reference = np.array([[0.0, 0.0, -2.0], [1.0, 0.0, -10.0]])
     model = np.array([[0.5, 0.0, -2.0], [1.0, -0.1, -10.2]])
     assert displacement.error(model, reference) == pytest.approx(0.05)
     assert relative(model[0], reference[0]) == pytest.approx(0.25)
 
 
-def test_error_has_no_meaning_where_nothing_moves_or_a_number_is_not_finite() -> None:
+def test_error_has_no_meaning_where_nothing_moves_or_a_number_is_not_finite():
     still = np.zeros((4, 3))
     assert displacement.error(still, still) is None
     assert relative(np.array([np.nan, 0.0, 0.0]), np.ones(3)) is None
@@ -55,7 +55,7 @@ def test_error_has_no_meaning_where_nothing_moves_or_a_number_is_not_finite() ->
         {"status": Status.REFUSED},
     ],
 )
-def test_a_partial_answer_is_kept_but_not_measured(scene: Scene, changes: dict) -> None:
+def test_a_partial_answer_is_kept_but_not_measured(scene, changes):
     partial = fake_solutions.solution(scene, "lumped", **changes)
     both = Comparison(scene, (partial, fake_solutions.solution(scene, "shell")))
     assert both.error(partial) is None
@@ -67,17 +67,17 @@ def test_a_partial_answer_is_kept_but_not_measured(scene: Scene, changes: dict) 
     assert partial.status.advice in said
 
 
-def test_numbers_that_are_not_finite_become_null_in_json(scene: Scene) -> None:
+def test_numbers_that_are_not_finite_become_null_in_json(scene):
     broken = fake_solutions.solution(scene, "lumped", size=np.nan, status=Status.NON_FINITE)
     both = Comparison(scene, (broken, fake_solutions.solution(scene, "shell")))
     document = json.loads(to_json(both.document()), parse_constant=pytest.fail)
     assert document["solutions"][0]["probes"]["P4"] == [None, None, None]
 
 
-def test_a_probe_on_a_clamped_edge_has_no_relative_difference(scene: Scene) -> None:
+def test_a_probe_on_a_clamped_edge_has_no_relative_difference(scene):
     held = scene.model_copy(update={"probes": {"held": (0.0, 0.1), "free": (0.188, 0.188)}})
 
-    def round_off(points: np.ndarray) -> np.ndarray:
+    def round_off(points):
         return truth.sample(points) + 1e-18
 
     truth = fake_solutions.solution(held, "shell")
@@ -86,7 +86,7 @@ def test_a_probe_on_a_clamped_edge_has_no_relative_difference(scene: Scene) -> N
     assert (first.relative, second.relative) == (None, 0.0)
 
 
-def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(scene: Scene) -> None:
+def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(scene):
     """The bar of rounding over rounding is no number that says anything."""
     held = scene.model_copy(update={"probes": {"held": (0.0, 0.1), "free": (0.188, 0.188)}})
     rounding = np.array([[1e-18], [0.0]])
@@ -101,20 +101,20 @@ def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(scene: Scene) -> None:
     assert shown["held"] is None and 0.0 < shown["free"] < 0.1
 
 
-def test_a_companion_that_fails_does_not_make_the_comparison_fail(scene: Scene) -> None:
+def test_a_companion_that_fails_does_not_make_the_comparison_fail(scene):
     pair = (fake_solutions.solution(scene, "lumped"), fake_solutions.solution(scene, "shell"))
     companion = fake_solutions.solution(scene, "lumped-uniform", status=Status.DIVERGED, load_factor=0.1)
     assert Comparison(scene, (*pair, companion)).succeeded
 
 
-def test_default_comparison_is_consistent_then_shell_then_uniform(real: Comparison) -> None:
+def test_default_comparison_is_consistent_then_shell_then_uniform(real):
     assert [solution.model for solution in real.solutions] == ["lumped", "shell", "lumped-uniform"]
     assert [s.settings.get("calibration") for s in real.solutions] == ["consistent", None, "uniform"]
     assert real.succeeded
     assert {(d.of, d.against) for d in real.differences} == {("lumped", "shell"), ("lumped-uniform", "shell")}
 
 
-def test_coarse_lattice_is_near_the_reference_and_uniform_springs_less_so(real: Comparison) -> None:
+def test_coarse_lattice_is_near_the_reference_and_uniform_springs_less_so(real):
     consistent, reference, uniform = real.solutions
     near, far = real.error(consistent), real.error(uniform)
     assert near is not None and far is not None
@@ -123,7 +123,7 @@ def test_coarse_lattice_is_near_the_reference_and_uniform_springs_less_so(real: 
     assert real.error(reference) is None
 
 
-def test_json_document_has_the_promised_keys(real: Comparison) -> None:
+def test_json_document_has_the_promised_keys(real):
     document = json.loads(to_json(real.document()))
     assert Scene.model_validate(document["scene"]) == real.scene
     first, second = document["solutions"][:2]
@@ -143,7 +143,7 @@ def test_json_document_has_the_promised_keys(real: Comparison) -> None:
     assert difference["relative"] == pytest.approx(np.linalg.norm(u - truth) / np.linalg.norm(truth))
 
 
-def test_naming_a_calibration_leaves_no_companion(scene: Scene) -> None:
+def test_naming_a_calibration_leaves_no_companion(scene):
     done = []
     with running(solved=lambda s: done.append(s.model)):
         alone = compare(scene, calibration="uniform", **SMALL)
@@ -154,14 +154,14 @@ def test_naming_a_calibration_leaves_no_companion(scene: Scene) -> None:
 @pytest.mark.parametrize(
     ("load", "said"), [(64.0, "these times were taken under a load of up to 64"), (0.1, "")]
 )
-def test_times_of_a_busy_machine_are_said_to_be_so(quick, scene, monkeypatch, load: float, said: str) -> None:
+def test_times_of_a_busy_machine_are_said_to_be_so(quick, scene, monkeypatch, load, said):
     monkeypatch.setattr("os.getloadavg", lambda: (load, load, load))
     monkeypatch.setattr("os.cpu_count", lambda: 8)
     text = compare(scene, grid=3, elements=2, uncertainty=False, companion=False).report().tables[1].text
     assert text.startswith(said) and bool(text) == bool(said)
 
 
-def test_a_scene_with_its_own_springs_uses_them(scene: Scene) -> None:
+def test_a_scene_with_its_own_springs_uses_them(scene):
     springs = scenes.SpringSet(
         axial=2e4, diagonal=1e4, vertical=2e4, cross=1e4, cross_diagonal=5e3, layer_distance=0.003
     )
@@ -170,6 +170,6 @@ def test_a_scene_with_its_own_springs_uses_them(scene: Scene) -> None:
     assert own.solutions[0].settings["calibration"] not in ("consistent", "uniform")
 
 
-def test_reasons_are_read_from_the_settings_of_any_model() -> None:
+def test_reasons_are_read_from_the_settings_of_any_model():
     assert choice_notes({"elements": [2, 2], "grading": "edges"}) == ()
     assert choice_notes({"grading": 0.3, "grading_reason": "why"}) == ("grading 0.3: why",)

@@ -1,7 +1,5 @@
 """Both at rest and more than 100 % apart: a coarse grid is told from another branch of equilibria."""
 
-from typing import Any
-
 import pytest
 from fake_solutions import solution
 
@@ -10,7 +8,7 @@ from comparisons.comparison.comparison import compare, error
 from comparisons.comparison.far_apart import far_apart_note, reasons
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Solution, Status
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Status
 
 SCENE = Scene(
     name="arch",
@@ -22,7 +20,7 @@ SCENE = Scene(
 LATTICE = Lattice((5, 3), "consistent")
 
 
-def test_pressure_on_a_few_masses_between_tilted_clamps() -> None:
+def test_pressure_on_a_few_masses_between_tilted_clamps():
     """5 × 3 masses are 261 % off the shell, 9 × 5 are 92 %."""
     found = compare(SCENE, grid=(5, 3), calibration="consistent", elements=(8, 3), uncertainty=False)
     assert found.disagreement.startswith("lumped and shell both converged, 26")
@@ -34,7 +32,7 @@ def test_pressure_on_a_few_masses_between_tilted_clamps() -> None:
     assert found.succeeded
 
 
-def said(first: float, finer: Solution | None, lattice: Lattice = LATTICE, **known: Any) -> str:
+def said(first, finer, lattice=LATTICE, **known):
     """Of a lattice whose corner moves by `first` [m], where the shell's moves by −10 mm."""
     grid = {"settings": {"grid": [5, 3, 2]}}
     both = (solution(SCENE, size=first, **grid), solution(SCENE, "shell", **known.pop("shell", {})))
@@ -43,17 +41,17 @@ def said(first: float, finer: Solution | None, lattice: Lattice = LATTICE, **kno
     ]
 
 
-def fine(size: float, **changes: Any) -> Solution:
+def fine(size, **changes):
     return solution(SCENE, size=size, settings={"grid": [9, 5, 2]}, **changes)
 
 
-def test_what_is_near_or_no_equilibrium_says_nothing() -> None:
+def test_what_is_near_or_no_equilibrium_says_nothing():
     assert said(-0.0119, fine(-0.01)) == ""
     assert said(0.01, fine(0.01), shell={"status": Status.UNSTABLE}) == ""
 
 
 @pytest.mark.parametrize("known", [True, False])
-def test_answers_on_different_branches_have_no_error(known: bool) -> None:
+def test_answers_on_different_branches_have_no_error(known):
     """Where only the grid is too coarse the error stands."""
     pair = (solution(SCENE, size=0.01), solution(SCENE, "shell"))
     finer = solution(SCENE, size=0.0101 if known else -0.007, settings={"grid": [9, 5, 2]})
@@ -65,7 +63,7 @@ def test_answers_on_different_branches_have_no_error(known: bool) -> None:
     assert found.succeeded and found.document()["apart"] in found.report().complaints
 
 
-def test_another_branch_stays_where_it_is() -> None:
+def test_another_branch_stays_where_it_is():
     found = said(0.01, fine(0.0101), bar=0.01)
     assert "200 % apart: they lie on different branches of equilibria, for on 9×5×2 masses" in found
     assert "if the shell's mesh is fine enough" in said(0.01, fine(0.0101))
@@ -85,8 +83,8 @@ def test_another_branch_stays_where_it_is() -> None:
     ],
 )
 def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_branch(
-    finer: float, stretch: float, calibration: str, known: bool
-) -> None:
+    finer, stretch, calibration, known
+):
     """A lattice that is 50 % off, and what a finer grid says."""
     settings = {"grid": [5, 3, 2], "calibration": calibration}
     both = (solution(SCENE, size=-0.005, settings=settings), solution(SCENE, "shell", stretch=stretch))
@@ -107,11 +105,11 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
         (None, 0.01, "different branches of equilibria, or too coarse a grid or mesh"),
     ],
 )
-def test_what_cannot_be_told_is_said_so(finer: Solution | None, bar: float, expected: str) -> None:
+def test_what_cannot_be_told_is_said_so(finer, bar, expected):
     assert expected in said(0.01, finer, bar=bar)
 
 
-def test_reasons_stand_beside_it() -> None:
+def test_reasons_stand_beside_it():
     """60 Pa bend within 45 mm, where 5 masses have cells of 47; one k misses the sheet's moduli."""
     scene = SCENE.replace(loads=(Pressure(value=60.0),))
     uniform = LATTICE.but(calibration="uniform")

@@ -4,7 +4,6 @@ import csv
 import json
 import subprocess
 from dataclasses import replace
-from pathlib import Path
 
 import fake_solutions
 import meshio
@@ -24,17 +23,17 @@ DPI = style.DPI  # of pictures as users have them
 
 
 @pytest.fixture(scope="module")
-def scene() -> Scene:
+def scene():
     return scenes.load("two-edges-clamped")
 
 
 @pytest.fixture(scope="module")
-def comparison(scene: Scene) -> Comparison:
+def comparison(scene):
     return compare(scene, grid=(5, 5, 2), elements=4)
 
 
 @pytest.fixture(scope="module")
-def folder(comparison: Comparison, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(comparison, tmp_path_factory):
     place = tmp_path_factory.mktemp("out")
     about = {"scene": comparison.scene.model_dump(mode="json", by_alias=True, exclude_none=True)}
     kept = Folder(place, "compare", ["sheetbench", "compare"], about=about)
@@ -44,10 +43,8 @@ def folder(comparison: Comparison, tmp_path_factory: pytest.TempPathFactory) -> 
 
 
 @pytest.mark.parametrize("fault", [OSError(), subprocess.TimeoutExpired("trial", 120)], ids=["start", "end"])
-def test_no_picture_where_the_trial_of_drawing_does_not_start_or_end(
-    fault: Exception, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def run(*_: object, **__: object) -> None:
+def test_no_picture_where_the_trial_of_drawing_does_not_start_or_end(fault, monkeypatch):
+    def run(*_, **__):
         raise fault
 
     monkeypatch.setattr(subprocess, "run", run)
@@ -55,7 +52,7 @@ def test_no_picture_where_the_trial_of_drawing_does_not_start_or_end(
 
 
 @pytest.mark.parametrize("name", ["lumped", "shell", "lumped-uniform", "comparison"])
-def test_vtu_opens_in_meshio_and_pyvista_with_finite_displacements(folder: Path, name: str) -> None:
+def test_vtu_opens_in_meshio_and_pyvista_with_finite_displacements(folder, name):
     path = folder / f"{name}.vtu"
     by_meshio = meshio.read(path)
     displacement = by_meshio.point_data["displacement"]
@@ -67,9 +64,7 @@ def test_vtu_opens_in_meshio_and_pyvista_with_finite_displacements(folder: Path,
     assert np.allclose(by_vtk.point_data["displacement"], displacement)
 
 
-def test_common_plan_grid_holds_all_solutions_and_their_difference(
-    folder: Path, comparison: Comparison
-) -> None:
+def test_common_plan_grid_holds_all_solutions_and_their_difference(folder, comparison):
     fields = meshio.read(folder / "comparison.vtu").point_data
     points = meshio.read(folder / "comparison.vtu").points[:, :2]
     lumped, shell, uniform = (solution.displacement(points) for solution in comparison.solutions)
@@ -80,7 +75,7 @@ def test_common_plan_grid_holds_all_solutions_and_their_difference(
     assert np.allclose(fields["difference_lumped-uniform"], uniform - shell)
 
 
-def test_tables_carry_units_and_si_values(folder: Path, comparison: Comparison) -> None:
+def test_tables_carry_units_and_si_values(folder, comparison):
     with (folder / "table.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 4 * 3
@@ -90,7 +85,7 @@ def test_tables_carry_units_and_si_values(folder: Path, comparison: Comparison) 
     assert "uz [mm]" in page and "solve [ms]" in page and "Fz [N]" in page
 
 
-def test_manifest_tells_versions_machine_scene_and_settings(folder: Path, scene: Scene) -> None:
+def test_manifest_tells_versions_machine_scene_and_settings(folder, scene):
     record = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     assert {"numpy", "scipy", "numba", "scikit-fem", "pyvista", "meshio"} <= set(record["versions"])
     assert record["machine"]["python"] and record["machine"]["cpu_count"] >= 1
@@ -100,11 +95,11 @@ def test_manifest_tells_versions_machine_scene_and_settings(folder: Path, scene:
     assert record["date"]
 
 
-def draw(comparison: Comparison, folder: Path) -> str | None:
+def draw(comparison, folder):
     return comparison.figures()[0].write(folder)
 
 
-def test_picture_is_drawn_or_the_missing_packages_are_named(comparison: Comparison, tmp_path: Path) -> None:
+def test_picture_is_drawn_or_the_missing_packages_are_named(comparison, tmp_path):
     impossible = draw(comparison, tmp_path)
     if impossible is not None:
         assert rendering.PACKAGES in impossible
@@ -114,9 +109,7 @@ def test_picture_is_drawn_or_the_missing_packages_are_named(comparison: Comparis
     assert len(np.unique(image.active_scalars, axis=0)) > 1000
 
 
-def test_without_a_way_to_draw_there_is_a_sentence_and_no_picture(
-    scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_a_way_to_draw_there_is_a_sentence_and_no_picture(scene, tmp_path, monkeypatch):
     monkeypatch.setattr(rendering, "_draws", lambda environment: False)
     rendering.why_not.cache_clear()
     both = Comparison(
@@ -128,12 +121,12 @@ def test_without_a_way_to_draw_there_is_a_sentence_and_no_picture(
     assert not list(tmp_path.iterdir())
 
 
-def test_what_is_not_finite_is_not_drawn(scene: Scene, tmp_path: Path) -> None:
+def test_what_is_not_finite_is_not_drawn(scene, tmp_path):
     pair = (fake_solutions.solution(scene, size=np.nan), fake_solutions.solution(scene, "shell"))
     said = draw(Comparison(scene, pair), tmp_path)
     assert said is not None and "finite" in said
 
 
-def test_a_child_process_that_dies_means_no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_child_process_that_dies_means_no_drawing(monkeypatch):
     monkeypatch.setattr(rendering, "_TRIAL", "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)")
     assert not rendering._draws({})

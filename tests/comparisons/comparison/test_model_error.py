@@ -43,7 +43,7 @@ MEASURED = {
 }
 
 
-def of_numbers(slenderness: float, poisson: float, clamped: bool, stretch: float, share: float) -> ModelError:
+def of_numbers(slenderness, poisson, clamped, stretch, share):
     edge = Clamped(edge="x0") if clamped else Hinged(edge="x0")
     scene = Scene(
         name="numbers",
@@ -59,17 +59,17 @@ def of_numbers(slenderness: float, poisson: float, clamped: bool, stretch: float
 
 
 @pytest.mark.parametrize("name", MEASURED)
-def test_it_bounds_what_solids_other_laws_and_other_clamps_answer(name: str) -> None:
+def test_it_bounds_what_solids_other_laws_and_other_clamps_answer(name):
     """Without being fifteen times as large."""
     *numbers, solid, clamp, law = MEASURED[name]
-    found = of_numbers(*numbers)  # type: ignore[arg-type]
+    found = of_numbers(*numbers)
     assert max(solid, law) <= found.value
     assert clamp <= found.clamp + found.value
     assert found.value < 15.0 * max(solid, law)
 
 
 @pytest.mark.parametrize(("clamp", "low", "high"), [("shell-like", 0.005, 0.027), ("full", 0.03, 0.12)])
-def test_the_solid_is_within_it(clamp: str, low: float, high: float) -> None:
+def test_the_solid_is_within_it(clamp, low, high):
     """Elements of 25 mm: within a per cent of the measured ones of 10 mm."""
     points = THICK.probe_points()
     shell = fem_reference.solve(THICK, model="shell", elements=8)
@@ -80,7 +80,7 @@ def test_the_solid_is_within_it(clamp: str, low: float, high: float) -> None:
     assert off < bound.value + (bound.clamp if clamp == "full" else 0.0)
 
 
-def test_of_plates_and_unstable_answers_nothing_is_said() -> None:
+def test_of_plates_and_unstable_answers_nothing_is_said():
     answer = replace(fake_solutions.solution(THICK, "shell", -0.01), stretch=0.001)
     assert model_error(THICK, answer) is not None
     assert model_error(THICK, replace(answer, model="plate")) is None
@@ -90,7 +90,7 @@ def test_of_plates_and_unstable_answers_nothing_is_said() -> None:
     assert solid is not None and solid.thickness == 0.0 and solid.strain_law == pytest.approx(2.3e-3)
 
 
-def test_compare_names_both_parts(capsys: pytest.CaptureFixture[str]) -> None:
+def test_compare_names_both_parts(capsys):
     found = compare("two-edges-clamped", grid=5, elements=6)
     bar = found.document()["solutions"][1]["uncertainty"]
     assert bar["mesh"] == bar["error"] and bar["model"] == sum(bar["model_parts"].values()) > 0.0
@@ -100,19 +100,19 @@ def test_compare_names_both_parts(capsys: pytest.CaptureFixture[str]) -> None:
     assert "model error ±" in said[1] and "thickness 0.031 %" in said[1] and "clamp" in said[1]
 
 
-def test_a_law_of_strain_that_the_user_chose_is_no_error_of_the_model() -> None:
+def test_a_law_of_strain_that_the_user_chose_is_no_error_of_the_model():
     """Both sheets neo-Hookean, pulled to over 1.5 lengths; with the default law it is part of the bound."""
     scene = pulled((2400.0, 0.0), Sheet(length_x=0.1, length_y=0.1, thickness=0.005))
     chosen = compare(scene, grid=3, calibration="hyperelastic", elements=3, law="neo-hookean")
     assert chosen.reference.stretch is not None and chosen.reference.stretch > 0.5
     assert chosen.error(chosen.solutions[0]) == pytest.approx(0.0, abs=1e-3)
-    assert chosen.model_error == ModelError(pytest.approx(1.2 * 0.05**2), 0.0, 0.0)  # type: ignore[arg-type]
+    assert chosen.model_error == ModelError(pytest.approx(1.2 * 0.05**2), 0.0, 0.0)
     assert not any("law of strain" in note for note in chosen.report().notes)
     mild = pulled((200.0, 0.0), Sheet(length_x=0.1, length_y=0.1, thickness=0.005))
     assert "law of strain" in str(compare(mild, grid=3, elements=3).model_error)
 
 
-def test_of_a_solid_whose_law_is_chosen_the_clamp_alone_is_said() -> None:
+def test_of_a_solid_whose_law_is_chosen_the_clamp_alone_is_said():
     answer = replace(fake_solutions.solution(THICK, "solid", -0.01), stretch=0.5)
     found = model_error(THICK, answer, law_chosen=True)
     assert str(found).startswith("a clamp that also prevents")
@@ -120,7 +120,7 @@ def test_of_a_solid_whose_law_is_chosen_the_clamp_alone_is_said() -> None:
     assert str(model_error(free, answer, law_chosen=True)) == ""
 
 
-def test_the_advisor_counts_what_the_shell_leaves_out() -> None:
+def test_the_advisor_counts_what_the_shell_leaves_out():
     """The thick sheet: within 1 % of a converged shell, which may itself be 2.7 % off a solid."""
     advice = advise(THICK, 0.01)
     assert advice.error is not None and advice.error + advice.bar <= 0.01
@@ -132,7 +132,7 @@ def test_the_advisor_counts_what_the_shell_leaves_out() -> None:
     assert np.isclose(advise(load("one-edge-clamped"), 0.01).document()["predicted"]["model"], 0.0, atol=1e-3)
 
 
-def test_a_law_that_the_material_states_is_no_part_of_the_error() -> None:
+def test_a_law_that_the_material_states_is_no_part_of_the_error():
     rubber = Material(young=1e6, poisson=0.49, density=1000.0, law="neo-hookean")
     scene = pulled((3000.0, 0.0), material=rubber)
     for law, part in (("neo-hookean", False), ("biot", True)):

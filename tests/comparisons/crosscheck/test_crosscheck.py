@@ -1,8 +1,6 @@
 """Who is told apart from whom: judges with known errors, and the verb with them."""
 
 import json
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -74,14 +72,14 @@ NONE = ("--lumped", "", "--plate", "", "--shell", "", "--solid", "")
 
 
 @pytest.fixture
-def fakes(tmp_path: Path, in_process: None) -> Any:
+def fakes(tmp_path, in_process):
     """The judges' names as options: `fakes("EXACT", "SAME")`."""
     file = tmp_path / "fakes.py"
     file.write_text(FAKE, encoding="utf-8")
     return lambda *names: ("--judges", ",".join(f"{file}:{name}" for name in names))
 
 
-def standing(name: str, limit: float, error: float, meshes: tuple[int, ...] = (4, 6, 8)) -> Convergence:
+def standing(name, limit, error, meshes=(4, 6, 8)):
     """A model whose every displacement is limit + error h² [m], its cells of size h = 1/n."""
     rows = [
         {
@@ -96,7 +94,7 @@ def standing(name: str, limit: float, error: float, meshes: tuple[int, ...] = (4
     return Convergence.of(SEED, name, None, rows, False)
 
 
-def test_a_standing_has_the_limit_and_a_bar_that_holds_it() -> None:
+def test_a_standing_has_the_limit_and_a_bar_that_holds_it():
     one = standing("one", -0.01, 0.002)
     assert one.uncertainty is not None and one.meshes == "4, 6, 8"
     np.testing.assert_allclose(one.uncertainty.extrapolated, -0.01, rtol=1e-9)
@@ -104,7 +102,7 @@ def test_a_standing_has_the_limit_and_a_bar_that_holds_it() -> None:
     np.testing.assert_allclose(one.uncertainty.bar, 1.35 * 0.002 / 64, rtol=1e-6)
 
 
-def test_models_are_told_apart_by_more_than_both_bars_alone() -> None:
+def test_models_are_told_apart_by_more_than_both_bars_alone():
     error = 0.002
     bars = 2 * 1.35 * error / 64
     here = standing("here", -0.01, error)
@@ -115,7 +113,7 @@ def test_models_are_told_apart_by_more_than_both_bars_alone() -> None:
         assert there.bars == pytest.approx(bars / 0.01, rel=1e-6)
 
 
-def test_rounding_tells_nothing_apart() -> None:
+def test_rounding_tells_nothing_apart():
     """Two answers that no mesh changes have no bar; what programs print ends somewhere."""
     here = standing("here", -0.01, 0.0)
     near, far = (standing("there", -0.01 * (1 + off), 0.0) for off in (4e-6, 4e-5))
@@ -123,14 +121,14 @@ def test_rounding_tells_nothing_apart() -> None:
     assert [bool(one and one.distinguishable_at) for one in told] == [False, True]
 
 
-def test_one_mesh_has_no_bar_and_two_have_a_cautious_one() -> None:
+def test_one_mesh_has_no_bar_and_two_have_a_cautious_one():
     one, two = standing("one", -0.01, 0.002, (8,)), standing("two", -0.01, 0.002, (6, 8))
     assert one.uncertainty is None and pair(one, two, list(SEED.probes)) is None
     assert two.uncertainty is not None
     np.testing.assert_allclose(two.uncertainty.bar, 3.0 * 0.002 / 64, rtol=1e-6)
 
 
-def test_judges_side_by_side(fakes: Any, capsys: pytest.CaptureFixture[str]) -> None:
+def test_judges_side_by_side(fakes, capsys):
     document = json_of(capsys, "crosscheck", "two-edges-clamped", *NONE, *fakes("EXACT", "SAME", "OTHER"))
     assert [one["model"] for one in document["solutions"]] == ["exact", "same", "other"]
     exact = document["solutions"][0]
@@ -144,15 +142,13 @@ def test_judges_side_by_side(fakes: Any, capsys: pytest.CaptureFixture[str]) -> 
     assert [judge["status"] for judge in document["judges"]] == ["found"] * 3
 
 
-def test_without_judges_there_is_no_table_of_them() -> None:
+def test_without_judges_there_is_no_table_of_them():
     """It had a heading and no row."""
     found = Crosscheck((SEED,), {SEED.name: ()}, ())
     assert "judges" not in [table.name for table in found.report().tables]
 
 
-def test_what_a_judge_refuses_or_fails_at_is_a_row_of_its_own(
-    fakes: Any, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_a_judge_refuses_or_fails_at_is_a_row_of_its_own(fakes, capsys):
     judges = fakes("EXACT", "REFUSES", "DIVERGES")
     assert run("crosscheck", "two-edges-clamped", *NONE, *judges, "--json") == 3  # one mesh of diverges
     captured = capsys.readouterr()
@@ -167,7 +163,7 @@ def test_what_a_judge_refuses_or_fails_at_is_a_row_of_its_own(
     assert "no answer" in captured.out and "out of luck" in captured.err
 
 
-def test_an_interrupted_crosscheck_is_resumed(fakes: Any, tmp_path: Path) -> None:
+def test_an_interrupted_crosscheck_is_resumed(fakes, tmp_path):
     asked = ("crosscheck", "two-edges-clamped", *NONE, "--out", str(tmp_path / "out"))
     solves = tmp_path / "solves"
     assert run(*asked, *fakes("EXACT")) == 0
@@ -177,9 +173,7 @@ def test_an_interrupted_crosscheck_is_resumed(fakes: Any, tmp_path: Path) -> Non
     assert (tmp_path / "out" / "pairs.csv").is_file() and (tmp_path / "out" / "crosscheck.tex").is_file()
 
 
-def test_scenes_stand_in_one_table_and_their_refusals_in_one_sentence(
-    fakes: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_scenes_stand_in_one_table_and_their_refusals_in_one_sentence(fakes, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "160")
     scenes = ("two-edges-clamped", "one-edge-clamped", "actuated-edge")
     assert run("crosscheck", *scenes, *NONE, *fakes("EXACT", "REFUSES")) == 0
@@ -190,6 +184,6 @@ def test_scenes_stand_in_one_table_and_their_refusals_in_one_sentence(
     )
 
 
-def test_an_absent_code_is_refused_with_what_it_needs(fakes: Any, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_absent_code_is_refused_with_what_it_needs(fakes, capsys):
     assert run("crosscheck", "two-edges-clamped", *fakes("ABSENT")) == 2
     assert "needs luck" in one_line(capsys)

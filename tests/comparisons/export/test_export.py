@@ -6,7 +6,6 @@ import runpy
 import shutil
 import subprocess
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -61,19 +60,19 @@ FIBRES = {"young_1": 5e6, "young_2": 1e6, "poisson_12": 0.3, "shear_12": 4e5, "a
 WOVEN = DRAWN.replace(material={"kind": "orthotropic", "density": 1000.0, **FIBRES}, patches=())
 
 
-def spring_set(scene: Scene, grid: Any, **settings: Any) -> lumped.Calibration:
+def spring_set(scene, grid, **settings):
     cells = lumped.sections_of(scene, grid_of(scene.sheet, grid))
     own = {} if cells is None else {"cells": cells}
     return lumped.calibrate(scene.sheet, scene.material, grid=grid, **own, **settings)
 
 
-def table(path: Path) -> list[dict[str, str]]:
+def table(path):
     with path.open(newline="") as file:
         return list(csv.DictReader(file))
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     """The seed's test 1 on 4 × 4 × 2 masses, edge twist and all."""
     made = tmp_path_factory.mktemp("lattice")
     scene = scenes.load("two-edges-clamped")
@@ -81,7 +80,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
-def test_the_tables_hold_what_the_lattice_is(folder: Path) -> None:
+def test_the_tables_hold_what_the_lattice_is(folder):
     scene = scenes.load("two-edges-clamped")
     solution = lumped.solve(scene, spring_set(scene, 4, method="consistent"))
     nodes, links, cells = (table(folder / f"{name}.csv") for name in ("nodes", "links", "cells"))
@@ -104,7 +103,7 @@ def test_the_tables_hold_what_the_lattice_is(folder: Path) -> None:
     assert set(manifest["runs"]["export"]["files"]) == {p.name for p in folder.iterdir()} - {"manifest.json"}
 
 
-def test_a_table_of_the_plan_says_what_a_drawn_sheet_is_made_of(tmp_path: Path) -> None:
+def test_a_table_of_the_plan_says_what_a_drawn_sheet_is_made_of(tmp_path):
     export(tmp_path, DRAWN, spring_set(DRAWN, (9, 5)))
     nodes, rows = table(tmp_path / "nodes.csv"), table(tmp_path / "plan.csv")
     cell = OBLONG.length_x * OBLONG.length_y / 32
@@ -117,7 +116,7 @@ def test_a_table_of_the_plan_says_what_a_drawn_sheet_is_made_of(tmp_path: Path) 
     assert "`plan.csv`" in page and "patch 1: rectangle" in page and "left out" in page
 
 
-def test_matlab_and_numpy_files_hold_the_same(folder: Path) -> None:
+def test_matlab_and_numpy_files_hold_the_same(folder):
     arrays, other = dict(np.load(folder / "lattice.npz")), loadmat(folder / "lattice.mat")
     assert set(arrays) == set(NAMES)
     for name, values in arrays.items():
@@ -142,7 +141,7 @@ def test_matlab_and_numpy_files_hold_the_same(folder: Path) -> None:
     ],
     ids=["curved, graded", "hinged and held", "half, point and edge loads", "uniform", *LAWS, "cut", "woven"],
 )
-def test_numpy_alone_finds_our_displacements(scene: Scene, settings: dict[str, Any]) -> None:
+def test_numpy_alone_finds_our_displacements(scene, settings):
     lattice = arrays(lumped.describe(scene, spring_set(scene, **{"grid": 3, **settings})))
     assert (lattice["mass"] > 0.0).all()
     along = NUMPY["differences"](lattice)
@@ -157,7 +156,7 @@ def test_numpy_alone_finds_our_displacements(scene: Scene, settings: dict[str, A
         assert np.abs(u - truth).max() < AGREED * np.abs(truth).max()
 
 
-def test_the_numpy_reader_is_a_program(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_numpy_reader_is_a_program(folder, capsys):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("sys.argv", ["read_lattice.py", str(folder)])
         with pytest.raises(SystemExit) as left:
@@ -167,7 +166,7 @@ def test_the_numpy_reader_is_a_program(folder: Path, capsys: pytest.CaptureFixtu
 
 
 @pytest.mark.nightly  # six seconds
-def test_the_numpy_reader_takes_as_many_load_steps_as_a_large_rotation_needs() -> None:
+def test_the_numpy_reader_takes_as_many_load_steps_as_a_large_rotation_needs():
     """A strip that falls by most of its length: Newton alone ends elsewhere."""
     scene = Scene("strip", Sheet(0.12, 0.04, 0.001), Material(1.5e6, 0.45, 1100.0), GRAVITY, (CLAMP,))
     lattice = arrays(lumped.describe(scene, spring_set(scene, 2)))
@@ -176,7 +175,7 @@ def test_the_numpy_reader_takes_as_many_load_steps_as_a_large_rotation_needs() -
     assert np.abs(u - truth).max() < AGREED * np.abs(truth).max()
 
 
-def test_the_numpy_reader_says_how_it_is_called() -> None:
+def test_the_numpy_reader_says_how_it_is_called():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("sys.argv", ["read_lattice.py"])
         with pytest.raises(SystemExit, match="usage: python read_lattice"):
@@ -184,7 +183,7 @@ def test_the_numpy_reader_says_how_it_is_called() -> None:
 
 
 @pytest.fixture(scope="module")
-def rubbers(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+def rubbers(tmp_path_factory):
     """A folder of each law."""
     made = tmp_path_factory.mktemp("rubbers")
     for material in RUBBERS:
@@ -194,7 +193,7 @@ def rubbers(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 
 
 @pytest.mark.skipif(shutil.which("octave") is None, reason="needs Octave: install the Debian package octave")
-def test_octave_finds_our_displacements(folder: Path, rubbers: list[Path]) -> None:
+def test_octave_finds_our_displacements(folder, rubbers):
     for place in (folder, *rubbers):
         command = ["octave", "--quiet", "--no-gui", "--eval", f"read_lattice('{place}', 4)"]
         found = subprocess.run(command, cwd=READERS, capture_output=True, text=True, timeout=120)
@@ -206,7 +205,7 @@ COMPILER = shutil.which("c++") or shutil.which("g++") or shutil.which("clang++")
 
 
 @pytest.mark.skipif(COMPILER is None, reason="needs a C++ compiler: install the Debian package g++")
-def test_cpp_steps_to_our_displacements(folder: Path, rubbers: list[Path], tmp_path: Path) -> None:
+def test_cpp_steps_to_our_displacements(folder, rubbers, tmp_path):
     program = tmp_path / "read_lattice"
     source = READERS / "read_lattice.cpp"
     subprocess.run([str(COMPILER), "-O1", "-std=c++17", str(source), "-o", str(program)], check=True)
@@ -221,7 +220,7 @@ def test_cpp_steps_to_our_displacements(folder: Path, rubbers: list[Path], tmp_p
     assert refused.returncode == 2 and "dead loads only" in refused.stderr
 
 
-def test_readers_are_short() -> None:
+def test_readers_are_short():
     for path in READERS.glob("read_lattice.*"):
         assert len(path.read_text(encoding="utf-8").splitlines()) <= 140, (
             path
@@ -237,7 +236,7 @@ BLOWN = Scene(
 )
 
 
-def test_loads_that_follow_the_sheet_balance_it_as_the_readme_says() -> None:
+def test_loads_that_follow_the_sheet_balance_it_as_the_readme_says():
     """At rest, springs, dead loads and the followers by the README's formulas leave the supports alone."""
     lattice = arrays(lumped.describe(BLOWN, spring_set(BLOWN, 4)))
     x = lattice["positions"] + lattice["state_displacement"][-1]
@@ -261,7 +260,7 @@ def test_loads_that_follow_the_sheet_balance_it_as_the_readme_says() -> None:
     assert np.abs(unbalanced[free]).max() < 1e-6 * scale  # the solver's own tolerance is 1e-9 of all forces
 
 
-def test_dampers_are_those_of_the_motion() -> None:
+def test_dampers_are_those_of_the_motion():
     material = RUBBER.model_copy(update={"damping_time": 4e-3, "damping_rate": 2.0})
     scene = Scene(name="damped", sheet=SHEET, material=material, support=(CLAMP,))
     found = lumped.describe(scene, spring_set(scene, 3))
@@ -277,7 +276,7 @@ def test_dampers_are_those_of_the_motion() -> None:
     assert len(ends) == 24 + 9 and not any(cells.damping.any() for cells in found.cells)
 
 
-def test_what_files_cannot_say_is_refused_or_told(tmp_path: Path) -> None:
+def test_what_files_cannot_say_is_refused_or_told(tmp_path):
     with pytest.raises(BadInput, match="actuators are not springs"):
         scene = scenes.load("actuated-edge")
         lumped.describe(scene, spring_set(scene, 5))
@@ -292,9 +291,7 @@ def test_what_files_cannot_say_is_refused_or_told(tmp_path: Path) -> None:
         export(tmp_path, HALF, spring_set(HALF, 3))
 
 
-def test_verbs_export_the_lattice_that_they_answer_with(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_verbs_export_the_lattice_that_they_answer_with(tmp_path, capsys):
     sheet = ["--young", "1e6", "--poisson", "0.3", "--thickness", "0.002", "--side", "0.1x0.2"]
     assert run("calibrate", *sheet, "--grid", "3", "--export", str(tmp_path / "a")) == 0
     assert f"loadsin{tmp_path / 'a'}:startatits" in "".join(capsys.readouterr().out.split())
@@ -312,7 +309,7 @@ def test_verbs_export_the_lattice_that_they_answer_with(
     assert "calibration uniform" in (tmp_path / "e" / "README.md").read_text(encoding="utf-8")
 
 
-def test_the_rolled_state_is_an_arc_of_two_radians(tmp_path: Path) -> None:
+def test_the_rolled_state_is_an_arc_of_two_radians(tmp_path):
     """Of the sheet's length at mid-surface, its layers along the radius."""
     free = Scene(name="free", sheet=SHEET, material=RUBBER, support=(Hinged(edge="x0"),))
     found = lumped.describe(free, spring_set(free, 5))

@@ -2,7 +2,6 @@
 
 import runpy
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -28,14 +27,14 @@ HINGED = Scene(
 )
 
 
-def described(scene: Scene, grid: Any = 4, method: str = "central") -> lumped.Description:
+def described(scene, grid=4, method="central"):
     return lumped.describe(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid, method=method))
 
 
 @pytest.mark.parametrize(
     "scene", [scenes.load("two-edges-clamped"), scenes.load("curved-edge"), CORNER], ids=lambda s: s.name
 )
-def test_mujocos_masses_rest_where_ours_do(scene: Scene) -> None:
+def test_mujocos_masses_rest_where_ours_do(scene):
     """Put where we say, no mass accelerates by more than rounding beside what its springs would do to it."""
     mujoco = pytest.importorskip("mujoco")
     lattice = described(scene)
@@ -47,7 +46,7 @@ def test_mujocos_masses_rest_where_ours_do(scene: Scene) -> None:
     assert np.abs(data.qacc).max() < 1e-9 * pull
 
 
-def test_mujocos_hinged_edge_holds_the_mean_of_its_layers() -> None:
+def test_mujocos_hinged_edge_holds_the_mean_of_its_layers():
     """A constraint there takes 0.9999 of what would break it, so masses along the edge accelerate by 1e-4 of
     what their springs do to them, the others by nothing; brought to rest the mean stays by as much."""
     mujoco = pytest.importorskip("mujoco")
@@ -76,7 +75,7 @@ def test_mujocos_hinged_edge_holds_the_mean_of_its_layers() -> None:
         assert abs(found[list(hold.masses), hold.axis].mean()) < 1e-4 * np.abs(truth).max()
 
 
-def test_mujoco_comes_to_rest_there_by_itself() -> None:
+def test_mujoco_comes_to_rest_there_by_itself():
     mujoco = pytest.importorskip("mujoco")
     scene = scenes.load("two-edges-clamped")
     lattice = described(scene)
@@ -86,7 +85,7 @@ def test_mujoco_comes_to_rest_there_by_itself() -> None:
     assert np.abs(displacement(data, lattice.positions) - truth).max() < 5e-3 * np.abs(truth).max()
 
 
-def test_sofas_scene_holds_the_lattice() -> None:
+def test_sofas_scene_holds_the_lattice():
     """Read back by our NumPy reader, which finds the displacements of ours."""
     for scene in (scenes.load("curved-edge"), CORNER):
         lattice = described(scene, 3)
@@ -104,7 +103,7 @@ def test_sofas_scene_holds_the_lattice() -> None:
         assert np.abs(u - truth).max() < 1e-6 * np.abs(truth).max()
 
 
-def test_sofas_scene_has_what_it_names() -> None:
+def test_sofas_scene_has_what_it_names():
     root = ElementTree.fromstring(to_sofa(described(CORNER, 3), CORNER))
     assert root.tag == "Node" and {child.tag for child in root} == {
         "RequiredPlugin",
@@ -118,7 +117,7 @@ def test_sofas_scene_has_what_it_names() -> None:
     assert len(set(order)) == len(order)
 
 
-def test_what_they_do_not_have_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_they_do_not_have_is_refused(tmp_path, capsys):
     with pytest.raises(BadInput, match="area and strain springs of cells; take --method central"):
         to_mjcf(described(CORNER, method="consistent"), CORNER)
     with pytest.raises(BadInput, match="hold the mean of their layers"):
@@ -129,13 +128,13 @@ def test_what_they_do_not_have_is_refused(tmp_path: Path, capsys: pytest.Capture
     assert "`sofa.scn`" in (tmp_path / "b" / "README.md").read_text(encoding="utf-8")
 
 
-def lattice_of(root: ElementTree.Element) -> dict[str, np.ndarray]:
+def lattice_of(root):
     """What the scene says, as the reader's arrays."""
     sheet = root.find("Node")
     assert sheet is not None
     data = {child.tag: child.attrib for child in sheet}
 
-    def numbers(tag: str, name: str, *shape: int) -> np.ndarray:
+    def numbers(tag, name, *shape):
         return np.array(data[tag][name].split(), dtype=float).reshape(*shape)
 
     rest, start = (numbers("MechanicalObject", name, -1, 3) for name in ("rest_position", "position"))

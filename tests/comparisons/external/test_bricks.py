@@ -1,7 +1,5 @@
 """A sheet of bricks, what holds it and what acts on it, as other people's programs are given them."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 from scipy.sparse import csr_matrix
@@ -12,7 +10,7 @@ from comparisons.external.calculix.deck import deck
 from comparisons.external.kratos.problem import Triangles, problem
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.mesh import nodes_of
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Hinged, PointLoad, Pressure, Scene, Sheet, load
+from sheetbench.scenes import Clamped, Curved, EdgeLoad, Hinged, PointLoad, Pressure, Sheet, load
 from sheetbench.scenes.patches import mass_of
 
 SEED = load("two-edges-clamped")
@@ -20,16 +18,16 @@ BELOW = [(0, 1), (1, 2), (2, 3), (3, 0)]  # corners between which the mid-edge n
 BETWEEN = [*BELOW, *((a + 4, b + 4) for a, b in BELOW), *((a, a + 4) for a in range(4))]
 
 
-def changed(**changes: Any) -> Scene:
+def changed(**changes):
     return SEED.model_copy(update=changes)
 
 
 @pytest.fixture(scope="module")
-def bricks() -> Bricks:
+def bricks():
     return Bricks.of(SEED, 4, 2, "edges")
 
 
-def test_bricks_are_upright_and_fill_the_sheet(bricks: Bricks) -> None:
+def test_bricks_are_upright_and_fill_the_sheet(bricks):
     corners = bricks.positions[bricks.elements]
     along, across, up = (corners[:, i] - corners[:, 0] for i in (1, 3, 4))
     volume = np.einsum("mc,mc->m", np.cross(along, across), up)
@@ -38,8 +36,8 @@ def test_bricks_are_upright_and_fill_the_sheet(bricks: Bricks) -> None:
         np.testing.assert_allclose(corners[:, middle], 0.5 * (corners[:, a] + corners[:, b]), atol=1e-15)
 
 
-def test_the_mid_surface_of_a_quadratic_field_is_sampled_exactly(bricks: Bricks) -> None:
-    def field(at: np.ndarray) -> np.ndarray:
+def test_the_mid_surface_of_a_quadratic_field_is_sampled_exactly(bricks):
+    def field(at):
         x, y = at[:, 0], at[:, 1]
         return np.column_stack([x * y, x**2 - 3 * y, 2 * y**2 + x + 1])
 
@@ -47,7 +45,7 @@ def test_the_mid_surface_of_a_quadratic_field_is_sampled_exactly(bricks: Bricks)
     np.testing.assert_allclose(bricks.sample(field(bricks.positions), points), field(points), atol=1e-14)
 
 
-def test_forces_add_up_and_act_where_they_should(bricks: Bricks) -> None:
+def test_forces_add_up_and_act_where_they_should(bricks):
     point = PointLoad(at=(0.11, 0.07), force=(1.0, 2.0, 3.0))
     line = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, 5.0))
     for scene, total, at in (
@@ -88,18 +86,18 @@ DRAWN = SEED.replace(
 
 
 @pytest.fixture(scope="module")
-def drawn() -> Bricks:
+def drawn():
     return Bricks.of(DRAWN, 8, 2, "edges")
 
 
-def volumes(bricks: Bricks) -> np.ndarray:
+def volumes(bricks):
     """Of the bricks, by the plan's and the thickness in their middles."""
     nodes, elements = nodes_of(bricks.plan)
     plan = areas(nodes[elements]).sum(axis=1)
     return np.tile(plan * bricks.taper[elements[:, :8]].mean(axis=1) * 0.003 / bricks.layers, bricks.layers)
 
 
-def test_bricks_of_a_drawn_sheet_fill_it(drawn: Bricks) -> None:
+def test_bricks_of_a_drawn_sheet_fill_it(drawn):
     corners = drawn.positions[drawn.elements]
     along, across, up = (corners[:, i] - corners[:, 0] for i in (1, 3, 4))
     assert np.all(np.einsum("mc,mc->m", np.cross(along, across), up) > 0.0)
@@ -121,7 +119,7 @@ def test_bricks_of_a_drawn_sheet_fill_it(drawn: Bricks) -> None:
     assert len(bolt) > 20 and np.linalg.norm(bolt, axis=1).max() == pytest.approx(0.01, rel=1e-3)
 
 
-def test_a_deck_of_a_drawn_sheet_has_its_parts(drawn: Bricks) -> None:
+def test_a_deck_of_a_drawn_sheet_has_its_parts(drawn):
     text = deck(DRAWN, drawn, linear=False)
     found = {name: text.count(f"*{name}") for name in ("ELSET,", "MATERIAL", "ORIENTATION", "SOLID SECTION")}
     assert found == {"ELSET,": 3, "MATERIAL": 3, "ORIENTATION": 2, "SOLID SECTION": 3}
@@ -131,7 +129,7 @@ def test_a_deck_of_a_drawn_sheet_has_its_parts(drawn: Bricks) -> None:
     assert text.count(", P1, 2.0\n") == drawn.plan.nelements - inside
 
 
-def test_a_clamp_lets_a_column_stretch_along_its_director_alone(bricks: Bricks) -> None:
+def test_a_clamp_lets_a_column_stretch_along_its_director_alone(bricks):
     curved = changed(supports=(Curved(edge="x0", curvature=4.0),))
     for scene in (SEED, curved, changed(supports=(Clamped(edge="x0", tilt=0.3),))):
         rows = held(scene, bricks)
@@ -152,7 +150,7 @@ def test_a_clamp_lets_a_column_stretch_along_its_director_alone(bricks: Bricks) 
     np.testing.assert_allclose(own, rows.value[bricks.edge("x0")], atol=1e-15)
 
 
-def test_a_hinge_holds_the_mean_of_its_columns(bricks: Bricks) -> None:
+def test_a_hinge_holds_the_mean_of_its_columns(bricks):
     rows = held(changed(supports=(Hinged(edge="y1"),)), bricks)
     assert not rows.fixed.any()
     tied = {(tuple(bricks.positions[tie.nodes[0]]), tie.axis) for tie in rows.tied}
@@ -164,7 +162,7 @@ def test_a_hinge_holds_the_mean_of_its_columns(bricks: Bricks) -> None:
         assert tie.weights @ z**2 == pytest.approx(1.0 / 3.0 if len(z) > 3 else 0.5)
 
 
-def test_what_is_free_for_felupe_keeps_the_means_at_a_hinge(bricks: Bricks) -> None:
+def test_what_is_free_for_felupe_keeps_the_means_at_a_hinge(bricks):
     rows = held(changed(supports=(Hinged(edge="y1"),)), bricks)
     free = felupe._free(rows)
     motion = (free @ np.random.default_rng(2).normal(size=free.shape[1])).reshape(-1, 3)
@@ -173,8 +171,8 @@ def test_what_is_free_for_felupe_keeps_the_means_at_a_hinge(bricks: Bricks) -> N
 
 
 @pytest.mark.parametrize(("longest", "reached"), [(1.0, 1.0), (0.3, 1.0), (1 / 64, 1.0), (1 / 128, 0.0)])
-def test_load_steps_for_felupe_are_halved_down_to_a_64th(longest: float, reached: float) -> None:
-    def spring(u: np.ndarray, load_factor: float) -> tuple[np.ndarray, csr_matrix]:
+def test_load_steps_for_felupe_are_halved_down_to_a_64th(longest, reached):
+    def spring(u, load_factor):
         """Of stiffness one; without an answer to a step that is too long."""
         miss = u.ravel() - load_factor
         return np.where(-miss > longest, np.nan, miss), csr_matrix(np.eye(3))
@@ -184,7 +182,7 @@ def test_load_steps_for_felupe_are_halved_down_to_a_64th(longest: float, reached
     assert path.load_factor == reached and path.displacement == pytest.approx(reached)
 
 
-def test_a_deck_has_a_line_for_all_that_is_asked(bricks: Bricks) -> None:
+def test_a_deck_has_a_line_for_all_that_is_asked(bricks):
     asked = changed(loads=(Pressure(value=20.0), PointLoad(at=(0.188, 0.188), force=(0.0, 0.0, 1.0))))
     text = deck(asked, bricks, linear=False)
     assert "*STEP, NLGEOM" in text and "GRAV, 9.81, 0.0" in text and "*TRANSFORM" not in text

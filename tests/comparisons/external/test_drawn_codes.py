@@ -41,7 +41,7 @@ DRAWINGS: dict[str, dict[str, Any]] = {
 
 
 @pytest.mark.parametrize("drawing", DRAWINGS)
-def test_the_shell_is_the_bricks_of_calculix_on_drawn_sheets(drawing: str) -> None:
+def test_the_shell_is_the_bricks_of_calculix_on_drawn_sheets(drawing):
     """With 6 elements across they are some 0.2 % off, with 10 less than 0.1."""
     if CALCULIX.version() is None:
         pytest.skip(f"needs {CALCULIX.needs}")
@@ -56,7 +56,7 @@ def test_the_shell_is_the_bricks_of_calculix_on_drawn_sheets(drawing: str) -> No
 
 
 @pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
-def test_a_drawn_sheet_is_refused_by_the_word_that_a_judge_does_not_know(judge: ExternalCode) -> None:
+def test_a_drawn_sheet_is_refused_by_the_word_that_a_judge_does_not_know(judge):
     if judge.version() is None:
         pytest.skip(f"needs {judge.needs}")
     thick = SEED.replace(patches=[{"shape": DISC, "thickness": 0.004}])

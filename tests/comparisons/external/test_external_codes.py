@@ -2,7 +2,6 @@
 
 import re
 import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,7 +28,6 @@ from sheetbench.scenes import (
     EdgeMotion,
     Held,
     Hinged,
-    Material,
     PointLoad,
     Pressure,
     Scene,
@@ -43,11 +41,11 @@ JUDGES: tuple[ExternalCode, ...] = (CALCULIX, KRATOS, FELUPE)
 SEED = load("two-edges-clamped")
 
 
-def changed(**changes: Any) -> Scene:
+def changed(**changes):
     return SEED.model_copy(update=changes)
 
 
-def needed(judge: ExternalCode) -> None:
+def needed(judge):
     if judge.version() is None:
         pytest.skip(f"needs {judge.needs}")
 
@@ -65,7 +63,7 @@ DAT = """
 """
 
 
-def test_every_increment_is_read() -> None:
+def test_every_increment_is_read():
     times, displacements = results.displacements(DAT, 3)
     assert times.tolist() == [0.5, 1.0] and np.isnan(displacements[:, 2]).all()
     np.testing.assert_array_equal(displacements[1, :2], [[3e-3, 0.1, 0.0], [4e-3, 0.0, -2.0]])
@@ -77,7 +75,7 @@ def test_every_increment_is_read() -> None:
 @pytest.mark.parametrize(
     "damage", ["", DAT.replace("-2.0E+00", "garbage"), DAT.replace("\n         2", "\n  9")]
 )
-def test_results_that_cannot_be_read_are_one_line(damage: str) -> None:
+def test_results_that_cannot_be_read_are_one_line(damage):
     with pytest.raises(Failed, match=r"its \.dat file"):
         results.displacements(damage, 2)
 
@@ -90,18 +88,18 @@ def test_results_that_cannot_be_read_are_one_line(damage: str) -> None:
         ("import time; time.sleep(60)", "stopped: no answer within 0.5 s"),
     ],
 )
-def test_a_program_that_fails_says_so_in_a_line(tmp_path: Path, code: str, said: str) -> None:
+def test_a_program_that_fails_says_so_in_a_line(tmp_path, code, said):
     with pytest.raises(Failed, match=said) as caught:
         output_of([sys.executable, "-c", code], tmp_path, 0.5 if "sleep" in code else 20.0)
     assert "\n" not in str(caught.value)
 
 
-def test_a_program_that_is_not_there_cannot_be_started(tmp_path: Path) -> None:
+def test_a_program_that_is_not_there_cannot_be_started(tmp_path):
     with pytest.raises(Failed, match="cannot be started: No such file"):
         output_of([str(tmp_path / "none")], tmp_path, 1.0)
 
 
-def fake_program(folder: Path, monkeypatch: pytest.MonkeyPatch, script: str) -> None:
+def fake_program(folder, monkeypatch, script):
     """A `ccx` of one's own, first on the PATH."""
     file = folder / "ccx"
     file.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
@@ -117,9 +115,7 @@ def fake_program(folder: Path, monkeypatch: pytest.MonkeyPatch, script: str) -> 
         ("kill -9 $$", "CalculiX: ended by signal 9"),
     ],
 )
-def test_a_judge_that_fails_is_an_answer_with_a_status(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: str, said: str
-) -> None:
+def test_a_judge_that_fails_is_an_answer_with_a_status(tmp_path, monkeypatch, script, said):
     fake_program(tmp_path, monkeypatch, script)
     solution = CALCULIX.solve(SEED, {**CALCULIX.settings, "elements": 2})
     assert solution.status is Status.DIVERGED and solution.load_factor == 0.0
@@ -128,7 +124,7 @@ def test_a_judge_that_fails_is_an_answer_with_a_status(
     assert re.fullmatch(said, note), note
 
 
-def test_a_judge_that_is_not_here_says_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_judge_that_is_not_here_says_what_it_needs(monkeypatch):
     monkeypatch.setenv("PATH", "")
     assert CALCULIX.version() is None
     with pytest.raises(BadInput, match="calculix-ccx"):
@@ -139,7 +135,7 @@ def test_a_judge_that_is_not_here_says_what_it_needs(monkeypatch: pytest.MonkeyP
 
 
 @pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
-def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge: ExternalCode) -> None:
+def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge):
     needed(judge)
     chain = Chain(edge="x1", segments=2, bending_stiffness=1.0, line_density=1.0, radius=1e-3)
     for scene in (changed(actuators=(chain,)), changed(loads=(EdgeLoad(edge="x1", moment_per_length=0.1),))):
@@ -148,7 +144,7 @@ def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge: ExternalCode) 
 
 
 @pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
-def test_settings_that_make_no_mesh_are_refused(judge: ExternalCode) -> None:
+def test_settings_that_make_no_mesh_are_refused(judge):
     for wrong in (0, 2.5, "many"):
         with pytest.raises(BadInput, match="elements = "):
             judge.solve(SEED, {**judge.settings, "elements": wrong})
@@ -156,7 +152,7 @@ def test_settings_that_make_no_mesh_are_refused(judge: ExternalCode) -> None:
         CALCULIX.solve(SEED, {**CALCULIX.settings, "layers": 3})
 
 
-def test_judges_are_found_among_the_plug_ins() -> None:
+def test_judges_are_found_among_the_plug_ins():
     assert all(isinstance(judge, ExternalCode) for judge in JUDGES)
     looked = {one.code.name: one.version for one in installed.find_codes()}
     assert "mujoco" not in looked
@@ -196,7 +192,7 @@ WORDS: dict[str, dict[str, Any]] = {
 
 
 @pytest.mark.parametrize("word", WORDS)
-def test_a_scenes_words_mean_the_same_to_every_judge(word: str) -> None:
+def test_a_scenes_words_mean_the_same_to_every_judge(word):
     """Within what coarse meshes leave: 4 × 4 bricks, 8 × 8 × 2 Kirchhoff triangles, whose error is O(h²).
 
     A curved edge has a narrow layer: 4.4 % with 4 bricks, 0.5 with 6, 0.2 with 8.
@@ -214,7 +210,7 @@ def test_a_scenes_words_mean_the_same_to_every_judge(word: str) -> None:
         pytest.skip(f"needs one of {'; '.join(judge.needs for judge in JUDGES)}")
 
 
-def test_two_programs_answer_alike_on_the_same_bricks() -> None:
+def test_two_programs_answer_alike_on_the_same_bricks():
     """Deck and results against a program that reads no deck: CalculiX prints seven digits."""
     needed(CALCULIX)
     needed(FELUPE)
@@ -225,7 +221,7 @@ def test_two_programs_answer_alike_on_the_same_bricks() -> None:
     assert off is not None and off < 2e-6
 
 
-def test_hinges_in_bricks_do_not_give_way_as_bricks_get_smaller() -> None:
+def test_hinges_in_bricks_do_not_give_way_as_bricks_get_smaller():
     """A line of nodes held in a solid would: 0.6, 1.0 and 1.3 % with 6, 8 and 12 bricks."""
     needed(CALCULIX)
     hinged = changed(**WORDS["pressure"])
@@ -237,7 +233,7 @@ def test_hinges_in_bricks_do_not_give_way_as_bricks_get_smaller() -> None:
         assert off is not None and off < (0.02 if elements == 4 else 0.003)
 
 
-def test_without_nlgeom_calculix_is_the_linear_plate() -> None:
+def test_without_nlgeom_calculix_is_the_linear_plate():
     needed(CALCULIX)
     points = SEED.probe_points()
     bricks = CALCULIX.solve(SEED, {**CALCULIX.settings, "elements": 6, "linear": True}).displacement(points)
@@ -245,7 +241,7 @@ def test_without_nlgeom_calculix_is_the_linear_plate() -> None:
     assert off is not None and off < 0.003
 
 
-def test_the_thin_shell_of_kratos_becomes_ours_as_the_sheet_gets_thinner() -> None:
+def test_the_thin_shell_of_kratos_becomes_ours_as_the_sheet_gets_thinner():
     """Kirchhoff's shell keeps the twist that edges let go within about h: off in proportion to h.
 
     Weight falls as h² does and is small, so that the deflection is linear and the same; Kratos' triangles are
@@ -269,7 +265,7 @@ def test_the_thin_shell_of_kratos_becomes_ours_as_the_sheet_gets_thinner() -> No
     assert thin < 0.004 < 0.006 < thick, off
 
 
-def pulled_rubber(rubber: Material) -> Scene:
+def pulled_rubber(rubber):
     """A clamped strip pulled by some 60 %."""
     sheet = Sheet(length_x=0.1, length_y=0.05, thickness=0.004)
     pull = EdgeLoad(edge="x1", force_per_length=(0.4 * rubber.young * sheet.thickness, 0.0, 0.0))
@@ -278,7 +274,7 @@ def pulled_rubber(rubber: Material) -> Scene:
 
 @pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
 @pytest.mark.parametrize("rubber", RUBBERS, ids=lambda rubber: rubber.law)
-def test_stretched_rubber_is_our_solid_s_or_refused_by_name(judge: ExternalCode, rubber: Material) -> None:
+def test_stretched_rubber_is_our_solid_s_or_refused_by_name(judge, rubber):
     """FElupe has our energy; CalculiX' differs by the compressibility, some 0.7 (1 − 2 ν) of the stretch."""
     needed(judge)
     scene = pulled_rubber(rubber.replace(poisson=0.49 if judge is FELUPE else 0.499))
@@ -293,7 +289,7 @@ def test_stretched_rubber_is_our_solid_s_or_refused_by_name(judge: ExternalCode,
     assert found.displacement(end)[0, 0] == pytest.approx(ours, rel=1e-3 if judge is FELUPE else 3e-3)
 
 
-def test_rubber_that_is_not_nearly_incompressible_is_none_of_calculix() -> None:
+def test_rubber_that_is_not_nearly_incompressible_is_none_of_calculix():
     needed(CALCULIX)
     for settings, why in (({}, "near ν = ½"), ({"linear": True}, "not linear")):
         found = CALCULIX.solve(pulled_rubber(RUBBERS[0]), {**CALCULIX.settings, **settings})

@@ -1,17 +1,14 @@
 """The motion of a sheet by CalculiX and Kratos."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 from commands import one_line, run
 
 from comparisons.external.calculix.model import MODEL as CALCULIX
-from comparisons.external.calculix.model import CalculiX
 from comparisons.external.felupe import MODEL as FELUPE
 from comparisons.external.kratos.model import MODEL as KRATOS
-from comparisons.external.kratos.model import Kratos
 from sheetbench.scenes import Air, BadInput, EdgeMotion, FactorTable, Gravity, Relaxation, Status, load
 
 SWING = load("one-edge-clamped")
@@ -20,7 +17,7 @@ DRIVEN = EdgeMotion(edge="x0", kind="motion", time=(0.0, 1.0), displacement=UP)
 
 
 @pytest.mark.parametrize(("code", "elements"), [(CALCULIX, 2), (KRATOS, 4)])
-def test_another_code_swings_as_the_shell(code: CalculiX | Kratos, elements: int, tmp_path: Path) -> None:
+def test_another_code_swings_as_the_shell(code, elements, tmp_path):
     """On few elements a side: the difference is that of the elements, and falls with them."""
     if code.version() is None:
         pytest.skip(f"needs {code.needs}")
@@ -36,7 +33,7 @@ def test_another_code_swings_as_the_shell(code: CalculiX | Kratos, elements: int
     assert "kinetic" not in rows[0] and len(rows) == len(found["motion"]["time"]) + 1
 
 
-def test_crosscheck_moves_the_finest_of_each_model_and_leaves_out_what_refuses(tmp_path: Path) -> None:
+def test_crosscheck_moves_the_finest_of_each_model_and_leaves_out_what_refuses(tmp_path):
     file = tmp_path / "driven.toml"
     SWING.replace(supports=(), actuators=(DRIVEN,)).save(file)
     asked = ("--duration", "0.004", "--lumped", "3,4", "--shell", "1,2", "--plate", "", "--solid", "")
@@ -55,15 +52,13 @@ def test_crosscheck_moves_the_finest_of_each_model_and_leaves_out_what_refuses(t
 @pytest.mark.parametrize(
     "asked", [("one-edge-clamped", "two-edges-clamped"), ("one-edge-clamped", "--shell", "")]
 )
-def test_a_crosscheck_of_motions_is_of_one_scene_and_with_a_shell(
-    asked: tuple[str, ...], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_crosscheck_of_motions_is_of_one_scene_and_with_a_shell(asked, capsys):
     assert run("crosscheck", "one-edge-clamped", *asked, "--duration", "0.1") == 2
     assert "--duration: one scene, a lattice, and a shell" in one_line(capsys)
 
 
 @pytest.mark.parametrize("code", [CALCULIX, KRATOS])
-def test_a_motion_that_another_code_is_not_given_says_why(code: CalculiX | Kratos) -> None:
+def test_a_motion_that_another_code_is_not_given_says_why(code):
     grown = FactorTable(time=(0.0, 1.0), factor=(0.0, 1.0))
     scenes = {
         "no dampers": SWING.replace(damping_rate=1.0),
@@ -78,9 +73,7 @@ def test_a_motion_that_another_code_is_not_given_says_why(code: CalculiX | Krato
             code.simulate(scene, code.settings, 0.1, every=0.01)
 
 
-def test_a_program_that_ends_in_the_midst_is_a_status(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_program_that_ends_in_the_midst_is_a_status(tmp_path, monkeypatch):
     file = tmp_path / "ccx"
     file.write_text("#!/bin/sh\nexit 201\n", encoding="utf-8")
     file.chmod(0o755)
@@ -90,9 +83,7 @@ def test_a_program_that_ends_in_the_midst_is_a_status(
     assert np.isnan(history.balance).all() and len(history.time) == 1
 
 
-def test_a_code_that_does_not_reach_the_end_is_said_and_is_three(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_code_that_does_not_reach_the_end_is_said_and_is_three(tmp_path, monkeypatch, capsys):
     file = tmp_path / "ccx"
     file.write_text("#!/bin/sh\necho This is Version 2.20\nexit 201\n", encoding="utf-8")
     file.chmod(0o755)

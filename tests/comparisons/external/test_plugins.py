@@ -2,7 +2,6 @@
 
 import json
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +22,7 @@ ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODE
 
 
 @pytest.fixture
-def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def installed(tmp_path, monkeypatch):
     """docs/plugin.py as an installed package would offer it, beside two that are broken."""
     metadata = tmp_path / "outside-1.0.dist-info"
     metadata.mkdir()
@@ -37,7 +36,7 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]
     solvers.warm.cache_clear()
 
 
-def test_the_example_of_the_docs_answers_like_a_beam(installed: None) -> None:
+def test_the_example_of_the_docs_answers_like_a_beam(installed):
     scene = scenes.load("one-edge-clamped")
     solution = models.solve(scene, "strip", plane_strain=True)
     assert (solution.model, solution.settings) == ("strip", {"plane_strain": True})
@@ -48,7 +47,7 @@ def test_the_example_of_the_docs_answers_like_a_beam(installed: None) -> None:
     assert models.solve(scene, "strip").settings == {"plane_strain": False}
 
 
-def test_the_example_takes_a_history_and_refuses_what_it_does_not_know(installed: None) -> None:
+def test_the_example_takes_a_history_and_refuses_what_it_does_not_know(installed):
     scene = scenes.load("one-edge-clamped")
     (clamp,), gravity = scene.supports, scene.gravity
     assert gravity is not None
@@ -70,9 +69,7 @@ def test_the_example_takes_a_history_and_refuses_what_it_does_not_know(installed
 
 
 @pytest.mark.usefixtures("in_process")
-def test_a_plugin_stands_in_the_same_table_and_on_the_same_front(
-    installed: None, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_plugin_stands_in_the_same_table_and_on_the_same_front(installed, capsys):
     arguments = ("--lumped", "5", "--calibration", "consistent", "--plate", "", "--shell", "2", "--solid", "")
     options = ("--model", "strip", "--model", "strip:plane_strain=true", "--elements", "4", "--repeats", "1")
     document = json_of(capsys, "tradeoff", "one-edge-clamped", *arguments, *options)
@@ -84,9 +81,7 @@ def test_a_plugin_stands_in_the_same_table_and_on_the_same_front(
     assert quickest["model"] == "strip"
 
 
-def test_what_is_wrong_with_a_plugin_is_said_in_a_line(
-    installed: None, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_is_wrong_with_a_plugin_is_said_in_a_line(installed, capsys):
     scene = scenes.load("one-edge-clamped")
     assert plugins.names()[:1] == ["absent"]
     for name, said in (
@@ -103,9 +98,7 @@ def test_what_is_wrong_with_a_plugin_is_said_in_a_line(
 
 
 @pytest.mark.parametrize("where", ["when it is loaded", "when it solves"])
-def test_one_that_ends_the_program_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], where: str
-) -> None:
+def test_one_that_ends_the_program_is_refused(tmp_path, capsys, where):
     """The exit status was 0, and nothing was said."""
     file, example = tmp_path / f"{where[-5:].strip()}.py", (DOCS / "plugin.py").read_text()
     if where == "when it is loaded":
@@ -119,7 +112,7 @@ def test_one_that_ends_the_program_is_refused(
     assert "plug-in" in (said := capsys.readouterr().err) and "Traceback" not in said
 
 
-def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_path: Path) -> None:
+def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_path):
     """Rows of an edited plug-in were read as if nothing had changed."""
     file, beside = tmp_path / "own.py", tmp_path / "constants.py"
     example = (DOCS / "plugin.py").read_text()
@@ -128,7 +121,7 @@ def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_p
     (tmp_path / "elsewhere.py").write_text("x = 1\n")
     scene, name = scenes.load("one-edge-clamped"), f"{file}:Strip"
 
-    def key() -> str:
+    def key():
         return timing.run(scene, parse(name)).key
 
     first = key()
@@ -142,7 +135,7 @@ def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_p
         timing.measure(scene.document(), name, {}, 0, plugins.digest("lumped"))
 
 
-def test_a_row_is_of_an_installed_plug_ins_version(installed: None, tmp_path: Path) -> None:
+def test_a_row_is_of_an_installed_plug_ins_version(installed, tmp_path):
     scene = scenes.load("one-edge-clamped")
     first = timing.run(scene, parse("strip")).key
     assert timing.run(scene, parse("strip")).key == first
@@ -152,7 +145,7 @@ def test_a_row_is_of_an_installed_plug_ins_version(installed: None, tmp_path: Pa
     assert timing.run(scene, parse("strip")).key != first
 
 
-def test_mujoco_is_installed_as_a_plugin() -> None:
+def test_mujoco_is_installed_as_a_plugin():
     assert "mujoco" in plugins.names()
     with pytest.raises(BadInput, match="elastic2d = 'none'"):
         models.solve(scenes.load("one-edge-clamped"), "mujoco", elastic2d="none")
@@ -160,7 +153,7 @@ def test_mujoco_is_installed_as_a_plugin() -> None:
         models.solve(scenes.load("one-edge-clamped"), "mujoco", grid=2)
 
 
-def test_mujocos_sheet_at_rest_as_it_is() -> None:
+def test_mujocos_sheet_at_rest_as_it_is():
     """With two edges clamped it bends half as far as the shell, less on a finer grid: nothing is tuned."""
     scene = scenes.load("two-edges-clamped")
     truth = models.solve(scene, "shell", elements=8).displacement(scene.probe_points())
@@ -177,7 +170,7 @@ def test_mujocos_sheet_at_rest_as_it_is() -> None:
     assert corner[17] == pytest.approx(-6.83e-3, rel=0.02)
 
 
-def test_mujocos_clamps_hinges_and_point_loads() -> None:
+def test_mujocos_clamps_hinges_and_point_loads():
     base = scenes.load("one-edge-clamped")
     light = base.model_copy(
         update={"gravity": None, "loads": (PointLoad(at=(0.188, 0.094), force=(0, 0, 1e-3)),)}
@@ -196,7 +189,7 @@ def test_mujocos_clamps_hinges_and_point_loads() -> None:
     assert sagging[1] < sagging[0] < 0.0
 
 
-def test_mujoco_refuses_what_it_does_not_have() -> None:
+def test_mujoco_refuses_what_it_does_not_have():
     base = scenes.load("one-edge-clamped")
     pulled = base.model_copy(update={"loads": (EdgeLoad(edge="x1", force_per_length=(1.0, 0.0, 0.0)),)})
     tilted = base.model_copy(update={"supports": (Clamped(edge="x0", tilt=0.1),)})
@@ -217,14 +210,12 @@ def test_mujoco_refuses_what_it_does_not_have() -> None:
         ("shell", {"elements": []}, "elements = "),
     ],
 )
-def test_settings_of_our_own_models_are_looked_at_before_solving(
-    model: str, settings: dict[str, object], said: str
-) -> None:
+def test_settings_of_our_own_models_are_looked_at_before_solving(model, settings, said):
     with pytest.raises(BadInput, match=said):
         models.solve(scenes.load("one-edge-clamped"), model, **settings)
 
 
-def test_compare_takes_a_plug_in_from_its_file(capsys: pytest.CaptureFixture[str]) -> None:
+def test_compare_takes_a_plug_in_from_its_file(capsys):
     asked = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
     assert run(*asked, "--model", f"{DOCS / 'plugin.py'}:Strip") == 0
     document = json.loads(capsys.readouterr().out)
@@ -234,7 +225,7 @@ def test_compare_takes_a_plug_in_from_its_file(capsys: pytest.CaptureFixture[str
 
 
 @pytest.mark.parametrize("named", ["absent.py:Strip", f"{DOCS / 'plugin.py'}:Absent", "nobody"])
-def test_a_model_that_is_not_there_is_said_in_a_line(named: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_model_that_is_not_there_is_said_in_a_line(named, capsys):
     asked = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty")
     assert run(*asked, "--model", named) == 2
     said = one_line(capsys)

@@ -27,10 +27,10 @@ Make = Callable[..., str]
 
 
 @pytest.fixture
-def program(tmp_path: Path) -> Make:
+def program(tmp_path):
     """Makes a shell script, and says how to ask for it."""
 
-    def make(name: str, *lines: str) -> str:
+    def make(name, *lines):
         path = tmp_path / name
         path.write_text("\n".join(["#!/bin/sh", *lines, ""]), encoding="utf-8")
         path.chmod(0o755)
@@ -39,12 +39,12 @@ def program(tmp_path: Path) -> Make:
     return make
 
 
-def says(answer: object) -> str:
+def says(answer):
     return f"cat <<'END'\n{json.dumps(answer)}\nEND"
 
 
 @pytest.mark.skipif(shutil.which("jq") is None, reason="needs jq: install the Debian package jq")
-def test_the_example_of_the_docs_answers_like_a_beam(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_example_of_the_docs_answers_like_a_beam(capsys):
     assert len(STRIP.read_text(encoding="utf-8").splitlines()) <= 10
     solution = face.solve(SCENE, f"exec:{STRIP}")
     sheet, material = SCENE.sheet, SCENE.material
@@ -58,7 +58,7 @@ def test_the_example_of_the_docs_answers_like_a_beam(capsys: pytest.CaptureFixtu
     assert "strip: knows a sheet clamped at x0" in capsys.readouterr().err
 
 
-def test_it_gets_the_scene_and_its_settings_and_may_tell_more(program: Make, tmp_path: Path) -> None:
+def test_it_gets_the_scene_and_its_settings_and_may_tell_more(program, tmp_path):
     kept = tmp_path / "kept"
     more = {**ANSWER, "solve_seconds": 1e-4, "unknowns": 7, "iterations": 3, "reactions": {"x0": [0, 0, 1.7]}}
     model = program("mine", f"cat > '{kept}'", f"echo \"$@\" > '{kept}.options'", says(more))
@@ -72,9 +72,7 @@ def test_it_gets_the_scene_and_its_settings_and_may_tell_more(program: Make, tmp
     assert parse(str(asked)) == asked
 
 
-def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(
-    program: Make, tmp_path: Path, in_process: None, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(program, tmp_path, in_process, capsys):
     truth = face.solve(SCENE, "shell", elements=4).displacement(SCENE.probe_points())
     right = {"probes": dict(zip(SCENE.probes, truth.tolist(), strict=True))}
     wrong = {"probes": dict(zip(SCENE.probes, (-truth).tolist(), strict=True))}
@@ -122,16 +120,14 @@ def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(
         ([f"exec '{sys.executable}' -c 'x = bytearray(2**30)'"], "exit status 1: MemoryError"),
     ],
 )
-def test_what_is_no_answer_is_told(program: Make, lines: list[str], said: str) -> None:
+def test_what_is_no_answer_is_told(program, lines, said):
     solution = face.solve(SCENE, program("mine", *lines), memory_mb=800)
     assert (solution.status, solution.load_factor) == (Status.FAILED, 0.0)
     assert not solution.comparable
     assert said in solution.message
 
 
-def test_a_comparison_goes_on_without_it(
-    program: Make, tmp_path: Path, undrawn: None, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_comparison_goes_on_without_it(program, tmp_path, undrawn, capsys):
     few = ["--lumped", "3", "--elements", "2", "--no-uncertainty", "--out", str(tmp_path / "out")]
     assert run("compare", "one-edge-clamped", *few, "--model", program("crash", "exit 9")) == 0
     printed = capsys.readouterr()
@@ -141,9 +137,7 @@ def test_a_comparison_goes_on_without_it(
     )
 
 
-def test_what_cannot_be_run_is_refused(
-    program: Make, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_cannot_be_run_is_refused(program, tmp_path, capsys):
     plain = tmp_path / "plain"
     plain.write_text("#!/bin/sh\n")
     for model, said in (
@@ -158,7 +152,7 @@ def test_what_cannot_be_run_is_refused(
 
 
 @pytest.mark.parametrize("leaves", ["", " >/dev/null"], ids=["holding its output", "holding its errors"])
-def test_a_child_that_is_left_behind_holds_nothing_up(program: Make, tmp_path: Path, leaves: str) -> None:
+def test_a_child_that_is_left_behind_holds_nothing_up(program, tmp_path, leaves):
     """It was waited for, beyond the time limit and at any length, and the answer lost."""
     left = f"setsid sh -c 'echo $$ > {tmp_path / 'left'}; exec sleep 60'{leaves} &"
     ready = f"while [ ! -s {tmp_path / 'left'} ]; do sleep 0.01; done"
@@ -169,7 +163,7 @@ def test_a_child_that_is_left_behind_holds_nothing_up(program: Make, tmp_path: P
     assert solution.comparable
 
 
-def test_a_child_that_goes_on_to_talk_is_not_listened_to(program: Make, tmp_path: Path) -> None:
+def test_a_child_that_goes_on_to_talk_is_not_listened_to(program, tmp_path):
     talking = f"setsid sh -c 'echo $$ > {tmp_path / 'left'}; exec yes >&2' 2>&2 &"
     ready = f"while [ ! -s {tmp_path / 'left'} ]; do sleep 0.01; done"
     solution = face.solve(SCENE, program("mine", talking, ready, says(ANSWER)), seconds=1e15)
@@ -178,15 +172,13 @@ def test_a_child_that_goes_on_to_talk_is_not_listened_to(program: Make, tmp_path
 
 
 @pytest.mark.parametrize("limits", ["seconds=1e20", "seconds=1" + 400 * "0", "memory_mb=1e999"])
-def test_limits_without_end_are_refused(
-    program: Make, capsys: pytest.CaptureFixture[str], limits: str
-) -> None:
+def test_limits_without_end_are_refused(program, capsys, limits):
     assert run("tradeoff", "one-edge-clamped", "--model", f"{program('mine', says(ANSWER))}:{limits}") == 2
     assert "a number of at most 1e+15 is needed" in one_line(capsys)
     assert face.solve(SCENE, program("mine", says(ANSWER)), seconds=1e15, memory_mb=1e15).comparable
 
 
-def test_another_program_under_the_same_name_is_another_model(program: Make) -> None:
+def test_another_program_under_the_same_name_is_another_model(program):
     model = program("mine", says(ANSWER))
     before = plugins.digest(model)
     program("mine", says(ANSWER), "# changed")

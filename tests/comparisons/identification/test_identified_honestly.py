@@ -292,7 +292,7 @@ def test_a_strip_that_swings_far():
         assert found.unknowns[name].value == pytest.approx(value, rel=0.05)
 
 
-def test_unknowns_are_identified_on_springs_with_a_layer_distance() -> None:
+def test_unknowns_are_identified_on_springs_with_a_layer_distance():
     """The slopes are those of springs with that distance, or the search would not end where it began."""
     scene = scenes.load("two-edges-clamped")
     own = {"calibration": "consistent", "layer_distance": 0.004}

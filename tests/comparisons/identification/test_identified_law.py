@@ -13,7 +13,7 @@ from sheetbench import scenes
 from sheetbench.errors import BadInput
 
 
-def test_the_law_of_strain_that_made_the_data_finds_its_e() -> None:
+def test_the_law_of_strain_that_made_the_data_finds_its_e():
     """Pulled by 5 % of E h a strip of rubber is some 10 % softer than St Venant–Kirchhoff's."""
     sheet = scenes.Sheet(length_x=0.1, length_y=0.1, thickness=0.002)
     rubber = scenes.Material(young=1e6, poisson=0.45, density=1000.0)

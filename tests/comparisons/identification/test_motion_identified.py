@@ -1,7 +1,6 @@
 """Material from a measured decay: E and loss factor at once, branches, markers of a motion capture."""
 
 import sys
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -14,14 +13,14 @@ import lumped
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, read
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Air, History, Relaxation, Scene, load
+from sheetbench.scenes import Air, Relaxation, load
 from sheetbench.scenes.parameters import parameter, put
 
 TRUTH = load("one-edge-clamped").replace(loss_factor=0.12, frequency=3.0)
 GUESS = TRUTH.replace(young=40e6, loss_factor=0.05)
 
 
-def decay(run: History, end: float, noise: float, seed: int, rows: int = 100) -> Displacements:
+def decay(run, end, noise, seed, rows=100):
     """Deflections of P4 with noise, a share of the largest."""
     at = np.linspace(0.01, end, rows)
     clean = CubicSpline(run.time, run.probes["P4"])(at)
@@ -30,12 +29,12 @@ def decay(run: History, end: float, noise: float, seed: int, rows: int = 100) ->
     return Displacements(np.tile(TRUTH.probes["P4"], (rows, 1)), found, at)
 
 
-def lattice_run(scene: Scene, end: float) -> History:
+def lattice_run(scene, end):
     return lumped.simulate(scene, lumped.calibrate(scene.sheet, scene.material, (3, 3)), end, error=1e-8)
 
 
 @pytest.mark.parametrize("seeds", [range(1), pytest.param(range(20), marks=pytest.mark.nightly)])
-def test_young_and_loss_factor_from_a_decay_with_noise(seeds: range) -> None:
+def test_young_and_loss_factor_from_a_decay_with_noise(seeds):
     """95 % intervals hold in at least 18 of 20 seeds, and in the first."""
     held = {"young": 0, "loss_factor": 0}
     run = lattice_run(TRUTH, 1.5)
@@ -49,7 +48,7 @@ def test_young_and_loss_factor_from_a_decay_with_noise(seeds: range) -> None:
     assert min(held.values()) >= 0.9 * len(seeds), held
 
 
-def test_the_drag_of_the_air_from_a_decay() -> None:
+def test_the_drag_of_the_air_from_a_decay():
     truth = load("one-edge-clamped").replace(air=Air(drag=30.0))
     measured = decay(lattice_run(truth, 0.5), 0.5, 0.01, 0, 40)
     found = identify(truth.replace(air=Air(drag=10.0)), measured, "drag", grid=(3, 3))
@@ -59,7 +58,7 @@ def test_the_drag_of_the_air_from_a_decay() -> None:
         identify(truth.replace(air=None), measured, "drag")
 
 
-def test_a_reference_follows_a_measured_motion() -> None:
+def test_a_reference_follows_a_measured_motion():
     """Within what a hundred steps a period leave, against finer ones."""
     run = fem_reference.simulate(TRUTH, "shell", 0.15, elements=1, step=1e-3)
     found = identify(
@@ -69,7 +68,7 @@ def test_a_reference_follows_a_measured_motion() -> None:
     assert found.settings["elements"] == [1, 1]
 
 
-def test_branches_are_parameters() -> None:
+def test_branches_are_parameters():
     scene = load("one-edge-clamped").replace(relaxation=(Relaxation(0.2, 0.1), Relaxation(0.1, 1.0)))
     assert parameter(scene, "time_2").value == 1.0
     assert put(scene, "share_1", 0.3).material.relaxation[0].share == 0.3
@@ -81,7 +80,7 @@ def test_branches_are_parameters() -> None:
         identify(scene, still, "share_1")
 
 
-def capture(monkeypatch: pytest.MonkeyPatch, labels: list[str]) -> None:
+def capture(monkeypatch, labels):
     """In the place of ezc3d: frames of markers that sink by a millimetre each."""
     points = np.zeros((4, len(labels), 5))
     points[2] = -1.0 * np.arange(5)
@@ -91,9 +90,7 @@ def capture(monkeypatch: pytest.MonkeyPatch, labels: list[str]) -> None:
     monkeypatch.setitem(sys.modules, "ezc3d", SimpleNamespace(c3d=lambda path: content))
 
 
-def test_markers_with_names_of_probes_are_displacements(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_markers_with_names_of_probes_are_displacements(tmp_path, monkeypatch):
     file = tmp_path / "capture.c3d"
     file.write_bytes(b"")
     capture(monkeypatch, ["Base", "p 4"])

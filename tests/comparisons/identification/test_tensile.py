@@ -1,7 +1,5 @@
 """Laws of rubber from tensile tests: closed forms, intervals that hold, Treloar's rubber, refusals."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from measured_data import measured_data
@@ -10,7 +8,6 @@ from comparisons.identification.tensile.curves import TESTS, Curve, read
 from comparisons.identification.tensile.laws import KEYS, LAWS, energy, largest_x, stress
 from comparisons.identification.tensile.tensile import identify_tensile
 from sheetbench.errors import BadInput
-from sheetbench.scenes.material import Energy
 
 TRUE = {
     "neo-hookean": (0.6e6,),
@@ -20,7 +17,7 @@ TRUE = {
 }
 
 
-def work(of: Energy, test: str, stretch: float) -> float:
+def work(of, test, stretch):
     """W of an incompressible sheet at a stretch."""
     s = {"uniaxial": stretch**-0.5, "pure-shear": 1.0, "equibiaxial": stretch}[test]
     squares = np.array([stretch, s, 1.0 / (stretch * s)]) ** 2
@@ -31,7 +28,7 @@ def work(of: Energy, test: str, stretch: float) -> float:
 
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("test", TESTS)
-def test_stress_is_the_slope_of_the_work(law: str, test: str) -> None:
+def test_stress_is_the_slope_of_the_work(law, test):
     """Of an equibiaxial sheet half the slope: two sides are pulled. Central differences, error (1e-5)²."""
     of = energy(law, TRUE[law])
     for at in (0.8, 1.3, 2.1):
@@ -41,7 +38,7 @@ def test_stress_is_the_slope_of_the_work(law: str, test: str) -> None:
     assert stress(of, test, np.array([1.0]))[0] == pytest.approx(0.0, abs=1e-9)
 
 
-def curves(law: str, tests: tuple[str, ...], noise: float = 0.0, seed: int = 0) -> list[Curve]:
+def curves(law, tests, noise=0.0, seed=0):
     random = np.random.default_rng(seed)
     found = []
     for test in tests:
@@ -52,7 +49,7 @@ def curves(law: str, tests: tuple[str, ...], noise: float = 0.0, seed: int = 0) 
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_a_laws_own_curves_give_its_constants_back(law: str) -> None:
+def test_a_laws_own_curves_give_its_constants_back(law):
     found = identify_tensile(curves(law, TESTS))
     assert found.law is not None and found.law.law == law
     assert list(found.law.constants.values()) == pytest.approx(TRUE[law], rel=1e-4)
@@ -61,7 +58,7 @@ def test_a_laws_own_curves_give_its_constants_back(law: str) -> None:
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_intervals_hold_in_18_to_20_of_20_seeds(law: str) -> None:
+def test_intervals_hold_in_18_to_20_of_20_seeds(law):
     held = dict.fromkeys(KEYS[law], 0)
     for seed in range(20):
         found = identify_tensile(curves(law, TESTS, 0.02, seed))
@@ -71,7 +68,7 @@ def test_intervals_hold_in_18_to_20_of_20_seeds(law: str) -> None:
     assert min(held.values()) >= 18, held
 
 
-def test_one_curve_cannot_tell_the_two_constants_of_mooney_rivlin() -> None:
+def test_one_curve_cannot_tell_the_two_constants_of_mooney_rivlin():
     found = identify_tensile(curves("mooney-rivlin", ("uniaxial",), 0.005))
     (mooney,) = (f for f in found.fits if f.law == "mooney-rivlin")
     assert mooney.correlation < -0.9 and found.law is not None and found.law.law != "mooney-rivlin"
@@ -82,16 +79,16 @@ def test_one_curve_cannot_tell_the_two_constants_of_mooney_rivlin() -> None:
     assert both.law is not None and both.law.law == "mooney-rivlin" and both.open is None
 
 
-def table(folder: Path, text: str) -> str:
+def table(folder, text):
     (folder / "test.csv").write_text(text, encoding="utf-8")
     return str(folder / "test.csv")
 
 
-def rows(stretch: np.ndarray, values: np.ndarray, header: str) -> str:
+def rows(stretch, values, header):
     return "\n".join([header, *(f"{s:.9g},{v:.9g}" for s, v in zip(stretch, values, strict=True))])
 
 
-def test_columns_of_all_kinds_mean_the_same_curve(tmp_path: Path) -> None:
+def test_columns_of_all_kinds_mean_the_same_curve(tmp_path):
     (one,) = curves("gent", ("uniaxial",))
     written = {
         "stretch,engineering_stress [MPa]": (one.stretch, one.stress / 1e6),
@@ -124,14 +121,14 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("fault", REFUSED)
-def test_what_is_no_loading_branch_is_refused(tmp_path: Path, fault: str) -> None:
+def test_what_is_no_loading_branch_is_refused(tmp_path, fault):
     text, named = REFUSED[fault]
     path = table(tmp_path, text)
     with pytest.raises(BadInput, match=f"^{path}.*{named}"):
         read(path)
 
 
-def test_treloars_rubber_asks_for_gent_with_published_constants(tmp_path: Path) -> None:
+def test_treloars_rubber_asks_for_gent_with_published_constants(tmp_path):
     """Published of the same data: 0.240 MPa and 80 (Hyperelastics.jl), within our intervals."""
     text = measured_data("treloar/uniaxial.csv").read_text(encoding="utf-8")
     found = identify_tensile(table(tmp_path, text.replace(",Stress", ",engineering_stress [MPa]", 1)))
@@ -143,7 +140,7 @@ def test_treloars_rubber_asks_for_gent_with_published_constants(tmp_path: Path) 
     assert max(map(largest_x, found.curves)) == pytest.approx(7.512**2 + 2.0 / 7.512 - 3.0)
 
 
-def test_a_silicone_file_is_read_as_the_machine_wrote_it() -> None:
+def test_a_silicone_file_is_read_as_the_machine_wrote_it():
     found = identify_tensile(str(measured_data("silicone-tensile/Ecoflex 00-30.csv")), up_to=2.5)
     assert len(found.curves[0].stretch) == 64
     assert found.law is not None and found.law.young == pytest.approx(47e3, rel=0.05)

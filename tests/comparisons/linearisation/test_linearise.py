@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,16 +22,16 @@ TAU, RATE = 2e-3, 0.5  # s, 1/s
 DAMPED = with_material(scenes.load("two-edges-clamped"), damping_time=TAU, damping_rate=RATE)
 
 
-def springs_of(scene: Scene, grid: int = 4) -> lumped.Calibration:
+def springs_of(scene, grid=4):
     return lumped.calibrate(scene.sheet, scene.material, grid=grid)
 
 
 @pytest.fixture(scope="module")
-def flat() -> lumped.Linear:
+def flat():
     return lumped.linearise(DAMPED, springs_of(DAMPED), "flat")
 
 
-def test_poles_are_those_of_the_modes_with_their_damping(flat: lumped.Linear) -> None:
+def test_poles_are_those_of_the_modes_with_their_damping(flat):
     omega = 2.0 * np.pi * lumped.modes(DAMPED, springs_of(DAMPED), 10, "gregory").frequencies
     drag = TAU * omega**2 + RATE
     wanted = -drag / 2.0 + 1j * np.sqrt(omega**2 - drag**2 / 4.0 + 0j)
@@ -43,7 +42,7 @@ def test_poles_are_those_of_the_modes_with_their_damping(flat: lumped.Linear) ->
         assert len(poles) == 2 * (flat.mass.shape[0] if modes is None else modes)
 
 
-def test_a_step_answers_as_the_simulation_does_in_the_small(flat: lumped.Linear) -> None:
+def test_a_step_answers_as_the_simulation_does_in_the_small(flat):
     small = DAMPED.replace(gravity=Gravity(acceleration=(0.0, 0.0, -9.81e-5)))
     history = lumped.simulate(small, springs_of(small), 0.15, every=0.003, step=2e-4, integrator="midpoint")
     found = 1e-5 * flat.state_space(None).after_step(history.time, flat.inputs.index("gravity"))
@@ -52,7 +51,7 @@ def test_a_step_answers_as_the_simulation_does_in_the_small(flat: lumped.Linear)
         assert np.abs(found[:, 3 * number : 3 * number + 3] - u).max() < 1e-3 * np.abs(u).max()
 
 
-def test_a_moved_edge_answers_as_the_simulation_does(flat: lumped.Linear) -> None:
+def test_a_moved_edge_answers_as_the_simulation_does(flat):
     """A ramp of 1e-6 m of the edge, as steps of its rate: the dampers of the edge's cells take part."""
     rise = Motion(time=(0.0, 0.02), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 1e-6)))
     scene = Scene(
@@ -77,7 +76,7 @@ def test_a_moved_edge_answers_as_the_simulation_does(flat: lumped.Linear) -> Non
 
 
 @pytest.mark.parametrize("edge", ["x1", "x0"])
-def test_jacobians_are_slopes_of_statics(edge: str) -> None:
+def test_jacobians_are_slopes_of_statics(edge):
     chain = Chain(
         edge="x1", segments=4, bending_stiffness=0.2, line_density=0.05, radius=1.5e-3, curvature=3.0
     )
@@ -98,7 +97,7 @@ def test_jacobians_are_slopes_of_statics(edge: str) -> None:
     np.testing.assert_allclose(found, known, atol=1e-6 * np.abs(known).max())
 
 
-def test_inputs_at_rest_are_what_statics_do(flat: lumped.Linear) -> None:
+def test_inputs_at_rest_are_what_statics_do(flat):
     loaded = lumped.linearise(DAMPED, springs_of(DAMPED))
     more, less = (
         lumped.solve(DAMPED.replace(gravity=Gravity(acceleration=(0.0, 0.0, -9.81 * by))), springs_of(DAMPED))
@@ -118,7 +117,7 @@ def test_inputs_at_rest_are_what_statics_do(flat: lumped.Linear) -> None:
     np.testing.assert_allclose(moved, np.tile([0.0, 0.0, 1.0], (len(moved), 1)), atol=1e-7)
 
 
-def test_few_modes_answer_slow_inputs_exactly_and_others_nearly(flat: lumped.Linear) -> None:
+def test_few_modes_answer_slow_inputs_exactly_and_others_nearly(flat):
     few, whole = flat.state_space(6), flat.state_space(None)
     np.testing.assert_allclose(few.response(np.array([0.0]))[0].real, flat.jacobian, atol=1e-9)
     column, low = flat.inputs.index("gravity"), np.geomspace(0.1, few.frequencies[2], 20)
@@ -126,7 +125,7 @@ def test_few_modes_answer_slow_inputs_exactly_and_others_nearly(flat: lumped.Lin
     assert np.abs(a - b).max() < 0.02 * np.abs(b).max()
 
 
-def test_a_chain_moves_as_its_constraints_allow() -> None:
+def test_a_chain_moves_as_its_constraints_allow():
     scene = scenes.load("actuated-edge")
     linear = lumped.linearise(scene, springs_of(scene))
     assert np.linalg.eigvalsh(linear.mass.toarray()).min() > 0.0
@@ -135,7 +134,7 @@ def test_a_chain_moves_as_its_constraints_allow() -> None:
     assert "x1 curvature" in linear.inputs
 
 
-def test_what_has_no_linear_form_is_refused() -> None:
+def test_what_has_no_linear_form_is_refused():
     blown = Scene(name="b", sheet=SHEET, material=RUBBER, support=(CLAMP,), load=(Pressure(value=1.0),))
     with pytest.raises(BadInput, match="unsymmetric tangents"):
         lumped.linearise(blown, springs_of(blown))
@@ -147,9 +146,7 @@ def test_what_has_no_linear_form_is_refused() -> None:
         lumped.linearise(scene, springs_of(scene), "flat")
 
 
-def test_the_verb_leaves_matrices_for_numpy_and_matlab(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
     asked = ["one-edge-clamped", "--lumped", "4", "--modes", "5", "--out", str(tmp_path), "--json"]
     assert run("linearise", *asked) == 0
     document = json.loads(capsys.readouterr().out)
@@ -161,14 +158,14 @@ def test_the_verb_leaves_matrices_for_numpy_and_matlab(
     assert (tmp_path / "responses.png").stat().st_size > 10_000
 
 
-def test_a_lattice_without_an_equilibrium_ends_with_3(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_lattice_without_an_equilibrium_ends_with_3(capsys):
     springs = ("--k", "550", "--layer-distance", "0.004", "--grid", "3x3x3")
     assert run("linearise", "curved-edge-down", *springs) == 3
     said = capsys.readouterr().err
     assert "no linear form about the equilibrium" in said and "Traceback" not in said
 
 
-def test_the_response_drawn_is_of_the_probe_that_moves_most_and_units_have_names() -> None:
+def test_the_response_drawn_is_of_the_probe_that_moves_most_and_units_have_names():
     """Of probes near the clamp, at the free corner and in the middle, that at the corner; of two alike the
     last. Undamped poles have no columns of zeros on a terminal, and edges are moved by millimetres."""
     strip = scenes.load("one-edge-clamped")
@@ -190,7 +187,7 @@ def test_the_response_drawn_is_of_the_probe_that_moves_most_and_units_have_names
     assert not any(column.detail for column in damped.tables()[0].columns)
 
 
-def test_few_modes_need_no_dense_matrices(flat: lumped.Linear, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_few_modes_need_no_dense_matrices(flat, monkeypatch):
     """By Lanczos on the factors of K they are those of dense matrices; what is unstable is refused alike."""
     dense = flat.state_space(6)
     monkeypatch.setattr("sheetbench.numerics.eigenmodes.DENSE", 0)

@@ -46,12 +46,12 @@ def address(panel):
         yield found
 
 
-def asked(panel, number=1, calibration="consistent", **values) -> str:
+def asked(panel, number=1, calibration="consistent", **values):
     start = {name: slider.value for name, slider in panel.sliders.items()}
     return json.dumps({"number": number, "values": start | values, "calibration": calibration})
 
 
-def got(address: str, path: str, **headers: str) -> http.client.HTTPResponse:
+def got(address, path, **headers):
     """The answer to a request of a path, with headers of one's own in place of the usual ones."""
     place = urlsplit(address)
     connection = http.client.HTTPConnection(place.netloc, timeout=20)
@@ -201,7 +201,7 @@ def test_what_does_not_go_together_is_refused_and_the_page_goes_on(address, pane
 
 
 def test_a_question_that_is_overtaken_is_dropped():
-    async def story() -> list[int]:
+    async def story():
         newest: Newest[int] = Newest()
         for number in (1, 2, 3):
             newest.put(number)
@@ -284,7 +284,7 @@ def test_an_interrupt_in_the_midst_of_a_send_is_no_fault(panel, monkeypatch, cap
     assert not caplog.records
 
 
-def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is() -> None:
+def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is():
     """Masses beyond a rim are compared at the nearest point of the sheet."""
     fibres = {"kind": "orthotropic", "young_1": 1e8, "young_2": 2e7, "poisson_12": 0.3, "shear_12": 8e6}
     scene = sb.load("one-edge-clamped").replace(

@@ -1,7 +1,5 @@
 """The page of `sheetbench live` in a browser: a slider is dragged, lattice and shell answer."""
 
-from typing import Any
-
 import pytest
 from browser import browser, opened  # noqa: F401
 from live_server import serving
@@ -14,7 +12,7 @@ ANSWERED = "live.shown.shell !== undefined && live.shown.shell.number === live.a
 PLACES = "Array.from(live.viewer.sheets.get('lattice').positions.array)"
 
 
-def until(page: Any, expression: str) -> None:
+def until(page, expression):
     """Wait for an expression to hold; the page's policy lets nobody wait within it. The limit only ends a
     test that hangs."""
     for _ in range(20_000):
@@ -37,7 +35,7 @@ def page(browser, address):  # noqa: F811
         yield found, watch
 
 
-def cell(page: Any, fact: str, model: str) -> str:
+def cell(page, fact, model):
     return page.inner_text(f"[data-fact^='{fact}'] [data-model={model}]")
 
 

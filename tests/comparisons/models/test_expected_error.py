@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from math import prod
-from typing import Any
 
 import fake_solutions
 import numpy as np
@@ -17,20 +16,20 @@ from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from comparisons.modes.spectra import spectra
-from sheetbench.scenes import Pressure, Scene, Solution, Status, load
+from sheetbench.scenes import Pressure, Status, load
 from studies.expected_errors.study import scenes
 
 SCENE = load("two-edges-clamped")
 
 
-def test_an_error_of_second_order_is_found_exactly() -> None:
+def test_an_error_of_second_order_is_found_exactly():
     u = np.array([[0.0, 0.0, -0.01], [0.001, 0.0, -0.02]])
     answers = [u * (1.0 + 0.03 / cells**2 * 64.0) for cells in (8, 12)]
     value = estimate(*answers, ratio=2.25, stretch=0.0)
     assert value == pytest.approx(0.03 / (1.0 + 0.03 * 64 / 144), rel=1e-12)
 
 
-def test_nothing_is_said_of_rounding_of_answers_far_apart_and_of_large_stretch() -> None:
+def test_nothing_is_said_of_rounding_of_answers_far_apart_and_of_large_stretch():
     u = np.array([[0.0, 0.0, -0.01]])
     assert estimate(u, u * (1.0 + 1e-12), 2.25, 0.0) is None
     assert estimate(u, -u, 2.25, 0.0) is None
@@ -41,11 +40,11 @@ def test_nothing_is_said_of_rounding_of_answers_far_apart_and_of_large_stretch()
 @pytest.mark.parametrize(
     ("grid", "finer"), [((9, 9, 2), (13, 13, 2)), ((3, 7, 2), (13, 37, 2)), ((17, 33, 2), (25, 49, 2))]
 )
-def test_the_finer_grid(grid: tuple[int, int, int], finer: tuple[int, int, int]) -> None:
+def test_the_finer_grid(grid, finer):
     assert finer_grid(grid) == finer
 
 
-def answered(**changes: Any) -> Solution:
+def answered(**changes):
     settings = {"grid": [9, 9, 2], "calibration": "consistent"} | changes.pop("settings", {})
     return replace(fake_solutions.solution(SCENE, "lumped", -0.01), settings=settings, **changes)
 
@@ -63,10 +62,8 @@ def answered(**changes: Any) -> Solution:
         ({}, {"layer_distance": 0.004}, {}),
     ],
 )
-def test_nothing_is_said_where_the_estimate_has_no_ground(
-    changes: dict[str, Any], options: dict[str, Any], finer: dict[str, Any]
-) -> None:
-    def answer(candidate: Lattice) -> Solution:
+def test_nothing_is_said_where_the_estimate_has_no_ground(changes, options, finer):
+    def answer(candidate):
         assert prod(candidate.settings["grid"][:2]) <= MOST
         moved = fake_solutions.solution(SCENE, "lumped", -0.0101)
         return replace(moved, settings=candidate.settings, **finer)
@@ -78,7 +75,7 @@ def test_nothing_is_said_where_the_estimate_has_no_ground(
     assert expected_error(SCENE, plain, answered(), lambda candidate: moved) is not None
 
 
-def test_compare_says_it_in_the_norm_of_its_error() -> None:
+def test_compare_says_it_in_the_norm_of_its_error():
     found = compare("two-edges-clamped", grid=5, elements=6)
     solutions = found.report().document["solutions"]
     expected, error = solutions[0]["expected_error"], found.error(found.solutions[0])
@@ -88,7 +85,7 @@ def test_compare_says_it_in_the_norm_of_its_error() -> None:
     assert any("expected grid error" in note for note in found.report().notes)
 
 
-def test_in_plane_loads_have_no_error_of_bending() -> None:
+def test_in_plane_loads_have_no_error_of_bending():
     """A strip pulled by 1 N/m is 0.2 % off and not the 4 to 15 % of a sheet that bends by this load; pulled
     by 120 N/m it is off by its law of strain, which no grid mends."""
     weak, hard = (scenes()[name][1] for name in ("pull-weak", "pull-hard"))
@@ -96,24 +93,24 @@ def test_in_plane_loads_have_no_error_of_bending() -> None:
     assert found[0] is not None and found[0] < 0.004 and found[1] is None
 
 
-def test_a_load_that_is_next_to_none_makes_no_layer() -> None:
+def test_a_load_that_is_next_to_none_makes_no_layer():
     """Its load number is rounded to none, which no power is taken of."""
     scene = load("one-edge-clamped").replace(gravity=None, loads=[{"kind": "pressure", "value": 1e-320}])
     assert not [layer for layer in layers(scene) if not layer.bent_edge]
 
 
-def _expected(scene: Scene) -> float | None:
+def _expected(scene):
     lattice = resolve(scene, Lattice(9))
     found = expected_error(scene, lattice.spec, solve(lattice), lambda other: solve(resolve(scene, other)))
     return None if found is None else found.value
 
 
-def test_calibrate_says_it_of_a_scene(capsys: pytest.CaptureFixture[str]) -> None:
+def test_calibrate_says_it_of_a_scene(capsys):
     told = json_of(capsys, "calibrate", "two-edges-clamped", "--grid", "9")["expected_error"]["value"]
     assert told == pytest.approx(_expected(SCENE), rel=1e-9)
 
 
-def test_loads_in_its_plane_bend_no_flat_sheet() -> None:
+def test_loads_in_its_plane_bend_no_flat_sheet():
     """They make no layer at the edges, and `--grading auto` leaves the grid even."""
     pulled, hanging = (scenes()[name][1] for name in ("pull-hard", "hanging"))
     assert layers(pulled) == [] == layers(hanging)
@@ -125,7 +122,7 @@ def test_loads_in_its_plane_bend_no_flat_sheet() -> None:
 
 
 @pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
-def test_frequencies_about_the_deformed_sheet_have_theirs(name: str) -> None:
+def test_frequencies_about_the_deformed_sheet_have_theirs(name):
     """By mode: within a factor of two and 0.2 % of what the shell says."""
     found = spectra(name, count=4, elements=12, about="deformed")
     expected = found[0].as_dict()["expected_errors"]

@@ -25,7 +25,7 @@ def test_a_fit_is_computed_once():
     assert first.method == "fit-modal" and first.masses == "gregory"
 
 
-def test_calibrate_trains_on_the_scene_it_is_given(capsys: pytest.CaptureFixture[str]) -> None:
+def test_calibrate_trains_on_the_scene_it_is_given(capsys):
     found = []
     for scene in ("two-edges-clamped", "one-edge-clamped"):
         found.append(json_of(capsys, "calibrate", scene, "--method", "fit-static", "--grid", "5"))
@@ -34,7 +34,7 @@ def test_calibrate_trains_on_the_scene_it_is_given(capsys: pytest.CaptureFixture
     assert set(found[0]["fit"]["half_widths"]) <= set(found[0]["springs"])
 
 
-def test_calibrate_shows_what_the_data_tell(capsys: pytest.CaptureFixture[str]) -> None:
+def test_calibrate_shows_what_the_data_tell(capsys):
     sheet = ("--young", "54.5e6", "--poisson", "0.48", "--thickness", "0.003", "--side", "0.188")
     assert run("calibrate", *sheet, "--method", "fit-static", "--grid", "5") == 0
     printed = capsys.readouterr().out

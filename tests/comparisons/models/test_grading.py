@@ -1,7 +1,5 @@
 """--grading: one meaning on every verb, chosen by the scene's layers where it is auto, and its reasons."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from commands import json_of, one_line, run
@@ -25,12 +23,12 @@ VERBS = {
 }
 
 
-def measured(folder: Path) -> None:
+def measured(folder):
     (folder / "measured.csv").write_text("x,y,ux,uy,uz\n0.188,0.094,,,-0.02\n0.1,0.094,,,-0.01\n")
 
 
 @pytest.mark.parametrize("verb", VERBS)
-def test_auto_says_why(verb, tmp_path, monkeypatch, capsys) -> None:
+def test_auto_says_why(verb, tmp_path, monkeypatch, capsys):
     """In the tables, beside the other remarks, and in the settings of the document."""
     monkeypatch.chdir(tmp_path)
     measured(tmp_path)
@@ -57,7 +55,7 @@ GRADED_SCENES = (
 )
 
 
-def test_auto_grades_the_scenes_that_grading_mends() -> None:
+def test_auto_grades_the_scenes_that_grading_mends():
     """Of the transfer study's seventeen: on nine masses a side the others lose by it."""
     for name, scene in transfer_scenes().items():
         value, why = grading_of(scene, (9, 9, 2), AUTO)
@@ -67,14 +65,14 @@ def test_auto_grades_the_scenes_that_grading_mends() -> None:
 
 
 @pytest.mark.parametrize(("edge", "graded"), [("x0", True), ("y0", False)])
-def test_a_sheet_that_juts_out_far_is_graded_at_its_clamp(edge: str, graded: bool) -> None:
+def test_a_sheet_that_juts_out_far_is_graded_at_its_clamp(edge, graded):
     """The layer of 72 mm beside the length of 180 mm that juts out, not beside the width; with 17 masses the
     error of its motion falls from 0.70 to 0.22 % of the peak (docs/theory.md)."""
     strip = settling_strip.scene().replace(supports=[Clamped(edge=edge)])
     assert (grading_of(strip, (33, 17, 2), AUTO)[0] == towards(0.5, ["x0"])) == graded
 
 
-def test_as_auto_has_it_the_settling_strip_is_within_a_percent() -> None:
+def test_as_auto_has_it_the_settling_strip_is_within_a_percent():
     """Of the peak, over 1.5 s, against values good to 0.3 %; two cells across, as ν = 0."""
     strip = settling_strip.scene()
     cell = strip.sheet.length_x / 32
@@ -88,7 +86,7 @@ def test_as_auto_has_it_the_settling_strip_is_within_a_percent() -> None:
     assert off["auto"] < 0.005 and off[0.0] > 0.012
 
 
-def test_auto_leaves_alone_what_the_cells_resolve_and_what_has_cells_of_one_size_only() -> None:
+def test_auto_leaves_alone_what_the_cells_resolve_and_what_has_cells_of_one_size_only():
     curved = load("curved-edge")
     assert grading_of(curved, (9, 9, 2), AUTO)[0] == 0.3
     assert "cells of 0.367 mm" in grading_of(curved, (513, 513, 2), AUTO)[1]
@@ -107,7 +105,7 @@ def test_auto_leaves_alone_what_the_cells_resolve_and_what_has_cells_of_one_size
 
 
 @pytest.mark.parametrize("text", ["0.7", "0.6:x0"])
-def test_a_scene_file_brings_its_grading(text, tmp_path, capsys) -> None:
+def test_a_scene_file_brings_its_grading(text, tmp_path, capsys):
     """As `calibrate --toml --grading` writes it: solved so without being asked, and not otherwise."""
     path, grading = tmp_path / "own.toml", parse_grading(text)
     load("one-edge-clamped").save(path)
@@ -127,7 +125,7 @@ def test_a_scene_file_brings_its_grading(text, tmp_path, capsys) -> None:
         assert f"springs.grading = {text}" in one_line(capsys)
 
 
-def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatch, capsys) -> None:
+def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatch, capsys):
     """The others keep cells of one size: in trade-offs."""
     seen = []
 

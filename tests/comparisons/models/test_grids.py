@@ -19,7 +19,7 @@ SCENE = Scene(name="long", sheet=LONG, material=RUBBER, gravity=GRAVITY, support
 END = np.array([[0.2, 0.05]])
 
 
-def test_elements_and_cells_are_divided_by_one_rule() -> None:
+def test_elements_and_cells_are_divided_by_one_rule():
     """Also where the longer side is as near to one number as to the next."""
     for length, count, along in ((0.19, 5, 9), (0.27, 15, 41), (0.35, 25, 88)):
         sheet = Sheet(length_x=length, length_y=0.1, thickness=0.003)
@@ -27,7 +27,7 @@ def test_elements_and_cells_are_divided_by_one_rule() -> None:
     assert divisions(LONG, (3, 2)) == (3, 2)
 
 
-def test_a_number_counts_along_the_shorter_side() -> None:
+def test_a_number_counts_along_the_shorter_side():
     assert grid_of(SHEET) == (9, 9, 2)
     assert grid_of(LONG) == grid_of(LONG, 9) == grid_of(LONG, np.int64(9)) == (17, 9, 2)
     assert grid_of(Sheet(length_x=0.1, length_y=0.3, thickness=0.003)) == (9, 25, 2)
@@ -35,10 +35,10 @@ def test_a_number_counts_along_the_shorter_side() -> None:
     assert near_square(Sheet(length_x=0.3, length_y=0.1, thickness=0.003), 16) == (48, 16)
     for wrong in (1, (9, 1), (9, 9, 1), (9.0, 9.0), "9", (), (9, 9, 2, 2), 10**30):
         with pytest.raises(BadInput, match="grid = "):
-            grid_of(LONG, wrong)  # type: ignore[arg-type]
+            grid_of(LONG, wrong)
 
 
-def test_grids_are_read_as_people_write_them() -> None:
+def test_grids_are_read_as_people_write_them():
     assert parse_grid(LONG, "9") == (17, 9, 2)
     assert parse_grid(LONG, "9x13") == (9, 13, 2)
     assert parse_grid(LONG, "5×7×3") == (5, 7, 3)
@@ -47,7 +47,7 @@ def test_grids_are_read_as_people_write_them() -> None:
             parse_grid(LONG, text)
 
 
-def test_python_takes_a_number_too() -> None:
+def test_python_takes_a_number_too():
     assert scene_grid(SCENE) == scene_grid(SCENE, 9) == scene_grid(SCENE, "9") == (17, 9, 2)
     assert lumped.calibrate(LONG, RUBBER).grid == (17, 9, 2)
     assert lumped.calibrate(LONG, RUBBER, 5).grid == (9, 5, 2)
@@ -66,9 +66,7 @@ support = [{ edge = "x0", kind = "clamped" }]
 
 
 @pytest.mark.usefixtures("in_process")
-def test_elements_along_x_and_y_on_every_verb(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_elements_along_x_and_y_on_every_verb(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Path("long.toml").write_text(TEXT)
     Path("measured.csv").write_text("x,y,ux,uy,uz\n0.2,0.05,,,-0.02\n0.1,0.05,,,-0.01\n")
@@ -85,7 +83,7 @@ def test_elements_along_x_and_y_on_every_verb(
     assert found["uncertainty"] > 0.0 and said["rows"][0]["error"] > 0.0
 
 
-def pasted(grid: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Path:
+def pasted(grid, tmp_path, capsys):
     """The scene with the springs that `calibrate --toml` prints for a grid."""
     path = tmp_path / "long.toml"
     path.write_text(TEXT)
@@ -96,7 +94,7 @@ def pasted(grid: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Pat
     return path
 
 
-def test_pasted_springs_bring_their_grid(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_pasted_springs_bring_their_grid(tmp_path, capsys):
     scene = load(pasted("9x9", tmp_path, capsys))
     assert scene.springs is not None and scene.springs.grid == (9, 9, 2)
     asked = lumped.calibrate(LONG, RUBBER, (9, 9))
@@ -110,9 +108,7 @@ def test_pasted_springs_bring_their_grid(tmp_path: Path, capsys: pytest.CaptureF
 
 
 @pytest.mark.parametrize("verb", ["compare", "modes", "simulate"])
-def test_springs_of_another_grid_are_refused(
-    verb: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_springs_of_another_grid_are_refused(verb, tmp_path, capsys):
     path = pasted("9x9", tmp_path, capsys)
     assert run(verb, str(path), "--lumped", "9") == 2
     said = one_line(capsys)
@@ -120,7 +116,7 @@ def test_springs_of_another_grid_are_refused(
     assert "springs.grid = 9x9x2" in said and "17x9x2" in said and "calibrate --grid 17x9x2" in said
 
 
-def test_masses_and_grading_of_pasted_springs() -> None:
+def test_masses_and_grading_of_pasted_springs():
     springs = lumped.calibrate(LONG, RUBBER, 3).springs.model_dump()
     table = {**springs, "grid": (5, 3, 2), "masses": "gregory"}
     scene = SCENE.model_copy(update={"springs": SpringTable(**table)})

@@ -1,7 +1,5 @@
 """Which springs a scene gets where the choice is left to it, and how near that brings coarse grids."""
 
-from typing import Any
-
 import pytest
 from commands import json_of, run
 
@@ -21,13 +19,13 @@ SCENES = transfer_scenes()
 RUBBER = SCENES["two-edges-clamped"]
 
 
-def held(*edges: str, poisson: float = 0.3, softer: float = 1.0) -> Scene:
+def held(*edges, poisson=0.3, softer=1.0):
     """The seed's sheet of another material, clamped along these edges."""
     material = RUBBER.material.replace(poisson=poisson, young=RUBBER.material.young / softer)
     return RUBBER.replace(supports=tuple(Clamped(edge=edge) for edge in edges), material=material)
 
 
-def test_a_trade_names_the_springs_that_auto_takes() -> None:
+def test_a_trade_names_the_springs_that_auto_takes():
     """Each once, on grids and pairs of grids, with the reason; what is named outright stays."""
     measure = of_statics(RUBBER, "3,5", "consistent,consistent-membrane,auto", Lattice(), {}, of_two="3:5")
     names = [candidate.settings["calibration"] for candidate in measure.args[1]]
@@ -35,7 +33,7 @@ def test_a_trade_names_the_springs_that_auto_takes() -> None:
     assert measure.keywords["reasons"] == (f"calibration {MEMBRANE}: ν = 0.48 is above 0.4",)
 
 
-def test_by_edges_load_and_poissons_ratio() -> None:
+def test_by_edges_load_and_poissons_ratio():
     assert method_for(held("y1")) == (MEMBRANE, "y1 alone holds the sheet")
     assert method_for(held("x0", "x1"))[0] == method_for(held("x0", "x1", "y0"))[0] == "consistent"
     assert method_for(held("x0", "x1", poisson=0.45)) == (MEMBRANE, "ν = 0.45 is above 0.4")
@@ -47,10 +45,10 @@ def test_by_edges_load_and_poissons_ratio() -> None:
     assert method_for(load("actuated-edge"))[0] == "consistent"
 
 
-def test_it_chooses_where_nothing_but_a_grading_is_asked() -> None:
+def test_it_chooses_where_nothing_but_a_grading_is_asked():
     scene = held("x0")
 
-    def chosen(*grid: int, **lattice: Any) -> tuple[str | None, str]:
+    def chosen(*grid, **lattice):
         return resolve_calibration(scene, grid, Lattice(**lattice))
 
     assert chosen(5, 5, 2, grading="auto")[0] == chosen(5, 5, 2, calibration="auto")[0] == MEMBRANE
@@ -66,7 +64,7 @@ def test_it_chooses_where_nothing_but_a_grading_is_asked() -> None:
     assert (pair["calibration"], pair["calibration_reason"]) == (MEMBRANE, "x0 alone holds the sheet")
 
 
-def test_commands_say_it(capsys) -> None:
+def test_commands_say_it(capsys):
     asked = ("one-edge-clamped", "--grid", "3")
     found = json_of(
         capsys, "compare", *asked, "--calibration", "auto", "--elements", "2", "--no-uncertainty"
@@ -80,7 +78,7 @@ def test_commands_say_it(capsys) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("masses, held", [(9, 0.013), (17, 0.005)])
 @pytest.mark.parametrize("name", SCENES)
-def test_coarse_grids_are_as_near_as_promised(name: str, masses: int, held: float) -> None:
+def test_coarse_grids_are_as_near_as_promised(name, masses, held):
     """All seventeen scenes, springs and grading as auto has them: at worst 1.23 and 0.46 %, three edges
     clamped, over 5 × 5 points against the shell."""
     scene = SCENES[name]
@@ -91,7 +89,7 @@ def test_coarse_grids_are_as_near_as_promised(name: str, masses: int, held: floa
 
 
 @pytest.mark.parametrize(("pull", "method"), [(4000.0, "neo-hookean"), (40.0, MEMBRANE)])
-def test_a_sheet_that_a_load_stretches_far_is_rubber_to_auto(pull: float, method: str) -> None:
+def test_a_sheet_that_a_load_stretches_far_is_rubber_to_auto(pull, method):
     """q a/(E h) = 0.2 and 0.002 of a strip of 5 MPa pulled at one end."""
     sheet, material = sb.Sheet(0.2, 0.1, 0.002), sb.Material(5e6, 0.45, 1000.0)
     load_ = {"kind": "edge", "edge": "x1", "force_per_length": [pull, 0.0, 0.0]}
@@ -101,7 +99,7 @@ def test_a_sheet_that_a_load_stretches_far_is_rubber_to_auto(pull: float, method
     assert resolve_calibration(scene, (9, 5, 2), Lattice()) == (None, "")  # nothing was asked
 
 
-def test_rubber_gets_the_springs_of_its_law() -> None:
+def test_rubber_gets_the_springs_of_its_law():
     material = {"law": "gent", "shear": 3e5, "limit": 50.0, "poisson": 0.49, "density": 1000.0}
     scene = RUBBER.replace(material=material)
     for asked in (Lattice(), Lattice(calibration="auto")):

@@ -10,7 +10,7 @@ from comparisons.tradeoff.row import TradeoffRow
 from sheetbench.choices import CALIBRATIONS, EXTRAPOLATED
 from sheetbench.errors import BadInput
 from sheetbench.face import solve
-from sheetbench.scenes import Scene, Solution, Status, load
+from sheetbench.scenes import Status, load
 
 # Where the cells of 9 × 9 masses are seen, and where they hardly are (less than 0.5 % off, with errors that
 # are no l²: there a pair is no better, and its bar has to say so).
@@ -18,12 +18,12 @@ SEEN = ("curved-edge", "curved-edge-down", "thin", "soft-one-edge", "corner-forc
 FINE = ("two-edges-clamped", "one-edge-clamped", "tilted-clamp")
 
 
-def alone(scene: Scene, grid: int) -> Solution:
+def alone(scene, grid):
     return solve(scene, "lumped", grid=grid, calibration="consistent")
 
 
 @pytest.mark.parametrize("name", [*SEEN, *FINE])
-def test_a_pair_holds_what_its_bar_says(name: str) -> None:
+def test_a_pair_holds_what_its_bar_says(name):
     """At 5:9, of the finer lattice's errors of 6.7, 4.4, 12, 2.0, 3.9 % a pair leaves 2.0, 1.5, 3.3, 0.1,
     0.8 %; where the finer is 0.44, 0.16, 0.03 % off, the pair is 0.41, 0.57, 0.09 %."""
     case = reference(name)
@@ -39,7 +39,7 @@ def test_a_pair_holds_what_its_bar_says(name: str) -> None:
         assert left < 0.006
 
 
-def test_one_answer_of_two() -> None:
+def test_one_answer_of_two():
     scene = load("two-edges-clamped")
     coarse, fine, both = alone(scene, 3), alone(scene, 5), solve(scene, "lumped-pair", grid=5, coarser=3)
     points = scene.probe_points()
@@ -57,7 +57,7 @@ def test_one_answer_of_two() -> None:
     assert mean == pytest.approx(both.displacement(points)[-1], abs=1e-12)
 
 
-def test_where_one_of_two_is_no_equilibrium_the_finer_stands_alone() -> None:
+def test_where_one_of_two_is_no_equilibrium_the_finer_stands_alone():
     """Three masses across buckle on the rail, five do not."""
     scene = reference("on-a-rail").scene
     found = solve(scene, "lumped-pair", grid=5, coarser=3)
@@ -68,14 +68,14 @@ def test_where_one_of_two_is_no_equilibrium_the_finer_stands_alone() -> None:
     assert found.displacement(points) == pytest.approx(alone(scene, 5).displacement(points))
 
 
-def test_grading_is_of_both_grids() -> None:
+def test_grading_is_of_both_grids():
     found = solve(load("curved-edge"), "lumped-pair", grid=5, grading="auto", symmetry=True)
     assert found.settings["grading"] == 0.3
     assert found.settings["coarser"] == [3, 3, 2]
     assert "layer" in found.settings["grading_reason"] or "edge" in found.settings["grading_reason"]
 
 
-def test_the_bar_stands_in_the_comparison() -> None:
+def test_the_bar_stands_in_the_comparison():
     other = spec_of("lumped-pair", {"grid": 5, "coarser": 3})
     found = compare("two-edges-clamped", grid=5, calibration="consistent", elements=2, others=[other])
     document = found.document()["solutions"][2]
@@ -85,7 +85,7 @@ def test_the_bar_stands_in_the_comparison() -> None:
     assert any(note.startswith("lumped-pair: grid error ±") for note in found.report().notes)
 
 
-def test_pairs_are_written_and_refused() -> None:
+def test_pairs_are_written_and_refused():
     scene = load("two-edges-clamped")
     (candidate,) = pairs(scene, ["5:9"], ["consistent", "uniform"])
     assert candidate.settings == {"grid": [9, 9, 2], "coarser": [5, 5, 2], "calibration": "consistent"}
@@ -100,6 +100,6 @@ def test_pairs_are_written_and_refused() -> None:
             solve(scene, "lumped-pair", **settings)
 
 
-def test_extrapolated_calibrations_are_those_with_cells_of_any_size() -> None:
+def test_extrapolated_calibrations_are_those_with_cells_of_any_size():
     found = [name for name, method in CALIBRATIONS.items() if "grading" in method.takes]
     assert [name for name in found if not CALIBRATIONS[name].fitted] == list(EXTRAPOLATED)

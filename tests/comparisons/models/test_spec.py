@@ -25,18 +25,18 @@ SPECS: dict[str, Spec] = {
 
 
 @pytest.mark.parametrize("text", SPECS)
-def test_a_spec_reads_and_writes_itself(text: str) -> None:
+def test_a_spec_reads_and_writes_itself(text):
     spec = SPECS[text]
     assert str(spec) == text and parse(text) == spec
     assert spec_of(spec.model, json.loads(json.dumps(spec.settings))) == spec
 
 
-def test_what_comes_from_elsewhere_is_plain_data() -> None:
+def test_what_comes_from_elsewhere_is_plain_data():
     spec = sb.Lattice(np.array([5, 7]), grading=Grading(0.5, ("x0",)))
     assert json.loads(json.dumps(spec.settings)) == {"grid": [5, 7], "grading": "0.5:x0"}
 
 
-def test_a_reference_is_a_spec_or_its_name_and_keywords() -> None:
+def test_a_reference_is_a_spec_or_its_name_and_keywords():
     flat = sb.compare(
         "one-edge-clamped", grid=3, reference="shell", elements=3, law="biot", uncertainty=False
     )
@@ -67,12 +67,12 @@ def test_a_reference_is_a_spec_or_its_name_and_keywords() -> None:
         (lambda scene: sb.solve(scene, "shell", k=3.0), "shell: no option 'k'"),
     ],
 )
-def test_what_does_not_go_with_a_question_is_refused(ask, said: str) -> None:
+def test_what_does_not_go_with_a_question_is_refused(ask, said):
     with pytest.raises(sb.BadInput, match=said):
         ask("one-edge-clamped")
 
 
-def test_flat_keywords_stand_in_the_signature() -> None:
+def test_flat_keywords_stand_in_the_signature():
     for function in (
         sb.compare,
         sb.modes,
@@ -87,7 +87,7 @@ def test_flat_keywords_stand_in_the_signature() -> None:
         ).parameters.keys()
 
 
-def test_a_context_holds_for_a_block_and_for_a_call() -> None:
+def test_a_context_holds_for_a_block_and_for_a_call():
     told: list[object] = []
     with running(progress=told.append):
         sb.solve("one-edge-clamped", "plate", elements=2)
@@ -97,7 +97,7 @@ def test_a_context_holds_for_a_block_and_for_a_call() -> None:
     assert not context().large
 
 
-def test_the_choices_for_a_scene_hold_for_another_one() -> None:
+def test_the_choices_for_a_scene_hold_for_another_one():
     scene = sb.load("curved-edge")
     meant = resolve(scene, sb.Lattice(calibration="auto", grading="auto"))
     softer = scene.replace(material=scene.material.replace(young=1e6))

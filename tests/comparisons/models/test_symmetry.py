@@ -29,7 +29,7 @@ from sheetbench.scenes import (
 SHEET = Sheet(length_x=0.188, length_y=0.25, thickness=0.003)
 
 
-def scene(supports: list, loads: list | None = None, gravity: Gravity = GRAVITY) -> Scene:
+def scene(supports, loads=None, gravity=GRAVITY):
     return Scene(
         name="part",
         sheet=SHEET,
@@ -79,7 +79,7 @@ SOLVES = {
 
 @pytest.mark.parametrize("solve", SOLVES)
 @pytest.mark.parametrize("name", PARTS)
-def test_a_part_answers_for_the_whole_to_rounding(name: str, solve: str) -> None:
+def test_a_part_answers_for_the_whole_to_rounding(name, solve):
     asked, axes = PARTS[name]
     model, settings = SOLVES[solve]
     assert planes(asked) == axes
@@ -101,7 +101,7 @@ def test_a_part_answers_for_the_whole_to_rounding(name: str, solve: str) -> None
     assert part.settings[size] == entire.settings[size]
 
 
-def test_the_mesh_is_that_of_the_whole_sheet() -> None:
+def test_the_mesh_is_that_of_the_whole_sheet():
     part = models.solve(ALL_AROUND, "shell", elements=(4, 4), symmetry=True)
     mesh = part.mesh
     assert mesh.points[:, :2].max(axis=0) == pytest.approx(SHEET.lengths)
@@ -126,17 +126,17 @@ def test_the_mesh_is_that_of_the_whole_sheet() -> None:
         (scene([Clamped(edge="x0", tilt=0.1), Clamped(edge="x1", tilt=-0.1)]), (1,)),
     ],
 )
-def test_planes_of_symmetry_are_those_of_supports_and_loads(asked: Scene, axes: tuple[int, ...]) -> None:
+def test_planes_of_symmetry_are_those_of_supports_and_loads(asked, axes):
     assert planes(asked) == axes
 
 
-def test_a_grid_without_a_line_of_masses_on_the_plane_is_solved_whole() -> None:
+def test_a_grid_without_a_line_of_masses_on_the_plane_is_solved_whole():
     solution = models.solve(ONE_EDGE, "lumped", grid=(5, 6, 2), symmetry=True)
     assert "symmetry" not in solution.settings
     assert "symmetry" not in models.solve(ONE_EDGE, "shell", elements=3, symmetry=True).settings
 
 
-def test_half_of_a_point_load_on_the_plane_and_nothing_beyond_it() -> None:
+def test_half_of_a_point_load_on_the_plane_and_nothing_beyond_it():
     part = half(ALL_AROUND, 0)
     assert part.sheet.lengths == (0.094, 0.25)
     assert [load.force[2] for load in part.loads if isinstance(load, PointLoad)] == [0.15, 0.2]
@@ -148,7 +148,7 @@ def test_half_of_a_point_load_on_the_plane_and_nothing_beyond_it() -> None:
     }
 
 
-def test_restored_vectors_mirror() -> None:
+def test_restored_vectors_mirror():
     part = models.solve(half(ONE_EDGE, 1), "plate", elements=(2, 1))
     restored: Solution = whole(part, ONE_EDGE, 1)
     below, above = restored.displacement(np.array([[0.1, 0.05], [0.1, 0.138]]))
@@ -156,7 +156,7 @@ def test_restored_vectors_mirror() -> None:
 
 
 @pytest.mark.parametrize("name", ["hinged all around", "a rod", "clamps tilted alike"])
-def test_a_plane_of_symmetry_means_the_same_in_the_solid(name: str) -> None:
+def test_a_plane_of_symmetry_means_the_same_in_the_solid(name):
     asked, axes = PARTS[name]
     axis, sizes = axes[0], {False: [4, 4], True: [4, 4]}
     sizes[True][axis] = 2
@@ -169,18 +169,18 @@ def test_a_plane_of_symmetry_means_the_same_in_the_solid(name: str) -> None:
     assert whole(part, asked, axis).displacement(points) == pytest.approx(u, abs=1e-8 * np.abs(u).max())
 
 
-def test_the_solid_is_solved_whole() -> None:
+def test_the_solid_is_solved_whole():
     with pytest.raises(BadInput, match="solid: is always solved whole"):
         models.solve(ONE_EDGE, "solid", elements=2, symmetry=True)
 
 
-def test_a_plane_of_symmetry_alone_leaves_the_sheet_loose() -> None:
+def test_a_plane_of_symmetry_alone_leaves_the_sheet_loose():
     with pytest.raises(SceneError, match="nothing stops"):
         scenes.require_static(scene([Symmetric(edge="x1"), Symmetric(edge="y1")]))
     scenes.require_static(scene([Symmetric(edge="x1"), Held(edge="x0", components=("y", "z"))]))
 
 
-def test_a_rod_between_two_planes_of_symmetry_is_refused() -> None:
+def test_a_rod_between_two_planes_of_symmetry_is_refused():
     rod = Curved(edge="x0", curvature=1.0)
     scene([rod, Symmetric(edge="y1")])
     with pytest.raises(ValueError, match="moves the corner"):

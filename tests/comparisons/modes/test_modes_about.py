@@ -14,7 +14,7 @@ from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, load
 
 
-def hanging() -> Scene:
+def hanging():
     """A strip of soft silicone, 250 × 120 × 1.5 mm, hanging down from x0."""
     return Scene(
         name="hanging",
@@ -25,7 +25,7 @@ def hanging() -> Scene:
     )
 
 
-def test_a_hanging_strip_swings_as_a_heavy_string() -> None:
+def test_a_hanging_strip_swings_as_a_heavy_string():
     """f = j/(4π) √(g/L), j = 2.4048 the zero of J0. Bending adds a layer √(D/(ρ h g L)) of 1.4 % of the
     length at the clamp, which shortens the string by as much; stretching lengthens it by half of 2.1 %."""
     string = 2.4048 / (4.0 * np.pi) * np.sqrt(9.81 / 0.25)
@@ -37,7 +37,7 @@ def test_a_hanging_strip_swings_as_a_heavy_string() -> None:
     assert fem_reference.modes(hanging(), "shell", 8, 1).frequencies[0] < 0.05 * string
 
 
-def test_the_unloaded_sheet_is_flat() -> None:
+def test_the_unloaded_sheet_is_flat():
     scene = load("two-edges-clamped").model_copy(update={"gravity": None})
     springs = lumped.calibrate(scene.sheet, scene.material, (5, 5))
     for about in ("deformed", "flat"):
@@ -49,7 +49,7 @@ def test_the_unloaded_sheet_is_flat() -> None:
     assert second == pytest.approx(shell, rel=1e-6)  # shift-invert: ε λ_max/λ_1
 
 
-def test_lattice_and_shell_agree_about_the_sagging_sheet() -> None:
+def test_lattice_and_shell_agree_about_the_sagging_sheet():
     """The seed's sheet sags by four thicknesses: its first frequency rises, in both models alike."""
     found = spectra("two-edges-clamped", count=3, grid=17, elements=8, about="deformed")
     flat = spectra("two-edges-clamped", count=3, grid=17, elements=8)
@@ -58,7 +58,7 @@ def test_lattice_and_shell_agree_about_the_sagging_sheet() -> None:
     assert flat.sag is not None and flat.sag > 3.0 * flat.scene.sheet.thickness
 
 
-def test_what_has_no_modes_is_refused_in_a_line() -> None:
+def test_what_has_no_modes_is_refused_in_a_line():
     scene = load("two-edges-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, (5, 5))
     pressed = scene.model_copy(update={"loads": (Pressure(value=1.0),)})
@@ -72,7 +72,7 @@ def test_what_has_no_modes_is_refused_in_a_line() -> None:
             ask()
 
 
-def test_no_equilibrium_no_modes() -> None:
+def test_no_equilibrium_no_modes():
     """A sheet a thousand times too soft is stretched beyond the model."""
     scene = load("two-edges-clamped")
     soft = with_material(scene, young=1e4)
@@ -81,7 +81,7 @@ def test_no_equilibrium_no_modes() -> None:
         lumped.modes(soft, springs, 2, about="deformed")
 
 
-def test_the_verb_warns_of_a_sheet_that_is_not_flat(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_verb_warns_of_a_sheet_that_is_not_flat(capsys):
     asked = ["modes", "two-edges-clamped", "--lumped", "5", "--elements", "2", "--count", "1"]
     for more, warned in (([], True), (["--about", "deformed"], False)):
         assert run(*asked, *more, "--json") == 0

@@ -1,7 +1,6 @@
 """`sheetbench modes`: both models' natural frequencies, in a table and as a document."""
 
 import json
-from pathlib import Path
 
 import meshio
 import numpy as np
@@ -23,7 +22,7 @@ STRIP = Scene(
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_both_models_agree_and_files_are_left(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_both_models_agree_and_files_are_left(tmp_path, capsys):
     arguments = ("one-edge-clamped", "--count", "6", "--elements", "8", "--json", "--out", str(tmp_path))
     assert run("modes", *arguments) == 0
     document = json.loads(capsys.readouterr().out)
@@ -43,14 +42,14 @@ def test_both_models_agree_and_files_are_left(tmp_path: Path, capsys: pytest.Cap
     assert np.abs(np.abs(first) - np.abs(second)).max() < 0.02 * np.abs(second).max()
 
 
-def test_table_has_ten_modes_and_several_references(capsys: pytest.CaptureFixture[str]) -> None:
+def test_table_has_ten_modes_and_several_references(capsys):
     asked = ("--lumped", "5", "--reference", "plate", "--reference", "shell", "--elements", "4")
     assert run("modes", "two-edges-clamped", *asked) == 0
     printed = capsys.readouterr().out
     assert all(word in printed for word in ("lumped", "plate", "shell", "10", "Hz"))
 
 
-def test_a_free_sheet_has_its_rigid_motions_left_out() -> None:
+def test_a_free_sheet_has_its_rigid_motions_left_out():
     scene = scenes.load("one-edge-clamped").model_copy(update={"supports": ()})
     found = spectra(scene, count=3, grid=(7, 7, 2), elements=4)
     assert [spectrum.rigid for spectrum in found] == [6, 6]
@@ -58,7 +57,7 @@ def test_a_free_sheet_has_its_rigid_motions_left_out() -> None:
     assert any("rigid-body modes" in said for said in found.report().notes)
 
 
-def test_modes_of_a_strip_are_paired_by_shape_where_their_order_differs() -> None:
+def test_modes_of_a_strip_are_paired_by_shape_where_their_order_differs():
     found = spectra(STRIP, count=6, elements=8)
     lattice, shell = (spectrum.frequencies for spectrum in found)
     assert [pair.kind for pair in found.pairs] == [
@@ -83,14 +82,14 @@ def test_modes_of_a_strip_are_paired_by_shape_where_their_order_differs() -> Non
     assert [row[3] for row in report.tables[0].rows] == [1, 2, 3, 4, 6, 5]
 
 
-def test_a_mode_without_counterpart_among_the_first_says_so() -> None:
+def test_a_mode_without_counterpart_among_the_first_says_so():
     found = spectra(STRIP, count=5, elements=8)  # the lattice's fifth is the shell's sixth
     assert (found.pairs[4].is_, found.pairs[4].relative) == (None, None)
     assert found.report().tables[0].rows[4][-2] is None
     assert any("none of the shell's first 5" in said for said in found.report().notes)
 
 
-def test_repeated_frequencies_pair_whatever_their_rotation() -> None:
+def test_repeated_frequencies_pair_whatever_their_rotation():
     scene = scenes.load("one-edge-clamped").model_copy(update={"supports": ()})
     x, y = (cell_centres(scene.sheet) / scene.sheet.length_x).T
     zero = np.zeros_like(x)
@@ -103,7 +102,7 @@ def test_repeated_frequencies_pair_whatever_their_rotation() -> None:
     assert np.diag(same).min() > 0.95
 
 
-def test_kinds_of_known_deflections() -> None:
+def test_kinds_of_known_deflections():
     x, y = cell_centres(STRIP.sheet).T / np.array([[0.12], [0.04]])
     zero = np.zeros_like(x)
     deflections = [
@@ -123,7 +122,7 @@ def test_kinds_of_known_deflections() -> None:
 
 
 @pytest.mark.parametrize("damped, within", [({"frequency": 6.0}, np.inf), ({"band": (1.0, 200.0)}, 0.1)])
-def test_damping_of_modes_is_told_as_asked_and_got(damped: dict[str, object], within: float) -> None:
+def test_damping_of_modes_is_told_as_asked_and_got(damped, within):
     """Branches keep it over the band; one damper has it at its frequency: ζ goes with the frequency."""
     scene = scenes.load("one-edge-clamped").replace(loss_factor=0.12, **damped)
     found = spectra(scene, grid=5, elements=4, count=6)

@@ -20,7 +20,7 @@ from sheetbench.scenes.history import ENERGIES
 SMALL = {"grid": 5, "elements": 2}
 
 
-def swing(frequency: float, damping: float, size: float = 1.0) -> History:
+def swing(frequency, damping, size=1.0):
     """A history whose only probe goes like 1 − e^(−ζωt) cos ω_d t."""
     time = np.linspace(0.0, 1.0, 1001)
     turn = 2.0 * np.pi * frequency

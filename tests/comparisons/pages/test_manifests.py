@@ -1,7 +1,6 @@
 """`sheetbench report` on manifests and documents that no verb wrote: a sentence, and no traceback."""
 
 import json
-from pathlib import Path
 
 import pytest
 from commands import run
@@ -30,9 +29,7 @@ RUN = {"files": ["comparison.json"], "words": {"title": "A", "document": "compar
     ],
     ids=lambda value: str(value)[-40:],
 )
-def test_a_manifest_of_another_shape_costs_a_sentence(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], damaged: object
-) -> None:
+def test_a_manifest_of_another_shape_costs_a_sentence(tmp_path, capsys, damaged):
     for name, record in (("odd", damaged), ("sound", {"runs": {"compare": RUN}})):
         (tmp_path / name).mkdir()
         (tmp_path / name / "manifest.json").write_text(json.dumps(record))
@@ -47,9 +44,7 @@ def test_a_manifest_of_another_shape_costs_a_sentence(
 @pytest.mark.parametrize(
     "value", [5, "text", {"a": None}, [None], [[1]], 10**400], ids=lambda value: str(value)[:9]
 )
-def test_a_document_of_another_shape_costs_a_sentence_at_most(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], key: str, value: object
-) -> None:
+def test_a_document_of_another_shape_costs_a_sentence_at_most(tmp_path, capsys, key, value):
     (tmp_path / "manifest.json").write_text(json.dumps({"runs": {"compare": RUN}}))
     (tmp_path / "comparison.json").write_text(json.dumps({"solutions": [], key: value}))
     assert run("report", str(tmp_path)) == 0

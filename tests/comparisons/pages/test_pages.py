@@ -2,7 +2,6 @@
 
 import json
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -32,7 +31,7 @@ VIEW = "canvas[tabindex]"
 
 
 @pytest.fixture(scope="module")
-def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def studies(tmp_path_factory):
     """A comparison of a scene with an evil title, and modes, without pictures; a file that nobody knows."""
     folder = tmp_path_factory.mktemp("studies")
     scene = load("two-edges-clamped").model_copy(update={"title": EVIL})
@@ -53,7 +52,7 @@ def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def shown(browser: Any, studies: Path) -> Iterator[Any]:  # noqa: F811
+def shown(browser, studies):  # noqa: F811
     """The page in a browser; at the end nothing was complained of, by its policy neither, nor asked."""
     path = studies.parent / "report.html"
     path.write_text(page(read(studies), f"Report {EVIL}"), encoding="utf-8")
@@ -64,18 +63,18 @@ def shown(browser: Any, studies: Path) -> Iterator[Any]:  # noqa: F811
         assert watch.troubles == [] and watch.asked == [path.as_uri()] and not dialogs
 
 
-def test_its_policy_lets_nothing_but_its_own_script_and_style_in(shown: Any) -> None:
+def test_its_policy_lets_nothing_but_its_own_script_and_style_in(shown):
     (said,) = (m.get_attribute("content") for m in shown.locator("meta[http-equiv]").all())
     assert said.startswith("default-src 'none'; script-src 'sha256-") and "unsafe" not in said
 
 
-def test_what_a_scene_says_stays_text(shown: Any) -> None:
+def test_what_a_scene_says_stays_text(shown):
     assert EVIL in shown.locator("article").first.text_content()
     assert EVIL in shown.locator("h1").text_content()
     assert "notes.xyz" in shown.locator("main").text_content()
 
 
-def test_the_sheets_are_drawn_and_turn(shown: Any) -> None:
+def test_the_sheets_are_drawn_and_turn(shown):
     shown.locator(".sv-stage").scroll_into_view_if_needed()
     first = pixels(shown, VIEW)
     assert colours(first) > 100
@@ -88,7 +87,7 @@ def test_the_sheets_are_drawn_and_turn(shown: Any) -> None:
     assert "Distance from the reference [mm]" in shown.locator(".sv-legend").text_content()
 
 
-def test_tables_sort_by_click_and_by_key_numbers_by_value(shown: Any) -> None:
+def test_tables_sort_by_click_and_by_key_numbers_by_value(shown):
     table = shown.locator("#study-2 table").first
     heading = table.get_by_role("button", name="lumped [Hz]")
     column = table.locator("tbody td:nth-child(2)")
@@ -100,14 +99,14 @@ def test_tables_sort_by_click_and_by_key_numbers_by_value(shown: Any) -> None:
     assert table.locator("tbody tr").first.locator("td").all_text_contents()[2:] == ["=r3", "MPa"]
 
 
-def test_a_phone_needs_no_sideways_scrolling(shown: Any) -> None:
+def test_a_phone_needs_no_sideways_scrolling(shown):
     before = shown.viewport_size
     shown.set_viewport_size({"width": 360, "height": 740})
     assert shown.evaluate("document.documentElement.scrollWidth") <= 360
     shown.set_viewport_size(before)
 
 
-def test_print_has_pictures_for_sheets_and_all_open(shown: Any) -> None:
+def test_print_has_pictures_for_sheets_and_all_open(shown):
     shown.emulate_media(media="print")
     shown.evaluate("dispatchEvent(new Event('beforeprint'))")
     taken = shown.locator(".taken")
@@ -119,7 +118,7 @@ def test_print_has_pictures_for_sheets_and_all_open(shown: Any) -> None:
     shown.emulate_media(media="screen")
 
 
-def test_the_first_key_leads_past_the_contents(shown: Any) -> None:
+def test_the_first_key_leads_past_the_contents(shown):
     shown.evaluate("document.activeElement.blur(); scrollTo(0, 0)")
     shown.locator(".skip").focus()
     assert shown.locator(".skip").bounding_box()["x"] >= 0
@@ -127,7 +126,7 @@ def test_the_first_key_leads_past_the_contents(shown: Any) -> None:
     assert shown.evaluate("document.activeElement.id") == "studies"
 
 
-def test_tables_are_shown_as_the_run_showed_them(studies: Path) -> None:
+def test_tables_are_shown_as_the_run_showed_them(studies):
     comparison = next(study for study in read(studies).studies if study.verb == "compare")
     shown = tables(comparison)
     text = (studies / "table.md").read_text(encoding="utf-8")
@@ -142,9 +141,7 @@ def test_tables_are_shown_as_the_run_showed_them(studies: Path) -> None:
 
 
 @pytest.mark.parametrize("there", [True, False])
-def test_the_page_is_opened_where_that_is_asked(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, there: bool
-) -> None:
+def test_the_page_is_opened_where_that_is_asked(tmp_path, capsys, monkeypatch, there):
     opened_pages: list[str] = []
     monkeypatch.setattr("webbrowser.open", lambda address: opened_pages.append(address) or there)
     Folder(tmp_path, "modes", ["sheetbench", "modes"]).report(Report("modes", "t", {}))
@@ -154,13 +151,13 @@ def test_the_page_is_opened_where_that_is_asked(
     assert ("There is no browser here" in capsys.readouterr().err) is not there
 
 
-def test_several_grids_are_not_the_sides_of_one(tmp_path: Path) -> None:
+def test_several_grids_are_not_the_sides_of_one(tmp_path):
     settings = {"grids": [5, 9], "grid": [5, 9]}
     study = Study(tmp_path, "", "crosscheck", (), {"settings": settings})
     assert question(study) == [("settings", "grids 5, 9, grid 5 × 9")]
 
 
-def _motion_tradeoff(folder: Path, drawn: bool = False) -> Path:
+def _motion_tradeoff(folder, drawn=False):
     lattice = "lumped", "9×9×2"
     rows = [
         MotionRow(*lattice, "midpoint", 0.01, "converged", "", steps=10, seconds_per_second=0.2, error=0.03),
@@ -174,14 +171,14 @@ def _motion_tradeoff(folder: Path, drawn: bool = False) -> Path:
     return folder
 
 
-def test_a_trade_of_motion_has_its_figure_and_its_notes(tmp_path: Path) -> None:
+def test_a_trade_of_motion_has_its_figure_and_its_notes(tmp_path):
     (study,) = read(_motion_tradeoff(tmp_path, drawn=True)).studies
     assert {"motion.svg", "motion.png", "motion.pdf"} <= set(study.files)
     assert [name for name, _ in pictures(study)] == ["motion.svg"]
     assert "uncertainty of that reference" in study.notes[0] and not study.troubles
 
 
-def test_no_verb_has_a_page_of_its_own() -> None:
+def test_no_verb_has_a_page_of_its_own():
     """What a page shows it is told by the manifest: a new verb needs nothing there."""
     for path in sorted(Path(pages.__file__).parent.glob("*.py")):
         text = path.read_text(encoding="utf-8")
@@ -189,7 +186,7 @@ def test_no_verb_has_a_page_of_its_own() -> None:
         assert not set(named), f"{path.name} knows {named}"
 
 
-def test_many_studies_are_folded_dated_and_placed(tmp_path: Path) -> None:
+def test_many_studies_are_folded_dated_and_placed(tmp_path):
     for n in range(5):
         _motion_tradeoff(tmp_path / f"run-{n}")
         (tmp_path / f"run-{n}" / "mine.csv").write_text("a,b\n1,2\n")
@@ -204,14 +201,14 @@ def test_many_studies_are_folded_dated_and_placed(tmp_path: Path) -> None:
         assert f'<span class="place">{study.place} {study.date}</span>' in text
 
 
-def test_long_tables_are_folded(tmp_path: Path) -> None:
+def test_long_tables_are_folded(tmp_path):
     columns = (Column("mode", form="d"),)
     made = [Table(f"of {n}", columns, tuple((i,) for i in range(n)), f"of{n}") for n in (3, 40)]
     Folder(tmp_path, "check", ["sheetbench"]).report(Report("made", "made", {}, tables=tuple(made)))
     assert [table.aside for table in tables(read(tmp_path).studies[0])] == [False, True]
 
 
-def test_damage_costs_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_damage_costs_a_sentence(tmp_path, capsys):
     (tmp_path / "broken.vtu").write_text("<VTKFile")
     (tmp_path / "broken.json").write_text("{")
     (tmp_path / "broken.csv").write_bytes(b"\xff\xfe\x00")
@@ -247,7 +244,7 @@ def test_damage_costs_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert "data:image/svg+xml;base64" in text
 
 
-def test_a_folder_that_is_none_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_that_is_none_is_refused(tmp_path, capsys):
     assert run("report", str(tmp_path / "none")) == 2
     assert "there is no such folder" in capsys.readouterr().err
     (tmp_path / "mine.csv").write_text("a,b\n")

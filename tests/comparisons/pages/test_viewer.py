@@ -53,7 +53,7 @@ def test_a_fine_regular_surface_shows_its_shape_by_nine_lines(cells, lines):
     assert len(np.unique(sides[sides[:, 0, 0] == sides[:, 1, 0], 0, 0])) == lines
 
 
-def options() -> dict:
+def options():
     """Two sheets of 8 × 8 cells, one of which moves, and a lattice of two masses a side."""
     scene = load("two-edges-clamped")
     flat = plan_mesh(scene, 8)

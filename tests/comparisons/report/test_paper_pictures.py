@@ -3,7 +3,6 @@
 import json
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
 
 import matplotlib
 import numpy as np
@@ -30,7 +29,7 @@ from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
 from sheetbench.answers.style import STYLE, save
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History, Scene, Status
+from sheetbench.scenes import History, Status
 from sheetbench.scenes import history_figure as moving
 from sheetbench.scenes.history import ENERGIES
 
@@ -38,12 +37,12 @@ Compose = Callable[[FigureStyle], Figure]
 
 
 @pytest.fixture(scope="module")
-def scene() -> Scene:
+def scene():
     return scenes.load("two-edges-clamped")
 
 
 @pytest.fixture(scope="module")
-def comparison(scene: Scene) -> Comparison:
+def comparison(scene):
     """A lattice 10 % off a shell whose own bar is 2 % at every probe but the last, and 20 % there."""
     reference = solution(scene, "shell")
     truth = reference.displacement(scene.probe_points())
@@ -55,7 +54,7 @@ def comparison(scene: Scene) -> Comparison:
 
 
 @pytest.fixture(scope="module")
-def composed(scene: Scene, comparison: Comparison) -> dict[str, Compose]:
+def composed(scene, comparison):
     time = np.linspace(0.0, 1.0, 5)
     moved = {"tip": np.outer(time, [0.0, 0.0, 1e-3])}
     energies = dict.fromkeys(ENERGIES, time)
@@ -87,7 +86,7 @@ def composed(scene: Scene, comparison: Comparison) -> dict[str, Compose]:
     }
 
 
-def test_what_a_figure_may_be() -> None:
+def test_what_a_figure_may_be():
     assert parse_figure(None) == PLAIN and not PLAIN.formats
     assert parse_figure("pdf") == FigureStyle(("pdf",), narrow=False, titled=False)
     assert parse_figure("PNG, svg:single") == FigureStyle(("png", "svg"), narrow=True, titled=False)
@@ -100,9 +99,7 @@ NAMES = ("probes", "history", "tradeoff", "locking", "responses", "modes")
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_paper_has_its_columns_width_units_and_no_title(
-    composed: dict[str, Compose], scene: Scene, name: str
-) -> None:
+def test_a_paper_has_its_columns_width_units_and_no_title(composed, scene, name):
     with matplotlib.rc_context(STYLE):
         titled, paper = composed[name](PLAIN), composed[name](parse_figure("pdf:single"))
     assert paper.get_figwidth() == pytest.approx(WIDTHS["single"])
@@ -119,9 +116,7 @@ def test_a_paper_has_its_columns_width_units_and_no_title(
 
 
 @pytest.mark.parametrize("name", ["probes", "tradeoff"])
-def test_the_same_picture_is_the_same_bytes_with_its_fonts(
-    composed: dict[str, Compose], tmp_path: Path, name: str
-) -> None:
+def test_the_same_picture_is_the_same_bytes_with_its_fonts(composed, tmp_path, name):
     files = [tmp_path / f"{name}.{form}" for form in ("pdf", "svg")]
     written = []
     for _ in range(2):
@@ -134,7 +129,7 @@ def test_the_same_picture_is_the_same_bytes_with_its_fonts(
     assert b"<text" not in svg and b"dc:date" not in svg
 
 
-def test_the_references_bar_is_a_band_at_every_probe(comparison: Comparison) -> None:
+def test_the_references_bar_is_a_band_at_every_probe(comparison):
     figure = probes_figure.compose(comparison)
     axis = figure.axes[0]
     tops = [band.get_paths()[0].vertices[:, 1].max() for band in axis.collections]
@@ -148,7 +143,7 @@ def test_the_references_bar_is_a_band_at_every_probe(comparison: Comparison) -> 
 
 
 @pytest.mark.parametrize("aspect", [0.3, 0.7, 1.4])
-def test_the_sheets_in_one_column_keep_off_the_colour_bars(aspect: float) -> None:
+def test_the_sheets_in_one_column_keep_off_the_colour_bars(aspect):
     figure, panels, bars = comparing._stacked(WIDTHS["single"], aspect, head=0.0)
     boxes = [axis.get_position() for axis in (*panels, *bars)]
     assert all(0.0 <= box.x0 < box.x1 <= 1.0 and 0.0 <= box.y0 < box.y1 <= 1.0 for box in boxes)
@@ -157,7 +152,7 @@ def test_the_sheets_in_one_column_keep_off_the_colour_bars(aspect: float) -> Non
     assert all(box.y0 >= label for box in boxes[3:]) and boxes[3].y0 - boxes[4].y1 > label
 
 
-def test_the_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_option(tmp_path, capsys):
     out = tmp_path / "out"
     asked = ["modes", "two-edges-clamped", "--grid", "3", "--reference", "plate", "--elements", "2"]
     assert run(*asked, "--figure", "svg,pdf", "--out", str(out)) == 0

@@ -1,7 +1,5 @@
 """Pictures: text of scenes is no mathematics, names stand apart, loads and actuators are seen."""
 
-from pathlib import Path
-
 import matplotlib
 import numpy as np
 import pytest
@@ -17,7 +15,7 @@ HOSTILE = "T $\\foo$ \x1b[31m _x^y\n$"
 
 
 @pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
-def test_text_of_a_scene_is_no_mathematics(tmp_path: Path, suffix: str) -> None:
+def test_text_of_a_scene_is_no_mathematics(tmp_path, suffix):
     figure = Figure()
     figure.suptitle(plain(HOSTILE, width=10))
     with matplotlib.rc_context(STYLE):
@@ -26,7 +24,7 @@ def test_text_of_a_scene_is_no_mathematics(tmp_path: Path, suffix: str) -> None:
     assert "\x1b" not in plain(HOSTILE)
 
 
-def test_names_of_near_points_stand_apart() -> None:
+def test_names_of_near_points_stand_apart():
     figure = Figure(figsize=(7.2, 3.0))
     axis = figure.add_axes((0.0, 0.0, 1 / 3, 1.0))
     axis.imshow(np.zeros((1200, 1000)))
@@ -40,14 +38,14 @@ def test_names_of_near_points_stand_apart() -> None:
         assert not any(first.overlaps(second) for second in boxes[i + 1 :])
 
 
-def history(probes: int) -> History:
+def history(probes):
     time = np.linspace(0.0, 1.0, 5)
     moved = {f"p{i} $": np.outer(time, [0.0, 0.0, 1e-3 * i]) for i in range(probes)}
     energies = dict.fromkeys(ENERGIES, time)
     return History("lumped", "verlet", {}, Status.CONVERGED, "", time, moved, energies, {}, {}, 4, 0.0, 0.0)
 
 
-def test_many_probes_have_a_dozen_panels_of_those_that_move_most() -> None:
+def test_many_probes_have_a_dozen_panels_of_those_that_move_most():
     figure = motion.compose(history(250), HOSTILE, {})
     titles = [axis.get_title(loc="left") for axis in figure.axes]
     assert len(figure.axes) == MOST + 1

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from comparisons.reproduction.answers import ReproducedTest, answer
+from comparisons.reproduction.answers import answer
 from comparisons.reproduction.findings import all_of
 from comparisons.reproduction.published import published, scene
 from comparisons.reproduction.tables import Reproduction
@@ -15,11 +15,11 @@ from sheetbench.scenes.seed import seed_inputs
 
 
 @pytest.fixture(scope="module")
-def test_1() -> ReproducedTest:
+def test_1():
     return answer(1, 0, 2)
 
 
-def test_the_scenes_have_the_published_inputs() -> None:
+def test_the_scenes_have_the_published_inputs():
     given = seed_inputs()
     for test, sense in ((1, 1), (2, 1), (2, -1)):
         asked = scene(test, sense)
@@ -31,17 +31,17 @@ def test_the_scenes_have_the_published_inputs() -> None:
         for name in ("young", "poisson", "density"):
             assert getattr(asked.material, name) == pytest.approx(given[name], rel=1e-12)
         assert asked.gravity is not None and asked.gravity.acceleration == (0.0, 0.0, -given["gravity"])
-    assert scene(2, -1).supports[0].curvature == -given["curvature"]  # type: ignore[union-attr]
+    assert scene(2, -1).supports[0].curvature == -given["curvature"]
 
 
-def test_a_misprint_is_left_out_and_the_axes_are_the_scenes() -> None:
+def test_a_misprint_is_left_out_and_the_axes_are_the_scenes():
     model, experiment = published(1, "model"), published(1, "experiment")
     np.testing.assert_allclose(model[:, 1], [-0.33e-3, -0.76e-3, -0.87e-3, -1.80e-3])
     assert np.argwhere(np.isnan(experiment)).tolist() == [[3, 1]]
     assert np.isfinite(model).all() and np.isfinite(published(2, "experiment")).all()
 
 
-def test_the_tables_hold_what_was_published_and_what_we_answer(test_1: ReproducedTest) -> None:
+def test_the_tables_hold_what_was_published_and_what_we_answer(test_1):
     assert [s.model for s in test_1.comparison.solutions] == ["lumped", "shell", "k550-lz3", "k550-lz17"]
     assert test_1.comparison.solutions[2].settings["weights"] == "full"
     found = Reproduction(("tables",), 2, answers=(test_1,))
@@ -61,9 +61,7 @@ def test_the_tables_hold_what_was_published_and_what_we_answer(test_1: Reproduce
     )
 
 
-def test_a_published_lattice_without_an_answer_is_a_complaint_and_no_failure(
-    test_1: ReproducedTest,
-) -> None:
+def test_a_published_lattice_without_an_answer_is_a_complaint_and_no_failure(test_1):
     *others, last = test_1.comparison.solutions
     solutions = (*others, replace(last, status=Status.UNSTABLE))
     fallen = replace(test_1, comparison=replace(test_1.comparison, solutions=solutions))

@@ -17,7 +17,7 @@ from limits import at_most
 from comparisons.runs import campaign as runs_campaign
 from comparisons.runs.campaign import Progress, Run, campaign, carry_out, execute
 from comparisons.runs.manifest import digest, source
-from comparisons.runs.store import FILE, Finished, Store
+from comparisons.runs.store import FILE, Finished
 from comparisons.runs.tasks import TASKS, function
 from sheetbench.errors import BadInput
 from studies.stability import STUDIES
@@ -27,7 +27,7 @@ pytestmark = pytest.mark.smoke
 HERE = Path(campaign_tasks.__file__).parent
 
 
-def test_outcomes_come_in_the_order_asked_and_are_kept(store: Store) -> None:
+def test_outcomes_come_in_the_order_asked_and_are_kept(store):
     seen: list[Progress] = []
     runs = [task("square", x=x) for x in (3.0, 1.0, 2.0, 3.0)]
     found = carry_out(runs, store, workers=2, progress=seen.append)
@@ -39,20 +39,20 @@ def test_outcomes_come_in_the_order_asked_and_are_kept(store: Store) -> None:
     assert not seen
 
 
-def test_the_key_is_what_is_asked_and_nothing_else() -> None:
+def test_the_key_is_what_is_asked_and_nothing_else():
     assert task("square", x=1.0).key == Run("campaign_tasks:square", {"x": 1.0}, "other", timed=True).key
     assert task("square", x=1.0).key != task("square", x=2.0).key
     assert task("square", x=(1, 2)).key == task("square", x=[1, 2]).key
 
 
-def test_the_key_holds_the_code_that_answers(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_key_holds_the_code_that_answers(monkeypatch):
     """After a fix yesterday's rows are not read: they are of other code."""
     before = task("square", x=1.0).key
     monkeypatch.setattr(runs_campaign, "source", lambda: "other code")
     assert task("square", x=1.0).key != before
 
 
-def test_the_source_digest_sees_names_and_contents(tmp_path: Path) -> None:
+def test_the_source_digest_sees_names_and_contents(tmp_path):
     one, other = tmp_path / "one.py", tmp_path / "other.py"
     one.write_text("x = 1")
     other.write_text("x = 2")
@@ -61,17 +61,17 @@ def test_the_source_digest_sees_names_and_contents(tmp_path: Path) -> None:
     assert source() == source() and len(source()) == 16
 
 
-def test_other_code_in_the_worker_is_a_failure_and_not_an_answer() -> None:
+def test_other_code_in_the_worker_is_a_failure_and_not_an_answer():
     outcome = execute("a key of other code", "campaign_tasks:square", {"x": 1.0})
     assert outcome.status == "failed" and "another version" in outcome.message
 
 
-def test_every_task_is_where_its_name_says() -> None:
+def test_every_task_is_where_its_name_says():
     assert all(callable(function(name)) for name in TASKS)
     assert all(callable(function(study.measure)) for study in STUDIES.values())
 
 
-def test_a_run_that_fails_is_a_row_with_its_status(store: Store) -> None:
+def test_a_run_that_fails_is_a_row_with_its_status(store):
     found = carry_out([task(name) for name in ("refuse", "fail", "not_finite")], store, pool=Here)
     assert [outcome.status for outcome in found] == ["refused", "failed", "done"]
     assert found[0].message == "x = −1: must be positive"
@@ -79,7 +79,7 @@ def test_a_run_that_fails_is_a_row_with_its_status(store: Store) -> None:
     assert found[2].row == {"value": None}
 
 
-def test_a_fault_is_not_filed_as_the_users_mistake(store: Store) -> None:
+def test_a_fault_is_not_filed_as_the_users_mistake(store):
     found = carry_out([task("stumble", over=over) for over in ("value", "type", "matrix")], store, pool=Here)
     for outcome, kind in zip(found, ("ValueError", "TypeError", "LinAlgError"), strict=True):
         assert outcome.status == "failed"
@@ -87,13 +87,13 @@ def test_a_fault_is_not_filed_as_the_users_mistake(store: Store) -> None:
         assert "in stumble" in outcome.row["traceback"]
 
 
-def test_an_interrupt_within_compiled_code_is_no_outcome(store: Store) -> None:
+def test_an_interrupt_within_compiled_code_is_no_outcome(store):
     with pytest.raises(KeyboardInterrupt):
         carry_out([task("interrupted")], store, pool=Here)
     assert not rows_in(store.path)
 
 
-def test_what_failed_is_done_again_only_when_asked(store: Store, tmp_path: Path) -> None:
+def test_what_failed_is_done_again_only_when_asked(store, tmp_path):
     runs = [task("square", x=1.0), task("needs", path=str(tmp_path / "file"))]
     first = carry_out(runs, store, pool=Here)
     assert [outcome.status for outcome in first] == ["done", "failed"]
@@ -103,7 +103,7 @@ def test_what_failed_is_done_again_only_when_asked(store: Store, tmp_path: Path)
     assert again[0] == first[0] and again[1].status == "done"
 
 
-def test_a_run_that_takes_its_process_down_is_the_only_one_lost(store: Store) -> None:
+def test_a_run_that_takes_its_process_down_is_the_only_one_lost(store):
     runs = [
         task("square", x=1.0, seconds=0.5),
         task("die"),
@@ -114,7 +114,7 @@ def test_a_run_that_takes_its_process_down_is_the_only_one_lost(store: Store) ->
     assert "died" in found[1].message
 
 
-def test_timed_runs_go_alone_and_on_one_thread(store: Store, tmp_path: Path) -> None:
+def test_timed_runs_go_alone_and_on_one_thread(store, tmp_path):
     path, environment = str(tmp_path / "log"), dict(os.environ)
     timed = [Run("campaign_tasks:log", {"x": x, "path": path, "seconds": 0.05}, timed=True) for x in range(4)]
     untimed = [task("square", x=1.0, seconds=0.1), task("threads")]
@@ -126,7 +126,7 @@ def test_timed_runs_go_alone_and_on_one_thread(store: Store, tmp_path: Path) -> 
     assert dict(os.environ) == environment
 
 
-def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path: Path) -> None:
+def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path):
     script = (
         f"import sys; sys.path.insert(0, {str(HERE)!r})\n"
         "from pathlib import Path\n"
@@ -140,7 +140,7 @@ def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path: P
     file = tmp_path / "study.py"
     file.write_text(script, encoding="utf-8")
 
-    def started() -> list[list[int]]:
+    def started():
         lines = (tmp_path / "started").read_text(encoding="utf-8").splitlines()
         return [[int(part) for part in line.split()] for line in lines]
 
@@ -162,20 +162,20 @@ def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path: P
     assert sorted(x for x, _ in started()) == [0, 1, 2, 3, 4, 4, 5, 5, 6, 7]
 
 
-def replaced(path: Path, column: str, value: str) -> None:
+def replaced(path, column, value):
     with sqlite3.connect(path) as database:
         database.execute(f"update runs set {column} = ?", (value,))
     database.close()
 
 
-def foreign(path: Path) -> None:
+def foreign(path):
     path.unlink()
     with sqlite3.connect(path) as database:
         database.execute("create table runs (key text, something text)")
     database.close()
 
 
-def overwritten(path: Path, first: int) -> None:
+def overwritten(path, first):
     content = bytearray(path.read_bytes())
     content[first : first + 3000] = bytes(range(250)) * 12
     path.write_bytes(content)
@@ -202,9 +202,7 @@ DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
 
 
 @pytest.mark.parametrize("damage", DAMAGE)
-def test_a_damaged_file_is_refused_in_a_line_with_the_remedy_and_left_alone(
-    tmp_path: Path, damage: str
-) -> None:
+def test_a_damaged_file_is_refused_in_a_line_with_the_remedy_and_left_alone(tmp_path, damage):
     path, runs = tmp_path / FILE, [task("square", x=float(x)) for x in range(40)]
     with campaign(tmp_path) as store:
         for run in runs:
@@ -219,7 +217,7 @@ def test_a_damaged_file_is_refused_in_a_line_with_the_remedy_and_left_alone(
     assert (path.read_bytes() if path.is_file() else None) == before
 
 
-def test_a_file_that_another_program_uses_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_another_program_uses_is_refused(tmp_path, monkeypatch):
     connect = sqlite3.connect
     monkeypatch.setattr(sqlite3, "connect", lambda path: connect(path, timeout=0.05))
     with campaign(tmp_path):
@@ -232,7 +230,7 @@ def test_a_file_that_another_program_uses_is_refused(tmp_path: Path, monkeypatch
     other.close()
 
 
-def test_a_full_disk_ends_a_campaign_in_a_line_and_loses_nothing(tmp_path: Path) -> None:
+def test_a_full_disk_ends_a_campaign_in_a_line_and_loses_nothing(tmp_path):
     """A limit on file sizes stands for the disk."""
     runs = [task("ballast", x=x, size=20_000) for x in range(4)]
     refused = pytest.raises(BadInput, match=f"{tmp_path / FILE}: .*; (free some space|the disk is full)")
@@ -249,7 +247,7 @@ def test_a_full_disk_ends_a_campaign_in_a_line_and_loses_nothing(tmp_path: Path)
     assert {key: after[key] for key in kept} == kept
 
 
-def test_two_campaigns_at_one_folder_do_not_meet(tmp_path: Path) -> None:
+def test_two_campaigns_at_one_folder_do_not_meet(tmp_path):
     with campaign(tmp_path) as store:
         with pytest.raises(BadInput, match=f"{tmp_path}: another process writes here"):
             campaign(tmp_path).__enter__()
@@ -258,7 +256,7 @@ def test_two_campaigns_at_one_folder_do_not_meet(tmp_path: Path) -> None:
         assert carry_out([task("square", x=1.0)], store, pool=pytest.fail)[0].status == "done"
 
 
-def test_ctrl_c_is_obeyed_and_leaves_no_process(store: Store, tmp_path: Path) -> None:
+def test_ctrl_c_is_obeyed_and_leaves_no_process(store, tmp_path):
     runs = [task("mark", x=x, folder=str(tmp_path), seconds=0.0 if x == 0 else 600.0) for x in range(2)]
     interrupting = Thread(target=interrupt_when, args=((tmp_path / "1.started").exists,))
     interrupting.start()

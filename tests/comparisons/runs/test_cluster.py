@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from threading import Thread
 
@@ -15,19 +14,18 @@ from comparisons.runs import campaign as runs_campaign
 from comparisons.runs import executors
 from comparisons.runs.campaign import carry_out
 from comparisons.runs.executors import Cluster, pool_of
-from comparisons.runs.store import Store
 from sheetbench.errors import BadInput
 
 HERE = Path(campaign_tasks.__file__).parent
 
 
-def test_no_scheduler_is_said_in_a_line() -> None:
+def test_no_scheduler_is_said_in_a_line():
     with pytest.raises(BadInput, match=r"--scheduler = 'tcp://127\.0\.0\.1:9'"):
         Cluster("tcp://127.0.0.1:9")
 
 
 @pytest.fixture
-def lonely(monkeypatch: pytest.MonkeyPatch) -> Iterator[LocalCluster]:
+def lonely(monkeypatch):
     """A cluster whose only worker is in this process; patience ends quickly."""
     monkeypatch.setattr(executors, "PATIENCE", 0.5)
     monkeypatch.setattr(runs_campaign, "LOOK", 0.1)
@@ -37,9 +35,7 @@ def lonely(monkeypatch: pytest.MonkeyPatch) -> Iterator[LocalCluster]:
         yield local
 
 
-def test_without_workers_a_campaign_stops_in_a_line_and_keeps_its_rows(
-    store: Store, lonely: LocalCluster
-) -> None:
+def test_without_workers_a_campaign_stops_in_a_line_and_keeps_its_rows(store, lonely):
     runs = [task("square", x=float(x)) for x in range(6)]
     with pool_of(lonely.scheduler_address) as pool:
         carry_out(runs[:2], store, pool=pool)
@@ -49,10 +45,10 @@ def test_without_workers_a_campaign_stops_in_a_line_and_keeps_its_rows(
     assert len(rows_in(store.path)) == 2
 
 
-def test_a_patient_campaign_says_that_it_waits_and_goes_on(store: Store, lonely: LocalCluster) -> None:
+def test_a_patient_campaign_says_that_it_waits_and_goes_on(store, lonely):
     said: list[str] = []
 
-    def say(text: str) -> None:
+    def say(text):
         said.append(text)
         lonely.scale(1)
 
@@ -63,7 +59,7 @@ def test_a_patient_campaign_says_that_it_waits_and_goes_on(store: Store, lonely:
     assert len(said) == 1 and "no worker for 0.5 s; waiting" in said[0]
 
 
-def test_a_patient_campaign_obeys_ctrl_c(store: Store, lonely: LocalCluster) -> None:
+def test_a_patient_campaign_obeys_ctrl_c(store, lonely):
     said: list[str] = []
     interrupting = Thread(target=interrupt_when, args=(lambda: bool(said),))
     interrupting.start()
@@ -74,9 +70,7 @@ def test_a_patient_campaign_obeys_ctrl_c(store: Store, lonely: LocalCluster) -> 
     interrupting.join()
 
 
-def test_a_lost_scheduler_is_said_and_the_rows_are_kept(
-    store: Store, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_lost_scheduler_is_said_and_the_rows_are_kept(store, monkeypatch):
     monkeypatch.setattr(executors, "PATIENCE", 0.5)
     code = (
         "import sys, time; sys.path.insert(0, sys.argv[1]); import campaign_tasks\n"
@@ -95,7 +89,7 @@ def test_a_lost_scheduler_is_said_and_the_rows_are_kept(
     assert len(rows_in(store.path)) == 1
 
 
-def test_dask_cluster_loses_a_worker_mid_run_and_finishes(store: Store, tmp_path: Path) -> None:
+def test_dask_cluster_loses_a_worker_mid_run_and_finishes(store, tmp_path):
     task_file = str(HERE / "campaign_tasks.py")
     with LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=None, preload=[task_file]

@@ -2,9 +2,8 @@
 
 import csv
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -19,15 +18,10 @@ Write = Callable[..., Path]
 
 
 @pytest.fixture
-def write(tmp_path: Path) -> Write:
+def write(tmp_path):
     """Writes answers: the reference's own values, changed."""
 
-    def write(
-        suite: str = "statics",
-        change: Change = lambda case, values: values,
-        leave_out: Sequence[str] = (),
-        seconds: float | None = None,
-    ) -> Path:
+    def write(suite="statics", change=lambda case, values: values, leave_out=(), seconds=None):
         path = tmp_path / "answers.csv"
         with path.open("w", newline="") as file:
             writer = csv.writer(file)
@@ -41,7 +35,7 @@ def write(tmp_path: Path) -> Write:
     return write
 
 
-def lines(case: Reference, values: np.ndarray) -> list[list[Any]]:
+def lines(case, values):
     if case.suite == "modes":
         return [[n + 1, f] for n, f in enumerate(values)]
     if case.time is None:
@@ -53,7 +47,7 @@ def lines(case: Reference, values: np.ndarray) -> list[list[Any]]:
     ]
 
 
-def test_right_answers_are_not_distinguishable_and_lead_the_front(write: Write) -> None:
+def test_right_answers_are_not_distinguishable_and_lead_the_front(write):
     found = score(write(seconds=1e-3))
     assert not found.faults and not any(row.distinguishable for row in found.rows)
     assert len(found.rows) == 80
@@ -62,7 +56,7 @@ def test_right_answers_are_not_distinguishable_and_lead_the_front(write: Write) 
     assert found.score == pytest.approx(np.exp(np.mean(np.log(bars))))
 
 
-def test_an_error_is_that_of_the_design(write: Write) -> None:
+def test_an_error_is_that_of_the_design(write):
     found = score(write(change=lambda case, values: 1.02 * values))
     assert [row.error for row in found.rows if row.case == "thick"][-1] == pytest.approx(0.02)
     assert found.score == pytest.approx(0.02)
@@ -104,9 +98,7 @@ def test_an_error_is_that_of_the_design(write: Write) -> None:
         ),
     ],
 )
-def test_faults_are_named(
-    write: Write, change: Change, said: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_faults_are_named(write, change, said, capsys):
     path = write(change=change)
     found = score(path)
     assert any(said in fault for fault in found.faults), found.faults
@@ -116,13 +108,13 @@ def test_faults_are_named(
     assert json.loads(printed.out)["faults"] == found.faults
 
 
-def test_faults_at_once_are_named_each(write: Write) -> None:
+def test_faults_at_once_are_named_each(write):
     faults = score(write(change=lambda case, u: 1000.0 * u[[1, 0, 2, 3]] * [1, 1, -1])).faults
     assert any("1000 times" in said for said in faults) and any("opposite sign" in said for said in faults)
     assert any("P1 and P2 look swapped" in said for said in faults)
 
 
-def test_a_model_that_is_merely_bad_has_no_fault(write: Write) -> None:
+def test_a_model_that_is_merely_bad_has_no_fault(write):
     """0.6 to 1.4 times each value, as a poor calibration has it: an error, not a slip."""
     noise = np.random.default_rng(0)
     found = score(write(change=lambda case, u: u * noise.uniform(0.6, 1.4, u.shape)))
@@ -142,7 +134,7 @@ def test_a_model_that_is_merely_bad_has_no_fault(write: Write) -> None:
         ("curves", lambda case, u: 1e3 * u, "mm for m, in all 13 cases"),
     ],
 )
-def test_other_suites(write: Write, suite: str, change: Change, said: str) -> None:
+def test_other_suites(write, suite, change, said):
     right, wrong = score(write(suite), suite), score(write(suite, change), suite)
     assert not right.faults and right.score < 0.02
     assert any(said in fault for fault in wrong.faults)
@@ -152,20 +144,18 @@ def test_other_suites(write: Write, suite: str, change: Change, said: str) -> No
     assert off.notes()[-1].startswith(f"you rank {last} of {last}; nearest neighbour ") and last > 1
 
 
-def later(u: np.ndarray, samples: int) -> np.ndarray:
+def later(u, samples):
     """A motion that begins some samples late, from the flat sheet."""
     return np.concatenate([np.zeros_like(u[:, :samples]), u[:, :-samples]], axis=1)
 
 
-def earlier(u: np.ndarray, samples: int) -> np.ndarray:
+def earlier(u, samples):
     """A motion that has begun some samples ago and stays where it ends."""
     return np.concatenate([u[:, samples:], np.repeat(u[:, -1:], samples, axis=1)], axis=1)
 
 
 @pytest.mark.parametrize(("case", "grid"), [("free-swing", "9"), ("pressure-step", "17")])
-def test_a_run_of_ours_is_scored_from_its_history(
-    case: str, grid: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_run_of_ours_is_scored_from_its_history(case, grid, tmp_path, capsys):
     """The lattice, 2 % off with so many masses a side; samples between the reference's are passed over."""
     known = references()[case]
     assert known.time is not None and known.duration is not None
@@ -183,7 +173,7 @@ def test_a_run_of_ours_is_scored_from_its_history(
     assert "displacements are 1000 times too small" in capsys.readouterr().err
 
 
-def test_what_is_missing_of_a_motion_is_refused(write: Write, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_is_missing_of_a_motion_is_refused(write, capsys):
     path = write("motion")
     text = path.read_text()
     needed = "61 times are needed, every 0.01 s from 0 to 0.6 s"
@@ -203,9 +193,7 @@ def test_what_is_missing_of_a_motion_is_refused(write: Write, capsys: pytest.Cap
         assert said in one_line(capsys)
 
 
-def test_what_is_missing_is_refused_in_a_line(
-    write: Write, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_is_missing_is_refused_in_a_line(write, tmp_path, capsys):
     path = write(leave_out=["thin"])
     assert run("score", str(path), "--case", "thin") == 2
     assert "no answer yet to thin: fill in the numbers of a case" in one_line(capsys)
@@ -230,9 +218,7 @@ def test_what_is_missing_is_refused_in_a_line(
         assert said in one_line(capsys)
 
 
-def test_a_form_is_filled_in_in_stages(
-    write: Write, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_form_is_filled_in_in_stages(write, tmp_path, capsys):
     path = write(seconds=1e-3)
     rows = path.read_text().splitlines()
     filled = [
@@ -252,7 +238,7 @@ def test_a_form_is_filled_in_in_stages(
     assert "no answer yet" in one_line(capsys)
 
 
-def test_answers_that_a_slip_has_spoilt_are_not_on_the_front(write: Write) -> None:
+def test_answers_that_a_slip_has_spoilt_are_not_on_the_front(write):
     quick = score(write(change=lambda case, u: -u, seconds=1e-6))
     assert quick.standing[-1].model == "answers" and "answers" not in quick.front
     assert (
@@ -269,16 +255,14 @@ def test_answers_that_a_slip_has_spoilt_are_not_on_the_front(write: Write) -> No
         ("statics", 1.0, "not distinguishable from the reference in all 20 cases"),
     ],
 )
-def test_the_verdict_comes_first_and_says_what_is_off_throughout(
-    write: Write, suite: str, factor: float, said: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_verdict_comes_first_and_says_what_is_off_throughout(write, suite, factor, said, capsys):
     path = write(suite, lambda case, u: factor * u)
     assert run("score", str(path), "--suite", suite) == 0
     printed = " ".join(capsys.readouterr().out.split())
     assert said in printed and printed.index("Verdict") < printed.index("Errors by case")
 
 
-def test_noise_is_no_stiffness(write: Write) -> None:
+def test_noise_is_no_stiffness(write):
     noise = np.random.default_rng(0)
     found = score(write(change=lambda case, u: u * noise.uniform(0.6, 1.4)))
     assert found.document()["stiffer"] is None
@@ -286,7 +270,7 @@ def test_noise_is_no_stiffness(write: Write) -> None:
     assert "1000 times" in slipped.report().lead
 
 
-def test_the_sheet_and_the_picture(write: Write, tmp_path: Path) -> None:
+def test_the_sheet_and_the_picture(write, tmp_path):
     out = tmp_path / "out"
     assert run("score", str(write(seconds=0.02)), "--out", str(out)) == 0
     assert (out / "score.png").stat().st_size > 10_000

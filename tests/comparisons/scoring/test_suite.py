@@ -3,7 +3,6 @@
 import csv
 import json
 from hashlib import sha256
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +18,7 @@ FROZEN = "15198e1a28208c6d"  # of scenes and values of version 2.0
 ADDED = "bfd47df4914f80ff"  # of version 2.1, which has curves besides
 
 
-def values_digest(curves: bool) -> str:
+def values_digest(curves):
     """Of scenes and values alone: titles, measured times and the machine may change."""
     kept = [
         {key: case[key] for key in ("name", "scene", "probes", "frequencies_hz", "time") if key in case}
@@ -31,13 +30,13 @@ def values_digest(curves: bool) -> str:
     return sha256(json.dumps(kept, sort_keys=True).encode()).hexdigest()[:16]
 
 
-def test_a_published_version_does_not_change() -> None:
+def test_a_published_version_does_not_change():
     frozen = (VERSION, FROZEN, ADDED)
     assert (document()["version"], *map(values_digest, (False, True))) == frozen, "others: another VERSION"
     assert document()["licence"] == "CC-BY-4.0"
 
 
-def test_the_file_is_of_the_cases_that_the_code_has() -> None:
+def test_the_file_is_of_the_cases_that_the_code_has():
     made = {case.name: case for case in cases()}
     assert list(made) == list(references()) and len(made) == 48
     for name, known in references().items():
@@ -50,7 +49,7 @@ def test_the_file_is_of_the_cases_that_the_code_has() -> None:
         assert known.suite in SUITES and known.agreeing
 
 
-def test_bars_are_small_beside_what_is_compared() -> None:
+def test_bars_are_small_beside_what_is_compared():
     limits = {"statics": 1e-3, "motion": 0.02, "modes": 1e-3, "curves": 1e-3}
     for known in references().values():
         assert 0.0 < known.bar <= limits[known.suite], known.name
@@ -58,7 +57,7 @@ def test_bars_are_small_beside_what_is_compared() -> None:
 
 
 @pytest.mark.parametrize("name", ["thick", "poisson-0"])
-def test_a_coarser_shell_finds_the_values(name: str) -> None:
+def test_a_coarser_shell_finds_the_values(name):
     """On 8 elements instead of 24: nine times the error at order 2, which is what these limits leave."""
     known = references()[name]
     solution = fem_reference.solve(known.scene, "shell", elements=8)
@@ -66,7 +65,7 @@ def test_a_coarser_shell_finds_the_values(name: str) -> None:
     assert off < 2e-3 * np.abs(known.values).max()
 
 
-def test_the_verb_lists_and_exports_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_verb_lists_and_exports_it(tmp_path, capsys):
     assert json_of(capsys, "suite", "--out", str(tmp_path))["cases"] == json.loads(FILE.read_text())["cases"]
     assert scenes.load(str(tmp_path / "thick.toml")) == references()["thick"].scene
     assert "CC-BY-4.0" in (tmp_path / "LICENCE.txt").read_text()
@@ -78,7 +77,7 @@ def test_the_verb_lists_and_exports_it(tmp_path: Path, capsys: pytest.CaptureFix
 
 
 @pytest.mark.parametrize(("load", "drop"), [(0.1, 0.01249), (1.0, 0.12456), (10.0, 1.0668), (100.0, 5.8881)])
-def test_curves_of_the_cantilever_are_the_published_ones(load: float, drop: float) -> None:
+def test_curves_of_the_cantilever_are_the_published_ones(load, drop):
     """Drop over reach of the heavy elastica (Romero et al. 2021)."""
     known = references()[f"cantilever-{load:g}"]
     along, down, aside = way(known.scene, known.values[0])

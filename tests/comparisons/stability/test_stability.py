@@ -1,7 +1,6 @@
 """`sheetbench stability SCENE`: what is varied, where each model holds, the largest stable steps."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,22 +10,21 @@ from commands import json_of, run
 import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from comparisons.runs.store import Store
 from comparisons.stability import extremes
 from comparisons.stability.answer import limits, summary
-from comparisons.stability.extremes import Stability, scaled, stability
+from comparisons.stability.extremes import scaled, stability
 from comparisons.stability.tasks import rests_flat
 from sheetbench.scenes import BadInput, Clamped, PointLoad, Pressure, load
 
 SEED, SETTLING = load("two-edges-clamped"), load("two-edges-settling")
 
 
-def varied(store: Store, *names: str, scene=SEED, grid: int = 5) -> Stability:
+def varied(store, *names, scene=SEED, grid=5):
     return stability(scene, store, varied=names, lattice=Lattice(grid), elements=4, pool=Here)
 
 
 @pytest.mark.parametrize(("name", "factor"), [("load", 3.0), ("slenderness", 0.1), ("young", 100.0)])
-def test_a_factor_is_of_what_it_names_and_of_nothing_else(name: str, factor: float) -> None:
+def test_a_factor_is_of_what_it_names_and_of_nothing_else(name, factor):
     scene = SEED.replace(loads=(PointLoad(at=(0.1, 0.1), force=(0.0, 0.0, 0.1)), Pressure(2.0)))
     found = scaled(scene, name, factor)
     young, thickness = (
@@ -40,16 +38,14 @@ def test_a_factor_is_of_what_it_names_and_of_nothing_else(name: str, factor: flo
     assert scaled(found, name, 1.0 / factor).material.young == pytest.approx(scene.material.young)
 
 
-def test_a_history_keeps_its_times() -> None:
-    gravity = SEED.gravity.replace(history={"time": (0.0, 1.0), "factor": (0.5, 2.0)})  # type: ignore[union-attr]
+def test_a_history_keeps_its_times():
+    gravity = SEED.gravity.replace(history={"time": (0.0, 1.0), "factor": (0.5, 2.0)})
     found = scaled(SEED.replace(gravity=gravity), "load", 10.0).gravity
     assert found is not None and found.history is not None
     assert (found.history.time, found.history.factor) == ((0.0, 1.0), (5.0, 20.0))
 
 
-def test_the_linear_plate_degrades_first_and_beyond_the_strains_all_refuse(
-    store: Store, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_linear_plate_degrades_first_and_beyond_the_strains_all_refuse(store, monkeypatch):
     monkeypatch.setitem(extremes.FACTORS, "load", (0.01, 1.0, 1000.0))
     found = varied(store, "load")
     ended = {(row["cell"]["model"], row["cell"]["factor"]): row for row in found.rows}
@@ -64,14 +60,14 @@ def test_the_linear_plate_degrades_first_and_beyond_the_strains_all_refuse(
     assert rows["plate"] == ("0.01", "1", "1000", "–")
 
 
-def test_a_sheet_that_cannot_be_is_a_refused_cell(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_sheet_that_cannot_be_is_a_refused_cell(store, monkeypatch):
     monkeypatch.setitem(extremes.FACTORS, "slenderness", (100.0,))  # thicker than it is long
     found = varied(store, "slenderness")
     assert {row["status"] for row in found.rows} == {"refused"} and found.succeeded
     assert all("thickness" in row["message"] for row in found.rows)
 
 
-def test_the_largest_stable_steps_are_those_measured(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_largest_stable_steps_are_those_measured(store, monkeypatch):
     """Undamped to a hundredth of it; damped, the computed one is no larger than the measured, by as much."""
     monkeypatch.setattr(extremes, "DAMPING", (0.0,))
     monkeypatch.setattr("comparisons.stability.limit.SHARPNESS", 4e-3)
@@ -88,9 +84,7 @@ def test_the_largest_stable_steps_are_those_measured(store: Store, monkeypatch: 
     assert [row["status"] for row in implicit] == ["converged"] * 2
 
 
-def test_steps_beyond_the_limit_are_refused_and_coarse_ones_err(
-    store: Store, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_steps_beyond_the_limit_are_refused_and_coarse_ones_err(store, monkeypatch):
     monkeypatch.setattr(extremes, "DIVISIONS", (100, 25))
     found = varied(store, "time-step", scene=SETTLING, grid=3)
     of = {name: [r for r in found.rows if r["cell"]["integrator"] == name] for name in lumped.INTEGRATORS}
@@ -100,13 +94,13 @@ def test_steps_beyond_the_limit_are_refused_and_coarse_ones_err(
     assert found.period == pytest.approx(100 * of["midpoint"][0]["cell"]["step"])
 
 
-def test_limits_are_measured_where_the_flat_sheet_is_at_rest() -> None:
+def test_limits_are_measured_where_the_flat_sheet_is_at_rest():
     assert rests_flat(SEED)
     assert not rests_flat(load("curved-edge")) and not rests_flat(load("actuated-edge"))
     assert not rests_flat(SEED.replace(supports=(Clamped("x0", tilt=0.1),)))
 
 
-def test_the_motions_error_is_of_the_largest_displacement() -> None:
+def test_the_motions_error_is_of_the_largest_displacement():
     truth = {"time": [0.0, 1.0, 2.0], "probes": {"P": [[0.0, 0.0, 0.0], [0.0, 0.0, 2.0], [0.0, 0.0, 4.0]]}}
     row = {"time": [0.0, 2.0], "probes": {"P": [[0.0, 0.0, 0.0], [0.0, 1.0, 4.0]]}}
     assert extremes._motion_error(row, truth) == pytest.approx(0.25)
@@ -115,9 +109,7 @@ def test_the_motions_error_is_of_the_largest_displacement() -> None:
 
 
 @pytest.mark.usefixtures("in_process", "undrawn")
-def test_the_command_writes_maps_and_resumes(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_command_writes_maps_and_resumes(tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(extremes.FACTORS, "young", (1.0,))
     monkeypatch.setattr(extremes, "CELLS", {"lumped": (2,), "references": (2,)})
     asked = [
@@ -145,7 +137,7 @@ def test_the_command_writes_maps_and_resumes(
     assert (tmp_path / "campaign.sqlite").stat().st_mtime_ns == before
 
 
-def test_grids_are_held_against_the_finest_mesh(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_grids_are_held_against_the_finest_mesh(store, monkeypatch):
     """Also where fewer elements are asked for with what else is varied: then a finer one erred."""
     monkeypatch.setattr(extremes, "CELLS", {"lumped": (2, 8), "references": (2, 6)})
     rows = {(row["cell"]["model"], row["cell"]["cells"]): row for row in varied(store, "grid").rows}
@@ -158,6 +150,6 @@ def test_grids_are_held_against_the_finest_mesh(store: Store, monkeypatch: pytes
     assert rows["lumped", 8]["error"] < rows["lumped", 2]["error"]
 
 
-def test_what_cannot_be_varied_is_refused(store: Store, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_cannot_be_varied_is_refused(store, capsys):
     with pytest.raises(BadInput, match="cuboid"):
         stability(SEED, store, reference="cuboid")

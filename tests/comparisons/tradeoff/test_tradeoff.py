@@ -57,12 +57,12 @@ main()
 
 
 @pytest.fixture(scope="module")
-def scene() -> Scene:
+def scene():
     return scenes.load("two-edges-clamped")
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def finished(tmp_path_factory):
     """The folder of a small trade-off, killed once in the middle, resumed, and asked for once more."""
     folder = tmp_path_factory.mktemp("tradeoff")
     command = [sys.executable, "-c", "from comparisons.cli import main; main()"]
@@ -79,7 +79,7 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_front_holds_what_nothing_beats() -> None:
+def test_front_holds_what_nothing_beats():
     errors = [0.1, 0.05, 0.2, None, 0.01, float("nan"), 0.04]
     seconds = [1.0, 2.0, 3.0, 0.1, 4.0, 0.1, 2.0]
     assert front(errors, seconds) == [0, 6, 4]
@@ -87,14 +87,14 @@ def test_front_holds_what_nothing_beats() -> None:
     assert front([None], [1.0]) == []
 
 
-def test_order_is_the_slope_of_the_logarithms() -> None:
+def test_order_is_the_slope_of_the_logarithms():
     h = [0.1, 0.05, 0.025]
     assert order(h, [3.0 * x**2 for x in h]) == pytest.approx(2.0)
     assert order([0.1, 0.1], [1.0, 2.0]) is None
     assert grouped(["b", "a", "b"]) == {"b": [0, 2], "a": [1]}
 
 
-def test_lists_of_sizes_become_rows_with_near_square_cells() -> None:
+def test_lists_of_sizes_become_rows_with_near_square_cells():
     scene = scenes.load("one-edge-clamped").replace(length_x=0.1, length_y=0.2, thickness=0.001)
     found = lattices(scene, ["5", "3x4x3"], ["consistent", "uniform"])
     assert [c.settings["grid"] for c in found] == [[5, 9, 2], [3, 4, 3]] * 2
@@ -110,7 +110,7 @@ def test_lists_of_sizes_become_rows_with_near_square_cells() -> None:
         references("shell", ["x"])
 
 
-def test_a_measured_row_says_what_it_cost(scene: Scene) -> None:
+def test_a_measured_row_says_what_it_cost(scene):
     asked = timing.run(scene, Lattice((9, 9, 2), "consistent"), repeats=3)
     row = timing.measure(**asked.arguments)
     assert row["status"] == "converged" and row["unknowns"] == 384
@@ -122,12 +122,12 @@ def test_a_measured_row_says_what_it_cost(scene: Scene) -> None:
     assert row["probes"]["P4"][2] == pytest.approx(-0.01346, rel=1e-2)
 
 
-def test_memory_is_that_of_the_run(scene: Scene) -> None:
+def test_memory_is_that_of_the_run(scene):
     _, memory = with_peak_memory(lambda: np.ones(8_000_000).sum())
     assert memory == pytest.approx(64e6, rel=0.1)
 
 
-def test_field_points_integrate_over_the_sheet(scene: Scene) -> None:
+def test_field_points_integrate_over_the_sheet(scene):
     points, weights = timing.field_points(scene)
     assert weights.sum() == pytest.approx(1.0)
     lx, ly = scene.sheet.lengths
@@ -139,7 +139,7 @@ def test_field_points_integrate_over_the_sheet(scene: Scene) -> None:
     )
 
 
-def test_killed_and_resumed_tradeoff_has_all_its_rows(finished: Path) -> None:
+def test_killed_and_resumed_tradeoff_has_all_its_rows(finished):
     document = json.loads((finished / "tradeoff.json").read_text(encoding="utf-8"))
     rows = document["rows"]
     assert [row["model"] for row in rows] == ["lumped"] * 4 + ["shell"] * 2
@@ -166,9 +166,7 @@ def test_killed_and_resumed_tradeoff_has_all_its_rows(finished: Path) -> None:
     assert json.loads((finished / "manifest.json").read_text(encoding="utf-8"))["machine"]
 
 
-def test_asked_again_nothing_is_run_and_the_document_is_the_same(
-    finished: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_asked_again_nothing_is_run_and_the_document_is_the_same(finished, capsys):
     before = rows_in(finished / FILE)
     written = json.loads((finished / "tradeoff.json").read_text(encoding="utf-8"))
     assert run(*SMALL, "--json", "--out", str(finished)) == 0
@@ -179,7 +177,7 @@ def test_asked_again_nothing_is_run_and_the_document_is_the_same(
     assert rows_in(finished / FILE) == before
 
 
-def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path) -> None:
+def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path):
     scene = scenes.load("two-edges-settling")
     with campaign(tmp_path) as store:
         found = dynamic_tradeoff(
@@ -208,7 +206,7 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path
     assert found.front and json.loads(to_json(found.document()))["rows"]
 
 
-def test_labels_of_close_points_do_not_lie_on_each_other(scene: Scene) -> None:
+def test_labels_of_close_points_do_not_lie_on_each_other(scene):
     """A grid and a pair of grids, the front's last two, a tenth apart in time and an eighth in error."""
     pair = {"coarser": 5, "grid": 9}
     made = (("lumped", {"grid": 9}, 1.0e-3, 0.010), ("lumped-pair", pair, 1.1e-3, 0.0088))
@@ -232,7 +230,7 @@ def test_labels_of_close_points_do_not_lie_on_each_other(scene: Scene) -> None:
         assert drawn.axes[1].get_title(loc="left") == "Observed convergence"
 
 
-def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path: Path) -> None:
+def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path):
     """The scene's own springs, four times as stiff: limit, period and runs are all of them."""
     scene = scenes.load("two-edges-settling")
     springs = lumped.calibrate(scene.sheet, scene.material, grid=3)
@@ -251,9 +249,7 @@ def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path: Path) -> None:
     assert k_given.lattices == ("lumped 3×3×2 uniform",)
 
 
-def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until_a_row_converges(
-    tmp_path: Path,
-) -> None:
+def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until_a_row_converges(tmp_path):
     """A soft strip of 120 by 40 mm swings in 1.8 s while it is flat, in a quarter of that where it hangs."""
     sheet = Sheet(length_x=0.12, length_y=0.04, thickness=0.002)
     material = Material(young=0.6e6, poisson=0.45, density=1100.0)
@@ -274,7 +270,7 @@ def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until
     assert len(found.rows) == 1 or found.rows[0].status != "converged"
 
 
-def test_equal_complaints_are_one_line() -> None:
+def test_equal_complaints_are_one_line():
     ended = [
         MotionRow("lumped", "3×3×2", "esdirk", step, "diverged", f"at {time} s: use smaller steps")
         for step, time in ((0.02, 0.1), (0.01, 0.2))
@@ -287,7 +283,7 @@ def test_equal_complaints_are_one_line() -> None:
     )
 
 
-def test_times_under_load_and_samples_that_scatter_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_times_under_load_and_samples_that_scatter_are_told(monkeypatch):
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     assert load.warnings([0.5, 2.0, None], [(1.0, 1.9), (1.0,)]) == []
     busy, wide = load.warnings([0.5, 20.0], [(1.0, 3.0), (1.0, 1.1)])

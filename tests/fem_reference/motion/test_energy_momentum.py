@@ -14,7 +14,7 @@ STRIP = settling_strip.scene()
 SPIN, DRIFT = np.array([3.0, -20.0, 5.0]), np.array([1.0, 0.5, -2.0])
 
 
-def drift(model: str, damping_time: float, elements: tuple[int, int], **steps: float) -> float:
+def drift(model, damping_time, elements, **steps):
     """The spread of the balance over the largest elastic energy."""
     scene = STRIP.replace(damping_time=damping_time, thickness=0.006)
     motion = fem_reference.simulate(
@@ -55,7 +55,7 @@ def test_a_sheet_thrown_and_spinning_keeps_both_momenta_and_its_energy(kind):
     method = EnergyMomentum(model, 1e-3, 1e-6, 1e-3)
     motion = method.begin(0.0, q, thrown.ravel())
 
-    def kept() -> list[np.ndarray]:
+    def kept():
         momentum = (model.mass @ motion.v).reshape(-1, 3)
         angular = np.cross(rest + motion.q.reshape(-1, 3), momentum).sum(axis=0)
         energy = sum(model.energies(motion.q, motion.v, motion.time))

@@ -8,7 +8,7 @@ import pytest
 import fem_reference
 from fem_reference.verification import settling_strip
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeMotion, Gravity, Pressure, Scene
+from sheetbench.scenes import EdgeMotion, Gravity, Pressure
 from sheetbench.scenes.supports import Clamped, Curved, Motion
 from sheetbench.scenes.tables import FactorTable
 
@@ -16,7 +16,7 @@ MODELS = ("plate", "shell", "solid")
 
 
 @pytest.fixture(scope="module")
-def strip() -> Scene:
+def strip():
     """A hundredth of its weight, which leaves it nearly linear."""
     return settling_strip.scene().replace(gravity=Gravity(acceleration=(0.0, 0.0, -0.1)))
 

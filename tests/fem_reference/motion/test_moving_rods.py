@@ -7,14 +7,14 @@ import fem_reference
 from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
 from fem_reference.motion.solid import MovingSolid
-from sheetbench.scenes import Scene, load
+from sheetbench.scenes import load
 from sheetbench.scenes.actuators import CurvatureTable
 
 MODELS = {"plate": MovingPlate, "shell": MovingShell, "solid": MovingSolid}
 RAMP = CurvatureTable(time=(0.0, 0.3), value=(0.0, 3.0))
 
 
-def driven(**chain: object) -> Scene:
+def driven(**chain):
     """The catalogue's driven edge, off the mid-surface, heavily damped."""
     scene = load("actuated-edge")
     (own,) = scene.actuators
@@ -22,7 +22,7 @@ def driven(**chain: object) -> Scene:
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_a_chain_thrown_has_its_own_mass(model: str) -> None:
+def test_a_chain_thrown_has_its_own_mass(model):
     scene = driven(face="top")
     energies = []
     for asked in (scene, scene.replace(actuators=())):
@@ -34,7 +34,7 @@ def test_a_chain_thrown_has_its_own_mass(model: str) -> None:
     assert energies[0] - energies[1] == pytest.approx(0.5 * mass * 4.0, rel=1e-9)
 
 
-def test_a_chain_that_spins_about_the_edge_has_its_rotary_inertia() -> None:
+def test_a_chain_that_spins_about_the_edge_has_its_rotary_inertia():
     """½ m (c² + 2 a²/4) ω²: of its axis at the height c, and of both directors of a round section."""
     scene, omega = driven(face="top"), 3.0
     (chain,) = scene.actuators
@@ -50,7 +50,7 @@ def test_a_chain_that_spins_about_the_edge_has_its_rotary_inertia() -> None:
 
 
 @pytest.mark.parametrize("model", ["plate", "shell"])
-def test_a_driven_edge_comes_to_rest_where_statics_have_it(model: str) -> None:
+def test_a_driven_edge_comes_to_rest_where_statics_have_it(model):
     scene = driven(curvature=RAMP, damping_time=0.02).replace(damping_rate=25.0)
     motion = fem_reference.simulate(scene, model, 1.2, elements=2, every=0.05)
     options = {"graded": motion.settings["graded"]} if model == "plate" else {}
@@ -61,13 +61,13 @@ def test_a_driven_edge_comes_to_rest_where_statics_have_it(model: str) -> None:
     assert spread < 5e-3 and motion.energies["work"][-1] > 0.0
 
 
-def test_samples_of_a_chain_keep_the_energy() -> None:
+def test_samples_of_a_chain_keep_the_energy():
     """Steps end at samples. A cubic between would store 0.28 of the kinetic energy in the rod."""
     motion = fem_reference.simulate("actuated-edge", "shell", 0.8, elements=2, every=0.02)
     assert np.abs(motion.balance - motion.balance[0]).max() < 1e-3 * motion.energies["kinetic"].max()
 
 
-def test_the_solid_with_a_chain_moves_as_the_shell_does() -> None:
+def test_the_solid_with_a_chain_moves_as_the_shell_does():
     """Within what two elements along the side leave uncertain."""
     scene = driven(curvature=RAMP)
     ours, shell = (

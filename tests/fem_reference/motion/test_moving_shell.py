@@ -8,13 +8,13 @@ from fem_reference.motion.generalised_alpha import GeneralisedAlpha
 from fem_reference.motion.shell import MovingShell
 from fem_reference.verification import settling_strip
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Gravity, History, Scene, load
+from sheetbench.scenes import Gravity, History, load
 from sheetbench.scenes.supports import Clamped, Motion
 from sheetbench.scenes.tables import FactorTable
 
 
 @pytest.fixture(scope="module")
-def strip() -> Scene:
+def strip():
     return settling_strip.scene()
 
 
@@ -55,7 +55,7 @@ def test_energy_is_kept_in_account(strip):
     assert np.ptp(motion.balance) < 1e-3 * largest
 
 
-def spun(scene: Scene, turn: np.ndarray, drift: np.ndarray) -> tuple[MovingShell, np.ndarray, np.ndarray]:
+def spun(scene, turn, drift):
     """A free sheet that drifts and spins as a rigid body: the model, q and its rate."""
     model = MovingShell(scene.replace(supports=(), gravity=None, damping_time=0.0), (3, 2))
     q = model.start()
@@ -66,7 +66,7 @@ def spun(scene: Scene, turn: np.ndarray, drift: np.ndarray) -> tuple[MovingShell
     return model, q, rate.ravel()
 
 
-def momentum(model: MovingShell, v: np.ndarray) -> np.ndarray:
+def momentum(model, v):
     return (model.mass @ v).reshape(2, -1, 3)[0].sum(axis=0)
 
 

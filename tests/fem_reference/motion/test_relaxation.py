@@ -12,7 +12,7 @@ RAMP, PULL = 0.01, 1e-9
 
 
 @pytest.mark.parametrize("model", ["plate", "shell", "solid"])
-def test_a_held_strain_relaxes_as_its_prony_series(model: str) -> None:
+def test_a_held_strain_relaxes_as_its_prony_series(model):
     """A strip of next to no mass, pulled in 10 ms and held: R = R∞ (1 + Σ a g e^(−(t−T)/τ)), g of the ramp.
     The update is exact for it; what is left is inertia, damped by the integrator."""
     material = Material(1e6, 0.0, 1e-3, relaxation=BRANCHES)
@@ -32,7 +32,7 @@ def test_a_held_strain_relaxes_as_its_prony_series(model: str) -> None:
     assert np.abs(found)[held] == pytest.approx(at_rest * series[held], rel=1e-6)
 
 
-def decay(scene: Scene, model: str, duration: float) -> tuple[float, float]:
+def decay(scene, model, duration):
     """Frequency [Hz] and damping ratio of the swing about the sheet's rest, by its peaks."""
     run = fem_reference.simulate(scene, model, duration, elements=2, every=duration / 2000, error=1e-4)
     u = run.probes["P4"][:, 2]
@@ -44,7 +44,7 @@ def decay(scene: Scene, model: str, duration: float) -> tuple[float, float]:
     return (len(tops) - 1) / (run.time[tops[-1]] - run.time[tops[0]]), falls / np.hypot(2.0 * np.pi, falls)
 
 
-def test_a_swing_decays_as_its_pole_has_it() -> None:
+def test_a_swing_decays_as_its_pole_has_it():
     """The lowest mode of the linear plate let go under its weight; what is allowed is of the other modes."""
     scene = scenes.load("one-edge-clamped").replace(loss_factor=0.12, band=(0.5, 20.0))
     lowest = float(fem_reference.modes(scene, "plate", elements=2, count=1).frequencies[0])
@@ -56,7 +56,7 @@ def test_a_swing_decays_as_its_pole_has_it() -> None:
 
 
 @pytest.mark.parametrize("model", ["plate", "shell"])
-def test_energy_is_kept_in_books_with_branches(model: str) -> None:
+def test_energy_is_kept_in_books_with_branches(model):
     """Within the step's error, as without branches; branches dissipate."""
     scene = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
     run = fem_reference.simulate(scene, model, 0.1, elements=2)
@@ -66,7 +66,7 @@ def test_energy_is_kept_in_books_with_branches(model: str) -> None:
     assert dissipated[-1] > 0.05 * kinetic and np.diff(dissipated).min() > -1e-6 * kinetic
 
 
-def test_the_conserving_rule_refuses_branches() -> None:
+def test_the_conserving_rule_refuses_branches():
     scene = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
     with pytest.raises(scenes.BadInput, match="energy-momentum has no Maxwell branches"):
         fem_reference.simulate(scene, "shell", 0.1, elements=2, integrator="energy-momentum")

@@ -18,7 +18,7 @@ from sheetbench.scenes import EDGES, BadInput, Material, Scene, Sheet
 MATERIAL = Material(young=1.0e7, poisson=0.3, density=1000.0)
 
 
-def square(thickness: float, kind: str | None = None, loads=(), edges=EDGES, **more) -> Scene:
+def square(thickness, kind=None, loads=(), edges=EDGES, **more):
     return Scene(
         name="square",
         sheet=Sheet(length_x=1.0, length_y=1.0, thickness=thickness),
@@ -29,7 +29,7 @@ def square(thickness: float, kind: str | None = None, loads=(), edges=EDGES, **m
     )
 
 
-def distorted(divisions: int = 3, amount: float = 0.25) -> MeshQuad:
+def distorted(divisions=3, amount=0.25):
     """The unit square with its inner vertices moved at random (but always alike)."""
     mesh = MeshQuad.init_tensor(*2 * [np.linspace(0.0, 1.0, divisions + 1)])
     inner = mesh.interior_nodes()
@@ -216,7 +216,7 @@ def test_the_mass_of_rigid_motions_is_that_of_a_slab():
         assert v @ mass @ v == pytest.approx(per_area * of[name], rel=1e-12), name
 
 
-def sheet_on(kinds: dict[str, str]) -> Scene:
+def sheet_on(kinds):
     """The seed's sheet under a thousandth of its weight, each edge held as asked."""
     scene = scenes.load("two-edges-clamped")
     light = scenes.Gravity(acceleration=(0.0, 0.0, -9.81e-3))

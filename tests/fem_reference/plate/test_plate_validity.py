@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import fem_reference
-from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Material, Scene, Sheet, Solution, Status
+from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Material, Scene, Sheet, Status
 from sheetbench.scenes.supports import Motion
 
 SHEET = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
@@ -15,7 +15,7 @@ STIFFNESS = 5e6 * 0.001**3 / 12.0  # N·m, per width
 HELD = (Clamped(edge="x0"),)
 
 
-def solve(*loads, supports=HELD, weight: float = 0.0, elements: int = 2) -> Solution:
+def solve(*loads, supports=HELD, weight=0.0, elements=2):
     gravity = Gravity(acceleration=(0.0, 0.0, -weight)) if weight else None
     scene = Scene(
         name="plate", sheet=SHEET, material=SOFT, gravity=gravity, supports=supports, loads=loads
@@ -23,7 +23,7 @@ def solve(*loads, supports=HELD, weight: float = 0.0, elements: int = 2) -> Solu
     return fem_reference.solve(scene, model="plate", elements=elements)
 
 
-def press(force: float, across: float = 0.0) -> EdgeLoad:
+def press(force, across=0.0):
     return EdgeLoad(edge="x1", force_per_length=(-force, 0.0, across))
 
 
@@ -31,7 +31,7 @@ CRITICAL = np.pi**2 * STIFFNESS / (4.0 * 0.2**2)  # N/m, Euler's of a column hel
 
 
 @pytest.mark.parametrize("share", [0.95, 1.05])
-def test_in_plane_forces_buckle_it_at_eulers_load(share) -> None:
+def test_in_plane_forces_buckle_it_at_eulers_load(share):
     found = solve(press(share * CRITICAL, across=1e-4))
     assert found.status is (Status.CONVERGED if share < 1.0 else Status.UNSTABLE)
     if share > 1.0:
@@ -39,11 +39,11 @@ def test_in_plane_forces_buckle_it_at_eulers_load(share) -> None:
         assert said == pytest.approx(100.0 / share, rel=2e-3)  # shear deformation and three digits
 
 
-def test_pulled_it_does_not_buckle() -> None:
+def test_pulled_it_does_not_buckle():
     assert solve(press(-20.0 * CRITICAL, across=1e-4)).status is Status.CONVERGED
 
 
-def test_supports_that_close_up_buckle_it() -> None:
+def test_supports_that_close_up_buckle_it():
     """Both ends clamped, ν = 0: 4 π² D/a² at a strain of 4 π² D/(a² E h)."""
     strain = 4.0 * np.pi**2 * STIFFNESS / (0.2**2 * 5e6 * 0.001)
     closing = Motion(time=(0.0,), displacement=((-2.0 * strain * 0.2, 0.0, 0.0),))
@@ -52,7 +52,7 @@ def test_supports_that_close_up_buckle_it() -> None:
     assert "50 % of the load" in found.message or "49.9 % of the load" in found.message, found.message
 
 
-def test_turns_beyond_a_directors_length_are_no_turns() -> None:
+def test_turns_beyond_a_directors_length_are_no_turns():
     """A strip under its weight q: its end turns by q a³/6D, linear in the load."""
     turn = 1100.0 * 0.001 * 0.2**3 / (6.0 * STIFFNESS)  # per m/s²
     fine = solve(weight=0.9 / turn)
@@ -62,7 +62,7 @@ def test_turns_beyond_a_directors_length_are_no_turns() -> None:
     assert "linear theory ends at 25 % of the load" in found.message, found.message
 
 
-def test_a_turn_in_the_plane_counts_too() -> None:
+def test_a_turn_in_the_plane_counts_too():
     """A force P along the free edge turns the end of the strip, b wide, by 6 P a²/(E h b³)."""
     force = 1.5 * 5e6 * 0.001 * 0.05**3 / (6.0 * 0.2**2)  # N
     found = solve(EdgeLoad(edge="x1", force_per_length=(0.0, force / 0.05, 0.0)))

@@ -5,10 +5,10 @@ import pytest
 from rod_cases import CHAINS, chain, driven
 
 import fem_reference
-from sheetbench.scenes import Chain, Gravity, Scene
+from sheetbench.scenes import Chain, Gravity
 
 
-def small(scene: Scene, factor: float = 1e-3) -> Scene:
+def small(scene, factor=1e-3):
     """The scene's weight and intrinsic curvature scaled down."""
     (one,) = scene.actuators
     curved = np.multiply(one.curvature, factor).tolist()
@@ -19,7 +19,7 @@ def small(scene: Scene, factor: float = 1e-3) -> Scene:
 
 @pytest.mark.parametrize("base", ["free", "middle"])
 @pytest.mark.parametrize("name", CHAINS)
-def test_the_plate_is_the_limit_of_small_deflections(name: str, base: str) -> None:
+def test_the_plate_is_the_limit_of_small_deflections(name, base):
     asked = dict(CHAINS[name])
     if base == "middle" and name == "list":
         asked["curvature"] = (*asked["curvature"], 2.0)

@@ -98,7 +98,7 @@ def test_what_is_kept_is_given_again_for_equal_arrays_only():
     calls = []
 
     @kept(last=2, most=64)
-    def total(values: np.ndarray, weight: float = 1.0) -> float:
+    def total(values, weight=1.0):
         calls.append(len(values))
         return weight * float(values.sum())
 

@@ -24,7 +24,7 @@ from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Hinged, Pressure, Scen
 pytestmark = pytest.mark.smoke
 
 
-def distorted(elements=3, by=0.2, seed=0) -> MeshQuad:
+def distorted(elements=3, by=0.2, seed=0):
     """The sheet's mesh with its inner vertices moved by up to `by` of an element."""
     mesh = rectangle(SHEET, elements)
     p = mesh.p.copy()
@@ -36,19 +36,19 @@ def distorted(elements=3, by=0.2, seed=0) -> MeshQuad:
     return moved.with_boundaries({name: facets for name, facets in mesh.boundaries.items()})
 
 
-def build(mesh: MeshQuad, thickness=SHEET.thickness, material=RUBBER):
+def build(mesh, thickness=SHEET.thickness, material=RUBBER):
     basis = Basis(mesh, ElementQuad2())
     nodes, element_nodes = basis.doflocs.T, basis.element_dofs.T
     return Element.build(nodes[element_nodes], section_of(material, thickness)), nodes, element_nodes
 
 
-def scene(supports=(), loads=(), **more) -> Scene:
+def scene(supports=(), loads=(), **more):
     return Scene(
         name="t", sheet=SHEET, material=RUBBER, supports=supports, loads=loads, probes={"A": (0, 0)}, **more
     )
 
 
-def random_state(structure, size=1.0, seed=1) -> State:
+def random_state(structure, size=1.0, seed=1):
     """Any positions, unit directors within about 45° of e_z."""
     rng = np.random.default_rng(seed)
     change = np.zeros((2, structure.count, 3))

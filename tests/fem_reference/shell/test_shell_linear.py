@@ -17,7 +17,7 @@ from sheetbench.scenes import Status
 pytestmark = pytest.mark.smoke
 
 
-def indefinite(n=120, negative=17) -> csr_matrix:
+def indefinite(n=120, negative=17):
     noise = random_array((n, n), density=0.03, rng=np.random.default_rng(1))
     diagonal = np.where(np.arange(n) < negative, -50.0, 50.0)
     matrix = csr_matrix(noise + noise.T) + csr_matrix(np.diag(diagonal))

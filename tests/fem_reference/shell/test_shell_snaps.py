@@ -29,7 +29,7 @@ SHORTER = 0.002  # shortening of the strip
 RIGIDITY = YOUNG * WIDTH * THICKNESS**3 / 12.0  # E I; ν = 0: a beam
 
 
-def push_of(theta: float, at: float = 0.5) -> float:
+def push_of(theta, at=0.5):
     """Push F [N] at x = at · L on a hinged strip that is buckled, as a function of kL = 2θ.
 
     E I w'' + P w = −M, M the push's moment in a simple beam, k² = P/E I: with c = L − a, for x < a,
@@ -50,7 +50,7 @@ def push_of(theta: float, at: float = 0.5) -> float:
     return force * float(np.sqrt(2.0 * bent / square))
 
 
-def limit(at: float = 0.5) -> float:
+def limit(at=0.5):
     """The largest push [N] on the path that the arch takes without branching."""
     last = 4.5 if at == 0.5 else 0.999 * np.pi
     return -float(minimize_scalar(lambda t: -push_of(t, at), bounds=(1.8, last), method="bounded").fun)
@@ -65,7 +65,7 @@ class Shortening:
 
     shorter: float
 
-    def placed(self, points: np.ndarray, load_factor: float) -> Placed:
+    def placed(self, points, load_factor):
         out = np.zeros((len(points), 3))
         out[:, 0] = -0.5 * self.shorter * np.sign(points[:, 0] - SIDE / 2)
         return Placed(out, np.zeros((3, 3)))
@@ -77,16 +77,16 @@ class Strip(ShellStructure):
 
     start: State | None = None
 
-    def rest(self) -> State:
+    def rest(self):
         return self.start or super().rest()
 
 
-def height(shorter: float) -> float:
+def height(shorter):
     """Of the buckled strip: w = b sin πx/L, b² = 4 L Δ/π², but for what it is compressed."""
     return 2.0 / np.pi * float(np.sqrt((shorter - np.pi**2 * THICKNESS**2 / (12.0 * SIDE)) * SIDE))
 
 
-def strip(at: float = 0.5, shorter: float = SHORTER, bent: float = 0.0) -> Strip:
+def strip(at=0.5, shorter=SHORTER, bent=0.0):
     """Pushed down at x = at, with 1.5 times the limit load at load factor 1; pressed together, bent by so
     much of the buckled shape."""
     scene = Scene(
@@ -113,23 +113,23 @@ def strip(at: float = 0.5, shorter: float = SHORTER, bent: float = 0.0) -> Strip
 
 
 @pytest.fixture(scope="module")
-def arch() -> State:
+def arch():
     """The strip buckled upwards."""
     bent = strip(bent=1.0)
     return relax(Path(bent, DirectSolver(), bent.start), 0.0)
 
 
-def mirrored(change: np.ndarray) -> np.ndarray:
+def mirrored(change):
     """The same on the other side of z = 0."""
     return change * np.array([[[1.0, 1.0, -1.0]], [[-1.0, -1.0, 1.0]]])
 
 
-def pushed(arch: State, at: float = 0.5, settles: bool = True) -> tuple[Strip, Path]:
+def pushed(arch, at=0.5, settles=True):
     structure, solver = replace(strip(at), start=arch), DirectSolver()
     return structure, trace(structure, solver, settle=relax if settles else None)
 
 
-def left_at(path: Path) -> float:
+def left_at(path):
     """The load factor of a path's one snap."""
     (found,) = path.snaps
     return found
@@ -140,7 +140,7 @@ def test_the_arch_is_the_elastica(arch):
 
 
 def test_a_matrix_that_is_singular_ends_the_creep_with_that_status(arch, monkeypatch):
-    def factor(self: DirectSolver, matrix: object) -> None:
+    def factor(self, matrix):
         raise SingularMatrixError("the matrix is singular")
 
     monkeypatch.setattr(DirectSolver, "factor", factor)
@@ -185,13 +185,13 @@ def test_pushed_beside_its_middle_a_stable_path_snaps_at_its_limit_load(arch):
     assert path.state.change[0, :, 2].min() < -0.9 * arch.change[0, :, 2].max()
 
 
-def rod_scene(turn: float, load_number: float) -> Scene:
+def rod_scene(turn, load_number):
     """A sheet on a rod bent to a share of a circle, under its weight."""
     rod = Curved(edge="x0", curvature=float(2.0 * np.pi * turn / equilibria.SIDE))
     return equilibria.sheet(0.008, load_number, supports=(rod,))
 
 
-def chained() -> Scene:
+def chained():
     scene = scenes.load("one-edge-clamped")
     rod = Chain(
         edge="x1", segments=8, bending_stiffness=2e-3, line_density=0.05, radius=1.5e-3, curvature=4.0
@@ -200,7 +200,7 @@ def chained() -> Scene:
 
 
 @pytest.fixture(scope="module")
-def taped() -> Scene:
+def taped():
     """Bent down to a quarter of a circle, under a weight that folds it."""
     return rod_scene(-0.25, 10.0)
 

@@ -10,15 +10,15 @@ from fem_reference.solid.statics import discretise
 from fem_reference.solid.structure import State
 from fem_reference.solid.supports import into_forces, vectors
 from fem_reference.surface.mesh import rectangle
-from sheetbench.scenes import Curved, Hinged, Scene, Solution, Status
+from sheetbench.scenes import Curved, Hinged, Status
 
 
-def solid(scene: Scene, elements: int | tuple[int, int] = 8, layers: int = 1) -> Solution:
+def solid(scene, elements=8, layers=1):
     return fem_reference.solve(scene, model="solid", elements=elements, layers=layers)
 
 
 @pytest.mark.parametrize("name", CHAINS)
-def test_the_solid_agrees_with_the_shell(name: str) -> None:
+def test_the_solid_agrees_with_the_shell(name):
     """Displacements within 0.2 %, the rod's energy within 1 %; forces balance."""
     scene = driven(chain(**CHAINS[name]))
     points = scene.probe_points()
@@ -35,7 +35,7 @@ def test_the_solid_agrees_with_the_shell(name: str) -> None:
 
 
 @pytest.mark.parametrize("edges", [("y1",), ("x1", "y1"), ("y0", "y1")])
-def test_rods_that_meet_each_other_and_a_clamp(edges: tuple[str, ...]) -> None:
+def test_rods_that_meet_each_other_and_a_clamp(edges):
     """They end at corners whose column the clamp holds or the other rod turns too."""
     scene = driven(*(chain(edge=edge, curvature=-4.0, bending_stiffness=0.02) for edge in edges))
     points = np.random.default_rng(0).uniform(0.0, 0.188, (50, 2))
@@ -46,7 +46,7 @@ def test_rods_that_meet_each_other_and_a_clamp(edges: tuple[str, ...]) -> None:
 
 
 @pytest.mark.parametrize("base", ["start", "middle", "end"])
-def test_a_base_holds_the_solid(base: str) -> None:
+def test_a_base_holds_the_solid(base):
     scene = driven().model_copy(update={"supports": (), "actuators": (chain(edge="y0", base=base),)})
     answer, expected = solid(scene), shell(scene)
     assert answer.status is Status.CONVERGED
@@ -59,7 +59,7 @@ def test_a_base_holds_the_solid(base: str) -> None:
 
 
 @pytest.mark.parametrize("layers", [1, 2])
-def test_the_tangent_of_the_rodded_solid_is_the_derivative_of_the_force(layers: int) -> None:
+def test_the_tangent_of_the_rodded_solid_is_the_derivative_of_the_force(layers):
     """Rods on two edges that share a corner, beside a hinged and a curved edge."""
     supports = (Curved(edge="x0", kind="curved", curvature=0.8), Hinged(edge="y1"))
     scene = driven(chain(face="top", curvature=3.0, plane="spatial"), chain(edge="y0", base="start"))
@@ -76,7 +76,7 @@ def test_the_tangent_of_the_rodded_solid_is_the_derivative_of_the_force(layers: 
     local[structure.free], turn[free] = step[:count], step[count:]
     direction = vectors(bases, local)
 
-    def rows(t: float) -> np.ndarray:
+    def rows(t):
         forces = structure.forces(State(u + t * direction, aside + t * turn), 0.7)
         on_columns = into_forces(bases, forces.residual)[structure.free]
         return np.concatenate([on_columns, forces.aside[free]])

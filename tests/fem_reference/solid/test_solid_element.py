@@ -21,7 +21,7 @@ from sheetbench.scenes import Scene, Sheet
 pytestmark = pytest.mark.smoke
 
 
-def distorted() -> MeshQuad:
+def distorted():
     mesh = MeshQuad.init_tensor(*2 * [np.linspace(0.0, 1.0, 4)])
     mesh = mesh.with_boundaries(rectangle(block().sheet, 3).boundaries)
     moved, inner = mesh.p.copy(), mesh.interior_nodes()
@@ -34,7 +34,7 @@ def rng():
     return np.random.default_rng(5)
 
 
-def warped(rng) -> np.ndarray:
+def warped(rng):
     """A thin brick with straight edges but no parallel faces, (1, 27, 3)."""
     x, y, z = ElementHex2.doflocs.T
     corner = np.array([2.0 * x, y, 0.2 * z])
@@ -128,7 +128,7 @@ def test_samples_are_green_s_strains_at_the_sites(rng):
     np.testing.assert_allclose(bricks.strain(change)[0], np.concatenate(expected), atol=1e-14)
 
 
-def sites() -> list[np.ndarray]:
+def sites():
     """Where each covariant strain is sampled, (k, 3) in [−1, 1]³: at two points along what locks, else three;
     but the shear in the plane at three, and it is projected."""
     two, three = np.array([-1.0, 1.0]) / np.sqrt(3.0), np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)

@@ -1,13 +1,11 @@
 """Neither thin nor nearly incompressible sheets lock: fixed 8 × 8 meshes beside converged ones; the plot."""
 
-from pathlib import Path
-
 import pytest
 from cases import with_material
 
 import fem_reference
 from comparisons.verification.locking import compose
-from fem_reference.verification import Row, run
+from fem_reference.verification import run
 from fem_reference.verification.locking import POISSON
 from fem_reference.verification.mindlin_plates import deflection
 from fem_reference.verification.rows import relatively
@@ -16,7 +14,7 @@ from sheetbench.scenes import Material
 
 
 @pytest.mark.parametrize("model", ["plate", "shell"])
-def test_thin_to_thick_within_2_percent(model: str) -> None:
+def test_thin_to_thick_within_2_percent(model):
     """h/a from 1e-5 to 0.2."""
     rows = list(run([f"locking-{model}"]))
     assert [row.at["h/a"] for row in rows] == [1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.2]
@@ -25,19 +23,19 @@ def test_thin_to_thick_within_2_percent(model: str) -> None:
 
 
 @pytest.mark.parametrize("poisson", [0.48, 0.4999])
-def test_solid_within_1_percent_at_the_seeds_slenderness(poisson: float) -> None:
+def test_solid_within_1_percent_at_the_seeds_slenderness(poisson):
     """h/a = 3/188."""
     coarse, fine = (deflection("solid", "clamped", 3 / 188, n, poisson) for n in (8, 14))
     assert coarse == pytest.approx(fine, rel=0.01)
 
 
-def test_the_sweeps_are_of_materials_that_there_are() -> None:
+def test_the_sweeps_are_of_materials_that_there_are():
     for ratios in POISSON.values():
         assert [Material(young=1.0, poisson=ratio, density=1.0).poisson for ratio in ratios] == sorted(ratios)
 
 
 @pytest.mark.slow
-def test_solid_within_1_percent_as_it_becomes_incompressible() -> None:
+def test_solid_within_1_percent_as_it_becomes_incompressible():
     """ν = 0.3, 0.48, 0.499, 0.4999 and h/a from 1e-3 to 0.2."""
     rows = list(run(["locking-solid"]))
     assert len(rows) == 20
@@ -46,7 +44,7 @@ def test_solid_within_1_percent_as_it_becomes_incompressible() -> None:
 
 
 @pytest.mark.parametrize("elements", [16, 24])
-def test_stretched_elements_that_bend_stay_stable(elements: int) -> None:
+def test_stretched_elements_that_bend_stay_stable(elements):
     """The soft sheet, whose lowest ω² on all meshes is 110 s⁻²; with the twist k_rs projected on bilinear
     functions too, elements of sides 10 to 20 : 1 gave its tangent a negative eigenvalue from 22 on."""
     scene = scenes.load("one-edge-clamped")
@@ -60,7 +58,7 @@ def test_stretched_elements_that_bend_stay_stable(elements: int) -> None:
 
 
 @pytest.mark.parametrize(("elements", "within"), [(8, 0.03), (16, 2e-3)])
-def test_a_thin_sheet_far_from_flat_does_not_lock(elements: int, within: float) -> None:
+def test_a_thin_sheet_far_from_flat_does_not_lock(elements, within):
     """h/a = 1/627, deflected by 170 h; with the membrane's rs as it stands 0.14 and 1.7e-2 off."""
     scene = scenes.load("two-edges-clamped")
     thin = {"sheet": scene.sheet.model_copy(update={"thickness": 3e-4})}
@@ -71,8 +69,8 @@ def test_a_thin_sheet_far_from_flat_does_not_lock(elements: int, within: float) 
     assert tip == pytest.approx([-7.540e-3, -7.540e-3, -5.0455e-2], abs=within * 5.0455e-2)
 
 
-def test_picture(tmp_path: Path) -> None:
-    def made(model: str, ratio: float, poisson: float) -> Row:
+def test_picture(tmp_path):
+    def made(model, ratio, poisson):
         at = {"h/a": ratio, "ν": poisson}
         return relatively(f"locking-{model}", "w", "8 × 8", 1.0, "finer", 1.001, 0.02, at=at)
 

@@ -3,8 +3,6 @@
 import json
 import re
 from functools import cache
-from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
@@ -15,7 +13,6 @@ from comparisons.verification.answer import Verification
 from fem_reference.verification import (
     CASES,
     Case,
-    Row,
     elliptic_plate,
     heavy_elastica,
     manufactured_solid,
@@ -41,17 +38,17 @@ LIFTED = {load: slit_annulus.PUBLISHED[load] for load in (0.1, 0.25)}
 
 
 @cache
-def rows_of(name: str) -> list[Row]:
+def rows_of(name):
     return list(run([name]))
 
 
-def held(rows: list[Row]) -> None:
+def held(rows):
     assert rows
     assert not [row for row in rows if not row.passed]
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_quick_cases_pass(name: str) -> None:
+def test_quick_cases_pass(name):
     rows = rows_of(name)
     held(rows)
     assert {row.case for row in rows} == {name}
@@ -66,16 +63,14 @@ def test_quick_cases_pass(name: str) -> None:
     ],
     ids=["manufactured-solid", "nafems-le10", "slit-annulus"],
 )
-def test_slow_cases_come_near_on_coarse_meshes(
-    monkeypatch: pytest.MonkeyPatch, case: ModuleType, coarse: dict[str, object]
-) -> None:
+def test_slow_cases_come_near_on_coarse_meshes(monkeypatch, case, coarse):
     for name, value in coarse.items():
         monkeypatch.setattr(case, name, value)
     held(list(case.rows("coarse")))
 
 
 @pytest.mark.slow
-def test_all_cases_pass(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_all_cases_pass(tmp_path, capsys):
     assert command("verify", "--json", "--out", str(tmp_path)) == 0
     rows = json.loads(capsys.readouterr().out)["rows"]
     assert all(row["passed"] for row in rows)
@@ -87,7 +82,7 @@ def test_all_cases_pass(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert {file.name for file in tmp_path.iterdir()} >= {"verification.json", "verification.csv"}
 
 
-def test_values_of_this_project_are_not_called_somebody_else_s() -> None:
+def test_values_of_this_project_are_not_called_somebody_else_s():
     rows = [row for name in QUICK for row in rows_of(name)]
     assert all(row.source for row in rows)
     of = {(row.case, row.quantity.rsplit(", ")[-1]): row.source for row in rows}
@@ -100,7 +95,7 @@ def test_values_of_this_project_are_not_called_somebody_else_s() -> None:
     assert all("this project" in row.source for row in rows if "change from half" in row.quantity)
 
 
-def test_every_value_stands_beside_its_verdict_on_any_terminal() -> None:
+def test_every_value_stands_beside_its_verdict_on_any_terminal():
     rows = [row for name in ("patch", "mindlin-clamped", "nafems-fv16") for row in rows_of(name)]
     for width in (50, 80, 160):
         for table in Verification(rows).by_case():
@@ -109,14 +104,14 @@ def test_every_value_stands_beside_its_verdict_on_any_terminal() -> None:
             assert len(re.findall(r"\b(?:yes|NO)\b", "\n".join(block.rows))) == len(table.rows)
 
 
-def test_the_heavy_elastica_s_values_are_its_equation_s() -> None:
+def test_the_heavy_elastica_s_values_are_its_equation_s():
     """θ'' = −β (1 − s) cos θ in lengths L, θ downwards, β = qL³/EI: five digits by collocation."""
     for load, printed in heavy_elastica.PUBLISHED.items():
 
-        def slope(s: np.ndarray, y: np.ndarray, load: float = load) -> np.ndarray:
+        def slope(s, y, load=load):
             return np.array([y[1], -load * (1.0 - s) * np.cos(y[0]), np.sin(y[0]), np.cos(y[0])])
 
-        def ends(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+        def ends(start, end):
             return np.array([start[0], end[1], start[2], start[3]])
 
         s = np.linspace(0.0, 1.0, 101)
@@ -125,7 +120,7 @@ def test_the_heavy_elastica_s_values_are_its_equation_s() -> None:
         assert (found.y[2, -1], 1.0 - found.y[3, -1]) == pytest.approx(printed, abs=6e-6)
 
 
-def test_the_simply_supported_plate_s_values_are_navier_s_series() -> None:
+def test_the_simply_supported_plate_s_values_are_navier_s_series():
     """w D/(q L⁴) = Σ 16 sin(mπ/2) sin(nπ/2)/(π² m n α²) (1 + α D/κGhL²), α = π²(m² + n²), m and n odd."""
     odd = np.arange(1, 200, 2)
     sign = np.where(odd % 4 == 1, 1.0, -1.0)
@@ -136,7 +131,7 @@ def test_the_simply_supported_plate_s_values_are_navier_s_series() -> None:
         assert term.sum() == pytest.approx(printed, abs=5.1e-6)
 
 
-def test_the_thin_clamped_plate_s_value_is_that_of_a_series() -> None:
+def test_the_thin_clamped_plate_s_value_is_that_of_a_series():
     """Ritz with w = (1 − x²)² (1 − y²)² P_2i(x) P_2j(y) on [−1, 1]², minimising ∫ ½ (Δw)² − w: w(0, 0)/2⁴."""
     x, weight = np.polynomial.legendre.leggauss(40)
     ends = np.polynomial.Polynomial([1.0, 0.0, -1.0]) ** 2
@@ -153,7 +148,7 @@ def test_the_thin_clamped_plate_s_value_is_that_of_a_series() -> None:
     assert deflection == pytest.approx(mindlin_plates.CLAMPED[0.001], abs=5e-8)
 
 
-def test_relative_is_to_the_published_value_or_to_a_length() -> None:
+def test_relative_is_to_the_published_value_or_to_a_length():
     assert relatively("c", "q", "m", -2.0, "A 1900", -2.1, 0.1).relative == pytest.approx(0.05)
     at_zero = relatively("c", "q", "m", 0.0, "A 1900", 0.3, 0.1, scale=12.0)
     assert at_zero.relative == pytest.approx(0.025) and at_zero.passed
@@ -162,7 +157,7 @@ def test_relative_is_to_the_published_value_or_to_a_length() -> None:
     assert not relatively("c", "q", "m", 1.0, "A 1900", float("nan"), 0.1).passed
 
 
-def test_document_has_the_promised_keys(capsys: pytest.CaptureFixture[str]) -> None:
+def test_document_has_the_promised_keys(capsys):
     assert command("verify", "--case", "patch", "--json") == 0
     rows = json.loads(capsys.readouterr().out)["rows"]
     promised = {"case", "quantity", "published", "source", "computed", "relative", "passed"}
@@ -170,9 +165,7 @@ def test_document_has_the_promised_keys(capsys: pytest.CaptureFixture[str]) -> N
     assert {row["relative"] for row in rows} == {None}
 
 
-def test_a_row_that_fails_leaves_with_3(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_row_that_fails_leaves_with_3(monkeypatch, capsys):
     row = relatively("wrong", "w", "one", 1.0, "A 1900", 1.1, 0.05)
     wrong = Case("a wrong one", lambda case: iter([row]))
     monkeypatch.setitem(CASES, "wrong", wrong)
@@ -182,7 +175,7 @@ def test_a_row_that_fails_leaves_with_3(
     assert "NO" in printed.out and f"{right} of {right + 1} rows pass" in printed.out
 
 
-def test_bad_options_leave_with_2(capsys: pytest.CaptureFixture[str]) -> None:
+def test_bad_options_leave_with_2(capsys):
     assert command("verify", "--case", "no-such") == 2
     said = capsys.readouterr().err
     assert (
@@ -193,12 +186,12 @@ def test_bad_options_leave_with_2(capsys: pytest.CaptureFixture[str]) -> None:
     assert "verify --locking: removed; '--case locking-plate" in capsys.readouterr().err
 
 
-def test_unknown_case_is_refused_before_anything_runs() -> None:
+def test_unknown_case_is_refused_before_anything_runs():
     with pytest.raises(ValueError, match="no-such"):
         run(["no-such"])
 
 
-def test_tables_show_a_case_and_mesh_each() -> None:
+def test_tables_show_a_case_and_mesh_each():
     rows = rows_of("patch")
     tables = list(Verification(rows).by_case())
     assert len(tables) == len({(row.case, row.mesh) for row in rows}) and sum(

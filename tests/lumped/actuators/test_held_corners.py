@@ -7,25 +7,25 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
-from sheetbench.scenes import Chain, Clamped, Curved, Gravity, Material, Scene, Sheet, Solution, Status
+from sheetbench.scenes import Chain, Clamped, Curved, Gravity, Material, Scene, Sheet, Status
 
 OWN = 0.05 * 0.188 * 9.81  # N, of a chain
 POINTS = np.random.default_rng(0).uniform(0.0, 0.188, (60, 2))
 
 
-def chain(**asked) -> Chain:
+def chain(**asked):
     data = dict(edge="y0", segments=8, bending_stiffness=0.02, line_density=0.05, radius=1.5e-3)
     return Chain(**{**data, **asked})
 
 
-def scene(supports, *actuators, sheet=SHEET, material=RUBBER, gravity=GRAVITY, **more) -> Scene:
+def scene(supports, *actuators, sheet=SHEET, material=RUBBER, gravity=GRAVITY, **more):
     return Scene(
         name="corner", sheet=sheet, material=material, gravity=gravity, supports=supports,
         actuators=actuators, **more,
     )  # fmt: skip
 
 
-def solve(asked: Scene, model: str, grid=(17, 9)) -> Solution:
+def solve(asked, model, grid=(17, 9)):
     if model == "shell":
         found = fem_reference.solve(asked, model="shell", elements=8)
     else:
@@ -39,7 +39,7 @@ FLOPPY = Material(young=1e6, poisson=0.0, density=1000.0)
 RIGIDITY = 0.02 + 1e6 * 0.01 * 0.002**3 / 12.0  # N·m², of the chain and of the strip, which has 3e-4 of it
 
 
-def cantilever(segments: int, corner: str) -> Scene:
+def cantilever(segments, corner):
     """A chain along a narrow strip that is clamped at its short edge, deflecting by 5e-5 of its length."""
     one = chain(edge="y0", segments=segments, radius=1e-3)
     support = Clamped(edge=corner)
@@ -48,7 +48,7 @@ def cantilever(segments: int, corner: str) -> Scene:
 
 
 @pytest.mark.parametrize(("corner", "tip"), [("x0", (0.2, 0.0)), ("x1", (0.0, 0.0))])
-def test_a_chain_that_starts_at_a_clamp_is_a_cantilever(corner: str, tip: tuple[float, float]) -> None:
+def test_a_chain_that_starts_at_a_clamp_is_a_cantilever(corner, tip):
     """q L⁴/8(EI + EI_strip); the chain's error is that of the trapezoidal rule, 1/segments²."""
     exact = -(1000.0 * 0.01 * 0.002 + 0.05) * 0.01 * 0.2**4 / 8.0 / RIGIDITY
     shell = fem_reference.solve(cantilever(8, corner), model="shell", elements=(16, 1))
@@ -78,7 +78,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_the_coarse_lattice_agrees_with_the_shell(name: str) -> None:
+def test_the_coarse_lattice_agrees_with_the_shell(name):
     """Eight segments; hinged at the corner they were wrong by up to 240 %. Measured 1.0 to 6.3 %."""
     supports, actuators = CASES[name]
     asked = scene(supports, *actuators)
@@ -91,7 +91,7 @@ def test_the_coarse_lattice_agrees_with_the_shell(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["bent", "on a face", "far end", "in space", "two"])
-def test_the_clamp_carries_all_and_the_chain_passes_on_its_weight(name: str) -> None:
+def test_the_clamp_carries_all_and_the_chain_passes_on_its_weight(name):
     """The corner's share counts to the clamp, and to the first segment as the shell counts it."""
     supports, actuators = CASES[name]
     asked = scene(supports, *actuators)

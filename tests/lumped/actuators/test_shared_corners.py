@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
-from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, SceneError, Sheet, Solution, Status
+from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, SceneError, Sheet, Status
 
 WEIGHT = Gravity(acceleration=(0.0, 0.0, -9.81))
 RUBBER = Material(young=20e6, poisson=0.0, density=1200.0)
@@ -14,12 +14,12 @@ WIDE = Sheet(length_x=0.2, length_y=0.1, thickness=0.002)
 SQUARE = Sheet(length_x=0.15, length_y=0.15, thickness=0.002)
 
 
-def chain(edge: str, curvature: float = 5.0, segments: int = 12, **asked) -> Chain:
+def chain(edge, curvature=5.0, segments=12, **asked):
     data = dict(bending_stiffness=3e-3, line_density=0.03, radius=1.5e-3)
     return Chain(edge=edge, curvature=curvature, segments=segments, **{**data, **asked})
 
 
-def scene(sheet: Sheet, *chains: Chain, clamps: tuple[str, ...] = ("x0",), **more) -> Scene:
+def scene(sheet, *chains, clamps=("x0",), **more):
     supports = tuple(Clamped(edge=edge) for edge in clamps)
     return Scene(
         name="shared",
@@ -32,14 +32,14 @@ def scene(sheet: Sheet, *chains: Chain, clamps: tuple[str, ...] = ("x0",), **mor
     )
 
 
-def lattice(asked: Scene, grid: tuple[int, int]) -> Solution:
+def lattice(asked, grid):
     springs = lumped.calibrate(asked.sheet, asked.material, grid=grid, method="consistent")
     found = lumped.solve(asked, springs)
     assert found.status is Status.CONVERGED, found.message
     return found
 
 
-def points(sheet: Sheet) -> np.ndarray:
+def points(sheet):
     return np.random.default_rng(0).uniform(0.0, 1.0, (30, 2)) * (sheet.length_x, sheet.length_y)
 
 
@@ -54,7 +54,7 @@ UNLIKE = {
 
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 @pytest.mark.parametrize("name", UNLIKE)
-def test_the_order_of_the_actuators_makes_no_difference(model: str, name: str) -> None:
+def test_the_order_of_the_actuators_makes_no_difference(model, name):
     """Both models, displacements and what each chain exerts."""
     first, second = (scene(WIDE, *UNLIKE[name][::way]) for way in (1, -1))
     if model == "lumped":
@@ -72,13 +72,13 @@ def test_the_order_of_the_actuators_makes_no_difference(model: str, name: str) -
     [((WIDE, 3.0, "y1", "x1"), [(13, 7), (25, 13)]), ((SQUARE, 5.0, "x1", "y1"), [(13, 13), (25, 25)])],
     ids=["wide", "square"],
 )
-def test_the_lattice_converges_to_the_shell(asked, grids) -> None:
+def test_the_lattice_converges_to_the_shell(asked, grids):
     """A segment a cell. Measured 0.74 and 0.18 %, 1.8 and 0.42 %; without the common director 9.8 and 5.6 %
     on the wide sheet."""
     sheet, curvature, *edges = asked
     at, errors = points(sheet), []
 
-    def with_segments(count: int) -> Scene:
+    def with_segments(count):
         return scene(sheet, *(chain(edge, curvature, count) for edge in edges))
 
     shell = fem_reference.solve(with_segments(12), model="shell", elements=6)
@@ -91,7 +91,7 @@ def test_the_lattice_converges_to_the_shell(asked, grids) -> None:
     assert errors[1] < 0.4 * errors[0]  # of second order
 
 
-def test_a_square_that_is_symmetric_about_its_diagonal_stays_so() -> None:
+def test_a_square_that_is_symmetric_about_its_diagonal_stays_so():
     asked = scene(SQUARE, chain("x1"), chain("y1"), clamps=("x0", "y0"))
     found, at = lattice(asked, (9, 9)), points(SQUARE)
     u, mirrored = found.displacement(at), found.displacement(at[:, ::-1])
@@ -99,7 +99,7 @@ def test_a_square_that_is_symmetric_about_its_diagonal_stays_so() -> None:
 
 
 @pytest.mark.parametrize("planes", [("normal", "normal"), ("inplane", "normal"), ("spatial", "inplane")])
-def test_each_chain_passes_on_its_weight_and_all_forces_balance(planes: tuple[str, str]) -> None:
+def test_each_chain_passes_on_its_weight_and_all_forces_balance(planes):
     chains = [chain(edge, 0.5, plane=plane) for edge, plane in zip(("y1", "x1"), planes, strict=True)]
     found = lattice(scene(WIDE, *chains), (9, 5))
     sheet = 1200.0 * 0.2 * 0.1 * 0.002 * 9.81
@@ -114,7 +114,7 @@ PLANES = ("normal", "inplane", "spatial")
 BASES = ("free", "start", "middle", "end")
 
 
-def test_chains_around_a_sheet_hold_nothing_twice() -> None:
+def test_chains_around_a_sheet_hold_nothing_twice():
     """A constraint that follows from the others would make the equations singular."""
     draw, solved = np.random.default_rng(4), 0
     while solved < 15:
@@ -152,11 +152,11 @@ HELD = {
 
 
 @pytest.mark.parametrize("name", HELD)
-def test_what_holds_at_a_shared_corner_is_what_holds_the_shells_rod(name: str) -> None:
+def test_what_holds_at_a_shared_corner_is_what_holds_the_shells_rod(name):
     """A segment a cell: of second order, and 0.05 to 0.7 % off on 49 × 25 masses. Before, 6 to 400 %."""
     *asked, clamps = HELD[name]
 
-    def chains(grid: tuple[int, int]) -> Scene:
+    def chains(grid):
         own = [
             chain(edge, 0.3 if plane == "inplane" else 3.0, grid[edge[0] == "x"] - 1, plane=plane, base=base)
             for edge, plane, base in asked
@@ -175,7 +175,7 @@ def test_what_holds_at_a_shared_corner_is_what_holds_the_shells_rod(name: str) -
 
 
 @pytest.mark.parametrize("base", ["end", "start"])
-def test_a_base_carries_the_chain_that_ends_where_it_stands(base: str) -> None:
+def test_a_base_carries_the_chain_that_ends_where_it_stands(base):
     """Forces on bases and segments: with the corner's share, and as the shell counts them."""
     corner = {"end": ("y1", "x1"), "start": ("y1", "x0")}[base]
     asked = scene(WIDE, chain(corner[0], 1.0, 24, base=base), chain(corner[1], 1.0), clamps=())
@@ -199,7 +199,7 @@ LOCKED = {
 
 
 @pytest.mark.parametrize("name", LOCKED)
-def test_a_chain_that_is_held_along_itself_twice_is_refused(name: str) -> None:
+def test_a_chain_that_is_held_along_itself_twice_is_refused(name):
     """Lattice and shell were 10 to 400 % apart, and the shell's answer moved with its rods' stiffness."""
     chains, clamps, said = LOCKED[name]
     with pytest.raises(SceneError, match="actuator 1 on edge y1 is held along itself") as refused:
@@ -211,7 +211,7 @@ def test_a_chain_that_is_held_along_itself_twice_is_refused(name: str) -> None:
 @pytest.mark.parametrize(
     "chains", [(chain("y1", 2.0, 4), chain("x1", 2.0, 3)), (chain("y0", 2.0, 8),)], ids=["shared", "clamped"]
 )
-def test_motion_conserves_energy(chains: tuple[Chain, ...]) -> None:
+def test_motion_conserves_energy(chains):
     asked = scene(WIDE, *chains, probes={"A": (0.2, 0.1)})
     springs = lumped.calibrate(WIDE, RUBBER, grid=(5, 3), method="consistent")
     run = lumped.simulate(asked, springs, 0.005, step=5e-5)

@@ -14,7 +14,7 @@ SOFT = Material(young=20e6, poisson=0.0, density=1200.0)
 STIFF_CHAIN = dict(segments=24, bending_stiffness=3e-3, line_density=0.03, radius=1.5e-3)
 
 
-def strip(base: str, curvatures: tuple[float, float], width: float) -> Scene:
+def strip(base, curvatures, width):
     """A strip clamped at x0 with a chain on each long edge, a segment a cell."""
     chains = [
         Chain(edge=edge, base=base, curvature=curvature, **STIFF_CHAIN)
@@ -29,7 +29,7 @@ def strip(base: str, curvatures: tuple[float, float], width: float) -> Scene:
 @pytest.mark.parametrize("base", ["start", "free"])
 @pytest.mark.parametrize("curvatures", [(9.0, 9.0), (9.0, -9.0)], ids=["equal", "antagonistic"])
 @pytest.mark.parametrize(("width", "rows"), [(0.016, 3), (0.1, 13)], ids=["narrow", "wide"])
-def test_the_lattice_agrees_with_the_shell(base, curvatures, width, rows) -> None:
+def test_the_lattice_agrees_with_the_shell(base, curvatures, width, rows):
     asked = strip(base, curvatures, width)
     springs = lumped.calibrate(asked.sheet, asked.material, grid=(25, rows), method="consistent")
     found = lumped.solve(asked, springs)
@@ -40,7 +40,7 @@ def test_the_lattice_agrees_with_the_shell(base, curvatures, width, rows) -> Non
     assert np.abs(found.displacement(points) - truth).max() < 0.01 * np.abs(truth).max()
 
 
-def test_nearly_dependent_constraints_take_a_few_corrections() -> None:
+def test_nearly_dependent_constraints_take_a_few_corrections():
     """Factors of a matrix close by miss three eigenvalues by a factor of 40: plain refinement gains a digit
     in some ninety steps, minimal residuals take a step for each."""
     draw = np.random.default_rng(0)
@@ -52,7 +52,7 @@ def test_nearly_dependent_constraints_take_a_few_corrections() -> None:
     matrix, b = sp.csc_array(own @ np.diag(eigenvalues) @ own.T), draw.standard_normal(n)
     calls = []
 
-    def solve(right: np.ndarray) -> np.ndarray:
+    def solve(right):
         calls.append(1)
         return own @ ((own.T @ right) / close_by)
 

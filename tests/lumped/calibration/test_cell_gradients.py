@@ -11,15 +11,13 @@ from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.report import report
-from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet
 from studies.transfer.scenes import transfer_scenes
 
 YOUNG, THICKNESS = 1e6, 1e-3
 
 
-def one_cell(
-    gradients: bool, poisson: float, sides: tuple[float, float]
-) -> tuple[Assembly, moduli.Moduli, SpringSet]:
+def one_cell(gradients, poisson, sides):
     """A cell of these sides, the sheet's moduli and its springs."""
     sheet = Sheet(length_x=sides[0], length_y=sides[1], thickness=THICKNESS)
     material = Material(young=YOUNG, poisson=poisson, density=1.0)
@@ -29,7 +27,7 @@ def one_cell(
     return Assembly(sheet, report("test", sheet, material, (2, 2, 2), springs)), asked, springs
 
 
-def cost_of_bending_in_plane(gradients: bool, poisson: float, axis: int, sides: tuple[float, float]) -> float:
+def cost_of_bending_in_plane(gradients, poisson, axis, sides):
     """Energy of one cell under ε = χ (place across) along an axis, over a beam's, E h χ² b³ l/24."""
     bend = 1e-4
     assembly = one_cell(gradients, poisson, sides)[0]
@@ -43,7 +41,7 @@ def cost_of_bending_in_plane(gradients: bool, poisson: float, axis: int, sides: 
 
 @pytest.mark.parametrize("axis", [0, 1])
 @pytest.mark.parametrize("poisson", [-0.1, 0.0, 0.3, 0.48])
-def test_a_cell_bends_in_its_plane_as_a_beam_does(poisson: float, axis: int) -> None:
+def test_a_cell_bends_in_its_plane_as_a_beam_does(poisson, axis):
     """But for the thickness, which masses shared by cells cannot change with the strain (up to a percent)."""
     square = (0.1, 0.1)
     assert cost_of_bending_in_plane(True, poisson, axis, square) == pytest.approx(1.0, abs=0.015)
@@ -52,7 +50,7 @@ def test_a_cell_bends_in_its_plane_as_a_beam_does(poisson: float, axis: int) -> 
 
 @pytest.mark.parametrize("poisson", [0.0, 0.48])
 @pytest.mark.parametrize("sides", [(0.1, 0.15), (0.3, 0.1)])
-def test_an_oblong_cell_costs_no_more_in_either_direction(sides: tuple[float, float], poisson: float) -> None:
+def test_an_oblong_cell_costs_no_more_in_either_direction(sides, poisson):
     """One layer distance for both: the sides of one direction carry a third, of the other less."""
     costs = [cost_of_bending_in_plane(True, poisson, axis, sides) for axis in (0, 1)]
     assert max(costs) == pytest.approx(1.0, abs=0.015) and min(costs) > 0.4
@@ -60,13 +58,13 @@ def test_an_oblong_cell_costs_no_more_in_either_direction(sides: tuple[float, fl
 
 @pytest.mark.parametrize("gradients", [False, True])
 @pytest.mark.parametrize("poisson", [0.0, 0.48])
-def test_a_cell_bent_to_an_arc_is_too_soft_by_what_is_derived(gradients: bool, poisson: float) -> None:
+def test_a_cell_bent_to_an_arc_is_too_soft_by_what_is_derived(gradients, poisson):
     """In θ², chord and columns free to change: by chord, diagonals and columns, of a cell 20 h long."""
     side = 20.0 * THICKNESS
     assembly, asked, springs = one_cell(gradients, poisson, (side, side))
     at, turn, distance = assembly.lattice.positions, 0.2, springs.layer_distance
 
-    def energy(free: np.ndarray) -> float:
+    def energy(free):
         chord, column = side * (1.0 + 1e-4 * free[0]), distance * (1.0 + 1e-2 * free[1])
         ahead, above = np.sign(at[:, 0] - side / 2.0), np.sign(at[:, 2] - at[:, 2].mean())
         tilt = ahead * turn / 2.0
@@ -84,7 +82,7 @@ def test_a_cell_bent_to_an_arc_is_too_soft_by_what_is_derived(gradients: bool, p
 
 
 @pytest.mark.parametrize("poisson", [0.0, 0.24, 0.48])
-def test_bending_is_as_it_was(poisson: float) -> None:
+def test_bending_is_as_it_was(poisson):
     """The linear answer of a sheet that bends is that of `consistent`, whatever ν."""
     scene = transfer_scenes()["two-edges-linear"]
     sheet, material = scene.sheet, scene.material.model_copy(update={"poisson": poisson})
@@ -100,7 +98,7 @@ def test_bending_is_as_it_was(poisson: float) -> None:
 @pytest.mark.parametrize(
     "name, before, held", [("curved-edge", 0.033, 0.007), ("tenth-of-young", 0.034, 0.007)]
 )
-def test_coarse_grids_follow_layers_at_the_edges(name: str, before: float, held: float) -> None:
+def test_coarse_grids_follow_layers_at_the_edges(name, before, held):
     """9 × 9 masses against the shell, of the largest displacement: `before` with all that links can take."""
     scene = transfer_scenes()[name]
     side = np.linspace(0.0, scene.sheet.length_x, 5)

@@ -1,7 +1,6 @@
 """The calibration of links alone: what its table stands on, what it meets, how much nearer than `cauchy`."""
 
 import csv
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,14 +13,13 @@ from lumped.calibration.central import coefficients
 from lumped.calibration.central_table import ROWS
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene
 from sheetbench.scenes.toml import to_toml
 from studies.central.training import POINTS, bent_scenes
 
 SEED = scenes.load("two-edges-clamped")
 
 
-def test_every_row_halves_what_cauchys_moduli_err() -> None:
+def test_every_row_halves_what_cauchys_moduli_err():
     rows = np.array([row for row in ROWS if row[0] not in (0.3333,)])
     assert np.all(rows[:, 4] < 0.56 * rows[:, 6])
     assert coefficients(1.0 / 3.0) == pytest.approx([1.0, 1.0 / 3.0, 1.0, 0.0, 0.0, 0.0], abs=1e-3)
@@ -29,7 +27,7 @@ def test_every_row_halves_what_cauchys_moduli_err() -> None:
 
 @pytest.mark.parametrize("poisson", [0.0, 1.0 / 3.0, 0.48])
 @pytest.mark.parametrize("grid", [(5, 5), (9, 13), (33, 33)])
-def test_moduli_are_those_of_the_table(poisson: float, grid: tuple[int, int]) -> None:
+def test_moduli_are_those_of_the_table(poisson, grid):
     material = with_material(SEED, poisson=poisson).material
     found = lumped.calibrate(SEED.sheet, material, grid, "central")
     a, b, c, *_ = coefficients(poisson)
@@ -47,26 +45,26 @@ def test_moduli_are_those_of_the_table(poisson: float, grid: tuple[int, int]) ->
     assert any("worst of the training scenes" in note for note in found.remarks)
 
 
-def test_long_cells_keep_nonnegative_links() -> None:
+def test_long_cells_keep_nonnegative_links():
     springs = lumped.calibrate(SEED.sheet, SEED.material, (9, 25), "central").springs
     assert springs.axial.x == 0.0 and springs.axial.y > 0.0 and springs.diagonal > 0.0
     with pytest.raises(BadInput, match="3 layers need cells as small"):
         lumped.calibrate(SEED.sheet, SEED.material, (9, 9, 3), "central")
 
 
-def test_the_lattice_errs_half_as_much_as_cauchys_on_the_scenes_that_bend() -> None:
+def test_the_lattice_errs_half_as_much_as_cauchys_on_the_scenes_that_bend():
     chosen = ("clamped all round", "two opposite edges hinged", "a force at the free corner")
     posed = [bent_scenes()[name] for name in chosen]
     truths = [fem_reference.solve(scene, "plate", elements=6).displacement(POINTS) for scene in posed]
 
-    def worst(method: str) -> float:
+    def worst(method):
         springs = lumped.calibrate(SEED.sheet, SEED.material, 9, method)
         return max(_error(scene, springs, truth) for scene, truth in zip(posed, truths, strict=True))
 
     assert worst("central") < 0.1 and worst("central") < 0.65 * worst("cauchy")
 
 
-def test_links_alone_go_into_scenes_and_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_links_alone_go_into_scenes_and_files(tmp_path, capsys):
     folder = tmp_path / "lattice"
     asked = ["two-edges-clamped", "--grid", "5", "--method", "central"]
     assert run("calibrate", *asked, "--export", str(folder), "--toml") == 0
@@ -79,6 +77,6 @@ def test_links_alone_go_into_scenes_and_files(tmp_path: Path, capsys: pytest.Cap
     np.testing.assert_allclose(again.displacement(POINTS), before.displacement(POINTS), rtol=1e-9)
 
 
-def _error(scene: Scene, springs: lumped.Calibration, truth: np.ndarray) -> float:
+def _error(scene, springs, truth):
     found = lumped.solve(scene, springs).displacement(POINTS)
     return float(np.abs(found - truth).max() / np.abs(truth).max())

@@ -23,7 +23,7 @@ NONLINEAR = np.array(
 ) * 1e-3  # fmt: skip
 
 
-def factor(cells: int, both: bool) -> float:
+def factor(cells, both):
     sheet, material = SEED.sheet, SEED.material
     width = sheet.length_x / cells
     rigidity = material.young * sheet.thickness**3 / 12 / (1 - material.poisson**2)
@@ -38,24 +38,24 @@ def factor(cells: int, both: bool) -> float:
 @pytest.mark.parametrize(
     "cells, expected", [(8, 1.0147), (16, 0.9806), (32, 0.9277), (64, 0.8576), (128, 0.7740)]
 )
-def test_factors_of_the_seeds_sheet(cells: int, expected: float) -> None:
+def test_factors_of_the_seeds_sheet(cells, expected):
     """As an independent prototype found them; opposite edges do not feel each other on a wide strip."""
     assert factor(cells, both=False) == pytest.approx(expected, abs=1e-4)
     assert factor(cells, both=True) == pytest.approx(factor(cells, both=False), abs=1e-4)
 
 
-def test_a_half_strip_up_to_its_plane_of_symmetry_has_the_whole_strips_factor() -> None:
+def test_a_half_strip_up_to_its_plane_of_symmetry_has_the_whole_strips_factor():
     width, args = 0.01, (0.02, 600.0, 0.3, 5e-3)
     half, whole = edge_factor(3, width, *args, both=False), edge_factor(6, width, *args, both=True)
     assert half is not None and half == pytest.approx(whole, rel=1e-12)
 
 
-def test_a_strip_that_only_rounding_holds_has_no_factor() -> None:
+def test_a_strip_that_only_rounding_holds_has_no_factor():
     """It ended in an error of the linear algebra: layers three metres apart shear without resistance."""
     assert edge_factor(3, 0.01, 0.02, 1e-17, 0.3, 5e-3, both=True) is None
 
 
-def error(masses: int, linear: bool, method: str = "consistent") -> float:
+def error(masses, linear, method="consistent"):
     """Worst of the probes' components, of the largest displacement there."""
     springs = lumped.calibrate(SEED.sheet, SEED.material, masses, method)
     found = lumped.solve(SEED, springs, linear=linear).displacement(SEED.probe_points())
@@ -71,7 +71,7 @@ SLOW = pytest.param(65, False, "consistent", 3e-4, marks=pytest.mark.slow)
     [*((n, False, "consistent", e) for n, e in ((9, 5e-3), (17, 2e-3), (33, 6e-4))), SLOW,
      (9, False, "consistent-oblique", 3e-3), (9, True, "consistent", 4e-3)],
 )  # fmt: skip
-def test_the_error_on_test_1(masses: int, linear: bool, method: str, held: float) -> None:
+def test_the_error_on_test_1(masses, linear, method, held):
     """0.444, 0.171, 0.043, 0.005; 0.26; 0.30 %."""
     assert error(masses, linear, method) < held
 
@@ -80,7 +80,7 @@ def test_the_error_on_test_1(masses: int, linear: bool, method: str, held: float
     "method, held, order",
     [("consistent", (1.5e-3, 5e-4, 2e-4), 1.75), ("consistent-oblique", (1.3e-3, 3.5e-4, 8e-5), 1.8)],
 )
-def test_the_order_on_test_1(method: str, held: tuple[float, ...], order: float) -> None:
+def test_the_order_on_test_1(method, held, order):
     """Linear: 0.114, 0.035, 0.0096 % and 0.120, 0.031, 0.006 % at 17, 33 and 65 masses a side, where the
     interior's springs alone stall at 0.2 to 0.3 %. `consistent` reaches second order from below: what
     multiplies l² depends on S*/κGh, which is 0.55, 0.83 and 0.95 (test_oblique_waves.py)."""
@@ -94,7 +94,7 @@ def test_the_order_on_test_1(method: str, held: tuple[float, ...], order: float)
     "slenderness, method",
     [*((h, "consistent") for h in (0.01, 0.025, 0.1, 0.25, 0.3)), (0.1, "consistent-oblique")],
 )
-def test_torsion_of_a_strip(masses: int, slenderness: float, method: str) -> None:
+def test_torsion_of_a_strip(masses, slenderness, method):
     """Saint-Venant's b h³/3 (1 − 0.63 h/b), whose 0.63 is rounded: 0.1 % of h/b = 0.3."""
     length, width, force = 1.2, 0.12, 1e-9
     sheet = Sheet(length_x=length, length_y=width, thickness=slenderness * width)
@@ -111,7 +111,7 @@ def test_torsion_of_a_strip(masses: int, slenderness: float, method: str) -> Non
     assert rate == pytest.approx(force * width / (modulus * constant), rel=2e-3)
 
 
-def test_membrane_and_bending_are_untouched() -> None:
+def test_membrane_and_bending_are_untouched():
     """The edge's springs do nothing when layers stretch alike, nor in cylindrical bending."""
     springs = lumped.calibrate(SEED.sheet, SEED.material, (5, 5), "consistent")
     every = frozenset({"x0", "x1", "y0", "y1"})

@@ -7,7 +7,7 @@ import pytest
 
 import lumped
 from lumped.assembly import Assembly
-from sheetbench.scenes import Clamped, Material, Sheet, load
+from sheetbench.scenes import Clamped, load
 
 SEED = load("two-edges-clamped")
 # uz [m] at the centre of the seed's sheet with four edges clamped, linear, by a Mindlin plate of 48 graded
@@ -15,20 +15,20 @@ SEED = load("two-edges-clamped")
 CENTRE = -0.00049324826
 
 
-def rigidities(sheet: Sheet, material: Material) -> tuple[float, float]:
+def rigidities(sheet, material):
     """D [N·m] and κGh [N/m] of the sheet."""
     bending = material.young * sheet.thickness**3 / 12.0 / (1.0 - material.poisson**2)
     return bending, 5.0 / 6.0 * material.young / 2.0 / (1.0 + material.poisson) * sheet.thickness
 
 
-def softness(sheet: Sheet, material: Material, cell: float) -> float:
+def softness(sheet, material, cell):
     """3ν − 1 + 2 S*/κGh: the stiffness against a wave at the angle θ to the grid is too small by this times
     sin² 2θ (q l)²/48 (docs/theory.md)."""
     bending, sheared = rigidities(sheet, material)
     return 3.0 * material.poisson - 1.0 + 2.0 / (1.0 + sheared * cell**2 / (12.0 * bending))
 
 
-def stiffness_of_wave(sheet: Sheet, springs: lumped.Calibration, wave: np.ndarray) -> float:
+def stiffness_of_wave(sheet, springs, wave):
     """Load over deflection [N/m³] of a wave [1/m] that a boundless lattice of these springs carries."""
     masses = springs.grid[0]
     assembly = Assembly(sheet, springs, twisting=frozenset())
@@ -49,7 +49,7 @@ def stiffness_of_wave(sheet: Sheet, springs: lumped.Calibration, wave: np.ndarra
 
 @pytest.mark.parametrize("poisson", [0.1, 0.48])
 @pytest.mark.parametrize("thickness", [0.0005, 0.003, 0.03])
-def test_error_of_an_oblique_wave(thickness: float, poisson: float) -> None:
+def test_error_of_an_oblique_wave(thickness, poisson):
     """At q l = 0.1 the next term, in (q l)⁴, and rounding are 1e-6. Along an axis there is no error in l²."""
     sheet = SEED.sheet.model_copy(update={"thickness": thickness})
     material = SEED.material.model_copy(update={"poisson": poisson})
@@ -66,7 +66,7 @@ def test_error_of_an_oblique_wave(thickness: float, poisson: float) -> None:
             assert error == pytest.approx(expected, rel=0.01, abs=2e-6)
 
 
-def clamped_all_round(method: str, grids: tuple[int, ...]) -> list[float]:
+def clamped_all_round(method, grids):
     """By how much the seed's sheet with four edges clamped sags too much at its centre, linear."""
     scene = SEED.replace(supports=tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1")))
     calibrations = (lumped.calibrate(scene.sheet, scene.material, n, method) for n in grids)
@@ -74,7 +74,7 @@ def clamped_all_round(method: str, grids: tuple[int, ...]) -> list[float]:
     return [float(answer.displacement(np.array([[0.094, 0.094]]))[0, 2]) / CENTRE - 1.0 for answer in found]
 
 
-def test_order_of_a_sheet_whose_edges_leave_no_error() -> None:
+def test_order_of_a_sheet_whose_edges_leave_no_error():
     """With four edges clamped all that is left is the interior's: 0.272, 0.112, 0.038 % too soft at 17, 33
     and 65 masses a side. As S*/κGh rises from 0.23 to 0.83 between them, the orders are 1.28 and 1.57, not 2:
     those of the closed form, but for the next power of l; to 129 masses 1.83."""
@@ -88,7 +88,7 @@ def test_order_of_a_sheet_whose_edges_leave_no_error() -> None:
     assert 0.0 < errors[-1] < 4e-4
 
 
-def test_without_the_interiors_error() -> None:
+def test_without_the_interiors_error():
     """The same sheet by `consistent-oblique`: 0.172, 0.0126, 0.0018 % at 9, 17 and 33 masses a side."""
     errors = clamped_all_round("consistent-oblique", (9, 17, 33))
     assert all(abs(found) < held for found, held in zip(errors, (2e-3, 1.5e-4, 2.5e-5), strict=True))

@@ -20,7 +20,7 @@ from sheetbench.scenes import Clamped, Held, Material, Motion, PerDirection, Rel
 BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
 
 
-def pulled(material: Material, by: float, within: float) -> Scene:
+def pulled(material, by, within):
     """A strip whose end is pulled and then held."""
     pull = Motion(time=(0.0, within), displacement=((0.0, 0.0, 0.0), (by, 0.0, 0.0)))
     supports = (Clamped("x0"), Held("x1", ("x", "y", "z"), motion=pull))
@@ -28,7 +28,7 @@ def pulled(material: Material, by: float, within: float) -> Scene:
 
 
 @pytest.mark.parametrize("name", ["generalised-alpha", "esdirk"])
-def test_a_held_strain_relaxes_as_its_prony_series(name: str) -> None:
+def test_a_held_strain_relaxes_as_its_prony_series(name):
     """A strip of next to no mass, beside its own force at rest: R = R∞ (1 + Σ a g e^(−(t−T)/τ)), g of the
     ramp. Generalised-α damps what rings by then; midpoint and verlet, held to esdirk below, never do."""
     ramp = 0.01
@@ -44,7 +44,7 @@ def test_a_held_strain_relaxes_as_its_prony_series(name: str) -> None:
 
 
 @pytest.mark.parametrize("law", [None, "neo-hookean"])
-def test_the_tangent_is_the_forces_derivative(law: str | None) -> None:
+def test_the_tangent_is_the_forces_derivative(law):
     """In a step at large strain, with stresses left from the steps before."""
     strip = pulled(Material(1e6, 0.4, 1e3, damping_time=1e-3, law=law, relaxation=BRANCHES), 0.01, 0.01)
     lattice = lumped.calibrate(strip.sheet, strip.material, (3, 3), "hyperelastic" if law else "consistent")
@@ -60,7 +60,7 @@ def test_the_tangent_is_the_forces_derivative(law: str | None) -> None:
     assert found == pytest.approx((sides[0] - sides[1]) / 2e-7, abs=1e-6 * np.abs(found).max())
 
 
-def test_integrators_agree_and_keep_their_energy_in_books() -> None:
+def test_integrators_agree_and_keep_their_energy_in_books():
     """Each within its own error of esdirk's fifth order; branches only take energy."""
     asked = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
     exact = lumped.simulate(asked, springs(asked), 0.2, integrator="esdirk", error=1e-7, every=0.01)
@@ -74,7 +74,7 @@ def test_integrators_agree_and_keep_their_energy_in_books() -> None:
 
 
 @pytest.mark.parametrize("name", ["esdirk", "verlet"])
-def test_a_relaxing_sheet_moves_as_the_shell(name: str) -> None:
+def test_a_relaxing_sheet_moves_as_the_shell(name):
     asked = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
     shell = fem_reference.simulate(asked, "shell", 0.2, elements=4, every=0.01, error=1e-4)
     run = lumped.simulate(asked, springs(asked, 9), 0.2, integrator=name, every=0.01)
@@ -84,7 +84,7 @@ def test_a_relaxing_sheet_moves_as_the_shell(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["esdirk", "generalised-alpha", "midpoint", "verlet"])
-def test_rubber_is_pulled_by_half_with_its_energy_in_books(name: str) -> None:
+def test_rubber_is_pulled_by_half_with_its_energy_in_books(name):
     """With branches; with dampers: test_neo_hookean.py."""
     material = Material(1e6, 0.45, 1e3, damping_rate=200.0, law="neo-hookean", relaxation=BRANCHES)
     strip = pulled(material, 0.05, 0.05)
@@ -97,7 +97,7 @@ def test_rubber_is_pulled_by_half_with_its_energy_in_books(name: str) -> None:
     assert run.energies["dissipated"][-1] > 0.1 * elastic
 
 
-def test_what_takes_no_branches_says_so() -> None:
+def test_what_takes_no_branches_says_so():
     asked = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
     with pytest.raises(scenes.BadInput, match="precision = 'single': takes no Maxwell branches"):
         lumped.simulate(asked, springs(asked, 3), 0.01, precision="single")
@@ -108,7 +108,7 @@ def test_what_takes_no_branches_says_so() -> None:
 
 
 @pytest.mark.parametrize("damped", [{"frequency": 6.0}, {"band": (1.0, 60.0)}])
-def test_modes_ring_down_at_their_poles(damped: dict) -> None:
+def test_modes_ring_down_at_their_poles(damped):
     """The first six of a lattice, let go alone and small, within 1 % of ζ."""
     asked = scenes.load("one-edge-clamped").replace(gravity=None, loss_factor=0.12, **damped)
     found = lumped.modes(asked, springs(asked), 6, "gregory")

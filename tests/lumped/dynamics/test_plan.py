@@ -8,7 +8,7 @@ from lumped.dynamics.runs.plan import Plan, plan_run
 
 
 @pytest.mark.parametrize("periods", [0.1, 3.0])
-def test_the_lowest_period_has_a_hundred_samples(periods: float) -> None:
+def test_the_lowest_period_has_a_hundred_samples(periods):
     asked = scene()
     calibration = springs(asked, 3)
     period = 1.0 / lumped.modes(asked, calibration, 1, calibration.masses).frequencies[0]
@@ -18,7 +18,7 @@ def test_the_lowest_period_has_a_hundred_samples(periods: float) -> None:
     assert plan.every == pytest.approx(period / 100, rel=1e-9)
 
 
-def test_frames_are_the_first_and_the_last_sample_and_evenly_between() -> None:
+def test_frames_are_the_first_and_the_last_sample_and_evenly_between():
     """A run that is made longer goes on with them at their distance, to its own last sample at most."""
     plan = Plan(samples=10, every=1e-3, steps=1, adapts=False, first=10)
     assert plan.shown(0) == [] and plan.shown(1) == [0] and plan.shown(2) == [0, 10]

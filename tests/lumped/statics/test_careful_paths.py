@@ -16,7 +16,7 @@ from fem_reference.solving.structure import Structure
 from lumped.statics import solver
 from lumped.statics.continuation import trace
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Solution, Status
+from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status
 
 STRIP = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
 SOFT = Material(young=5e6, poisson=0.0, density=1100.0)
@@ -27,12 +27,12 @@ COLUMN = Scene(
 )  # fmt: skip
 
 
-def elastica_tip() -> np.ndarray:
+def elastica_tip():
     """Displacement (ux, uz) [m] of the tip, bent up: E I θ'' = −P sin θ − q cos θ, θ(0) = 0, θ'(a) = 0."""
     rigidity, length = 5e6 * 0.001**3 / 12.0, 0.2
 
-    def end(curvature: float) -> np.ndarray:
-        def slopes(_: float, y: np.ndarray) -> list[float]:
+    def end(curvature):
+        def slopes(_, y):
             turn = -(PRESS * np.sin(y[0]) + ACROSS * np.cos(y[0])) / rigidity
             return [y[1], turn, np.cos(y[0]), np.sin(y[0])]
 
@@ -43,7 +43,7 @@ def elastica_tip() -> np.ndarray:
 
 
 @pytest.mark.parametrize("model", ["lumped", "shell"])
-def test_a_column_bends_the_way_it_is_pushed(model) -> None:
+def test_a_column_bends_the_way_it_is_pushed(model):
     if model == "lumped":
         springs = lumped.calibrate(STRIP, SOFT, grid=(33, 3), method="consistent")
         found = lumped.solve(COLUMN, springs)
@@ -55,7 +55,7 @@ def test_a_column_bends_the_way_it_is_pushed(model) -> None:
     np.testing.assert_allclose(tip, elastica_tip(), atol=5e-3 * 0.148)
 
 
-def test_a_fold_that_large_steps_jump_over_is_told_with_its_load() -> None:
+def test_a_fold_that_large_steps_jump_over_is_told_with_its_load():
     """Where arc-length continuation finds it."""
     sheet = Sheet(length_x=0.15, length_y=0.15, thickness=0.002)
     material = Material(young=1e7, poisson=0.45, density=1200.0)
@@ -84,17 +84,17 @@ class Bistable(Structure[np.ndarray, Sizes]):
 
     symmetric: bool = True
 
-    def rest(self) -> np.ndarray:
+    def rest(self):
         return np.zeros(2)
 
-    def forces(self, state: np.ndarray, load_factor: float) -> Sizes:
+    def forces(self, state, load_factor):
         x, y = state
         return Sizes(np.array([x + x**3 - 2.0 * load_factor, -y]))
 
-    def imbalance(self, state: np.ndarray, forces: Sizes) -> float:
+    def imbalance(self, state, forces):
         return float(np.abs(forces.residual).max())
 
-    def gap(self, state: np.ndarray, load_factor: float) -> float:
+    def gap(self, state, load_factor):
         return 0.0
 
     def system(self, state, forces, load_factor, mixed=True):
@@ -103,11 +103,11 @@ class Bistable(Structure[np.ndarray, Sizes]):
     def advance(self, state, forces, load_factor, step):
         return state + step
 
-    def length(self, start: np.ndarray, end: np.ndarray) -> float:
+    def length(self, start, end):
         return float(np.abs(end - start).max())
 
 
-def test_what_is_unstable_at_rest_is_followed_in_long_steps() -> None:
+def test_what_is_unstable_at_rest_is_followed_in_long_steps():
     """The careful path begins with the eigenvalues that are negative there, and loses no stability."""
     path = equilibrium.trace(Bistable(), DirectSolver())
     assert path.status is Status.UNSTABLE and path.load_factor == 1.0
@@ -117,7 +117,7 @@ def test_what_is_unstable_at_rest_is_followed_in_long_steps() -> None:
     assert path.factorisations < 50
 
 
-def pulled(force: float, along: int = 2) -> Scene:
+def pulled(force, along=2):
     """A sheet pulled by its far edge [N/m]; straight up it bends by a quarter turn, and nothing folds."""
     pull = tuple(force * np.eye(3)[along])
     return Scene(
@@ -127,7 +127,7 @@ def pulled(force: float, along: int = 2) -> Scene:
     )  # fmt: skip
 
 
-def solve(scene: Scene, model: str) -> Solution:
+def solve(scene, model):
     if model == "shell":
         return fem_reference.solve(scene, model="shell", elements=4)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 9), method="consistent")
@@ -136,7 +136,7 @@ def solve(scene: Scene, model: str) -> Solution:
 
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 @pytest.mark.parametrize("force", [300.0, 3000.0])
-def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force, model) -> None:
+def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force, model):
     """And tells of none where there is none, however small the share of the load that a step is."""
     scene = pulled(force)
     looked = solve(scene, model)
@@ -148,7 +148,7 @@ def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force, model) 
     np.testing.assert_allclose(looked.displacement(at), plain.displacement(at), atol=1e-8)
 
 
-def test_strains_that_the_springs_have_no_meaning_at_are_not_followed_for_long() -> None:
+def test_strains_that_the_springs_have_no_meaning_at_are_not_followed_for_long():
     """Before, 522 factorisations where the path had taken 25."""
     found = solve(pulled(5e4, along=0), "lumped")
     assert found.status is Status.STRAIN_OUTSIDE_MODEL
@@ -156,7 +156,7 @@ def test_strains_that_the_springs_have_no_meaning_at_are_not_followed_for_long()
 
 
 @pytest.mark.parametrize("model", ["lumped", "shell"])
-def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, model) -> None:
+def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, model):
     monkeypatch.setattr(equilibrium if model == "shell" else solver, "worth", lambda *_: 20)
     found = solve(pulled(300.0), model)
     assert found.status is Status.CONVERGED and found.load_factor == 1.0

@@ -1,7 +1,5 @@
 """Rigid segments longer than the cells of the grid: what they keep back, as it is said before and after."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from commands import json_of
@@ -9,10 +7,10 @@ from commands import json_of
 import fem_reference
 import lumped
 from lumped.statics.polygon import lost_bending
-from sheetbench.scenes import Scene, Solution, load
+from sheetbench.scenes import load
 
 
-def scene(young: float, segments: int) -> Scene:
+def scene(young, segments):
     """The catalogue's actuated edge without weight, of a material and with so many segments."""
     base = load("actuated-edge")
     chain = base.actuators[0].replace(segments=segments)
@@ -20,14 +18,14 @@ def scene(young: float, segments: int) -> Scene:
     return base.replace(material=material, actuators=(chain,), gravity=None)
 
 
-def bending(asked: Scene, solution: Solution) -> float:
+def bending(asked, solution):
     """Mean curvature [1/m] of the edge with the chain."""
     y = np.linspace(0.0, asked.sheet.length_y, 33)
     edge = np.column_stack([np.full_like(y, asked.sheet.length_x), y])
     return 2.0 * float(np.polyfit(y, solution.displacement(edge)[:, 2], 2)[0])
 
 
-def bent(asked: Scene, cells: int) -> float:
+def bent(asked, cells):
     """The same of a lattice of square cells, so many along the edge; the sentence stands where it should."""
     across = round(cells * asked.sheet.length_x / asked.sheet.length_y)
     solution = lumped.solve(asked, lumped.calibrate(asked.sheet, asked.material, (across + 1, cells + 1, 2)))
@@ -48,8 +46,8 @@ def bent(asked: Scene, cells: int) -> float:
     ],
 )
 def test_lost_bending_is_foretold_within_a_factor_of_one_and_a_half(
-    young: float, length: float, curvature: float, stiffness: float, cells: int, segments: int
-) -> None:
+    young, length, curvature, stiffness, cells, segments
+):
     """Against the same grid with a segment a cell: 2.4, 7.7, 32, 6.8, 5.3 and 11 % of the bending; the last
     two chains are none of those that the law was fitted to."""
     asked = scene(young, segments)
@@ -61,14 +59,14 @@ def test_lost_bending_is_foretold_within_a_factor_of_one_and_a_half(
     assert 1.0 / 1.52 < foretold / measured < 1.52
 
 
-def test_against_the_elastic_rod() -> None:
+def test_against_the_elastic_rod():
     """The shell's, which knows no segments."""
     asked = scene(545e6, 4)
     rod = bending(asked, fem_reference.solve(asked, "shell", elements=8))
     assert lost_bending(asked, (17, 17, 2))["x1"] == pytest.approx(1.0 - bent(asked, 16) / rod, rel=0.15)
 
 
-def test_it_is_said_before_solving(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_it_is_said_before_solving(tmp_path, capsys):
     path = tmp_path / "chain.toml"
     scene(545e6, 4).save(path)
     for verb, key in (("check", "foretold"), ("calibrate", "notes")):
@@ -76,7 +74,7 @@ def test_it_is_said_before_solving(tmp_path: Path, capsys: pytest.CaptureFixture
         assert said.startswith("the chain on x1 bends it some 16 % less than an elastic rod would")
 
 
-def test_one_segment_a_cell_keeps_nothing_back() -> None:
+def test_one_segment_a_cell_keeps_nothing_back():
     asked = scene(545e6, 8)
     springs = lumped.calibrate(asked.sheet, asked.material, 9)
     solution = lumped.solve(asked, springs)

@@ -3,8 +3,7 @@
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import pytest
@@ -39,7 +38,7 @@ ROWS = [
 ]
 
 
-def compose(answer: "Pair", style: object) -> Figure:
+def compose(answer, style):
     if not answer.drawn:
         raise NoPicture("nothing moves")
     figure = Figure()
@@ -54,17 +53,17 @@ class Pair(Answer):
     file_name = "pair"
     drawn: bool = True
 
-    def document(self) -> dict[str, Any]:
+    def document(self):
         return {"rows": len(ROWS)}
 
-    def tables(self) -> tuple[Table, ...]:
+    def tables(self):
         return (Table.of(Row, ROWS, "Rows", "rows"), Table.of(Row, 9 * ROWS, "Many", "many"))
 
-    def figures(self) -> tuple[Picture, ...]:
+    def figures(self):
         return (Picture("line", f"{__name__}:compose", (self,), formats=("svg",)),)
 
 
-def test_columns_are_those_of_the_fields() -> None:
+def test_columns_are_those_of_the_fields():
     table = Table.of(Row, ROWS, "Rows", "rows")
     head = ["model", "grid", "ux [mm]", "uz [mm]", "off by [%]", "front", "steps"]
     assert [column.header(shown=True) for column in table.columns] == head
@@ -76,7 +75,7 @@ def test_columns_are_those_of_the_fields() -> None:
     assert "steps" not in table.to_latex() and "steps" in table.to_markdown()
 
 
-def test_fields_are_chosen_left_out_and_properties_may_be_columns() -> None:
+def test_fields_are_chosen_left_out_and_properties_may_be_columns():
     chosen = Table.of(Row, ROWS, "", fields=("twice", "model"))
     assert [c.name for c in chosen.columns] == ["twice", "model"] and chosen.rows[0] == (6, "a")
     left = Table.of(Row, ROWS, "", without=("moved", "grid"), details=("error",))
@@ -91,7 +90,7 @@ def test_fields_are_chosen_left_out_and_properties_may_be_columns() -> None:
     ]
 
 
-def test_pandas_files_a_figure_and_a_prompt_follow_from_it(tmp_path: Path) -> None:
+def test_pandas_files_a_figure_and_a_prompt_follow_from_it(tmp_path):
     assert Pair().to_pandas().loc[0, "uz [m]"] == -2e-3 and len(Pair().to_pandas("many")) == 18
     with pytest.raises(sb.BadInput, match="tables are rows, many"):
         Pair().to_pandas("none")
@@ -114,7 +113,7 @@ HISTORY = sb.History(
 )  # fmt: skip
 
 
-def test_a_history_goes_on_to_pandas_and_xarray(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_history_goes_on_to_pandas_and_xarray(monkeypatch):
     assert list(HISTORY.to_pandas().columns[:3]) == ["time [s]", "P1.ux [m]", "P1.uy [m]"]
     assert list(HISTORY.to_pandas("probes")["probe"]) == ["P1", "P2"]
     monkeypatch.setitem(sys.modules, "xarray", None)
@@ -122,13 +121,13 @@ def test_a_history_goes_on_to_pandas_and_xarray(monkeypatch: pytest.MonkeyPatch)
         HISTORY.to_xarray()
 
 
-def test_a_history_is_a_dataset() -> None:
+def test_a_history_is_a_dataset():
     found = HISTORY.to_xarray()
     assert float(found.displacement.sel(probe="P1", axis="z", time=1.0)) == 1.0
     assert found.displacement.attrs == {"units": "m"} and found["reaction x0"].dims == ("time", "axis")
 
 
-def test_answers_of_one_model_have_tables_and_figures() -> None:
+def test_answers_of_one_model_have_tables_and_figures():
     scene = sb.load("two-edges-clamped")
     solution = sb.solve(scene, grid=3)
     assert solution.document()["status"] == "converged" and solution.report().document["model"] == "lumped"

@@ -30,7 +30,7 @@ toprule midrule bottomrule
 KNOWN = set(COMMANDS.split())
 
 
-def rows(text: str, columns: int) -> list[list[str]]:
+def rows(text, columns):
     """The cells of a tabular, as LaTeX takes them apart. Fails where pdfTeX would stop."""
     nodes, *_ = LatexWalker(text, tolerant_parsing=False).get_latex_nodes()
     (tabular,) = [node for node in nodes if isinstance(node, LatexEnvironmentNode)]
@@ -52,7 +52,7 @@ def rows(text: str, columns: int) -> list[list[str]]:
     return found
 
 
-def _known(node: object) -> None:
+def _known(node):
     assert not isinstance(node, LatexCommentNode)
     if isinstance(node, LatexMacroNode):
         assert node.macroname in KNOWN, node.macroname
@@ -67,7 +67,7 @@ def _known(node: object) -> None:
 
 
 @given(st.lists(st.tuples(st.text(max_size=20), st.text(max_size=20)), min_size=1, max_size=4), st.text())
-def test_whatever_stands_in_cells_the_table_reads(cells: list[tuple[str, str]], caption: str) -> None:
+def test_whatever_stands_in_cells_the_table_reads(cells, caption):
     table = Table(caption, (Column("a_b", "m", "mm"), Column("100 %")), tuple(cells))
     assert len(rows(table.to_latex(), 2)) == 1 + len(cells)
 
@@ -75,18 +75,18 @@ def test_whatever_stands_in_cells_the_table_reads(cells: list[tuple[str, str]], 
 @pytest.mark.parametrize(
     "cell", ["[2 mm]", "*", "--lumped", "10⁻¹⁰", "$α$", "中文 é ß", "<script>|\"`'", "%", "\\\\ & x"]
 )
-def test_cells_that_latex_would_take_for_its_own(cell: str) -> None:
+def test_cells_that_latex_would_take_for_its_own(cell):
     table = Table("", (Column("first"), Column("E [Pa]")), ((cell, cell), (cell, "")))
     assert len(rows(table.to_latex(), 2)) == 3
 
 
-def test_signs_are_signs() -> None:
+def test_signs_are_signs():
     assert latex("−1 × 10⁻³ – ρ g a/E ≥ ν") == r"$-$1 $\times$ 10$^-${}$^3$ -- $\rho$ g a/E $\ge$ $\nu$"
     assert latex("--lumped 9–17") == "-{}-lumped 9--17"
     assert latex("中") == "{[}U+4E2D{]}"
 
 
 @pytest.mark.parametrize("name", list(STUDIES))
-def test_headings_of_our_own_tables(name: str) -> None:
+def test_headings_of_our_own_tables(name):
     found = study_table(STUDIES[name], [])
     assert len(rows(found.to_latex(), len(found.brief().columns))) == 1

@@ -25,12 +25,12 @@ WIDE = Table(
 )
 
 
-def text_of(table: Table, width: int | None) -> list[str]:
+def text_of(table, width):
     return [line for block in blocks(table, width) for line in [*block.head, block.rule, *block.rows]]
 
 
 @pytest.mark.parametrize("width", [30, 50, 80, 160, None])
-def test_every_figure_and_status_is_whole_at_any_width(width: int | None) -> None:
+def test_every_figure_and_status_is_whole_at_any_width(width):
     lines = text_of(WIDE, width)
     words = " ".join(lines).split()
     for row in WIDE.shown_rows():
@@ -39,7 +39,7 @@ def test_every_figure_and_status_is_whole_at_any_width(width: int | None) -> Non
     assert width is None or max(map(cell_len, lines)) <= width
 
 
-def test_a_narrow_table_is_stacked_in_blocks_that_name_their_rows() -> None:
+def test_a_narrow_table_is_stacked_in_blocks_that_name_their_rows():
     narrow = blocks(WIDE, 50)
     assert len(narrow) > 1 and len(blocks(WIDE, 160)) == len(blocks(WIDE, None)) == 1
     assert all("lumped-uniform" in block.rows[0] and "probe" in " ".join(block.head) for block in narrow)
@@ -47,7 +47,7 @@ def test_a_narrow_table_is_stacked_in_blocks_that_name_their_rows() -> None:
     assert headings.count("factorisations") == 1 and headings.count("status") == 1
 
 
-def test_blocks_repeat_the_figures_that_tell_rows_apart() -> None:
+def test_blocks_repeat_the_figures_that_tell_rows_apart():
     figures = [Column(name, form="d") for name in ("masses", "ratio", "limit_of_the_step", "iterations_used")]
     table = Table("Cells", tuple(figures), ((5, 1, 10, 20), (5, 100, 30, 40)))
     first, second = blocks(table, 36)
@@ -55,7 +55,7 @@ def test_blocks_repeat_the_figures_that_tell_rows_apart() -> None:
     assert [row.split() for row in second.rows] == [["5", "1", "20"], ["5", "100", "40"]]
 
 
-def test_the_tallest_headings_are_widened_first_where_there_is_room() -> None:
+def test_the_tallest_headings_are_widened_first_where_there_is_room():
     names = ("a rather long heading", "short one")
     table = Table("", tuple(Column(name, form="d") for name in names), ((1, 2),))
     heights = [len(blocks(table, width)[0].head) for width in (20, 26, 32)]
@@ -66,7 +66,7 @@ def test_the_tallest_headings_are_widened_first_where_there_is_room() -> None:
     st.lists(st.tuples(st.text(max_size=30), st.floats(), st.text(max_size=60)), max_size=4),
     st.integers(4, 100),
 )
-def test_no_text_is_lost_or_too_wide(rows: list[tuple[str, float, str]], width: int) -> None:
+def test_no_text_is_lost_or_too_wide(rows, width):
     """Whatever stands in the cells: all of it is printed, and nothing beyond the width."""
     table = Table("", (Column("name"), Column("x", form=".3e"), Column("said", prose=True)), tuple(rows))
     lines = text_of(table, width)
@@ -77,13 +77,13 @@ def test_no_text_is_lost_or_too_wide(rows: list[tuple[str, float, str]], width: 
             assert set(word) <= set(printed)
 
 
-def test_rows_of_a_group_stand_under_its_name() -> None:
+def test_rows_of_a_group_stand_under_its_name():
     table = Table("", (Column("probe"), Column("x", form="d")), (("P1", 1), ("P1", 2), ("P2", 3)), "", True)
     (block,) = blocks(table, None)
     assert [row.split() for row in block.rows] == [["P1", "1"], ["2"], [block.rule], ["P2", "3"]]
 
 
-def test_details_are_in_the_files_only() -> None:
+def test_details_are_in_the_files_only():
     table = Table("", (Column("a"), Column("b", detail=True)), (("x", "y"),))
     assert "b" not in " ".join(text_of(table, None)) and "y" not in table.to_latex()
     assert "b" in table.to_csv() and "b" in table.to_markdown()

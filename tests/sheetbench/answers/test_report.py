@@ -5,7 +5,6 @@ import io
 import json
 import re
 import warnings
-from pathlib import Path
 
 import pytest
 from commands import one_line, run
@@ -26,7 +25,7 @@ HOSTILE = '\x1b[31m<script>alert("x")</script>|=1+1\n`$\\'
 NUMBERS = Column("a", "m", "mm", 1e3, ".4g")
 
 
-def test_a_row_with_a_unit_is_shown_in_it_and_kept_in_si() -> None:
+def test_a_row_with_a_unit_is_shown_in_it_and_kept_in_si():
     columns = (
         Column("name"),
         Column("unit"),
@@ -40,18 +39,18 @@ def test_a_row_with_a_unit_is_shown_in_it_and_kept_in_si() -> None:
     assert [quantity(-4.1e6, "Pa"), quantity(0.3, "")] == ["−4.1 MPa", "0.3"]
 
 
-def test_terminal_text_acts_on_no_terminal() -> None:
+def test_terminal_text_acts_on_no_terminal():
     shown = escape.terminal(HOSTILE + "\x9b2J\u202eab\u2028")
     assert shown.startswith(r"\x1b[31m<script>") and shown.isprintable()
     assert escape.terminal("E = 5 MPa · ν ≥ ½ 膜 e\u0301") == "E = 5 MPa · ν ≥ ½ 膜 e\u0301"
     assert escape.terminal("a\nb", keep="\n") == "a\nb"
 
 
-def hostile_table() -> Table:
+def hostile_table():
     return Table(HOSTILE, (Column(HOSTILE), NUMBERS), ((HOSTILE, 1.0), ("=HYPERLINK(1)", -2.0)))
 
 
-def test_markdown_has_neither_tags_nor_more_cells() -> None:
+def test_markdown_has_neither_tags_nor_more_cells():
     page = Report("x", HOSTILE, {}, tables=(hostile_table(),), notes=("[a](javascript:b)",)).to_markdown()
     assert "<" not in page and "\x1b" not in page
     rows = [line for line in page.splitlines() if line.startswith("|")]
@@ -60,7 +59,7 @@ def test_markdown_has_neither_tags_nor_more_cells() -> None:
     assert not re.search(r"(?<!\\)\]\(", page)
 
 
-def test_csv_cells_are_no_formulas_and_numbers_stay_numbers() -> None:
+def test_csv_cells_are_no_formulas_and_numbers_stay_numbers():
     rows = list(csv.reader(io.StringIO(hostile_table().to_csv())))
     assert rows[2] == ["'=HYPERLINK(1)", "-2.0"]
     assert (
@@ -68,7 +67,7 @@ def test_csv_cells_are_no_formulas_and_numbers_stay_numbers() -> None:
     )
 
 
-def test_latex_is_plain_on_one_line_a_row() -> None:
+def test_latex_is_plain_on_one_line_a_row():
     text = hostile_table().to_latex()
     assert len(text.splitlines()) == 9 and "\x1b" not in text
     row = text.splitlines()[5]
@@ -103,9 +102,7 @@ kind = "clamped"
 
 
 @pytest.mark.usefixtures("quick")
-def test_a_hostile_scene_is_harmless_wherever_it_is_shown(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_hostile_scene_is_harmless_wherever_it_is_shown(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(Picture, "write", lambda *_: "not drawn here")
     assert run("compare", str(written(tmp_path, HOSTILE_SCENE)), "--out", str(tmp_path / "out")) == 0
     printed = capsys.readouterr()
@@ -116,16 +113,14 @@ def test_a_hostile_scene_is_harmless_wherever_it_is_shown(
     assert "'=HYPERLINK(1)" in first and "=HYPERLINK(1)" not in first
 
 
-def test_a_refusal_spells_out_what_would_act_on_the_terminal(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_refusal_spells_out_what_would_act_on_the_terminal(tmp_path, capsys):
     text = HOSTILE_SCENE.replace("[sheet]", '"\\u001b[2Jkey" = 1\n[sheet]')
     assert run("compare", str(written(tmp_path, text))) == 2
     said = one_line(capsys)
     assert "\x1b" not in said and r"\x1b[2Jkey" in said
 
 
-def about(**changes: object) -> dict[str, object]:
+def about(**changes):
     document = scenes.load("one-edge-clamped").model_dump(mode="json", by_alias=True, exclude_none=True)
     return {"scene": {**document, **changes}}
 
@@ -133,21 +128,21 @@ def about(**changes: object) -> dict[str, object]:
 class Said(Report):
     """An answer that is its own report."""
 
-    def report(self) -> Report:
+    def report(self):
         return self
 
 
-def report(*names: str) -> Report:
+def report(*names):
     return Report(
         "answer", "t", {"a": 1}, attachments={name: lambda path: path.write_text("x") for name in names}
     )
 
 
-def files(folder: Path) -> set[str]:
+def files(folder):
     return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
 
 
-def test_the_same_scene_and_verb_again_is_fine_and_so_is_another_verb(tmp_path: Path) -> None:
+def test_the_same_scene_and_verb_again_is_fine_and_so_is_another_verb(tmp_path):
     Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
     Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
     Folder(tmp_path, "advise", ["a"], about=about()).report(report("b.txt", "a.txt"))
@@ -156,7 +151,7 @@ def test_the_same_scene_and_verb_again_is_fine_and_so_is_another_verb(tmp_path: 
     assert runs["advise"]["files"] == ["b.txt", "a.txt", "answer.json"]
 
 
-def test_a_folder_of_another_scene_is_refused_with_what_differs(tmp_path: Path) -> None:
+def test_a_folder_of_another_scene_is_refused_with_what_differs(tmp_path):
     Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
     before = files(tmp_path)
     other = about(name="other", sheet={"length_x": 0.188, "length_y": 0.188, "thickness": 0.004})
@@ -168,15 +163,15 @@ def test_a_folder_of_another_scene_is_refused_with_what_differs(tmp_path: Path) 
     assert files(tmp_path) == before
 
 
-def test_springs_of_another_sheet_are_refused_beside_a_scene(tmp_path: Path) -> None:
+def test_springs_of_another_sheet_are_refused_beside_a_scene(tmp_path):
     Folder(tmp_path, "modes", ["m"], about=about()).report(report())
-    same = {"sheet": about()["scene"]["sheet"]}  # type: ignore[index]
+    same = {"sheet": about()["scene"]["sheet"]}
     Folder(tmp_path, "calibrate", ["c"], about=same)
     with pytest.raises(BadInput, match=r"thickness is 0\.003 there, 0\.004 here"):
         Folder(tmp_path, "calibrate", ["c"], about={"sheet": {**same["sheet"], "thickness": 0.004}})
 
 
-def test_other_options_of_a_verb_are_refused_where_they_leave_other_files(tmp_path: Path) -> None:
+def test_other_options_of_a_verb_are_refused_where_they_leave_other_files(tmp_path):
     Folder(tmp_path, "compare", ["c"], about=about(), variant={"--reference": "shell"}).report(
         report("shell.vtu")
     )
@@ -185,7 +180,7 @@ def test_other_options_of_a_verb_are_refused_where_they_leave_other_files(tmp_pa
     Folder(tmp_path, "modes", ["m"], about=about(), variant={"--reference": "plate"})
 
 
-def test_a_verb_does_not_write_among_files_of_another_that_is_about_something_else(tmp_path: Path) -> None:
+def test_a_verb_does_not_write_among_files_of_another_that_is_about_something_else(tmp_path):
     Folder(tmp_path, "stability", ["s"]).report(report("map.csv"))
     before = files(tmp_path)
     for verb, of in (("compare", about()), ("verify", {})):
@@ -196,7 +191,7 @@ def test_a_verb_does_not_write_among_files_of_another_that_is_about_something_el
     assert files(tmp_path) == {"a.txt", "answer.json", MANIFEST}
 
 
-def test_overwrite_removes_what_the_manifest_lists_and_nothing_else(tmp_path: Path) -> None:
+def test_overwrite_removes_what_the_manifest_lists_and_nothing_else(tmp_path):
     first = Folder(tmp_path, "simulate", ["s"], about=about())
     run_folder = first.reserve("run/")
     run_folder.mkdir()
@@ -210,7 +205,7 @@ def test_overwrite_removes_what_the_manifest_lists_and_nothing_else(tmp_path: Pa
     assert list(json.loads((tmp_path / MANIFEST).read_text())["runs"]) == ["modes"]
 
 
-def test_a_manifest_cannot_lead_out_of_its_folder(tmp_path: Path) -> None:
+def test_a_manifest_cannot_lead_out_of_its_folder(tmp_path):
     outside, inside = tmp_path / "outside.txt", tmp_path / "in"
     outside.write_text("keep")
     (tmp_path / "elsewhere").mkdir()
@@ -226,20 +221,18 @@ def test_a_manifest_cannot_lead_out_of_its_folder(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "[]", '{"a": 1}', '{"runs": 3}', "\x00"])
-def test_a_manifest_that_is_not_ours_is_refused(tmp_path: Path, text: str) -> None:
+def test_a_manifest_that_is_not_ours_is_refused(tmp_path, text):
     (tmp_path / MANIFEST).write_text(text)
     with pytest.raises(BadInput, match=r"its manifest\.json cannot be read"):
         Folder(tmp_path, "modes", ["m"], about=about(), overwrite=True)
 
 
-def test_brackets_in_help_are_no_markup(capsys: pytest.CaptureFixture[str]) -> None:
+def test_brackets_in_help_are_no_markup(capsys):
     assert run("calibrate", "--help") == 0
     assert "[springs]" in capsys.readouterr().out
 
 
-def test_a_questions_own_warnings_stand_before_those_about_its_scene(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_questions_own_warnings_stand_before_those_about_its_scene(capsys):
     with in_lines():
         warnings.warn(Implausible("young = 54.5 Pa"), stacklevel=1)
         with OutputOptions("identify", json=True).open() as out:
@@ -247,9 +240,7 @@ def test_a_questions_own_warnings_stand_before_those_about_its_scene(
     assert json.loads(capsys.readouterr().out)["warnings"] == ["a poor fit", "young = 54.5 Pa"]
 
 
-def test_what_compiling_took_is_said_before_the_remarks_which_may_end_in_a_command(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_compiling_took_is_said_before_the_remarks_which_may_end_in_a_command(capsys, monkeypatch):
     monkeypatch.setattr("comparisons.cli.output.clock.compiled", lambda: 23.2)
     with OutputOptions("advise").open() as out:
         out.show(Said("advice", "t", {}, notes=("Solve it with:", "sheetbench compare x")))

@@ -12,7 +12,7 @@ from sheetbench.numerics.fronts import Cells, fronts_of
 from sheetbench.numerics.sparsity import Pattern
 
 
-def system(nx: int, ny: int, unknowns: int, seed: int = 0) -> tuple[csr_matrix, Cells]:
+def system(nx, ny, unknowns, seed=0):
     """A positive definite matrix of cells in a grid whose corners have so many unknowns, some held."""
     rng = np.random.default_rng(seed)
     x, y = (a.ravel() for a in np.meshgrid(np.arange(nx), np.arange(ny), indexing="ij"))
@@ -27,19 +27,19 @@ def system(nx: int, ny: int, unknowns: int, seed: int = 0) -> tuple[csr_matrix, 
 
 
 @pytest.mark.parametrize("shape", [(1, 1, 3), (2, 1, 1), (5, 4, 2), (1, 13, 5), (12, 12, 5), (7, 7, 31)])
-def test_factors_by_fronts_solve(shape: tuple[int, int, int]) -> None:
+def test_factors_by_fronts_solve(shape):
     matrix, cells = system(*shape)
     b = np.random.default_rng(1).normal(size=matrix.shape[0])
     found = multifrontal.SignedFactors(matrix.data, fronts_of(matrix.indices, matrix.indptr, cells)).solve(b)
     np.testing.assert_allclose(found, np.linalg.solve(matrix.toarray(), b), rtol=1e-8, atol=1e-9)
 
 
-def test_fronts_wide_enough_for_blocks_are_tested() -> None:
+def test_fronts_wide_enough_for_blocks_are_tested():
     matrix, cells = system(7, 7, 31)
     assert fronts_of(matrix.indices, matrix.indptr, cells).widest > 2 * multifrontal.WIDE
 
 
-def test_parts_are_cut_where_they_share_few_unknowns_and_not_cell_by_cell() -> None:
+def test_parts_are_cut_where_they_share_few_unknowns_and_not_cell_by_cell():
     """Two squares of cells and a neck between them, an unknown a corner; most of one square is held."""
     x, y = (a.ravel() for a in np.meshgrid(np.arange(27), np.arange(8), indexing="ij"))
     there = (x < 8) | (x > 10) | (y == 4)
@@ -51,7 +51,7 @@ def test_parts_are_cut_where_they_share_few_unknowns_and_not_cell_by_cell() -> N
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
-def test_a_pivot_that_is_not_finite_is_told(value: float) -> None:
+def test_a_pivot_that_is_not_finite_is_told(value):
     matrix, cells = system(5, 4, 2)
     data = matrix.data.copy()
     data[matrix.indptr[17] + np.flatnonzero(matrix.indices[matrix.indptr[17] : matrix.indptr[18]] == 17)] = (
@@ -61,7 +61,7 @@ def test_a_pivot_that_is_not_finite_is_told(value: float) -> None:
         multifrontal.SignedFactors(data, fronts_of(matrix.indices, matrix.indptr, cells))
 
 
-def test_a_singular_matrix_has_no_factors() -> None:
+def test_a_singular_matrix_has_no_factors():
     spring = np.array([[1.0, -1.0], [-1.0, 1.0]]) / 3.0
     cells = Cells(np.array([[0, 1], [1, 2], [2, 3]]), np.array([[0.0, 0], [1, 0], [2, 0]]))
     matrix = Pattern(cells.unknowns, size=4).matrix(np.array([spring, 7.0 * spring, spring]))
@@ -69,7 +69,7 @@ def test_a_singular_matrix_has_no_factors() -> None:
         multifrontal.SignedFactors(matrix.data, fronts_of(matrix.indices, matrix.indptr, cells))
 
 
-def test_the_inertia_of_a_matrix_that_is_not_positive_definite_is_told() -> None:
+def test_the_inertia_of_a_matrix_that_is_not_positive_definite_is_told():
     matrix, cells = system(5, 4, 2)
     solver = DirectSolver(fronts=partial(fronts_of, matrix.indices, matrix.indptr, cells))
     values = np.linalg.eigvalsh(matrix.toarray())
@@ -84,7 +84,7 @@ def test_the_inertia_of_a_matrix_that_is_not_positive_definite_is_told() -> None
 
 
 @pytest.mark.parametrize("shape", [(5, 4, 2), (12, 12, 5), (7, 7, 31)])
-def test_factors_with_signs_are_those_of_the_eigenvalues_or_refused(shape: tuple[int, int, int]) -> None:
+def test_factors_with_signs_are_those_of_the_eigenvalues_or_refused(shape):
     """Shifted to the middle of its spectrum a matrix is as indefinite as can be."""
     matrix, cells = system(*shape)
     fronts = fronts_of(matrix.indices, matrix.indptr, cells)
@@ -106,7 +106,7 @@ def test_factors_with_signs_are_those_of_the_eigenvalues_or_refused(shape: tuple
     assert taken
 
 
-def test_factors_that_grow_are_refused() -> None:
+def test_factors_that_grow_are_refused():
     """A first pivot of 1e-8 without a row exchange: the rest would be lost in its own rounding."""
     cells = Cells(np.array([[0, 1]]), np.array([[0.0, 0.0]]))
     pattern = Pattern(cells.unknowns, size=2)
@@ -119,13 +119,13 @@ def test_factors_that_grow_are_refused() -> None:
         ).inertia == (1, 1, 0)
 
 
-def test_a_pattern_without_its_whole_diagonal_is_refused() -> None:
+def test_a_pattern_without_its_whole_diagonal_is_refused():
     matrix = csr_matrix(np.array([[0.0, 1.0], [1.0, 2.0]]))
     with pytest.raises(ValueError, match="diagonal"):
         fronts_of(matrix.indices, matrix.indptr, Cells(np.array([[0, 1]]), np.zeros((1, 2))))
 
 
-def test_factors_of_a_definite_matrix_need_no_refinement() -> None:
+def test_factors_of_a_definite_matrix_need_no_refinement():
     """As Cholesky's: the residual of an unrefined solution is rounding, though the condition is 1e9."""
     matrix, cells = system(12, 12, 5)
     scale = np.logspace(0.0, 4.0, matrix.shape[0])

@@ -15,21 +15,21 @@ from sheetbench.numerics import direct, pardiso, reduced
 pytestmark = pytest.mark.skipif(pardiso.library() is None, reason="needs the extra sheetbench[mkl]")
 
 
-def laplacian(n: int, shift: float) -> sp.csc_array:
+def laplacian(n, shift):
     """Of n × n points, minus a shift: (n², n²), indices sorted; its eigenvalues are known."""
-    line = sp.diags_array([-1.0, 2.0, -1.0], offsets=[-1, 0, 1], shape=(n, n))  # type: ignore[list-item]
+    line = sp.diags_array([-1.0, 2.0, -1.0], offsets=[-1, 0, 1], shape=(n, n))
     one = sp.eye_array(n)
     matrix = sp.csc_array(sp.kron(line, one) + sp.kron(one, line) - shift * sp.eye_array(n * n))
     matrix.sort_indices()
     return matrix
 
 
-def negative(n: int, shift: float) -> int:
+def negative(n, shift):
     of_a_line = 4.0 * np.sin(np.arange(1, n + 1) * np.pi / (2 * n + 2)) ** 2
     return int(np.sum(of_a_line[:, None] + of_a_line < shift))
 
 
-def test_solutions_and_inertia_of_factors_that_live_side_by_side() -> None:
+def test_solutions_and_inertia_of_factors_that_live_side_by_side():
     n, b = 15, np.random.default_rng(1).standard_normal(225)
     shifts = (0.0, 0.7, 3.1)
     matrices = [laplacian(n, shift) for shift in shifts]
@@ -41,14 +41,14 @@ def test_solutions_and_inertia_of_factors_that_live_side_by_side() -> None:
         np.testing.assert_allclose(matrix @ factors.solve(b), b, atol=1e-10)
 
 
-def test_a_matrix_without_pivots_has_no_factors() -> None:
+def test_a_matrix_without_pivots_has_no_factors():
     matrix = laplacian(9, 0.0)
     analysis = pardiso.Analysis(matrix)
     with pytest.raises(RuntimeError, match="pivots vanish"):
         analysis.factor(0.0 * matrix)
 
 
-def test_a_handle_is_used_again_and_let_go() -> None:
+def test_a_handle_is_used_again_and_let_go():
     matrix = laplacian(9, 0.0)
     analysis = pardiso.Analysis(matrix)
     first = analysis.factor(matrix)
@@ -61,7 +61,7 @@ def test_a_handle_is_used_again_and_let_go() -> None:
     assert handle() is None
 
 
-def test_a_lattice_comes_to_rest_where_it_does_without_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_lattice_comes_to_rest_where_it_does_without_it(monkeypatch):
     scene = scenes.load("two-edges-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
     monkeypatch.setattr(reduced, "BANDED_LIMIT", 0.0)
@@ -70,7 +70,7 @@ def test_a_lattice_comes_to_rest_where_it_does_without_it(monkeypatch: pytest.Mo
     asked: list[int] = []
     factor = pardiso.Analysis.factor
 
-    def counted(self: pardiso.Analysis, matrix: sp.csc_array) -> pardiso.Factors:
+    def counted(self, matrix):
         asked.append(matrix.shape[0])
         return factor(self, matrix)
 
@@ -86,7 +86,7 @@ def test_a_lattice_comes_to_rest_where_it_does_without_it(monkeypatch: pytest.Mo
     _forget_systems()
 
 
-def _forget_systems() -> None:
+def _forget_systems():
     """Of small lattices, which are kept with what factorises them."""
     supports._kept.cache_clear()
     reduced._reduced.forget()

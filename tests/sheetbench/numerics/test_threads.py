@@ -2,9 +2,7 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
-from scipy.sparse import csr_matrix
 from threadpoolctl import threadpool_info, threadpool_limits
 
 import fem_reference
@@ -16,20 +14,20 @@ from sheetbench.numerics import direct as linear
 SCENE = scenes.load("one-edge-clamped")
 
 
-def blas_threads() -> list[int]:
+def blas_threads():
     return [library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"]
 
 
 @pytest.mark.parametrize("model", ["plate", "shell", "solid", "modes"])
-def test_a_reference_is_solved_on_one_thread(model: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_reference_is_solved_on_one_thread(model, monkeypatch):
     seen: list[int] = []
     factor = linear.DirectSolver.factor
 
-    def watched(self: linear.DirectSolver, matrix: csr_matrix) -> linear.Factor:
+    def watched(self, matrix):
         seen.extend(blas_threads())
         return factor(self, matrix)
 
-    def answer() -> np.ndarray:
+    def answer():
         if model == "modes":
             return fem_reference.modes(SCENE, elements=2, count=2).frequencies
         return fem_reference.solve(SCENE, model=model, elements=2).displacement(SCENE.probe_points())
@@ -44,11 +42,11 @@ def test_a_reference_is_solved_on_one_thread(model: str, monkeypatch: pytest.Mon
     assert found == pytest.approx(alone, rel=1e-9, abs=1e-12)
 
 
-def test_springs_are_found_on_one_thread(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_springs_are_found_on_one_thread(monkeypatch):
     seen: list[int] = []
     moduli = methods.CALIBRATIONS["moduli"]
 
-    def watched(*sheet: object, **options: object) -> lumped.Calibration:
+    def watched(*sheet, **options):
         seen.extend(blas_threads())
         return moduli.make(*sheet, **options)
 

@@ -2,7 +2,6 @@
 
 import re
 import warnings
-from pathlib import Path
 
 import pytest
 from commands import json_of, one_line, run
@@ -32,9 +31,7 @@ OPTIONS = [
 @pytest.mark.parametrize(
     ("verb", "option"), OPTIONS, ids=lambda part: part if isinstance(part, str) else part[0]
 )
-def test_an_extreme_option_is_refused_by_its_name(
-    verb: tuple[str, ...], option: str, value: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_extreme_option_is_refused_by_its_name(verb, option, value, capsys):
     if option in ("--poisson", "--tolerance") and value == "1e-308":
         return  # as good as 0, or as strict as may be
     assert run(*verb, option, value) == 2
@@ -43,7 +40,7 @@ def test_an_extreme_option_is_refused_by_its_name(
 
 @pytest.mark.parametrize("value", ["1e-308", "1e308", "1e16", "1e-13"])
 @pytest.mark.parametrize("key", ["length_x", "thickness", "young", "density"])
-def test_an_extreme_quantity_of_a_scene_is_refused(key: str, value: str, tmp_path: Path) -> None:
+def test_an_extreme_quantity_of_a_scene_is_refused(key, value, tmp_path):
     lines = [f"{key} = {value}" if line.startswith(f"{key} ") else line for line in GOOD.splitlines()]
     with pytest.raises(BadInput, match=re.escape(f".{key} = {float(value):g}: must be 1e")):
         scenes.load(written(tmp_path, "\n".join(lines)))
@@ -52,9 +49,7 @@ def test_an_extreme_quantity_of_a_scene_is_refused(key: str, value: str, tmp_pat
 @pytest.mark.parametrize("factor", [SMALLEST, LARGEST])
 @pytest.mark.parametrize("key", ["young", "density"])
 @pytest.mark.parametrize(("model", "size"), [("lumped", {"grid": 3}), ("shell", {"elements": 2})])
-def test_what_is_just_allowed_ends_in_a_status(
-    key: str, factor: float, model: str, size: dict[str, int]
-) -> None:
+def test_what_is_just_allowed_ends_in_a_status(key, factor, model, size):
     scene = scenes.load(SEED)
     scene = scene.replace(material=scene.material.replace(**{key: factor}))
     with warnings.catch_warnings():
@@ -64,17 +59,17 @@ def test_what_is_just_allowed_ends_in_a_status(
 
 
 @pytest.mark.parametrize("k", [SMALLEST, LARGEST])
-def test_springs_just_allowed_end_in_a_status(k: float) -> None:
+def test_springs_just_allowed_end_in_a_status(k):
     scene = scenes.load(SEED)
     springs = lumped.calibrate(scene.sheet, scene.material, 3, "uniform", k=k)
     assert isinstance(lumped.solve(scene, springs).status, Status)
 
 
-def test_a_step_longer_than_the_run_is_the_run(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_step_longer_than_the_run_is_the_run(capsys):
     assert json_of(capsys, *SIMULATE, "--step", "1e15", "--duration", "0.001")["steps"] == 1
 
 
-def test_of_many_faults_three_are_told_and_the_rest_counted(tmp_path: Path) -> None:
+def test_of_many_faults_three_are_told_and_the_rest_counted(tmp_path):
     text = GOOD
     for key in ("length_x", "length_y", "thickness", "young", "density"):
         lines = [f"{key} = 1e308" if line.startswith(f"{key} ") else line for line in text.splitlines()]

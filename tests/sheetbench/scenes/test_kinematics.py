@@ -24,19 +24,19 @@ MOTION = EdgeMotion(kind="motion", edge="x1", time=TIME, displacement=DISPLACEME
 HEIGHT = np.array([0.0, 1.5e-3, -1.5e-3, 0.02])
 
 
-def on_edge(edge: str) -> np.ndarray:
+def on_edge(edge):
     start, end = np.array(SHEET.edge_ends(edge))
     return start + np.array([[0.0], [0.25], [0.6], [1.0]]) * (end - start)
 
 
-def test_values_over_time_are_linear_between_samples_and_constant_outside() -> None:
+def test_values_over_time_are_linear_between_samples_and_constant_outside():
     course = PiecewiseLinear((1.0, 2.0, 4.0), ((0.0, 1.0), (2.0, 1.0), (2.0, -3.0)))
     assert_allclose([course.at(t) for t in (0.0, 1.0, 1.5, 2.0, 3.0, 4.0, 9.0)],
                     [(0, 1), (0, 1), (1, 1), (2, 1), (2, -1), (2, -3), (2, -3)])  # fmt: skip
     assert_allclose(course.at(), (2.0, -3.0))
 
 
-def test_slopes_are_those_from_a_moment_on_and_rounding_misses_none() -> None:
+def test_slopes_are_those_from_a_moment_on_and_rounding_misses_none():
     course = PiecewiseLinear((1.0, 2.0, 4.0), (0.0, 2.0, -2.0))
     found = [
         course.slope(t) for t in (0.5, 1.0, np.nextafter(1.0, 0.0), 1.5, 2.0, np.nextafter(2.0, 0.0), 4.0)
@@ -48,7 +48,7 @@ def test_slopes_are_those_from_a_moment_on_and_rounding_misses_none() -> None:
 
 
 @pytest.mark.parametrize("curvature", [0.0, 1e-9, 4.0, -7.0])
-def test_a_bent_edge_lies_on_an_arc_about_the_middle_of_its_own(curvature: float) -> None:
+def test_a_bent_edge_lies_on_an_arc_about_the_middle_of_its_own(curvature):
     """κ → 0 from numbers whose 1 − cos has no digits left: the parabola κ s²/2."""
     support = Curved(edge="x0", curvature=curvature)
     points, placed = on_edge("x0"), BentEdge(support, (support,), SHEET).placed(on_edge("x0"))
@@ -64,7 +64,7 @@ def test_a_bent_edge_lies_on_an_arc_about_the_middle_of_its_own(curvature: float
     assert_allclose(UP + placed.director, normal, atol=1e-15)
 
 
-def test_on_a_plane_of_symmetry_a_rod_has_its_middle() -> None:
+def test_on_a_plane_of_symmetry_a_rod_has_its_middle():
     supports = (Curved(edge="x0", curvature=3.0), Symmetric(edge="y1"))
     placed = bent_or_tilted(supports, SHEET)[0].placed(on_edge("x0"))
     assert_allclose(placed.displacement[-1], 0.0, atol=1e-18)
@@ -72,7 +72,7 @@ def test_on_a_plane_of_symmetry_a_rod_has_its_middle() -> None:
 
 
 @pytest.mark.parametrize("edge", ["x0", "x1", "y0", "y1"])
-def test_beyond_a_tilted_clamp_the_sheet_would_go_up(edge: str) -> None:
+def test_beyond_a_tilted_clamp_the_sheet_would_go_up(edge):
     placed = TiltedEdge(Clamped(edge=edge, tilt=0.3)).placed(on_edge(edge), 0.5)
     outward = {"x0": (-1, 0), "x1": (1, 0), "y0": (0, -1), "y1": (0, 1)}[edge]
     director = [-np.sin(0.15) * outward[0], -np.sin(0.15) * outward[1], np.cos(0.15)]
@@ -81,7 +81,7 @@ def test_beyond_a_tilted_clamp_the_sheet_would_go_up(edge: str) -> None:
 
 
 @pytest.mark.parametrize("time", [0.0, 0.1, 0.23, 0.69, 2.0, None])
-def test_a_moved_edge_is_a_rigid_bar(time: float | None) -> None:
+def test_a_moved_edge_is_a_rigid_bar(time):
     points, share = on_edge("x1"), 0.7
     d, theta = (
         np.array(v[-1]) if time is None else np.array([np.interp(time, TIME, c) for c in np.transpose(v)])
@@ -93,7 +93,7 @@ def test_a_moved_edge_is_a_rigid_bar(time: float | None) -> None:
 
 
 @pytest.mark.parametrize("time", [0.05, 0.1, 0.3, 0.6, 0.9])
-def test_the_velocity_of_a_moved_edge_is_its_derivative(time: float) -> None:
+def test_the_velocity_of_a_moved_edge_is_its_derivative(time):
     """One-sided differences of second order of positions, whose error is h² of the third derivative, and
     rounding over h."""
     edge, points, h = MovedEdge(MOTION, SHEET), on_edge("x1"), 1e-5
@@ -111,9 +111,7 @@ def test_the_velocity_of_a_moved_edge_is_its_derivative(time: float) -> None:
         MovedEdge(MOTION, SHEET),
     ],
 )
-def test_the_linear_change_is_the_derivative_by_the_load_factor(
-    edge: BentEdge | TiltedEdge | MovedEdge,
-) -> None:
+def test_the_linear_change_is_the_derivative_by_the_load_factor(edge):
     points, h = on_edge("x1"), 1e-4
     up, down = edge.placed(points, h), edge.placed(points, -h)
     displacement, director = edge.linear(points)
@@ -121,8 +119,8 @@ def test_the_linear_change_is_the_derivative_by_the_load_factor(
     assert_allclose((up.director - down.director) / (2.0 * h), director, atol=1e-7)
 
 
-def test_curvatures_are_told_joint_by_joint_whatever_they_are_given_as() -> None:
-    def chain(curvature: object, segments: int = 4, base: str = "free") -> Chain:
+def test_curvatures_are_told_joint_by_joint_whatever_they_are_given_as():
+    def chain(curvature, segments=4, base="free"):
         return Chain(edge="x0", segments=segments, bending_stiffness=1.0, line_density=1.0, radius=1e-3,
                      curvature=curvature, base=base)  # fmt: skip
 

@@ -38,7 +38,7 @@ IN_MILLIMETRES = GOOD.replace("0.188", "188.0").replace("0.003", "3.0").replace(
 
 
 @pytest.mark.parametrize("slip", SLIPS)
-def test_a_slip_is_said_with_file_key_value_and_unit(tmp_path: Path, slip: str) -> None:
+def test_a_slip_is_said_with_file_key_value_and_unit(tmp_path, slip):
     instead_of, stands, said = SLIPS[slip]
     assert instead_of in GOOD
     path = str(written(tmp_path, GOOD.replace(instead_of, stands)))
@@ -50,12 +50,12 @@ def test_a_slip_is_said_with_file_key_value_and_unit(tmp_path: Path, slip: str) 
     assert "\n" not in text
 
 
-def test_a_scene_in_millimetres_is_said_to_be_one(tmp_path: Path) -> None:
+def test_a_scene_in_millimetres_is_said_to_be_one(tmp_path):
     with pytest.warns(Implausible, match=r"length_x = 188 m, .*thickness = 3 m: .* 188 mm is written 0.188"):
         scenes.load(written(tmp_path, IN_MILLIMETRES))
 
 
-def test_what_is_plausible_is_not_remarked_on() -> None:
+def test_what_is_plausible_is_not_remarked_on():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         for name in scenes.catalogue():
@@ -64,9 +64,7 @@ def test_what_is_plausible_is_not_remarked_on() -> None:
             assert slips(scenes.load(path)) == ()
 
 
-def test_every_verb_says_it_once_on_standard_error(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_every_verb_says_it_once_on_standard_error(tmp_path, capsys):
     path = str(written(tmp_path, GOOD.replace("54.5e6", "54.5")))
     assert run("calibrate", path, "--grid", "5", "--method", "fit-modal", "--json") == 0  # loads it twice
     printed = capsys.readouterr()
@@ -84,9 +82,7 @@ def test_every_verb_says_it_once_on_standard_error(
         (("--layer-distance", "3"), ["layer-distance = 3 m", "1000 times"]),
     ],
 )
-def test_options_are_weighed_too(
-    options: tuple[str, ...], said: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_options_are_weighed_too(options, said, capsys):
     assert run("calibrate", "one-edge-clamped", "--grid", "5", *options) == 0
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 1 and all(part in lines[0] for part in said)

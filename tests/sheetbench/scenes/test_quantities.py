@@ -39,7 +39,7 @@ SHEET, MATERIAL = sb.Sheet(0.12, 0.04, 0.002), sb.Material(0.6e6, 0.45, 1100.0)
         ("0.45", "", 0.45),
     ],
 )
-def test_a_quantity_is_the_number_in_si_units_to_the_last_digit(text: str, unit: str, value: float) -> None:
+def test_a_quantity_is_the_number_in_si_units_to_the_last_digit(text, unit, value):
     assert quantity(text, unit) == value
 
 
@@ -58,13 +58,13 @@ def test_a_quantity_is_the_number_in_si_units_to_the_last_digit(text: str, unit:
         ("3 m^999999999", "m", "no unit known"),
     ],
 )
-def test_what_is_no_quantity_of_the_kind_is_refused_by_name(text: str, unit: str, said: str) -> None:
+def test_what_is_no_quantity_of_the_kind_is_refused_by_name(text, unit, said):
     with pytest.raises(sb.BadInput) as caught:
         quantity(text, unit)
     assert said in str(caught.value)
 
 
-def test_every_unit_of_a_scene_has_a_name_and_an_example_that_reads_back() -> None:
+def test_every_unit_of_a_scene_has_a_name_and_an_example_that_reads_back():
     units = {
         node["unit"]
         for table in for_editors(sb.Scene)["$defs"].values()
@@ -104,7 +104,7 @@ P1 = ["10 mm", 0.02]
 """
 
 
-def test_a_file_takes_quantities_wherever_a_number_has_a_unit(tmp_path: Path) -> None:
+def test_a_file_takes_quantities_wherever_a_number_has_a_unit(tmp_path):
     scene = sb.load(written(tmp_path, WITH_UNITS))
     assert (scene.sheet, scene.material) == (SHEET, MATERIAL)
     assert scene.gravity == sb.Gravity((0.0, 0.0, -9.81))
@@ -126,13 +126,13 @@ def test_a_file_takes_quantities_wherever_a_number_has_a_unit(tmp_path: Path) ->
         ("segments = 8", 'segments = "8"', "segments = '8': must be a whole number"),
     ],
 )
-def test_a_wrong_unit_is_refused_where_it_stands(tmp_path: Path, text: str, stands: str, said: str) -> None:
+def test_a_wrong_unit_is_refused_where_it_stands(tmp_path, text, stands, said):
     with pytest.raises(sb.SceneError) as caught:
         sb.load(written(tmp_path, WITH_UNITS.replace(text, stands)))
     assert said in str(caught.value)
 
 
-def test_scene_objects_take_their_values_by_place() -> None:
+def test_scene_objects_take_their_values_by_place():
     assert sb.Gravity((0, 0, -9.81)).acceleration == (0.0, 0.0, -9.81)
     assert sb.Curved("x0", 4.0) == sb.Curved(edge="x0", curvature=4.0)
     assert sb.Clamped("x0", 0.1) == sb.Clamped(edge="x0", tilt=0.1)
@@ -144,7 +144,7 @@ def test_scene_objects_take_their_values_by_place() -> None:
     assert scene.supports == (sb.Clamped("x0"),) and scene.gravity is not None
 
 
-def test_signatures_name_every_key_with_its_type() -> None:
+def test_signatures_name_every_key_with_its_type():
     assert str(inspect.signature(sb.Curved)).startswith(
         "(edge: Literal['x0', 'x1', 'y0', 'y1'], curvature: fl"
     )
@@ -155,12 +155,12 @@ def test_signatures_name_every_key_with_its_type() -> None:
         assert set(inspect.signature(kind).parameters) == set(kind.model_fields)
 
 
-def test_a_frozen_object_says_how_another_is_made() -> None:
+def test_a_frozen_object_says_how_another_is_made():
     with pytest.raises(sb.SceneError, match=r"Material.young cannot be changed.*replace\(young=…\)"):
         MATERIAL.young = 1.0
 
 
-def test_a_scene_replaces_what_its_sheet_and_material_hold() -> None:
+def test_a_scene_replaces_what_its_sheet_and_material_hold():
     scene = sb.Scene("strip", SHEET, MATERIAL, supports=(sb.Clamped("x0"),), loads=(sb.Pressure(1.0),))
     other = scene.replace(young="2 MPa", thickness=0.001, length_x=0.2)
     assert other.material == MATERIAL.replace(young=2e6)
@@ -170,13 +170,13 @@ def test_a_scene_replaces_what_its_sheet_and_material_hold() -> None:
     assert chosen.replace(length_x=0.2).probes == {"A": (0.1, 0.0)}
 
 
-def test_a_scene_shows_itself_on_a_few_lines() -> None:
+def test_a_scene_shows_itself_on_a_few_lines():
     text = repr(sb.load("curved-edge"))
     assert text.startswith("Scene curved-edge\n") and len(text.splitlines()) <= 10
     assert repr(sb.Clamped("x0", 0.1)) == str(sb.Clamped("x0", 0.1)) == "Clamped(edge='x0', tilt=0.1)"
 
 
-def test_an_implausible_scene_made_in_python_is_warned_of_where_it_is_written() -> None:
+def test_an_implausible_scene_made_in_python_is_warned_of_where_it_is_written():
     with pytest.warns(Implausible, match="120 mm is written 0.12") as caught:
         scene = sb.Scene("mm", sb.Sheet(120, 40, 2), MATERIAL, sb.Gravity((0, 0, -9.81)))
     assert caught[0].filename == __file__
@@ -202,7 +202,7 @@ def test_an_implausible_scene_made_in_python_is_warned_of_where_it_is_written() 
         ('[[load]]\nkind = "magnetic"\n[probes]', "magnetic"),
     ],
 )
-def test_what_is_not_modelled_is_refused_as_such(tmp_path: Path, text: str, key: str) -> None:
+def test_what_is_not_modelled_is_refused_as_such(tmp_path, text, key):
     with pytest.raises(sb.SceneError) as caught:
         sb.load(written(tmp_path, GOOD.replace("[probes]", text)))
     assert WISHES[key] in str(caught.value) and PAGE in str(caught.value)
@@ -210,13 +210,13 @@ def test_what_is_not_modelled_is_refused_as_such(tmp_path: Path, text: str, key:
 
 
 @pytest.mark.parametrize("key", ["young_x", "c10"])
-def test_a_material_that_is_not_modelled_is_refused_as_such(tmp_path: Path, key: str) -> None:
+def test_a_material_that_is_not_modelled_is_refused_as_such(tmp_path, key):
     text = GOOD.replace("[material]", f'[material]\n{key} = "x"')
     with pytest.raises(sb.SceneError, match=f"material.{key}: .*{PAGE}"):
         sb.load(written(tmp_path, text))
 
 
-def test_no_key_that_a_scene_has_is_said_not_to_be_modelled() -> None:
+def test_no_key_that_a_scene_has_is_said_not_to_be_modelled():
     schema = for_editors(sb.Scene)
     tables = [*schema["$defs"].values(), schema]
     keys = {key for table in tables for key in table["properties"]}
@@ -224,12 +224,12 @@ def test_no_key_that_a_scene_has_is_said_not_to_be_modelled() -> None:
     assert (ROOT / PAGE).is_file()
 
 
-def test_a_catalogue_name_with_a_slip_is_recognised() -> None:
+def test_a_catalogue_name_with_a_slip_is_recognised():
     with pytest.raises(sb.SceneError, match="did you mean two-edges-clamped"):
         sb.load("two-edge-clamped")
 
 
-def test_the_file_that_new_writes_lets_editors_take_units() -> None:
+def test_the_file_that_new_writes_lets_editors_take_units():
     young = for_editors(sb.Scene)["$defs"]["Material"]["properties"]["young"]
     assert {"type": "string"} in young["anyOf"] and "unit" in young
     assert tomllib.loads(WITH_UNITS)["material"]["young"] == "0.6 MPa"

@@ -148,7 +148,7 @@ def test_a_rectangle_as_outline_is_the_rectangle():
         Sheet(0.2, 0.1, 0.003, outline=corners[:2])
 
 
-def test_a_support_where_a_shape_says_is_replaced_as_one_at_an_edge() -> None:
+def test_a_support_where_a_shape_says_is_replaced_as_one_at_an_edge():
     bolt = Clamped(where={"circle": {"centre": (0.05, 0.05), "radius": 0.01}})
     wider = {"circle": {"centre": (0.05, 0.05), "radius": 0.02}}
     assert bolt.replace(where=wider) == Clamped(where=wider)

@@ -1,7 +1,5 @@
 """How a material damps: what is refused, one damper by a loss factor, and branches that keep it."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scene_files import GOOD, written
@@ -11,7 +9,7 @@ from sheetbench import scenes
 from sheetbench.scenes import Material, Relaxation, SceneError
 
 
-def series(*branches: tuple[float, float]) -> str:
+def series(*branches):
     return "\n".join(f"[[material.relaxation]]\nshare = {share}\ntime = {time}" for share, time in branches)
 
 
@@ -30,7 +28,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("fault", REFUSED)
-def test_what_no_material_does_is_refused_by_key_and_value(tmp_path: Path, fault: str) -> None:
+def test_what_no_material_does_is_refused_by_key_and_value(tmp_path, fault):
     lines, named = REFUSED[fault]
     path = written(tmp_path, GOOD.replace("density = 1678.0", f"density = 1678.0\n{lines}"))
     with pytest.raises(SceneError) as caught:
@@ -42,7 +40,7 @@ def test_what_no_material_does_is_refused_by_key_and_value(tmp_path: Path, fault
 
 @pytest.mark.parametrize("loss_factor", [0.02, 0.12, 0.5])
 @pytest.mark.parametrize("band", [(4.0, 6.0), (1.0, 20.0), (0.01, 1000.0)])
-def test_branches_keep_a_loss_factor_over_a_band(loss_factor: float, band: tuple[float, float]) -> None:
+def test_branches_keep_a_loss_factor_over_a_band(loss_factor, band):
     """Two a decade: within 10 % where the branches are not the ones that were fitted at."""
     branches = Material(1e6, 0.48, 1100.0, loss_factor=loss_factor, band=band).branches
     assert len(branches.times) == max(2, np.ceil(2 * np.log10(band[1] / band[0]) - 1e-9))
@@ -50,12 +48,12 @@ def test_branches_keep_a_loss_factor_over_a_band(loss_factor: float, band: tuple
     assert loss / storage == pytest.approx(loss_factor, rel=0.1)
 
 
-def test_one_damper_has_the_loss_factor_at_its_frequency() -> None:
+def test_one_damper_has_the_loss_factor_at_its_frequency():
     material = Material(1e6, 0.48, 1100.0, loss_factor=0.12, frequency=5.0)
     assert 2.0 * np.pi * 5.0 * material.dashpot_time == pytest.approx(0.12)
 
 
-def test_a_relaxing_modulus_is_its_prony_series() -> None:
+def test_a_relaxing_modulus_is_its_prony_series():
     """E(t) by the shares of E₀ = E∞/(1 − Σ g); its transform ω∫E sin ωt is E'."""
     material = Material(1e6, 0.48, 1e3, relaxation=(Relaxation(0.2, 0.05), Relaxation(0.3, 1.0)))
     time = np.array([0.0, 0.1, 50.0])
@@ -65,7 +63,7 @@ def test_a_relaxing_modulus_is_its_prony_series() -> None:
     assert storage == pytest.approx(2.0, rel=1e-6)
 
 
-def test_a_scene_with_branches_is_kept_in_files_and_solved_at_rest(tmp_path: Path) -> None:
+def test_a_scene_with_branches_is_kept_in_files_and_solved_at_rest(tmp_path):
     scene = scenes.load("one-edge-clamped")
     relaxing = scene.replace(relaxation=(Relaxation(0.2, 0.05), Relaxation(0.3, 1.0)))
     relaxing.save(tmp_path / "kept.toml")
@@ -76,7 +74,7 @@ def test_a_scene_with_branches_is_kept_in_files_and_solved_at_rest(tmp_path: Pat
     assert "54.5 MPa" in said and "109 MPa at once" in said
 
 
-def test_what_has_no_branches_refuses_them_by_name() -> None:
+def test_what_has_no_branches_refuses_them_by_name():
     scene = scenes.load("one-edge-clamped").replace(loss_factor=0.1, band=(1.0, 20.0))
     with pytest.raises(scenes.BadInput, match=r"material\.band: a linear system.*frequency"):
         lumped.linearise(scene, lumped.calibrate(scene.sheet, scene.material, (3, 3)))

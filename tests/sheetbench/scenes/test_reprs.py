@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from functools import cache
 from inspect import isfunction, signature
-from pathlib import Path
 from typing import Any
 
 import meshio
@@ -39,22 +38,22 @@ TRADEOFF = Tradeoff(SCENE, tuple(ROWS), ROWS[1], 1e-4, 1e-4)
 
 
 @cache
-def springs() -> lumped.Calibration:
+def springs():
     return lumped.calibrate(SCENE.sheet, SCENE.material, grid=(5, 7))
 
 
 @cache
-def lattice() -> scenes.Solution:
+def lattice():
     return lumped.solve(SCENE, springs())
 
 
 @cache
-def shell() -> scenes.Solution:
+def shell():
     return fem_reference.solve(SCENE, elements=2)
 
 
 @cache
-def both() -> Comparison:
+def both():
     return Comparison(SCENE, (lattice(), shell()))
 
 
@@ -77,7 +76,7 @@ SAID: dict[str, tuple[Callable[[], Any], list[str]]] = {
 
 
 @pytest.mark.parametrize("what", SAID)
-def test_answers_say_what_matters_in_a_few_lines(what: str) -> None:
+def test_answers_say_what_matters_in_a_few_lines(what):
     answer, parts = SAID[what]
     text = repr(answer())
     assert all(part in text for part in parts), text
@@ -86,13 +85,13 @@ def test_answers_say_what_matters_in_a_few_lines(what: str) -> None:
 
 
 @pytest.mark.parametrize("what", [what for what in SAID if what != "mesh"])
-def test_notebooks_show_a_table(what: str) -> None:
+def test_notebooks_show_a_table(what):
     html = SAID[what][0]()._repr_html_()
     assert html.count("<table>") == html.count("</table>") >= 1
     assert "Traceback" not in html and "[0.0, 0.0" not in html
 
 
-def test_names_cannot_bring_markup_into_a_notebook() -> None:
+def test_names_cannot_bring_markup_into_a_notebook():
     scene = SCENE.model_copy(update={"name": "<script>alert(1)</script>", "title": "\x1b[31m"})
     named = Comparison(scene, (lattice(), shell()))
     for html in (named._repr_html_(), named.report()._repr_html_()):
@@ -101,9 +100,7 @@ def test_names_cannot_bring_markup_into_a_notebook() -> None:
 
 
 @pytest.mark.parametrize("solved", [lattice, shell])
-def test_a_solution_goes_on_to_pyvista_and_to_files(
-    tmp_path: Path, solved: Callable[[], scenes.Solution]
-) -> None:
+def test_a_solution_goes_on_to_pyvista_and_to_files(tmp_path, solved):
     solution = solved()
     grid = solution.to_pyvista()
     assert np.array_equal(grid.points, solution.mesh.points)
@@ -114,7 +111,7 @@ def test_a_solution_goes_on_to_pyvista_and_to_files(
     assert np.allclose(read.point_data["displacement"], solution.mesh.point_data["displacement"], rtol=1e-15)
 
 
-def test_a_solution_knows_the_probes_of_its_scene() -> None:
+def test_a_solution_knows_the_probes_of_its_scene():
     solution = sb.solve(SCENE, grid=3)
     assert list(solution.probes) == list(SCENE.probes)
     at_p4 = solution.displacement(np.array([SCENE.probes["P4"]]))[0]
@@ -124,7 +121,7 @@ def test_a_solution_knows_the_probes_of_its_scene() -> None:
         solution.displacement("P9")
 
 
-def test_reactions_are_shown_without_rounding() -> None:
+def test_reactions_are_shown_without_rounding():
     named = {"x0": (4.16e-16, -2.0, 0.101), "y0": (0.0, 1e-7, 3.0)}
     kept = {name: force.tolist() for name, force in scenes.summary.without_rounding(named).items()}
     assert kept == {"x0": [0.0, -2.0, 0.101], "y0": [0.0, 1e-07, 3.0]}
@@ -141,11 +138,11 @@ def test_reactions_are_shown_without_rounding() -> None:
         (0, "0"),
     ],
 )
-def test_numbers_in_sentences_have_no_exponent(value: float, said: str) -> None:
+def test_numbers_in_sentences_have_no_exponent(value, said):
     assert scenes.summary.few(value) == said
 
 
-def test_help_shows_no_addresses_and_no_words_of_the_inside() -> None:
+def test_help_shows_no_addresses_and_no_words_of_the_inside():
     signatures = [str(signature(getattr(sb, name))) for name in sb.__all__ if isfunction(getattr(sb, name))]
     assert len(signatures) > 20
     assert not [text for text in signatures if "0x" in text or "lambda" in text or "'Asked'" in text]

@@ -1,7 +1,5 @@
 """Scenes: what is refused and how it is said, defaults, rigid motions, and the published figures."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scene_files import BAD, GOOD, LOOSE, written
@@ -14,7 +12,7 @@ pytestmark = pytest.mark.smoke
 
 
 @pytest.mark.parametrize("fault", BAD)
-def test_bad_scene_is_refused_in_one_line_naming_file_key_and_value(tmp_path: Path, fault: str) -> None:
+def test_bad_scene_is_refused_in_one_line_naming_file_key_and_value(tmp_path, fault):
     text, named = BAD[fault]
     assert text != GOOD
     path = written(tmp_path, text)
@@ -27,18 +25,18 @@ def test_bad_scene_is_refused_in_one_line_naming_file_key_and_value(tmp_path: Pa
         assert part in said
 
 
-def test_missing_file_lists_the_catalogue() -> None:
+def test_missing_file_lists_the_catalogue():
     with pytest.raises(scenes.SceneError, match=r"no-such-scene: no such file.*two-edges-clamped"):
         scenes.load("no-such-scene")
 
 
-def test_folder_is_not_a_scene(tmp_path: Path) -> None:
+def test_folder_is_not_a_scene(tmp_path):
     with pytest.raises(scenes.SceneError, match="cannot be read"):
         scenes.load(tmp_path)
 
 
 @pytest.mark.parametrize("case", LOOSE)
-def test_free_rigid_motions_are_refused_for_a_static_answer(tmp_path: Path, case: str) -> None:
+def test_free_rigid_motions_are_refused_for_a_static_answer(tmp_path, case):
     scene = scenes.load(written(tmp_path, LOOSE[case]))
     free = "edge x0; a static" if case == "a hinge" else "x, rotation about y, rotation about z"
     with pytest.raises(scenes.SceneError, match=f"rotation about {free}"):
@@ -61,13 +59,13 @@ def test_free_rigid_motions_are_refused_for_a_static_answer(tmp_path: Path, case
         ),
     ],
 )
-def test_only_motions_that_are_free_are_named(supports: tuple[Hinged | Held, ...], free: list[str]) -> None:
+def test_only_motions_that_are_free_are_named(supports, free):
     """As many names as independent motions: the vibration solvers count them."""
     scene = scenes.load("one-edge-clamped").replace(supports=supports)
     assert scenes.free_rigid_motions(scene) == free
 
 
-def test_catalogue_scenes_load_and_stand_still() -> None:
+def test_catalogue_scenes_load_and_stand_still():
     assert {"two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down"} <= set(
         scenes.catalogue()
     )
@@ -81,7 +79,7 @@ def test_catalogue_scenes_load_and_stand_still() -> None:
 @pytest.mark.parametrize(
     ("edge", "far"), [("x0", (0.2, 0.1)), ("x1", (0.0, 0.1)), ("y0", (0.2, 0.1)), ("y1", (0.2, 0.0))]
 )
-def test_absent_probes_are_centre_mid_sides_and_far_corner(edge: str, far: tuple[float, float]) -> None:
+def test_absent_probes_are_centre_mid_sides_and_far_corner(edge, far):
     scene = scenes.Scene(
         name="strip",
         sheet=scenes.Sheet(length_x=0.2, length_y=0.1, thickness=0.001),
@@ -104,9 +102,7 @@ def test_absent_probes_are_centre_mid_sides_and_far_corner(edge: str, far: tuple
         ([("x0", "clamped"), ("x1", "motion")], {"P2": (0.1, 0.1), "P3": (0.15, 0.05), "P4": (0.15, 0.1)}),
     ],
 )
-def test_absent_probes_do_not_lie_where_the_sheet_is_held(
-    held: list[tuple[str, str]], at: dict[str, tuple[float, float]]
-) -> None:
+def test_absent_probes_do_not_lie_where_the_sheet_is_held(held, at):
     more = {
         "held": {"components": ["z"]},
         "motion": {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.01]]},
@@ -125,7 +121,7 @@ def test_absent_probes_do_not_lie_where_the_sheet_is_held(
     assert scene.probe_points() == pytest.approx(np.array([(0.1, 0.05), *at.values()]))
 
 
-def test_published_displacements_are_in_metres_and_as_printed() -> None:
+def test_published_displacements_are_in_metres_and_as_printed():
     values = {(d.test, d.source, d.component, d.probe): d.value for d in seed_displacements()}
     assert len(values) == 2 * 2 * 3 * 4
     assert values[1, "model", "uz", "P4"] == pytest.approx(-18.17e-3)
@@ -134,7 +130,7 @@ def test_published_displacements_are_in_metres_and_as_printed() -> None:
     assert any("+1.86" in fault for fault in KNOWN_FAULTS)
 
 
-def test_published_model_of_test_1_is_symmetric_which_tells_the_tables_apart() -> None:
+def test_published_model_of_test_1_is_symmetric_which_tells_the_tables_apart():
     values = {
         (d.component, d.probe): d.value for d in seed_displacements() if (d.test, d.source) == (1, "model")
     }
@@ -143,6 +139,6 @@ def test_published_model_of_test_1_is_symmetric_which_tells_the_tables_apart() -
         assert values["uz", here] == pytest.approx(values["uz", there])
 
 
-def test_printed_errors_do_not_average_to_what_is_quoted() -> None:
+def test_printed_errors_do_not_average_to_what_is_quoted():
     errors = [error.value for error in seed_errors()]
     assert sum(errors) / len(errors) == pytest.approx(0.0492, abs=5e-5)  # quoted: 4.8 %

@@ -77,3 +77,18 @@ def test_the_reference_of_the_python_interface_names_what_exists(page):
     text = page.read_text(encoding="utf-8")
     for name in re.findall(r"auto(?:module|class|function):: (\S+)$", text, re.M):
         pkgutil.resolve_name(name if "." in name or name in sys.modules else f"sheetbench.{name}")
+
+
+def test_files_that_are_named_exist():
+    places = [page for page in PAGES if page.name != "quality.md"]  # a record of what was
+    places += [ROOT / "CONTRIBUTING.md", ROOT / "README.md", ROOT / "Makefile", ROOT / "studies/Makefile"]
+    places += (ROOT / ".ci").iterdir()
+    rooms = "tests|benchmarks|studies|comparisons|lumped|fem_reference|sheetbench"
+    path = rf"(?<![\w/{{])(?:{rooms})/[\w/.-]+\.(?:py|toml|json|csv|txt)\b"
+    named = {
+        (page.name, name) for page in places for name in re.findall(path, page.read_text(encoding="utf-8"))
+    }
+    forms = re.compile("CODE|NAME")  # to be filled in
+    real = sorted((page, name) for page, name in named if not forms.search(name))
+    assert len(real) > 30
+    assert [x for x in real if not any((root / x[1]).exists() for root in (ROOT, ROOT / "tests"))] == []

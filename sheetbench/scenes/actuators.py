@@ -11,7 +11,7 @@ curvature [1/m] is a number, a list with one value a joint (in the order of the 
 the half-length joints beside it), or a table {time, value}: linear between samples, the last value kept.
 Statics take the last value of a table, and of a motion.
 
-A chain that is held along itself at two places could not bend, and is refused (`sheetbench.scenes.anchors`).
+A chain that is held along itself at two places could not bend, and is refused (`sheetbench.scenes.corners`).
 
 An actuator's name is its edge, or, where an edge has several, its edge and its number in the scene: "x1.2".
 What holds it is named among the reactions: a motion as its edge, the base of an edge's chains as "EDGE base".
@@ -158,23 +158,3 @@ def _kind(data: Any) -> str:
 Actuator = Annotated[
     Annotated[Chain, Tag("chain")] | Annotated[EdgeMotion, Tag("motion")], Discriminator(_kind)
 ]
-
-
-def disagreement(actuators: tuple[Chain | EdgeMotion, ...], supported: set[str]) -> str | None:
-    """A sentence saying which actuators cannot act together, or on a supported edge; or None."""
-    for i, first in enumerate(actuators):
-        if first.edge in supported:
-            return f"edge {first.edge} has a support, which holds the masses that the actuator would move"
-        for second in actuators[i + 1 :]:
-            if first.edge != second.edge:
-                continue
-            if not isinstance(first, Chain) or not isinstance(second, Chain):
-                return f"edge {first.edge} has a prescribed motion and another actuator"
-            for key in ("segments", "plane", "base"):
-                mine, theirs = getattr(first, key), getattr(second, key)
-                if mine != theirs:
-                    return (
-                        f"two chains on edge {first.edge} have {key} = {mine!r} and {theirs!r}: "
-                        "chains on one edge must agree in segments, plane and base"
-                    )
-    return None

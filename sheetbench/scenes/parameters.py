@@ -13,27 +13,36 @@ drag                                                  of the air
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
 from dataclasses import dataclass
+from functools import reduce
 from math import inf, pi
 from typing import Any
 
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes.actuators import Chain
-from sheetbench.scenes.material import Material
+from sheetbench.scenes.patches import CONSTANTS
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.supports import LARGEST_TILT, Clamped, Curved
 
-MATERIAL = {"young": "Pa", "poisson": "", "density": "kg/m³", "damping_time": "s", "damping_rate": "1/s"}
-MATERIAL |= {"loss_factor": ""}
-FIBRES = {"young_1": "Pa", "young_2": "Pa", "poisson_12": "", "shear_12": "Pa", "shear_13": "Pa"}
-FIBRES |= {"shear_23": "Pa", "angle": "rad"}
-BRANCH = {"share": ("", 1.0), "time": ("s", inf)}  # unit and upper bound
-TAPERS = ("taper_x", "taper_y")
-PATCH = {"young": "Pa", "poisson": "", "density": "kg/m³", "thickness": "m", "angle": "rad"}
-NAMES = (*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE")
-NAMES += ("drag",)
-BOUNDS = {"poisson": (-0.99, 0.4999), "angle": (-0.999 * pi, 0.999 * pi)}  # others: above 0
+MATERIAL = ("young", "poisson", "density", "damping_time", "damping_rate", "loss_factor")
+FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23", "angle")
+BRANCH = ("share", "time")
+NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
+NAMES += ["drag"]
+UNITS = {  # none of other keys
+    **dict.fromkeys(("young", "young_1", "young_2", "shear_12", "shear_13", "shear_23"), "Pa"),
+    **{"density": "kg/m³", "thickness": "m", "curvature": "1/m", "angle": "rad", "tilt": "rad"},
+    **{"damping_time": "s", "damping_rate": "1/s", "time": "s"},
+}
+BOUNDS = {  # others are above 0
+    "poisson": (-0.99, 0.4999),
+    "angle": (-0.999 * pi, 0.999 * pi),
+    "tilt": (-LARGEST_TILT, LARGEST_TILT),
+    "curvature": (-inf, inf),
+    "share": (0.0, 1.0),
+}
+Path = tuple[str | int, ...]  # keys, and numbers in lists
 
 
 @dataclass(frozen=True)
@@ -48,128 +57,104 @@ class Parameter:
 
 
 def parameter(scene: Scene, name: str) -> Parameter:
-    """The parameter of this name. Raises BadInput where the scene has none."""
-    if name in FIBRES or (name == "poisson" and scene.material.kind == "orthotropic"):
-        return _of_fibres(scene.material, name)
-    if name in MATERIAL:
-        if getattr(scene.material, name) is None:
-            raise BadInput(
-                f"'{name}': the scene's material has none; give a first guess, with frequency or band"
-            )
-        return Parameter(name, MATERIAL[name], getattr(scene.material, name), *BOUNDS.get(name, (0.0, inf)))
-    if name == "thickness":
-        return Parameter(name, "m", scene.sheet.thickness, 0.0, min(scene.sheet.lengths))
-    if name == "drag":
-        if scene.air is None:
-            raise BadInput("'drag': the scene has no [air]; give a first guess there")
-        return Parameter(name, "", scene.air.drag, 0.0, inf)
-    if (patch := _patch_of(name)) is not None:
-        return _of_patch(scene, name, *patch)
-    kind, _, edge = name.partition("_")
-    if kind in BRANCH and edge.isdecimal():
-        if not 1 <= int(edge) <= len(scene.material.relaxation):
-            raise BadInput(f"'{name}': the material has {len(scene.material.relaxation)} branches")
-        value = getattr(scene.material.relaxation[int(edge) - 1], kind)
-        return Parameter(name, BRANCH[kind][0], value, 0.0, BRANCH[kind][1])
-    if kind == "curvature":
-        return Parameter(name, "1/m", _curvature(scene, edge), -inf, inf)
-    if kind == "tilt":
-        for clamp in scene.supports:
-            if isinstance(clamp, Clamped) and clamp.edge == edge:
-                return Parameter(name, "rad", clamp.tilt, -LARGEST_TILT, LARGEST_TILT)
-        raise BadInput(f"'{name}': edge '{edge}' has no clamp")
-    raise BadInput(f"'{name}': not a parameter of a scene; choose from {', '.join(NAMES)}")
-
-
-def _of_fibres(material: Material, name: str) -> Parameter:
-    value = getattr(material, name) if name in FIBRES else None
-    if name == "angle" and material.kind == "orthotropic":
-        value = value or 0.0
-    if value is None:
-        given = [key for key in FIBRES if getattr(material, key) is not None]
-        raise BadInput(
-            f"'{name}': the scene's material has none; of fibres it has {', '.join(given) or 'none'}"
-        )
-    bounds = BOUNDS.get(name, (0.0, inf))
-    if name == "poisson_12":
-        most = 0.999 * ((material.young_1 or 1.0) / (material.young_2 or 1.0)) ** 0.5
-        bounds = -most, most
-    return Parameter(name, FIBRES[name], value, *bounds)
-
-
-def _patch_of(name: str) -> tuple[int, str] | None:
-    """The number of the patch and the key that a name like patch1.young has, None of another name."""
-    patch, _, key = name.partition(".")
-    number = patch.removeprefix("patch")
-    return (int(number), key) if patch != number and number.isdecimal() and key in PATCH else None
-
-
-def _of_patch(scene: Scene, name: str, number: int, key: str) -> Parameter:
-    if not 1 <= number <= len(scene.patches):
-        raise BadInput(f"'{name}': the scene has {len(scene.patches)} patches")
-    value = scene.patches[number - 1].own.get(key)
-    if value is None:
-        raise BadInput(f"'{name}': patch {number} has no {key} of its own; give a first guess there")
-    most = min(scene.sheet.lengths) if key == "thickness" else inf
-    return Parameter(name, PATCH[key], value, *BOUNDS.get(key, (0.0, most)))
+    """Return the parameter of this name. Raises BadInput where the scene has none."""
+    path = _paths(scene, name)[0]
+    key = str(path[-1])
+    low, high = BOUNDS.get(key, (0.0, inf))
+    if key == "thickness":
+        high = min(scene.sheet.lengths)
+    if key == "poisson_12":
+        high = 0.999 * ((scene.material.young_1 or 1.0) / (scene.material.young_2 or 1.0)) ** 0.5
+        low = -high
+    return Parameter(name, UNITS.get(key, ""), float(_value(scene, path) or 0.0), low, high)
 
 
 def put(scene: Scene, name: str, value: float) -> Scene:
-    """The scene with a parameter at another value. Raises BadInput where it has none of this name, and
+    """Return the scene with a parameter at another value. Raises BadInput where it has none of this name, and
     SceneError where the value cannot be."""
-    parameter(scene, name)
+    paths = _paths(scene, name)
     try:
-        return _with(scene, name, value)
+        if name == "thickness":
+            return _with_thickness(scene, value / scene.sheet.thickness)
+        return reduce(lambda changed, path: _replaced(changed, path, value), paths, scene)
     except SceneError as error:
         raise SceneError(f"{name} = {value:g}: {error}") from None
 
 
-def _with(scene: Scene, name: str, value: float) -> Scene:
-    if name in MATERIAL or name in FIBRES:
-        return scene.replace(material=scene.material.replace(**{name: value}))
-    if name == "drag" and scene.air is not None:
-        return scene.replace(air=scene.air.replace(drag=value))
+def _paths(scene: Scene, name: str) -> list[Path]:
+    """Return the places in a scene that a parameter's value is at. Raises BadInput where there are none."""
+    material = scene.material
+    fibres = [key for key in FIBRES if getattr(material, key) is not None]
+    if material.kind == "orthotropic":
+        fibres.append("angle")  # 0 unless given
+    if (name in FIBRES or (name == "poisson" and fibres)) and name not in fibres:
+        raise BadInput(
+            f"'{name}': the scene's material has none; of fibres it has {', '.join(fibres) or 'none'}"
+        )
+    if name in (*MATERIAL, *FIBRES):
+        if getattr(material, name) is None and name != "angle":
+            raise BadInput(
+                f"'{name}': the scene's material has none; give a first guess, with frequency or band"
+            )
+        return [("material", name)]
     if name == "thickness":
-        return _as_thick(scene, value / scene.sheet.thickness)
-    if (patch := _patch_of(name)) is not None:
-        patches = list(scene.patches)
-        patches[patch[0] - 1] = patches[patch[0] - 1].replace(**{patch[1]: value})
-        return scene.replace(patches=tuple(patches))
-    kind, _, edge = name.partition("_")
-    if kind in BRANCH:
-        branches = list(scene.material.relaxation)
-        branches[int(edge) - 1] = branches[int(edge) - 1].replace(**{kind: value})
-        return scene.replace(relaxation=tuple(branches))
-    if kind == "tilt":
-        return scene.replace(supports=_changed(scene.supports, _is(Clamped, edge), tilt=value))
-    bent = _is(Curved | Chain, edge)
-    return scene.replace(
-        supports=_changed(scene.supports, bent, curvature=value),
-        actuators=_changed(scene.actuators, bent, curvature=value),
-    )
+        return [("sheet", name)]
+    if name == "drag":
+        if scene.air is None:
+            raise BadInput("'drag': the scene has no [air]; give a first guess there")
+        return [("air", name)]
+    if (patch := re.fullmatch(r"patch(\d+)\.(\w+)", name)) and patch[2] in CONSTANTS:
+        number, key = int(patch[1]), patch[2]
+        if not 1 <= number <= len(scene.patches):
+            raise BadInput(f"'{name}': the scene has {len(scene.patches)} patches")
+        if key not in scene.patches[number - 1].own:
+            raise BadInput(f"'{name}': patch {number} has no {key} of its own; give a first guess there")
+        return [("patches", number - 1, key)]
+    key, _, of = name.partition("_")
+    if key in BRANCH and of.isdecimal():
+        if not 1 <= int(of) <= len(material.relaxation):
+            raise BadInput(f"'{name}': the material has {len(material.relaxation)} branches")
+        return [("material", "relaxation", int(of) - 1, key)]
+    if key == "tilt":
+        if clamps := _holders(scene, Clamped, of):
+            return [(*clamp, key) for clamp in clamps]
+        raise BadInput(f"'{name}': edge '{of}' has no clamp")
+    if key == "curvature":
+        paths = [(*holder, key) for holder in _holders(scene, Curved | Chain, of)]
+        values = {_value(scene, path) for path in paths}
+        if len(values) == 1 and isinstance(values.pop(), int | float):
+            return paths
+        raise BadInput(f"'{name}': edge '{of}' has no support or actuator of one curvature")
+    raise BadInput(f"'{name}': not a parameter of a scene; choose from {', '.join(NAMES)}")
 
 
-def _as_thick(scene: Scene, factor: float) -> Scene:
-    """The scene with its sheet so many times as thick, tapers and layers too."""
+def _holders(scene: Scene, kind: Any, edge: str) -> list[Path]:
+    """Return the places of an edge's supports and actuators of a kind."""
+    lists = {"supports": scene.supports, "actuators": scene.actuators}
+    every = ((key, i, one) for key, ones in lists.items() for i, one in enumerate(ones))
+    return [(key, i) for key, i, one in every if isinstance(one, kind) and one.edge == edge]
+
+
+def _value(scene: Scene, path: Path) -> Any:
+    of: Any = scene
+    for part in path:
+        of = of[part] if isinstance(part, int) else getattr(of, part)
+    return of
+
+
+def _replaced(of: Any, path: Path, value: Any) -> Any:
+    """Return a scene object, or a list of some, with another value at a place within."""
+    part, *rest = path
+    if isinstance(part, int):
+        return tuple(_replaced(one, tuple(rest), value) if i == part else one for i, one in enumerate(of))
+    inside = _replaced(getattr(of, part), tuple(rest), value) if rest else value
+    return of.replace(**{part: inside})
+
+
+def _with_thickness(scene: Scene, factor: float) -> Scene:
+    """Return the scene with its sheet so many times as thick, tapers and layers too."""
     sheet = scene.sheet
-    tapers = {name: tuple(factor * h for h in ends) for name in TAPERS if (ends := getattr(sheet, name))}
+    given = {key: getattr(sheet, key) for key in ("taper_x", "taper_y")}
+    tapers = {key: tuple(factor * h for h in ends) for key, ends in given.items() if ends is not None}
     layers = tuple(layer.replace(thickness=factor * layer.thickness) for layer in scene.layers)
     return scene.replace(sheet=sheet.replace(thickness=factor * sheet.thickness, **tapers), layers=layers)
-
-
-def _curvature(scene: Scene, edge: str) -> float:
-    bent = [
-        h for h in (*scene.supports, *scene.actuators) if isinstance(h, Curved | Chain) and h.edge == edge
-    ]
-    values = {holder.curvature for holder in bent}
-    if len(values) == 1 and isinstance(value := values.pop(), int | float):
-        return float(value)
-    raise BadInput(f"'curvature_{edge}': edge '{edge}' has no support or actuator of one curvature")
-
-
-def _is(kind: Any, edge: str) -> Callable[[Any], bool]:
-    return lambda holder: isinstance(holder, kind) and holder.edge == edge
-
-
-def _changed(holders: tuple[Any, ...], which: Callable[[Any], bool], **values: float) -> tuple[Any, ...]:
-    return tuple(holder.replace(**values) if which(holder) else holder for holder in holders)

@@ -18,9 +18,8 @@ from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.errors import Implausible
 from sheetbench.scenes import corners, region, summary
-from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreement
+from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion
 from sheetbench.scenes.air import Air
-from sheetbench.scenes.anchors import held_twice
 from sheetbench.scenes.layers import Layer, misfit
 from sheetbench.scenes.loads import AreaLoad, Load
 from sheetbench.scenes.material import Material
@@ -31,7 +30,7 @@ from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.region import Cutout
 from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringTable
-from sheetbench.scenes.supports import Support, contradiction, lets_twist_go, place
+from sheetbench.scenes.supports import Support, lets_twist_go, place
 from sheetbench.scenes.words import in_words
 
 if TYPE_CHECKING:
@@ -142,10 +141,7 @@ class Scene(Frozen):
         yield "patch ", mismatched(self.patches, self.material)
         law = None if self.springs is None else self.material.law
         yield "springs: ", law and f"of a material with law = '{law}' they are calibrated; leave one out"
-        yield "support: ", contradiction(self.supports)
-        yield "actuator: ", disagreement(self.actuators, {support.edge for support in self.supports})
-        yield "actuator ", held_twice(self.actuators, self.supports)
-        yield "actuator: ", corners.conflict(self.actuators, self.supports, self.sheet)
+        yield from corners.conflicts(self.actuators, self.supports, self.sheet)
 
     def replace(self, **values: Any) -> Scene:
         """Return a copy with other values for some keys, those of its sheet and material too.

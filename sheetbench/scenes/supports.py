@@ -25,7 +25,7 @@ from pydantic import ConfigDict, Field, field_validator, model_validator
 from sheetbench.scenes.quantities import Frozen, Number, Unit, Vector3
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.sheet import EDGES, EdgeName
-from sheetbench.scenes.tables import OverTime, PiecewiseLinear
+from sheetbench.scenes.tables import OverTime
 
 Component = Literal["x", "y", "z"]
 LARGEST_TILT = pi / 2.0  # rad, of a clamp
@@ -175,64 +175,3 @@ def holds_tilt(support: AnySupport) -> bool:
 def lets_twist_go(edge: str, supports: tuple[AnySupport, ...]) -> bool:
     """Whether no support holds the director along an edge, so that a twisting moment fades towards it."""
     return not any(support.edge == edge and holds_tilt(support) for support in supports)
-
-
-def contradiction(supports: tuple[AnySupport, ...]) -> str | None:
-    """A sentence saying which two supports cannot both be obeyed, or None.
-
-    A bent rod moves its ends along the edge and along z and turns the director there, so nothing else may
-    hold those at a shared corner, but for one plane of symmetry, which its middle lies on. A tilted clamp
-    turns the director across its edge, so nothing else may hold that there; an adjacent plane of symmetry
-    holds it along the edge only. Supports that move must move their corner alike in what both hold. And one
-    edge can be held in one way only.
-    """
-    supports = tuple(support for support in supports if place(support) is None)
-    cuts = [support for support in supports if isinstance(support, Symmetric)]
-    for i, first in enumerate(supports):
-        for second in supports[i + 1 :]:
-            if first.edge == second.edge:
-                return f"edge {first.edge} has two supports, {first.kind} and {second.kind}"
-            if EDGES[first.edge].normal_axis == EDGES[second.edge].normal_axis:
-                continue
-            if (apart := _moved_apart(first, second)) is not None:
-                return apart
-            for turned, other in ((first, second), (second, first)):
-                if isinstance(turned, Clamped) and turned.tilt != 0.0 and holds_director(other):
-                    return (
-                        f"the clamp on edge {turned.edge} (tilt {turned.tilt:g} rad) turns the director at "
-                        f"the corner where the {other.kind} support on edge {other.edge} holds it otherwise"
-                    )
-            for bent, other in ((first, second), (second, first)):
-                if not isinstance(bent, Curved) or bent.curvature == 0.0:
-                    continue
-                along = EDGES[bent.edge].along_axis
-                if isinstance(other, Symmetric) and len({c.edge for c in cuts if _normal(c) == along}) == 1:
-                    continue
-                moved = {along, 2}
-                if holds_director(other) or moved & set(held_axes(other)):
-                    return (
-                        f"the rod on edge {bent.edge} (curvature {bent.curvature:g} 1/m) moves the corner "
-                        f"that the {other.kind} support on edge {other.edge} holds"
-                    )
-    return None
-
-
-def _moved_apart(first: AnySupport, second: AnySupport) -> str | None:
-    """A sentence where two supports move their common corner differently along an axis that both hold."""
-    motions = [support.motion for support in (first, second)]
-    times = sorted({time for motion in motions if motion is not None for time in motion.time})
-    still = PiecewiseLinear([0.0], [[0.0] * 3])
-    one, other = (PiecewiseLinear(m.time, m.displacement) if m is not None else still for m in motions)
-    for axis in sorted({*held_axes(first)} & {*held_axes(second)}):
-        for time in times:
-            gap = abs(float(one.at(time)[axis] - other.at(time)[axis]))
-            if gap > 1e-12:  # m: rounding between samples
-                return (
-                    f"the {first.kind} support on edge {first.edge} and the {second.kind} support on edge "
-                    f"{second.edge} move their corner apart: {'xyz'[axis]} by {gap:.3g} m at t = {time:.3g} s"
-                )
-    return None
-
-
-def _normal(support: Symmetric) -> int:
-    return EDGES[support.edge].normal_axis

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from comparisons.stability import tiles as maps
 from comparisons.stability.answer import Stability
-from comparisons.stability.rows import VARIED, Row, place, who
+from comparisons.stability.rows import VARIED, place, who
 from sheetbench.answers.figure_style import FigureStyle
 
 
@@ -23,14 +23,7 @@ def compose(stability: Stability, style: FigureStyle) -> Figure:
         figure = Figure(figsize=(style.width, 0.8 + 0.24 * sum(heights)), layout="constrained")
         axes = figure.subplots(len(panels), 1, height_ratios=heights, squeeze=False)[:, 0]
         for axis, (name, rows) in zip(axes, panels.items(), strict=True):
-            of = models[name]
-            heights_of = {model: float(i) for i, model in enumerate(of)}
-
-            def height(row: Row, at: dict[str, float] = heights_of) -> float:
-                return at[who(row)]
-
-            maps.tiles(axis, rows, place, height, scale=("log", "linear"))
-            axis.set_yticks(range(len(of)), of)
+            maps.strips(axis, rows, place, who, models[name])
             axis.set_xlabel(VARIED[name])
             if name == "time-step":
                 axis.xaxis.set_major_formatter(lambda x, _: f"{1e3 * x:g}")
@@ -41,5 +34,5 @@ def compose(stability: Stability, style: FigureStyle) -> Figure:
         if style.titled:
             title = f"Where each model of {stability.scene.name} holds; errors in %"
             figure.suptitle(title, x=0.01, ha="left", fontsize=9, fontweight="bold")
-        maps.key(figure, [maps.outcome(row) for rows in panels.values() for row in rows])
+        maps.legend(figure, (row for rows in panels.values() for row in rows))
     return figure

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
 from comparisons.stability.rows import LARGE, Row, percent
@@ -44,17 +45,25 @@ def outcome(row: Row) -> str:
     return "within 1 %" if error <= 0.01 else "within 5 %"
 
 
+def error_in_percent(row: Row) -> str:
+    """Return what is written in a tile."""
+    return percent(row.get("error"))
+
+
 def tiles(
     axis: Axes,
     rows: Sequence[Row],
-    x: Callable[[Row], float],
-    y: Callable[[Row], float],
+    x: str | Callable[[Row], float],
+    y: str | Callable[[Row], float],
     *,
-    of: Callable[[Row], str] = outcome,
-    text: Callable[[Row], str] | None = None,
+    text: Callable[[Row], str] = error_in_percent,
     scale: tuple[str, str] = ("log", "log"),
 ) -> None:
-    """One tile a row at (x, y), reaching half-way to its neighbours; several rows at one place share it."""
+    """Draw a tile a row at (x, y), reaching half-way to its neighbours; several rows at one place share it.
+
+    x, y: keys of the cell, or functions of the row.
+    """
+    x, y = (_of_cell(at) if isinstance(at, str) else at for at in (x, y))
     edges = []
     for value, kind in ((x, scale[0]), (y, scale[1])):
         places = np.unique([value(row) for row in rows])
@@ -67,11 +76,9 @@ def tiles(
         (xs, across), (ys, up) = edges
         i, j = int(np.searchsorted(xs, x(row))), int(np.searchsorted(ys, y(row)))
         corner, size = (across[i], up[j]), (across[i + 1] - across[i], up[j + 1] - up[j])
-        axis.add_patch(Rectangle(corner, *size, facecolor=OUTCOMES[of(row)], edgecolor="white", lw=0.8))
-        label = text(row) if text is not None else percent(row.get("error"))
-        axis.text(
-            _mid(across, i, scale[0]), _mid(up, j, scale[1]), label, fontsize=5.2, ha="center", va="center"
-        )
+        axis.add_patch(Rectangle(corner, *size, facecolor=OUTCOMES[outcome(row)], edgecolor="white", lw=0.8))
+        middle = _mid(across, i, scale[0]), _mid(up, j, scale[1])
+        axis.text(*middle, text(row), fontsize=5.2, ha="center", va="center")
     axis.set_xscale(scale[0])
     axis.set_yscale(scale[1])
     axis.set_xlim(edges[0][1][0], edges[0][1][-1])
@@ -83,23 +90,50 @@ def _mid(edges: np.ndarray, i: int, scale: str) -> float:
     return float(np.sqrt(edges[i] * edges[i + 1]) if scale == "log" else 0.5 * (edges[i] + edges[i + 1]))
 
 
-def key(figure: Figure, outcomes: Sequence[str], *lines: Any, columns: int = 4) -> None:
-    """The colours that occur, and the theory's lines, below the panels."""
+def _of_cell(key: str) -> Callable[[Row], float]:
+    return lambda row: row["cell"][key]
+
+
+def strips(
+    axis: Axes,
+    rows: Sequence[Row],
+    x: str | Callable[[Row], float],
+    name: Callable[[Row], str],
+    names: Sequence[str],
+    **more: Any,
+) -> None:
+    """Draw a strip of tiles for each of the names, the first at the bottom; more: as `tiles` has it."""
+    tiles(axis, rows, x, lambda row: float(names.index(name(row))), scale=("log", "linear"), **more)
+    axis.set_yticks(range(len(names)), names)
+
+
+def references(rows: Iterable[Row]) -> list[Row]:
+    """Return the rows of the references, at the cells that they belong to and without an error."""
+    return [{**r["reference"], "cell": r["cell"], "error": None} for r in rows if r.get("reference")]
+
+
+def iterations(row: Row) -> str:
+    """Return a row's number of factorisations."""
+    return str(row["iterations"])
+
+
+def theory(label: str, **style: Any) -> Line2D:
+    """Return the legend's entry of a line of theory."""
+    return Line2D([], [], label=label, **{**THEORY, "zorder": 1, **style})
+
+
+def legend(figure: Figure, rows: Iterable[Row], *lines: Any) -> None:
+    """Draw the colours that occur in the rows, and lines, below the panels."""
+    occurring = set(map(outcome, rows))
     patches = [
-        Patch(facecolor=c, edgecolor=GREY, lw=0.4, label=n) for n, c in OUTCOMES.items() if n in outcomes
+        Patch(facecolor=c, edgecolor=GREY, lw=0.4, label=n) for n, c in OUTCOMES.items() if n in occurring
     ]
-    figure.legend(
-        handles=[*patches, *lines],
-        loc="outside lower center",
-        ncols=columns,
-        frameon=False,
-        fontsize=6.8,
-        handlelength=1.6,
-    )
+    below: Any = {"loc": "outside lower center", "ncols": 4, "frameon": False, "fontsize": 6.8}
+    figure.legend(handles=[*patches, *lines], handlelength=1.6, **below)
 
 
 def plain(axis: Axes) -> None:
-    """Axes of curves in the same dress as the maps."""
+    """Style axes of curves as the maps are."""
     axis.grid(which="major", color="#e4e4e4", lw=0.5)
     axis.set_axisbelow(True)
     axis.tick_params(which="both", width=0.5, length=2)

@@ -1,8 +1,9 @@
 """Where each solver holds, degrades, refuses or breaks: studies of cells, their maps, tables and texts."""
 
-from comparisons.stability.rows import Row
-from studies.stability.studies import STUDIES
-from studies.stability.study import Study
-from studies.stability.survey import survey
+from studies.stability import curved_edge, damping, grid, load, mass, slenderness, stiffness, time_step
+from studies.stability.survey import Study
 
-__all__ = ["STUDIES", "Row", "Study", "survey"]
+STUDIES: dict[str, Study] = {
+    module.STUDY.name: module.STUDY
+    for module in (time_step, stiffness, slenderness, grid, load, damping, mass, curved_edge)
+}

@@ -8,8 +8,9 @@ from comparisons.cli.options import Grading, Large, option
 from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.answers.figure_style import parse_figure
 from sheetbench.errors import BadInput, require_choice
-from studies.stability import STUDIES, survey
-from studies.stability.texts import StabilityMaps
+from studies.stability import STUDIES
+from studies.stability.answer import StabilityMaps
+from studies.stability.survey import survey
 
 
 def command(

@@ -12,17 +12,17 @@ and Pellegrino 1999). With the load number L = ρ g h a³/D the fold is reached 
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from comparisons.models.spec import GradingLike
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row, percent
-from sheetbench.answers.table import Column
 from sheetbench.scenes import Curved
-from studies.stability.equilibria import SIDE, compare, sheet
-from studies.stability.study import Study
+from studies.stability.equilibria import POISSON, SIDE, compare, consistent, sheet
+from studies.stability.survey import Study, columns
 
 SLENDERNESS, GRID, ELEMENTS = 0.008, (17, 17), 12
 
@@ -39,60 +39,40 @@ def measure(turn: float, load_number: float, grading: GradingLike = None) -> Row
     """The row of a cell: a rod bent to `turn` of a full circle."""
     curvature = 2.0 * np.pi * turn / SIDE
     supports = (Curved(edge="x0", curvature=float(curvature)),)
-    return compare(
-        sheet(SLENDERNESS, load_number, supports=supports), GRID, elements=ELEMENTS, grading=grading
-    )
+    scene = sheet(SLENDERNESS, load_number, supports=supports)
+    return compare(scene, GRID, elements=ELEMENTS, springs=consistent(scene, grading))
 
 
-def _along(row: Row) -> float:
+def _root(turn: Any) -> Any:
     """Where a turn is drawn: at its square root, for small ones to have room."""
-    turn = float(row["cell"]["turn"])
-    return float(np.copysign(np.sqrt(abs(turn)), turn))
+    return np.copysign(np.sqrt(np.abs(turn)), turn)
 
 
 def _label(row: Row) -> str:
     """The error, and `s` for each snap on the way."""
-    snaps = "s" * len(row["snaps"])
-    return "\n".join(filter(None, [percent(row["error"]), snaps]))
+    return "\n".join(filter(None, [percent(row["error"]), "s" * len(row["snaps"])]))
 
 
 def draw(figure: Figure, rows: list[Row]) -> None:
     """Lattice and shell: load number against the rod's turn."""
     left, right = figure.subplots(1, 2, sharey=True)
-    levels = sorted({r["cell"]["load_number"] for r in rows})
-    least = min([level for level in levels if level > 0.0], default=1.0)
-    lowest = 0.3 * least
-
-    def at(row: Row) -> float:
-        return max(float(row["cell"]["load_number"]), lowest)
-
-    maps.tiles(left, rows, _along, at, scale=("linear", "log"), text=_label)
-    truths = [{**r["reference"], "cell": r["cell"], "error": None} for r in rows if r.get("reference")]
-    maps.tiles(
-        right,
-        truths,
-        _along,
-        at,
-        scale=("linear", "log"),
-        text=lambda r: str(r["iterations"]),
-    )
+    lowest = 0.3 * min((r["cell"]["load_number"] for r in rows if r["cell"]["load_number"]), default=1.0)
+    shells = maps.references(rows)
     turns = np.linspace(-1.2, 1.2, 400)
-    nu = 0.48
-    share = np.where(turns > 0.0, 1.0 - nu, 1.0 + nu)
-    for axis in (left, right):
-        axis.plot(
-            np.sign(turns) * np.sqrt(np.abs(turns)),
-            np.maximum(2.0 * share * 2.0 * np.pi * np.abs(turns), 1e-3),
-            **maps.THEORY,
-        )
+    folds = 2.0 * np.where(turns > 0.0, 1.0 - POISSON, 1.0 + POISSON) * 2.0 * np.pi * np.abs(turns)
+    ticks = np.array([-1.0, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 1.0])
+    for axis, shown, text in ((left, rows, _label), (right, shells, maps.iterations)):
+        maps.tiles(
+            axis, shown, lambda r: _root(r["cell"]["turn"]), lambda r: max(r["cell"]["load_number"], lowest),
+            scale=("linear", "log"), text=text,
+        )  # fmt: skip
+        axis.plot(_root(turns), np.maximum(folds, 1e-3), **maps.THEORY)
         axis.set_xlabel("turn of the rod: κ a / 2π (drawn at its square root)")
-        ticks = np.array([-1.0, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 1.0])
-        axis.set_xticks(np.sign(ticks) * np.sqrt(np.abs(ticks)), [f"{turn:g}" for turn in ticks])
+        axis.set_xticks(_root(ticks), [f"{turn:g}" for turn in ticks])
     left.set_ylabel("load number ρ g h a³/D (lowest row: none)")
     left.set_title(f"Lattice {GRID[0]}×{GRID[1]}×2: error [%]; s: snapped on the way")
     right.set_title(f"Shell {ELEMENTS}×{ELEMENTS}: factorisations")
-    line = Line2D([], [], label="weight carries a tape spring's fold", **{**maps.THEORY, "zorder": 1})
-    maps.key(figure, [maps.outcome(r) for r in rows] + [r["status"] for r in truths], line)
+    maps.legend(figure, [*rows, *shells], maps.theory("weight carries a tape spring's fold"))
 
 
 STUDY = Study(
@@ -103,7 +83,7 @@ STUDY = Study(
     "fold.",
     cells=cells,
     measure="studies.stability.curved_edge:measure",
-    columns=(Column("turn", form="g"), Column("load number", form="g")),
+    columns=columns(turn="g", load_number="g"),
     draw=draw,
     size=(7.2, 3.6),
     graded=True,

@@ -17,19 +17,20 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+import lumped
 from comparisons.stability import tiles as maps
 from comparisons.stability.limit import start, system
 from comparisons.stability.rows import LARGE, Cell, Row, percent
-from sheetbench.answers.table import Column
+from lumped import StepFailed
+from sheetbench.answers.table import SECONDS
 from studies.stability.equilibria import FALLEN
-from studies.stability.study import Study
+from studies.stability.survey import Study, columns
 from studies.stability.vibrating import FirstMode, follow, weightless
 
 RATIOS = (0.0, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 INTEGRATORS = ("generalised-alpha", "midpoint", "verlet")
 KINDS = ("springs", "masses")
-STEPS_PER_PERIOD, PERIODS = 100, 1
-MOST_STEPS = 20_000
+STEPS_PER_PERIOD, MOST_STEPS = 100, 20_000
 AMPLITUDE = 1e-3
 CRITICAL: Any = {"marker": "v", "color": maps.THEORY["color"], "ms": 5.0, "ls": ""}
 
@@ -47,9 +48,6 @@ def cells(full: bool) -> list[Cell]:
 
 def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
     """The largest error of the first mode's coordinate over a period, relative to its start."""
-    import lumped
-    from lumped import StepFailed
-
     still = weightless()
     springs = lumped.calibrate(still.sheet, still.material, grid=(5, 5))
     omega = FirstMode(system(still, springs), springs).omega
@@ -61,44 +59,36 @@ def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
     limit = lumped.INTEGRATORS[integrator].limit(equations, np.zeros_like(equations.problem.loads.dead))
     if limit is not None:
         step = min(step, limit.advised)
-    count = int(np.ceil(PERIODS * mode.period / step))
+    count = int(np.ceil(mode.period / step))
     if count > MOST_STEPS:
-        reason = f"{count} steps of {step:.1e} s for {PERIODS} period: more than this study takes"
+        reason = f"{count} steps of {step:.1e} s for a period: more than this study takes"
         return {"status": "refused", "message": reason, "step": step}
-    step = PERIODS * mode.period / count
-    first = start(equations, AMPLITUDE * scene.sheet.thickness * mode.shape)
+    row: Row = {"step": mode.period / count}
     try:
-        states = follow(lumped.INTEGRATORS[integrator](equations, step), first, step, count)
+        error = _error(equations, mode, integrator, damping_ratio, count)
     except StepFailed as failure:
-        return {"status": "diverged", "message": str(failure), "step": step}
-    q = np.array([mode.coordinate(state.u) for state in states])
-    time = step * np.arange(count + 1)
-    error = float(np.abs(q / q[0] - exact(damping_ratio, omega * time)).max())
-    row: Row = {
-        "status": "converged" if np.isfinite(q).all() else "non-finite",
-        "error": error if np.isfinite(error) else None,
-        "iterations": count,
-        "step": step,
-    }
-    if row["error"] is not None and row["error"] > LARGE:
-        row |= _mechanism(equations, mode, integrator, damping_ratio, step, error)
-    return row
-
-
-def _mechanism(equations, mode, integrator: str, damping_ratio: float, step: float, error: float) -> Row:
-    """Resolution, if steps a quarter as long take a third of the error away."""
-    import lumped
-
-    h, count = 0.25 * step, round(4.0 * PERIODS * mode.period / step)
-    first = start(equations, AMPLITUDE * equations.scene.sheet.thickness * mode.shape)
+        return {**row, "status": "diverged", "message": str(failure)}
+    row |= {"status": "converged", "error": error, "iterations": count}
+    if not np.isfinite(error):
+        return {**row, "status": "non-finite", "error": None}
+    if error <= LARGE:
+        return row
     try:
-        states = follow(lumped.INTEGRATORS[integrator](equations, h), first, h, count)
-    except lumped.StepFailed as failure:
-        return {"mechanism": "unknown", "evidence": f"a quarter of the step fails: {failure}"}
-    q = np.array([mode.coordinate(state.u) for state in states])
-    left = float(np.abs(q / q[0] - exact(damping_ratio, mode.omega * h * np.arange(count + 1))).max())
+        left = _error(equations, mode, integrator, damping_ratio, 4 * count)
+    except StepFailed as failure:
+        return {**row, "mechanism": "unknown", "evidence": f"a quarter of the step fails: {failure}"}
     kind = "resolution" if left < FALLEN * error else "unknown"
-    return {"mechanism": kind, "evidence": f"a quarter of the step leaves {percent(left)} %"}
+    return {**row, "mechanism": kind, "evidence": f"a quarter of the step leaves {percent(left)} %"}
+
+
+def _error(equations: lumped.System, mode: FirstMode, integrator: str, ratio: float, count: int) -> float:
+    """The largest error of the mode's coordinate in so many steps, nan where numbers are not finite. Raises
+    StepFailed."""
+    step = mode.period / count
+    first = start(equations, AMPLITUDE * equations.scene.sheet.thickness * mode.shape)
+    states = follow(lumped.INTEGRATORS[integrator](equations, step), first, step, count)
+    q = np.array([mode.coordinate(state.u) for state in states])
+    return float(np.abs(q / q[0] - exact(ratio, mode.omega * step * np.arange(count + 1))).max())
 
 
 def exact(ratio: float, phase: np.ndarray) -> np.ndarray:
@@ -122,14 +112,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
         mine = [row for row in shown if row["cell"]["damping_of"] == kind]
         if not mine:
             continue
-        maps.tiles(
-            axis,
-            mine,
-            lambda row: row["at"],
-            lambda row: float(INTEGRATORS.index(row["cell"]["integrator"])),
-            scale=("log", "linear"),
-        )
-        axis.set_yticks(range(len(INTEGRATORS)), INTEGRATORS)
+        maps.strips(axis, mine, lambda r: r["at"], lambda r: r["cell"]["integrator"], INTEGRATORS)
         ratios = sorted({row["at"]: row["cell"]["damping_ratio"] for row in mine}.items())
         names = [f"{ratio:g}" if ratio else "none" for _, ratio in ratios]
         axis.set_xticks([at for at, _ in ratios], names, fontsize=6)
@@ -137,8 +120,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
         axis.plot(1.0, 1.0, transform=axis.get_xaxis_transform(), clip_on=False, **CRITICAL)
         axis.set_xlabel("damping ratio of the first mode")
         axis.set_title(f"Damping in proportion to the {kind}", pad=9)
-    mark = Line2D([], [], label="critical damping", **CRITICAL)
-    maps.key(figure, [maps.outcome(row) for row in rows], mark)
+    maps.legend(figure, rows, Line2D([], [], label="critical damping", **CRITICAL))
 
 
 STUDY = Study(
@@ -148,12 +130,7 @@ STUDY = Study(
     "hundred steps a period or Verlet's default step. `error` is relative to the start.",
     cells=cells,
     measure="studies.stability.damping:measure",
-    columns=(
-        Column("integrator"),
-        Column("damping of"),
-        Column("damping ratio", form="g"),
-        Column("step", "s", "s", 1.0, ".2e"),
-    ),
+    columns=columns(integrator="", damping_of="", damping_ratio="g", step=SECONDS(".2e")),
     draw=draw,
     size=(7.2, 2.9),
 )

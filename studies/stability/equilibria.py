@@ -12,24 +12,31 @@ A converged lattice that is off by more than 5 % is tested, until one test tells
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+import fem_reference
+import lumped
 from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import GradingLike, Lattice
 from comparisons.stability.rows import LARGE, Row, percent
-from sheetbench.choices import CALIBRATION
-from sheetbench.scenes import Clamped, Gravity, Load, Material, Scene, Sheet, Solution, Status
+from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Solution, Status
 from sheetbench.scenes.sheet import EdgeName
 
-SIDE, GRAVITY = 0.188, 9.81  # of the seed's sheet, of the Earth
+SIDE, GRAVITY = 0.188, 9.81  # of Habibi et al.'s sheet, of the Earth
+POISSON = 0.48
+EDGES: dict[int, tuple[EdgeName, ...]] = {1: ("x0",), 2: ("x0", "y0")}
+NAMES = {1: "one edge clamped", 2: "two edges clamped"}
 ELEMENTS = 12
 FALLEN = 2.0 / 3.0  # of the error, that refining must leave at most to be the reason
 FINEST = 65  # masses a side
 BACK_FROM = 1.5  # load from which the lattice is brought back
+
+Grid = tuple[int, int]
+Springs = Callable[[Grid], lumped.Calibration]  # of a scene, on any grid
 
 
 def sheet(
@@ -37,7 +44,7 @@ def sheet(
     load_number: float,
     edges: tuple[EdgeName, ...] = ("x0",),
     young: float = 1e7,
-    poisson: float = 0.48,
+    poisson: float = POISSON,
     **more: Any,
 ) -> Scene:
     """A square sheet clamped at `edges` under its own weight: thickness/side and ρ g h a³/D as asked."""
@@ -53,46 +60,36 @@ def sheet(
     )
 
 
-def lattice(scene: Scene, grid: tuple[int, int], **options: Any) -> Solution:
-    """The lattice's answer; springs: instead of consistent ones; grading: of these."""
-    import lumped
-
-    springs, grading = options.pop("springs", None), options.pop("grading", None)
-    return lumped.solve(scene, springs or _consistent(scene, grid, grading), **options)
-
-
-def _consistent(scene: Scene, grid: tuple[int, int], grading: GradingLike) -> Any:
-    return resolve(scene, Lattice(grid, CALIBRATION, grading=grading), "springs").springs
+def consistent(scene: Scene, grading: GradingLike = None) -> Springs:
+    """Consistent springs of a scene, on grids of this grading."""
+    return lambda grid: resolve(scene, Lattice(grid, "consistent", grading=grading), "springs").springs
 
 
 def shell(scene: Scene, elements: int = ELEMENTS) -> Solution:
     """The reference's answer."""
-    import fem_reference
-
     return fem_reference.solve(scene, model="shell", elements=elements)
 
 
 def compare(
     scene: Scene,
-    grid: tuple[int, int],
+    grid: Grid,
     *,
     elements: int = ELEMENTS,
-    springs: Any = None,
-    grading: GradingLike = None,
+    springs: Springs | None = None,
     single: bool = False,
     explain: bool = True,
 ) -> Row:
-    """The row of a lattice against the shell; springs: instead of consistent ones; grading: of these; single:
-    the lattice in single precision too, how it ended and its distance from double."""
-    own = {"springs": springs, "grading": grading}
-    ours, truth = lattice(scene, grid, **own), shell(scene, elements)
+    """The row of a lattice against the shell; springs: consistent ones unless given; single: the lattice in
+    single precision too, how it ended and its distance from double."""
+    springs = springs or consistent(scene)
+    ours, truth = lumped.solve(scene, springs(grid)), shell(scene, elements)
     row = {**outcome(ours), "error": distance(scene, ours, truth), "reference": outcome(truth)}
     if single:
-        rounded = lattice(scene, grid, **own, precision="single")
+        rounded = lumped.solve(scene, springs(grid), precision="single")
         row["single_error"] = distance(scene, rounded, ours)
         row["single_status"], row["single_message"] = str(rounded.status), rounded.message
     if explain and ours.status is Status.CONVERGED and (row["error"] or 0.0) > LARGE:
-        row |= mechanism(scene, grid, elements, ours, truth, springs, grading)
+        row |= mechanism(scene, grid, elements, ours, truth, springs)
     return row
 
 
@@ -118,68 +115,46 @@ def distance(scene: Scene, ours: Solution, truth: Solution) -> float | None:
 
 
 def mechanism(
-    scene: Scene,
-    grid: tuple[int, int],
-    elements: int,
-    ours: Solution,
-    truth: Solution,
-    springs: Any = None,
-    grading: GradingLike = None,
+    scene: Scene, grid: Grid, elements: int, ours: Solution, truth: Solution, springs: Springs
 ) -> Row:
     """What makes a converged lattice differ, by the tests that the module names, and what they gave."""
-    off = distance(scene, ours, truth) or 0.0
+    allowed = FALLEN * (distance(scene, ours, truth) or 0.0)
     fine = (min(2 * grid[0] - 1, FINEST), min(2 * grid[1] - 1, FINEST))
-    finer = lattice(scene, fine, springs=_refined(springs, fine), grading=grading)
+    finer = lumped.solve(scene, springs(fine))
+    masses = f"{fine[0]}×{fine[1]} masses"
     left = distance(scene, finer, truth)
-    if finer.status is ours.status and left is not None and left < FALLEN * off:
-        evidence = f"{fine[0]}×{fine[1]} masses leave {percent(left)} %"
-        return {"mechanism": "resolution", "evidence": evidence}
+    if finer.status is ours.status and left is not None and left < allowed:
+        return {"mechanism": "resolution", "evidence": f"{masses} leave {percent(left)} %"}
     sharper = shell(scene, 2 * elements)
-    left = distance(scene, ours, sharper)
-    if left is not None and left < FALLEN * off:
-        return {
-            "mechanism": "resolution",
-            "evidence": f"of the reference: {2 * elements} elements a side leave {percent(left)} %",
-        }
-    moved = _there_and_back(scene, springs or _consistent(scene, grid, grading), ours)
+    beside_sharper = distance(scene, ours, sharper)
+    if beside_sharper is not None and beside_sharper < allowed:
+        evidence = f"of the reference: {2 * elements} elements a side leave {percent(beside_sharper)} %"
+        return {"mechanism": "resolution", "evidence": evidence}
+    moved = _there_and_back(scene, springs(grid), ours)
     if moved is not None and moved > LARGE:
         evidence = f"back from {BACK_FROM:g} times the load it stands {percent(moved)} % away"
         return {"mechanism": "branch", "evidence": evidence}
     if ours.snaps or truth.snaps:
         evidence = f"snapped at load factors {_listed(ours.snaps)}, the reference at {_listed(truth.snaps)}"
         return {"mechanism": "branch", "evidence": evidence}
-    kept, left = distance(scene, finer, truth), distance(scene, finer, sharper)
-    if kept is not None and left is not None and moved is not None:
-        evidence = f"{fine[0]}×{fine[1]} masses keep {percent(kept)} %, {percent(left)} % of a finer shell's"
+    both_finer = distance(scene, finer, sharper)
+    if left is not None and both_finer is not None and moved is not None:
+        evidence = f"{masses} keep {percent(left)} %, {percent(both_finer)} % of a finer shell's"
         return {"mechanism": "wrong limit", "evidence": evidence}
-    return {"mechanism": "unknown", "evidence": f"{fine[0]}×{fine[1]} masses: {finer.status}"}
+    return {"mechanism": "unknown", "evidence": f"{masses}: {finer.status}"}
 
 
 def _listed(snaps: tuple[float, ...]) -> str:
     return ", ".join(f"{load_factor:.4g}" for load_factor in snaps) or "none"
 
 
-def _refined(springs: Any, grid: tuple[int, int]) -> Any:
-    """Given springs on a finer grid; calibrated ones are calibrated anew."""
-    return None if springs is None else replace(springs, grid=(*grid, springs.grid[2]))
-
-
-def _there_and_back(scene: Scene, springs: Any, ours: Solution) -> float | None:
+def _there_and_back(scene: Scene, springs: lumped.Calibration, ours: Solution) -> float | None:
     """How far from `ours`, in its largest probe displacement, the lattice ends after a larger load."""
-    import lumped
-    from lumped import at_rest, follow
-
     problem = lumped.build_problem(scene, springs)
-    beyond, why = follow(problem, at_rest(problem), BACK_FROM)
-    if why:
-        return None
-    back, why = follow(problem, beyond, 1.0)
-    if why:
-        return None
-    there = lumped.MidSurface(problem.assembly.lattice, scene.probe_points()).of(back.u)
-    return probe_error(there, ours.displacement(scene.probe_points()))
-
-
-def loaded(scene: Scene, *loads: Load) -> Scene:
-    """The scene with these loads instead of its own."""
-    return scene.replace(loads=loads)
+    state, points = lumped.at_rest(problem), scene.probe_points()
+    for load_factor in (BACK_FROM, 1.0):
+        state, failure = lumped.follow(problem, state, load_factor)
+        if failure:
+            return None
+    there = lumped.MidSurface(problem.assembly.lattice, points).of(state.u)
+    return probe_error(there, ours.displacement(points))

@@ -10,21 +10,30 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+import fem_reference
+import lumped
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import LARGE, Cell, Row, percent
 from sheetbench.answers.style import DARK, GREY
-from sheetbench.answers.table import Column
-from sheetbench.scenes.sheet import EdgeName
-from studies.stability.equilibria import compare, distance, outcome, sheet
-from studies.stability.study import Study
+from sheetbench.scenes import Scene
+from studies.stability.equilibria import EDGES, FALLEN, Grid, compare, distance, outcome, sheet
+from studies.stability.survey import Study, columns
 
 SLENDERNESS, LOAD = 0.016, 3.0
-EDGES: dict[int, tuple[EdgeName, ...]] = {1: ("x0",), 2: ("x0", "y0")}
 ASPECTS = (1, 2, 5, 10, 20, 50)
-MODELS, DISTORTED, SEEDS, FINE = ("plate", "shell", "solid"), 6, 2, 16
+DISTORTED, SEEDS, FINE = 6, 2, 16
+FINEST = (49, 49)
+MARKERS = {"plate": "^", "shell": "o", "solid": "s"}
+COLOURS = {
+    ("consistent", 1): "#0072b2",
+    ("consistent", 2): "#56b4e9",
+    ("uniform", 1): "#d55e00",
+    ("uniform", 2): "#e69f00",
+}
 
 
 def cells(full: bool) -> list[Cell]:
@@ -41,7 +50,7 @@ def cells(full: bool) -> list[Cell]:
     shares = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8)
     every += [
         {"clamped": n, "model": model, "distortion": d, "seed": s}
-        for model in MODELS
+        for model in MARKERS
         for n in EDGES
         for d in shares
         for s in range(SEEDS)
@@ -51,8 +60,6 @@ def cells(full: bool) -> list[Cell]:
 
 def measure(clamped: int, **cell: Any) -> Row:
     """The row of a cell."""
-    import lumped
-
     scene = sheet(SLENDERNESS, LOAD, EDGES[clamped])
     if "distortion" in cell:
         return _distorted(scene, **cell)
@@ -62,27 +69,21 @@ def measure(clamped: int, **cell: Any) -> Row:
     grid = (cell["masses"], cell["masses"])
     if cell["calibration"] == "consistent":
         return compare(scene, grid, elements=16, explain=cell["masses"] <= 33)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=grid, method=cell["calibration"])
+
+    def springs(grid: Grid) -> lumped.Calibration:
+        return lumped.calibrate(scene.sheet, scene.material, grid=grid, method=cell["calibration"])
+
     row = compare(scene, grid, springs=springs, elements=16, explain=False)
-    if (row["error"] or 0.0) > LARGE:
-        row |= _limit(scene, cell, row["error"])
-    return row
+    if (row["error"] or 0.0) <= LARGE:
+        return row
+    left = compare(scene, FINEST, springs=springs, elements=16, explain=False)["error"]
+    evidence = f"{FINEST[0]}×{FINEST[1]} masses of the same calibration leave {percent(left)} %"
+    kind = "wrong limit" if left > FALLEN * row["error"] else "resolution"
+    return {**row, "mechanism": kind, "evidence": evidence}
 
 
-def _limit(scene: Any, cell: Cell, error: float) -> Row:
-    """Wrong limit, where the finest lattice of the same calibration keeps the error; else resolution."""
-    import lumped
-
-    finest = (49, 49)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=finest, method=cell["calibration"])
-    left = compare(scene, finest, springs=springs, elements=16, explain=False)["error"]
-    evidence = f"{finest[0]}×{finest[1]} masses of the same calibration leave {percent(left)} %"
-    return {"mechanism": "wrong limit" if left > 2.0 / 3.0 * error else "resolution", "evidence": evidence}
-
-
-def _distorted(scene: Any, model: str, distortion: float, seed: int) -> Row:
+def _distorted(scene: Scene, model: str, distortion: float, seed: int) -> Row:
     """A reference on a mesh with its inner nodes moved at random, against itself on a fine regular one."""
-    import fem_reference
     from fem_reference.plate import statics as plate
     from fem_reference.shell import statics as shell
     from fem_reference.solid import statics as solid
@@ -100,71 +101,56 @@ def _distorted(scene: Any, model: str, distortion: float, seed: int) -> Row:
     row = {**outcome(solution), "error": distance(scene, solution, truth)}
     if (row["error"] or 0.0) > LARGE:
         regular = distance(scene, on[model](mesh, scene), truth)
-        row |= {
-            "mechanism": "resolution",
-            "evidence": f"the regular mesh is off by {percent(regular)} %",
-        }
+        row |= {"mechanism": "resolution", "evidence": f"the regular mesh is off by {percent(regular)} %"}
     return row
+
+
+def _curve(axis: Axes, rows: list[Row], key: str, form: str, less: int = 0, **style: Any) -> None:
+    """Errors in percent over a number of the cell, less so many."""
+    at, errors = [r["cell"][key] - less for r in rows], [100 * r["error"] for r in rows]
+    axis.plot(at, errors, form, **{"ms": 3, "lw": 0.9, **style})
 
 
 def draw(figure: Figure, rows: list[Row]) -> None:
     """Error against the grid, the cells' aspect ratio, the elements' distortion."""
     left, middle, right = figure.subplots(1, 3, sharey=True)
-    colours = {
-        ("consistent", 1): "#0072b2",
-        ("consistent", 2): "#56b4e9",
-        ("uniform", 1): "#d55e00",
-        ("uniform", 2): "#e69f00",
-    }
-    for (name, n), colour in colours.items():
-        mine = [
-            r
-            for r in rows
-            if r["cell"].get("calibration") == name and r["cell"]["clamped"] == n and r["error"]
-        ]
-        where = [r["cell"]["masses"] - 1 for r in mine]
-        left.plot(where, [100 * r["error"] for r in mine], "-o", ms=3, lw=0.9, color=colour)
+
+    def of(**wanted: Any) -> list[Row]:
+        return [r for r in rows if r["error"] and wanted.items() <= r["cell"].items()]
+
+    for (name, n), colour in COLOURS.items():
+        _curve(left, of(calibration=name, clamped=n), "masses", "-o", less=1, color=colour)
     cells_ = np.array([2.0, 64.0])
     left.plot(cells_, 40.0 / cells_**2, **maps.THEORY)
-    left.set(
-        xscale="log", yscale="log", xlabel="cells a side", ylabel="error at the probes [%]", ylim=(3e-3, 100)
-    )
-    left.set_title("Grid")
+    left.set(xscale="log", yscale="log", xlabel="cells a side", ylabel="error at the probes [%]")
+    left.set(ylim=(3e-3, 100), title="Grid")
     for along, colour in (("x", "#0072b2"), ("y", "#d55e00")):
-        mine = [r for r in rows if r["cell"].get("long") == along and r["error"]]
-        at, errors = [r["cell"]["aspect"] for r in mine], [100 * r["error"] for r in mine]
-        middle.plot(at, errors, "-o", ms=3, lw=0.9, color=colour, label=f"long along {along}")
-        kinked = [r for r in mine if r["status"] == "unstable"]
-        at, errors = [r["cell"]["aspect"] for r in kinked], [100 * r["error"] for r in kinked]
-        middle.plot(at, errors, "o", ms=5, mfc=maps.OUTCOMES["unstable"], mec=colour)
-    middle.set(xscale="log", xlabel="length / width of a cell")
-    middle.set_title("Aspect ratio")
+        mine = of(long=along)
+        _curve(middle, mine, "aspect", "-o", color=colour, label=f"long along {along}")
+        unstable = [r for r in mine if r["status"] == "unstable"]
+        _curve(middle, unstable, "aspect", "o", ms=5, mfc=maps.OUTCOMES["unstable"], mec=colour)
+    middle.set(xscale="log", xlabel="length / width of a cell", title="Aspect ratio")
     middle.legend(frameon=False, fontsize=6.5)
-    for model, marker in zip(MODELS, "^os", strict=True):
-        for n, colour in ((1, "#0072b2"), (2, "#56b4e9")):
-            mine = [r for r in rows if r["cell"].get("model") == model and r["cell"]["clamped"] == n]
-            good = [r for r in mine if r["error"]]
-            at, errors = [r["cell"]["distortion"] for r in good], [100 * r["error"] for r in good]
-            right.plot(at, errors, marker, ms=3, mfc="white", color=colour)
-            lost = [r["cell"]["distortion"] for r in mine if not r["error"]]
-            right.plot(lost, [50.0] * len(lost), "x", ms=5, color=maps.OUTCOMES["diverged"])
+    for model, marker in MARKERS.items():
+        for n in EDGES:
+            colour = COLOURS["consistent", n]
+            _curve(right, of(model=model, clamped=n), "distortion", marker, mfc="white", color=colour)
+    lost = [r["cell"]["distortion"] for r in rows if r["cell"].get("model") and not r["error"]]
+    right.plot(lost, [50.0] * len(lost), "x", ms=5, color=maps.OUTCOMES["diverged"])
     right.axvline(0.5, **{**maps.THEORY, "ls": "--"})
-    right.set(xlabel="nodes moved / element size")
-    right.set_title("Distorted elements (references)")
+    right.set(xlabel="nodes moved / element size", title="Distorted elements (references)")
     for axis in (left, middle, right):
         maps.plain(axis)
         axis.axhline(5.0, color=GREY, lw=0.6, ls=":")
     lines = [
         Line2D([], [], color=c, marker="o", ms=3, label=f"{name}, {n} clamped")
-        for (name, n), c in colours.items()
+        for (name, n), c in COLOURS.items()
     ]
+    white: Any = {"ls": "", "ms": 3, "mfc": "white", "color": DARK}
+    lines += [Line2D([], [], marker=marker, label=model, **white) for model, marker in MARKERS.items()]
     lines += [
-        Line2D([], [], ls="", marker=marker, ms=3, mfc="white", color=DARK, label=model)
-        for model, marker in zip(MODELS, "^os", strict=True)
-    ]
-    lines += [
-        Line2D([], [], label="second order", **{**maps.THEORY, "zorder": 1}),
-        Line2D([], [], label="elements may fold over", **{**maps.THEORY, "ls": "--", "zorder": 1}),
+        maps.theory("second order"),
+        maps.theory("elements may fold over", ls="--"),
         Line2D([], [], ls="", marker="x", color=maps.OUTCOMES["diverged"], label="refused"),
         Line2D([], [], ls="", marker="o", mfc=maps.OUTCOMES["unstable"], mec=DARK, label="unstable"),
     ]
@@ -182,14 +168,6 @@ STUDY = Study(
     "between its short links: `unstable`, though the equilibrium is as good as with wider cells.",
     cells=cells,
     measure="studies.stability.grid:measure",
-    columns=(
-        Column("clamped", form="d"),
-        Column("masses", form="d"),
-        Column("calibration"),
-        Column("aspect", form="d"),
-        Column("long"),
-        Column("model"),
-        Column("distortion", form="g"),
-    ),
+    columns=columns(clamped="d", masses="d", calibration="", aspect="d", long="", model="", distortion="g"),
     draw=draw,
 )

@@ -14,22 +14,20 @@ tip          the middle of the free edge pulled by a point force, in units of E 
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
+import lumped
 from comparisons.models.spec import GradingLike
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row, percent
-from sheetbench.answers.table import Column
+from sheetbench.answers.table import Unit
 from sheetbench.scenes import EdgeLoad, PointLoad
 from sheetbench.scenes.strains import WEIGHT_LIMIT
-from studies.stability.equilibria import SIDE, compare, lattice, loaded, outcome, sheet
-from studies.stability.study import Study
+from studies.stability.equilibria import POISSON, SIDE, compare, consistent, outcome, sheet
+from studies.stability.survey import Study, columns
 
-SLENDERNESS, POISSON, ONE_G = 0.016, 0.48, 2.0
+SLENDERNESS, ONE_G = 0.016, 2.0
 GRID = (9, 9)
 IMPERFECTION = 0.02  # load number of the weight that chooses the side a compressed sheet buckles to
 
@@ -48,35 +46,29 @@ def cells(full: bool) -> list[Cell]:
 
 def measure(kind: str, size: float, grading: GradingLike = None) -> Row:
     """The row of a cell."""
-    on: dict[str, Any] = {"grid": GRID, "grading": grading}
-    if kind == "weight":
-        return compare(sheet(SLENDERNESS, ONE_G * size), **on)
     if kind == "reversed":
-        return _mirrored(size, on)
-    scene = sheet(SLENDERNESS, IMPERFECTION)
+        return _mirrored(size, grading)
+    scene = sheet(SLENDERNESS, ONE_G * size if kind == "weight" else IMPERFECTION)
     young, h, a = scene.material.young, scene.sheet.thickness, scene.sheet.length_x
     if kind == "tip":
-        return compare(
-            loaded(scene, PointLoad(at=(a, a / 2.0), force=(0.1 * size * young * h * a, 0.0, 0.0))), **on
-        )
-    if kind == "pull":
-        force = size * young * h
-    else:
-        force = -size * np.pi**2 * young * h**3 / 12.0 / (4.0 * a**2)
-    scene = loaded(scene, EdgeLoad(edge="x1", force_per_length=(float(force), 0.0, 0.0)))
+        pull = PointLoad(at=(a, a / 2.0), force=(0.1 * size * young * h * a, 0.0, 0.0))
+        scene = scene.replace(loads=(pull,))
+    elif kind != "weight":
+        euler = np.pi**2 * young * h**3 / 12.0 / (4.0 * a**2)
+        force = float(size * young * h if kind == "pull" else -size * euler)
+        scene = scene.replace(loads=(EdgeLoad(edge="x1", force_per_length=(force, 0.0, 0.0)),))
+    springs = consistent(scene, grading)
     if kind == "buckled":
-        stable = lattice(scene, **on, branch="stable")
-        return {
-            **outcome(stable),
-            "moved": float(np.abs(stable.displacement(scene.probe_points())).max() / SIDE),
-        }
-    return compare(scene, **on)
+        stable = lumped.solve(scene, springs(GRID), branch="stable")
+        moved = float(np.abs(stable.displacement(scene.probe_points())).max() / SIDE)
+        return {**outcome(stable), "moved": moved}
+    return compare(scene, GRID, springs=springs)
 
 
-def _mirrored(size: float, on: dict[str, Any]) -> Row:
+def _mirrored(size: float, grading: GradingLike) -> Row:
     """Weight up against weight down: the lattice's two answers as mirror images."""
     up, down = sheet(SLENDERNESS, -ONE_G * size), sheet(SLENDERNESS, ONE_G * size)
-    above, below = lattice(up, **on), lattice(down, **on)
+    above, below = (lumped.solve(scene, consistent(scene, grading)(GRID)) for scene in (up, down))
     points = down.probe_points()
     image = above.displacement(points) * np.array([1.0, 1.0, -1.0])
     there = below.displacement(points)
@@ -96,33 +88,25 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     axes = figure.subplots(len(panels), 1, height_ratios=(2, 3, 2, 2))
     for axis, (kind, end, name) in zip(axes, panels, strict=True):
         mine = [row for row in rows if row["cell"]["kind"] == kind]
-        strips = [(row, 2.0, percent(row["error"])) for row in mine]
-        for row in (row for row in mine if row.get("reference")):
-            reference = {**row["reference"], "cell": row["cell"]}
-            strips.append((reference, 1.0, str(reference["iterations"])))
-        labels = ["shell: factorisations", "lattice: error [%]"]
+        strips = {
+            "shell: factorisations": [(row, maps.iterations(row)) for row in maps.references(mine)],
+            "lattice: error [%]": [(row, maps.error_in_percent(row)) for row in mine],
+        }
         if kind == "compression":
-            labels.insert(0, 'branch = "stable": u/a [%]')
-            for row in (row for row in rows if row["cell"]["kind"] == "buckled"):
-                strips.append((row, 0.0, percent(row.get("moved"))))
-        if not strips:
-            continue
-        shown = [{**row, "strip": strip, "said": label} for row, strip, label in strips]
-        maps.tiles(
-            axis, shown, lambda r: r["cell"]["size"], lambda r: r["strip"], scale=("log", "linear"),
-            text=lambda r: r["said"],
-        )  # fmt: skip
-        if end is not None:
-            axis.axvline(end, **maps.THEORY)
-        if kind == "compression":
+            buckled = [row for row in rows if row["cell"]["kind"] == "buckled"]
+            of_stable = [(row, percent(row.get("moved"))) for row in buckled]
+            strips = {'branch = "stable": u/a [%]': of_stable, **strips}
             axis.axvspan(
                 1.0, 1.0 / (1.0 - POISSON**2), color=maps.THEORY["color"], alpha=0.18, lw=0, zorder=4
             )
-        axis.set_yticks(range(3 - len(labels), 3), labels)
+        shown = [{**row, "strip": strip, "text": text} for strip, of in strips.items() for row, text in of]
+        if not shown:
+            continue
+        maps.strips(axis, shown, "size", lambda r: r["strip"], list(strips), text=lambda r: r["text"])
+        if end is not None:
+            axis.axvline(end, **maps.THEORY)
         axis.set_xlabel(name)
-    line = Line2D([], [], label="boundary of theory", **{**maps.THEORY, "zorder": 1})
-    ended = [maps.outcome(r) for r in rows] + [r["reference"]["status"] for r in rows if r.get("reference")]
-    maps.key(figure, ended, line)
+    maps.legend(figure, [*rows, *maps.references(rows)], maps.theory("boundary of theory"))
 
 
 STUDY = Study(
@@ -138,7 +122,7 @@ STUDY = Study(
     "shell's exact answer is infinite, and each grid and mesh has its own.",
     cells=cells,
     measure="studies.stability.load:measure",
-    columns=(Column("kind"), Column("size", form="g"), Column("moved", "side", "%", 100.0, ".3g")),
+    columns=columns(kind="", size="g", moved=Unit("side", "%", 100.0)(".3g")),
     draw=draw,
     size=(7.2, 5.6),
     graded=True,

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
+import lumped
 from comparisons.stability import tiles as maps
+from comparisons.stability.answer import MICROSECONDS
 from comparisons.stability.limit import energy, measured_limit, noise, start, system
 from comparisons.stability.rows import Cell, Row
-from sheetbench.answers.table import Column
-from studies.stability.study import Study
+from lumped import INTEGRATORS, StepFailed, step_limit
+from studies.stability.survey import Study, columns
 from studies.stability.vibrating import follow, weightless
 
 IMPLICIT_STEPS = 50
@@ -30,9 +31,6 @@ def cells(full: bool) -> list[Cell]:
 
 def measure(masses: int, ratio: float) -> Row:
     """Verlet's limit, computed and measured; the energy that the midpoint rule loses in 50 steps."""
-    import lumped
-    from lumped import INTEGRATORS, StepFailed, step_limit
-
     scene = weightless()
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))
 
@@ -61,47 +59,29 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     """Left: the limit against the ratio. Right: measured over computed, and the midpoint rule's energy."""
     left, right = figure.subplots(1, 2)
     drift = right.twinx()
-    for n, colour in zip(
-        sorted({r["cell"]["masses"] for r in rows}), ("#56b4e9", "#0072b2", "#002a4d", "k"), strict=False
-    ):
+    sizes = sorted({r["cell"]["masses"] for r in rows})
+    for n, colour in zip(sizes, ("#56b4e9", "#0072b2", "#002a4d", "k"), strict=False):
         mine = [r for r in rows if r["cell"]["masses"] == n and r["status"] == "converged"]
-        ratio = np.array([r["cell"]["ratio"] for r in mine])
-        left.plot(ratio, [r["computed"] for r in mine], color=maps.THEORY["color"], lw=1.0)
-        left.plot(
-            ratio, [r["measured"] for r in mine], "o", ms=4, mfc="white", mec=colour, label=f"{n}×{n}×2"
+        ratio = [r["cell"]["ratio"] for r in mine]
+        computed, measured, lost = (
+            np.array([r[key] for r in mine]) for key in ("computed", "measured", "energy_drift")
         )
-        right.plot(
-            ratio, [100 * (r["measured"] / r["computed"] - 1) for r in mine], "-o", ms=3, lw=0.8, color=colour
-        )
-        drift.plot(
-            ratio,
-            [max(abs(r["energy_drift"]), 1e-17) for r in mine],
-            "--s",
-            ms=2.5,
-            lw=0.7,
-            mfc="white",
-            color=colour,
-        )
-    left.set(
-        xscale="log", yscale="log", xlabel="ratio of neighbouring masses", ylabel="largest stable step [s]"
-    )
-    left.set_title("Velocity Verlet's limit")
-    right.set(
-        xscale="log",
-        xlabel="ratio of neighbouring masses",
-        ylabel="measured − computed limit [%]",
-        ylim=(-2.5, 2.5),
-    )
+        left.plot(ratio, computed, color=maps.THEORY["color"], lw=1.0)
+        left.plot(ratio, measured, "o", ms=4, mfc="white", mec=colour, label=f"{n}×{n}×2")
+        right.plot(ratio, 100 * (measured / computed - 1), "-o", ms=3, lw=0.8, color=colour)
+        shown = np.maximum(np.abs(lost), 1e-17)
+        drift.plot(ratio, shown, "--s", ms=2.5, lw=0.7, mfc="white", color=colour)
+    for axis in (left, right):
+        axis.set(xscale="log", xlabel="ratio of neighbouring masses")
+        maps.plain(axis)
+    left.set(yscale="log", ylabel="largest stable step [s]", title="Velocity Verlet's limit")
+    right.set(ylabel="measured − computed limit [%]", ylim=(-2.5, 2.5))
     right.set_title("How well it is foreseen; the midpoint rule's energy")
     right.axhspan(-2, 2, color="#f0f0f0", lw=0, zorder=0)
     drift.set(yscale="log", ylabel="energy drift, midpoint (dashed)", ylim=(1e-17, 1e-3))
-    for axis in (left, right):
-        maps.plain(axis)
-    line = Line2D([], [], label="computed, 2/ω_max", **{**maps.THEORY, "zorder": 1})
-    points, labels = left.get_legend_handles_labels()
-    figure.legend(
-        [line, *points], [str(line.get_label()), *labels], loc="outside lower center", ncols=5, frameon=False
-    )
+    points, _ = left.get_legend_handles_labels()
+    lines = [maps.theory("computed, 2/ω_max"), *points]
+    figure.legend(handles=lines, loc="outside lower center", ncols=5, frameon=False)
 
 
 STUDY = Study(
@@ -111,12 +91,12 @@ STUDY = Study(
     "measured one. The conserving midpoint rule runs at twenty times that limit.",
     cells=cells,
     measure="studies.stability.mass:measure",
-    columns=(
-        Column("masses", form="d"),
-        Column("ratio", form="g"),
-        Column("computed", "s", "µs", 1e6, ".4g"),
-        Column("measured", "s", "µs", 1e6, ".4g"),
-        Column("energy drift", form=".1e"),
+    columns=columns(
+        masses="d",
+        ratio="g",
+        computed=MICROSECONDS(".4g"),
+        measured=MICROSECONDS(".4g"),
+        energy_drift=".1e",
     ),
     draw=draw,
 )

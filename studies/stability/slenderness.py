@@ -13,22 +13,18 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from comparisons.models.spec import GradingLike
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row
-from sheetbench.answers.table import Column
-from sheetbench.scenes.sheet import EdgeName
+from sheetbench.answers.table import PERCENT, Column
 from sheetbench.scenes.strains import WEIGHT_LIMIT
-from studies.stability.equilibria import compare, sheet
-from studies.stability.study import Study
+from studies.stability.equilibria import EDGES, NAMES, POISSON, compare, consistent, sheet
+from studies.stability.survey import Study, columns
 
-EDGES: dict[int, tuple[EdgeName, ...]] = {1: ("x0",), 2: ("x0", "y0")}
 MASSES = {1: 33, 2: 17}
-NAMES = {1: "one edge clamped", 2: "two edges clamped"}
-POISSON = (0.0, 0.2, 0.3, 1.0 / 3.0, 0.4, 0.48, 0.499, 0.4999)
-SEED = 0.016
+RATIOS = (0.0, 0.2, 0.3, 1.0 / 3.0, 0.4, 0.48, 0.499, 0.4999)
+THICKNESS = 0.016  # over the side, where ν varies
 
 
 def cells(full: bool) -> list[Cell]:
@@ -40,45 +36,40 @@ def cells(full: bool) -> list[Cell]:
     ]
     every += [{"clamped": 1, "slenderness": h, "load_number": 1.0} for h in (1e-6, 1e-5, 0.3, 0.5)]
     every += [
-        {"clamped": n, "slenderness": SEED, "load_number": 3.0, "poisson": nu}
+        {"clamped": n, "slenderness": THICKNESS, "load_number": 3.0, "poisson": nu}
         for n in EDGES
-        for nu in POISSON
+        for nu in RATIOS
     ]
     return every
 
 
 def measure(
-    clamped: int, slenderness: float, load_number: float, poisson: float = 0.48, grading: GradingLike = None
+    clamped: int,
+    slenderness: float,
+    load_number: float,
+    poisson: float = POISSON,
+    grading: GradingLike = None,
 ) -> Row:
     """The row of a cell; the springs' area stiffness with it, in units of the axial one."""
-    import lumped
-
     scene = sheet(slenderness, load_number, EDGES[clamped], poisson=poisson)
-    n = MASSES[clamped] if slenderness != SEED else 17
-    row = compare(scene, (n, n), grading=grading, single=load_number == 1.0)
-    springs: Any = lumped.calibrate(scene.sheet, scene.material, grid=(n, n)).springs
-    axial = springs.axial
-    area = springs.area / (axial if isinstance(axial, float) else axial.x)
-    return {**row, "masses": n, "area_over_axial": area}
+    n = MASSES[clamped] if slenderness != THICKNESS else 17
+    row = compare(scene, (n, n), springs=consistent(scene, grading), single=load_number == 1.0)
+    springs: Any = consistent(scene)((n, n)).springs
+    return {**row, "masses": n, "area_over_axial": springs.area / springs.axial}
 
 
 def draw(figure: Figure, rows: list[Row]) -> None:
     """Maps of the lattice and the shell for both supports; Poisson's ratio below."""
     above_below = figure.add_gridspec(2, 1, height_ratios=(5, 1))
     axes: Any = above_below[0].subgridspec(2, 2, width_ratios=(7, 5)).subplots(sharey=True)
-    nu = 0.48
-    strength = 12.0 * (1.0 - nu**2)
+    strength = 12.0 * (1.0 - POISSON**2)
+    at = np.logspace(-6, 0, 100)
     for n, (above, below) in zip(EDGES, axes.T, strict=True):
         mine = [r for r in rows if r["cell"]["clamped"] == n and "poisson" not in r["cell"]]
         if not mine:
             continue
-        place = (lambda r: r["cell"]["slenderness"], lambda r: r["cell"]["load_number"])
-        maps.tiles(above, mine, *place)
-        reached = [{**r["reference"], "error": None} for r in mine if r.get("reference")]
-        for short, row in zip(reached, mine, strict=False):
-            short["cell"] = row["cell"]
-        maps.tiles(below, reached, *place, text=lambda r: str(r["iterations"]))
-        at = np.logspace(-6, 0, 100)
+        maps.tiles(above, mine, "slenderness", "load_number")
+        maps.tiles(below, maps.references(mine), "slenderness", "load_number", text=maps.iterations)
         for axis in (above, below):
             axis.plot(at, WEIGHT_LIMIT * strength / at**2, **maps.THEORY)
         if n == 2:
@@ -93,25 +84,21 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     strip = figure.add_subplot(above_below[1])
     soft = [r for r in rows if "poisson" in r["cell"]]
     if soft:
-        place = (lambda r: POISSON.index(r["cell"]["poisson"]), lambda r: r["cell"]["clamped"])
-        maps.tiles(strip, soft, *place, scale=("linear", "linear"))
-        strip.axvline(POISSON.index(1.0 / 3.0), **{**maps.THEORY, "ls": ":"})
-    strip.set_xticks(range(len(POISSON)), [f"{ratio:.4g}" for ratio in POISSON])
+        maps.tiles(
+            strip, soft, lambda r: RATIOS.index(r["cell"]["poisson"]), "clamped", scale=("linear", "linear")
+        )
+        strip.axvline(RATIOS.index(1.0 / 3.0), **{**maps.THEORY, "ls": ":"})
+    strip.set_xticks(range(len(RATIOS)), [f"{ratio:.4g}" for ratio in RATIOS])
     strip.set_yticks(list(NAMES), list(NAMES.values()))
-    strip.set_xlabel("Poisson's ratio (h/a = 0.016, L = 3)")
+    strip.set_xlabel(f"Poisson's ratio (h/a = {THICKNESS}, L = 3)")
     strip.set_title("Lattice 17×17×2; left of 1/3 area springs are negative")
-    lines = [
-        Line2D([], [], label="ρ g a/E = 0.05", **{**maps.THEORY, "zorder": 1}),
-        Line2D(
-            [],
-            [],
-            label="cells twice as long as the stretching layer",
-            **{**maps.THEORY, "ls": "--", "zorder": 1},
-        ),
-        Line2D([], [], label="area springs vanish", **{**maps.THEORY, "ls": ":", "zorder": 1}),
-    ]
-    ended = [maps.outcome(r) for r in rows] + [r["reference"]["status"] for r in rows if r.get("reference")]
-    maps.key(figure, ended, *lines)
+    maps.legend(
+        figure,
+        [*rows, *maps.references(rows)],
+        maps.theory("ρ g a/E = 0.05"),
+        maps.theory("cells twice as long as the stretching layer", ls="--"),
+        maps.theory("area springs vanish", ls=":"),
+    )
 
 
 STUDY = Study(
@@ -123,15 +110,15 @@ STUDY = Study(
     "the layer in which a sheet clamped at two edges stretches.",
     cells=cells,
     measure="studies.stability.slenderness:measure",
-    columns=(
-        Column("clamped", form="d"),
-        Column("slenderness", form="g"),
-        Column("load number", form="g"),
-        Column("poisson", form=".4g"),
-        Column("masses", form="d"),
-        Column("area over axial", form=".3f"),
-        Column("single error", "", "%", 100.0, ".1e", detail=True),
-        Column("single status", detail=True),
+    columns=columns(
+        clamped="d",
+        slenderness="g",
+        load_number="g",
+        poisson=".4g",
+        masses="d",
+        area_over_axial=".3f",
+        single_error=PERCENT(".1e", detail=True),
+        single_status=Column(detail=True),
     ),
     draw=draw,
     size=(7.2, 6.2),

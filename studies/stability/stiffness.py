@@ -1,8 +1,8 @@
 """Study `stiffness`: Young's modulus over fourteen decades, load numbers over ten, uneven families.
 
 scaled    E with the density that keeps the load number: nothing but the units changes, nor may the answer
-fixed     the seed's density and E such that ρ g h a³/D runs from 1e-6 to 1e4; beyond ρ g a/E = 0.05, that
-          is L = 0.6 (1 − ν²) (a/h)², strains are outside of the model
+fixed     Habibi et al.'s density and E such that ρ g h a³/D runs from 1e-6 to 1e4; beyond ρ g a/E = 0.05,
+          that is L = 0.6 (1 − ν²) (a/h)², strains are outside of the model
 contrast  one family of springs made stiffer or softer: another sheet, so errors are the wrong limit's;
           what is asked is an answer or a status
 """
@@ -12,15 +12,15 @@ from __future__ import annotations
 from dataclasses import replace
 
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
+import lumped
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row
 from sheetbench.answers.style import DARK
-from sheetbench.answers.table import Column
+from sheetbench.answers.table import PERCENT, Unit
 from sheetbench.scenes.strains import WEIGHT_LIMIT
-from studies.stability.equilibria import compare, sheet
-from studies.stability.study import Study
+from studies.stability.equilibria import POISSON, Grid, compare, consistent, sheet
+from studies.stability.survey import Study, columns
 
 SLENDERNESS, SCALED_LOAD, CONTRAST_LOAD = 0.016, 10.0, 3.0
 FAMILIES = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
@@ -46,13 +46,16 @@ def measure(
     """The row of a cell."""
     if not family:
         return compare(sheet(SLENDERNESS, load_number, young=young or 1e7), GRID, single=True)
-    import lumped
-
     scene = sheet(SLENDERNESS, CONTRAST_LOAD)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=GRID)
-    changed = {family: contrast * getattr(springs.springs, family)}
-    uneven = replace(springs, springs=springs.springs.replace(**changed))
-    return compare(scene, GRID, springs=uneven)
+    calibrated = consistent(scene)(GRID)
+    changed = {family: contrast * getattr(calibrated.springs, family)}
+    uneven = replace(calibrated, springs=calibrated.springs.replace(**changed))
+
+    def springs(grid: Grid) -> lumped.Calibration:
+        """The same constants on every grid."""
+        return replace(uneven, grid=(*grid, uneven.grid[2]))
+
+    return compare(scene, GRID, springs=springs)
 
 
 def draw(figure: Figure, rows: list[Row]) -> None:
@@ -64,27 +67,20 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     if scaled and fixed:
         left, right = top.get_subplotspec().subgridspec(1, 2).subplots()
         top.remove()
-        maps.tiles(left, scaled, lambda r: r["cell"]["young"], lambda r: 0.0, scale=("log", "linear"))
-        maps.tiles(right, fixed, lambda r: r["cell"]["load_number"], lambda r: 0.0, scale=("log", "linear"))
-        right.axvline(WEIGHT_LIMIT * 12.0 * (1.0 - 0.48**2) / SLENDERNESS**2, **maps.THEORY)
+        for axis, shown, key in ((left, scaled, "young"), (right, fixed, "load_number")):
+            maps.tiles(axis, shown, key, lambda r: 0.0, scale=("log", "linear"))
+        right.axvline(WEIGHT_LIMIT * 12.0 * (1.0 - POISSON**2) / SLENDERNESS**2, **maps.THEORY)
         left.set(xlabel="Young's modulus [Pa]", yticks=[])
         right.set(xlabel="load number ρ g h a³/D", yticks=[])
         left.set_title("Load scaled with E: error [%]")
         right.set_title("At fixed load: error [%]")
     if uneven:
-        maps.tiles(
-            bottom,
-            uneven,
-            lambda r: r["cell"]["contrast"],
-            lambda r: float(FAMILIES.index(r["cell"]["family"])),
-            scale=("log", "linear"),
-        )
+        maps.strips(bottom, uneven, "contrast", lambda r: r["cell"]["family"], FAMILIES)
         bottom.axvline(1.0, color=DARK, lw=0.8, ls=":")
     bottom.set_yticks(range(len(FAMILIES)), [name.replace("_", " ") for name in FAMILIES])
     bottom.set_xlabel("stiffness of one family over its calibrated value")
     bottom.set_title("One family out of proportion: error [%]")
-    line = Line2D([], [], label="ρ g a/E = 0.05", **{**maps.THEORY, "zorder": 1})
-    maps.key(figure, [maps.outcome(r) for r in rows], line)
+    maps.legend(figure, rows, maps.theory("ρ g a/E = 0.05"))
 
 
 STUDY = Study(
@@ -95,13 +91,13 @@ STUDY = Study(
     "`single error`: of single precision against double. Boundary: ρ g a/E = 0.05.",
     cells=cells,
     measure="studies.stability.stiffness:measure",
-    columns=(
-        Column("young", "Pa", "Pa", 1.0, "g"),
-        Column("load number", form="g"),
-        Column("family"),
-        Column("contrast", form="g"),
-        Column("single error", "", "%", 100.0, ".1e"),
-        Column("single status"),
+    columns=columns(
+        young=Unit("Pa", "Pa")("g"),
+        load_number="g",
+        family="",
+        contrast="g",
+        single_error=PERCENT(".1e"),
+        single_status="",
     ),
     draw=draw,
     size=(7.2, 3.9),

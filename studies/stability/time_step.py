@@ -14,14 +14,17 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+import lumped
 from comparisons.stability import tiles as maps
+from comparisons.stability.answer import MICROSECONDS
 from comparisons.stability.limit import energy, measured_limit, start, system
 from comparisons.stability.rows import LARGE, Cell, Row, percent
+from lumped import INTEGRATORS, StepFailed, step_limit, turn_limit
 from sheetbench.answers.style import DARK, GREY
-from sheetbench.answers.table import Column
+from sheetbench.answers.table import SECONDS
 from sheetbench.scenes import Gravity
 from studies.stability.equilibria import FALLEN
-from studies.stability.study import Study
+from studies.stability.survey import Study, columns
 from studies.stability.vibrating import FirstMode, follow, weightless
 
 IMPLICIT = ("generalised-alpha", "midpoint")
@@ -52,18 +55,12 @@ def cells(full: bool) -> list[Cell]:
 
 def measure(integrator: str, **cell: Any) -> Row:
     """The row of a cell."""
-    import lumped
-
-    explicit = lumped.INTEGRATORS[integrator].explicit
-    return _explicit(**cell) if explicit else _implicit(integrator, **cell)
+    return _explicit(**cell) if INTEGRATORS[integrator].explicit else _implicit(integrator, **cell)
 
 
 def _explicit(
     masses: int, vertical: str, damping_ratio: float, slenderness: float, precision: Any = "double"
 ) -> Row:
-    import lumped
-    from lumped import step_limit
-
     scene = weightless(slenderness)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))
     if vertical != "4 C":
@@ -79,14 +76,9 @@ def _explicit(
     limit = step_limit(equations, flat)
     measured = measured_limit(equations, limit.step)
     heavy = scene.replace(gravity=Gravity(acceleration=(0.0, 0.0, -9.81)))
-    step = limit.advised
+    duration = SAFE_STEPS * limit.advised
     run = lumped.simulate(
-        heavy,
-        springs,
-        SAFE_STEPS * step,
-        integrator="verlet",
-        every=0.1 * SAFE_STEPS * step,
-        precision=precision,
+        heavy, springs, duration, integrator="verlet", every=0.1 * duration, precision=precision
     )
     return {
         "status": str(run.status),
@@ -102,9 +94,6 @@ def _explicit(
 
 
 def _implicit(integrator: str, step: float) -> Row:
-    import lumped
-    from lumped import INTEGRATORS, StepFailed
-
     scene = weightless()
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 9))
     equations = system(scene, springs)
@@ -144,8 +133,6 @@ def _implicit(integrator: str, step: float) -> Row:
 
 def draw(figure: Figure, rows: list[Row]) -> None:
     """Left: measured limits over the computed ones against damping. Right: period error and decay."""
-    from lumped import turn_limit
-
     left, right = figure.subplots(1, 2)
     explicit = [row for row in rows if row["cell"]["integrator"] == "verlet" and "measured" in row]
     xi = np.logspace(-2.3, 2.0, 120)
@@ -156,21 +143,10 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     for row in explicit:
         at = max(row["ratio_at_limit"], 5e-3)
         marker = "o" if row["cell"]["vertical"] == "4 C" else "^"
-        left.plot(
-            at,
-            row["measured"] * row["frequency"],
-            marker,
-            ms=4,
-            mfc="white",
-            mec=shades[row["cell"]["masses"]],
-        )
-    left.set(
-        xscale="log",
-        yscale="log",
-        xlabel="damping ratio ξ at ω_max (left end: none)",
-        ylabel="largest stable ω_max h",
-    )
-    left.set_title("Explicit: velocity Verlet")
+        colour = shades[row["cell"]["masses"]]
+        left.plot(at, row["measured"] * row["frequency"], marker, ms=4, mfc="white", mec=colour)
+    left.set(xscale="log", yscale="log", ylabel="largest stable ω_max h")
+    left.set(xlabel="damping ratio ξ at ω_max (left end: none)", title="Explicit: velocity Verlet")
     for name, colour in COLOURS.items():
         mine = [r for r in rows if r["cell"]["integrator"] == name and r["status"] == "converged"]
         at = [r["cell"]["step"] for r in mine]
@@ -181,12 +157,12 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     steps = np.logspace(-6, 0, 50)
     omega = implicit[0]["turn"] / implicit[0]["cell"]["step"] if implicit else 1.0
     right.plot(steps, np.maximum((omega * steps) ** 2 / 12.0, 1e-9), **maps.THEORY)
-    right.set(xscale="log", yscale="log", xlabel="time step [s]", ylim=(1e-9, 20.0))
-    right.set_title("Implicit: errors of a period")
+    right.set(xscale="log", yscale="log", ylim=(1e-9, 20.0))
+    right.set(xlabel="time step [s]", title="Implicit: errors of a period")
     for axis in (left, right):
         maps.plain(axis)
     handles = [
-        Line2D([], [], label="computed limit; (ωh)²/12", **{**maps.THEORY, "zorder": 1}),
+        maps.theory("computed limit; (ωh)²/12"),
         Line2D([], [], color=DARK, lw=0.9, ls=(0, (4, 2)), label="central differences"),
         *(
             Line2D([], [], ls="", marker="o", mfc="white", mec=c, label=f"{n}×{n}×2")
@@ -210,19 +186,19 @@ STUDY = Study(
     "amplitude and energy over steps from 1e-6 s to 1 s.",
     cells=cells,
     measure="studies.stability.time_step:measure",
-    columns=(
-        Column("integrator"),
-        Column("masses", form="d"),
-        Column("vertical"),
-        Column("damping ratio", form="g"),
-        Column("slenderness", form="g"),
-        Column("precision"),
-        Column("step", "s", "s", 1.0, "g"),
-        Column("computed", "s", "µs", 1e6, ".4g"),
-        Column("measured", "s", "µs", 1e6, ".4g"),
-        Column("measured over computed", form=".3f"),
-        Column("amplitude decay", form=".2e"),
-        Column("energy drift", form=".2e"),
+    columns=columns(
+        integrator="",
+        masses="d",
+        vertical="",
+        damping_ratio="g",
+        slenderness="g",
+        precision="",
+        step=SECONDS("g"),
+        computed=MICROSECONDS(".4g"),
+        measured=MICROSECONDS(".4g"),
+        measured_over_computed=".3f",
+        amplitude_decay=".2e",
+        energy_drift=".2e",
     ),
     draw=draw,
 )

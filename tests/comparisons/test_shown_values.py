@@ -2,7 +2,6 @@
 
 import csv
 from inspect import signature
-from operator import itemgetter
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -83,11 +82,9 @@ def test_maps_are_as_wide_as_both_columns_of_a_paper():
 
 def test_tiles_reach_half_way_to_their_neighbours():
     _, axis = subplots()
-    rows = [{"x": x, "y": y} for x in (4.0, 1.0, 3.0) for y in (1.0, 100.0)]
-    stability_figure.tiles(
-        axis, rows, itemgetter("x"), itemgetter("y"), of=lambda _: next(iter(stability_figure.OUTCOMES)),
-        text=lambda _: "", scale=("linear", "log"),
-    )  # fmt: skip
+    cells = ({"x": x, "y": y} for x in (4.0, 1.0, 3.0) for y in (1.0, 100.0))
+    rows = [{"cell": cell, "status": "converged"} for cell in cells]
+    stability_figure.tiles(axis, rows, "x", "y", scale=("linear", "log"))
     tiles = sorted(tile.get_bbox().extents.tolist() for tile in axis.patches)
     across, up = ((0.0, 2.0), (2.0, 3.5), (3.5, 4.5)), ((0.1, 10.0), (10.0, 1000.0))
     assert tiles == [pytest.approx([x0, y0, x1, y1]) for x0, x1 in across for y0, y1 in up]

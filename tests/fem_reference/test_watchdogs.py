@@ -15,7 +15,7 @@ from lumped.dynamics.system import State
 from lumped.statics import faults
 from lumped.statics.solver import build_problem
 from sheetbench.scenes import EdgeLoad, Status
-from studies.stability.equilibria import loaded, sheet
+from studies.stability.equilibria import sheet
 
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not
 
@@ -34,7 +34,7 @@ def pressed(share):
     """A sheet pressed in its plane by a share of E h."""
     scene = sheet(0.016, 0.02)
     force = share * scene.material.young * scene.sheet.thickness
-    return loaded(scene, EdgeLoad(edge="x1", force_per_length=(-force, 0.0, 0.0)))
+    return scene.replace(loads=(EdgeLoad(edge="x1", force_per_length=(-force, 0.0, 0.0)),))
 
 
 def test_a_whole_lattice_has_nothing_to_say(problem):

@@ -14,11 +14,9 @@ import lumped
 from comparisons.runs.campaign import campaign
 from comparisons.stability import limit
 from comparisons.stability.rows import LARGE
-from sheetbench.answers.table import Column
 from sheetbench.scenes import BadInput, EdgeLoad, Status
 from studies.stability import (
     STUDIES,
-    Study,
     curved_edge,
     damping,
     equilibria,
@@ -26,12 +24,12 @@ from studies.stability import (
     page,
     slenderness,
     stiffness,
-    survey,
-    texts,
     time_step,
-)
+)  # fmt: skip
 from studies.stability import load as weights
-from studies.stability.equilibria import compare, mechanism, sheet, shell
+from studies.stability.answer import text
+from studies.stability.equilibria import compare, consistent, mechanism, sheet, shell
+from studies.stability.survey import Study, columns, survey
 
 NAMES = ["time-step", "stiffness", "slenderness", "grid", "load", "damping", "mass", "curved-edge"]
 FEW = {1: 17, 2: 17}  # masses a side
@@ -51,7 +49,7 @@ def test_cells_are_plain_and_distinct_and_the_full_map_has_more(name):
 
 def fake(cells, measure="campaign_tasks:square"):
     return Study(
-        "fake", "A title", "What is varied.", lambda full: cells, measure, (Column("x"),), lambda f, r: None
+        "fake", "A title", "What is varied.", lambda full: cells, measure, columns(x=""), lambda f, r: None
     )
 
 
@@ -98,13 +96,12 @@ def test_texts_list_what_is_off_with_its_mechanism_and_what_did_not_converge():
         {**every, "cell": {"x": "fine"}, "error": 0.01},
         {**every, "cell": {"x": "lost"}, "error": None, "status": "diverged", "message": "too far"},
     ]
-    said = texts.text(fake([]), rows)
+    said = text(fake([]), rows)
     assert "4 cells: 3 converged, 1 diverged." in said
     assert "- x lost: diverged, too far" in said
     assert "- x off: 30 %, unknown: no test told" in said
     assert "- x told: 20 %, resolution: halved" in said
     assert "fine" not in said
-    assert [row["cell"]["x"] for row in texts.unexplained(rows)] == ["off"]
 
 
 @pytest.mark.parametrize(
@@ -226,7 +223,7 @@ def test_mechanisms():
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
     bent, flat = lumped.solve(pressed, springs, branch="stable"), shell(pressed, 6)
     assert bent.status is Status.CONVERGED and flat.status is Status.UNSTABLE
-    assert mechanism(pressed, (5, 5), 6, bent, flat)["mechanism"] == "branch"
+    assert mechanism(pressed, (5, 5), 6, bent, flat, consistent(pressed))["mechanism"] == "branch"
 
 
 def test_a_curved_clamp_snaps_and_says_where(monkeypatch):

@@ -19,7 +19,7 @@ from pylatexenc.latexwalker import (
 from sheetbench.answers.latex import latex
 from sheetbench.answers.table import Column, Table
 from studies.stability import STUDIES
-from studies.stability.texts import table as study_table
+from studies.stability.answer import table as study_table
 
 COMMANDS = r"""
 textbackslash textasciicircum textasciitilde textasciigrave dots frac times cdot pm ge le approx ne to infty

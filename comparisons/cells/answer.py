@@ -77,7 +77,7 @@ class CellModuli(Answer):
         units = self.cell.units()
         coefficients = [Coefficient(name, units[name], value) for name, value in self.coefficients.items()]
         codes = parameters(self.cell.hinge, self.coefficients, self.scene) if self.cell.triangles else []
-        caption = "The same as parameters of codes with such cells"
+        caption = "Parameters of codes with such cells"
         return (
             Table.of(Coefficient, coefficients, "Coefficients", "coefficients"),
             *([Table.of(Parameter, codes, caption, "codes", grouped=True)] if codes else []),
@@ -90,16 +90,18 @@ class CellModuli(Answer):
             for row in self.rows
             if abs(row.miss) > MISSED
         ]
-        told = [f"These coefficients miss {', '.join(missed)} of the sheet's 11."] if missed else []
-        told.append(
-            f"With them a mesh of this cell, however fine, is {100 * self.limit_error:.1f} % of the largest "
-            "displacement off in this scene: so is a shell with the cell's moduli."
+        notes = ["off by: difference over the sheet's A11, D11 or S."]
+        if missed:
+            notes.append(f"These coefficients miss {', '.join(missed)}.")
+        notes.append(
+            f"Error of an infinitely fine mesh with them in this scene: {100 * self.limit_error:.1f} % of "
+            "the largest displacement, from a shell with the cell's moduli."
         )
         if self.best_hinge is not None:
             value, error = self.best_hinge
             unit = self.cell.units()["hinge"]
-            told.append(f"In this scene alone hinge = {value:.4g} {unit} is best: {100 * error:.1f} % off.")
-        return told
+            notes.append(f"Least error in this scene: {100 * error:.1f} % with hinge = {value:.4g} {unit}.")
+        return notes
 
     def document(self) -> dict[str, Any]:
         best = self.best_hinge and dict(zip(("value", "error"), self.best_hinge, strict=True))

@@ -52,9 +52,9 @@ class Parameter:
 
     code: str
     parameter: str
-    value: Annotated[float, Column("value", form="#.6g")]
+    value: Annotated[float, Column("value", form=".6g")]
     unit: str
-    convention: Annotated[str, Column("what it is there", prose=True)]
+    convention: Annotated[str, Column("meaning in this code", prose=True)]
 
 
 def _spatial_poisson(c: Numbers) -> float:
@@ -84,7 +84,7 @@ def _flex_young(c: Numbers) -> float:
 
 DENSITY = Key("density", "kg/m³", "of the volume", lambda c: c["density"])
 AREAL = Key("density", "kg/m²", "of the area: times thickness", lambda c: c["density"] * c["thickness"])
-HINGED = "hinges are an isotropic sheet of no Poisson's ratio but −1/3, or none: see docs/cells.md"
+HINGED = "hinges bend as an isotropic sheet of ν = −1/3 (equilateral cells) or of no ν: see docs/cells.md"
 
 CODES = {
     row.name: row
@@ -111,17 +111,15 @@ CODES = {
             "MuJoCo 4.0, flex",
             "height",
             (
-                Key(
-                    "young", "Pa", "times thickness; with the thickness below no longer its own", _flex_young
-                ),
+                Key("young", "Pa", "membrane E h over the thickness below, not the sheet's E", _flex_young),
                 Key("poisson", "", "the sheet's own", _plane_poisson),
-                Key("thickness", "m", "how hinges compare with the membrane", _flex_thickness),
+                Key("thickness", "m", "sets the hinges' stiffness, not the sheet's", _flex_thickness),
             ),
             "forces of the wheel 4.0.0, measured (tests/comparisons/codes/test_codes.py): E, ν and "
             "thickness make plane stress, and hinges ½ D L²/(A₁ + A₂) θ². Before, google-deepmind/mujoco at "
             "a725507, src/user/user_mesh.cc: λ of a solid (ComputeStiffness), «3 * mu * pow(thickness, 3) / "
             "(24 * volume)» in place of D/(A₁ + A₂) (ComputeBending)",
-            HINGED + "; its bending is quadratic in places",
+            HINGED + "; its bending energy is quadratic in the positions",
             licence="Apache-2.0",
             runs=True,
         ),
@@ -137,8 +135,8 @@ CODES = {
             "(«scaled_stiffness * (dir - dir_normalized * r)»); springBendingStiffness is of links between "
             "nodes two links apart (btSoftBody.cpp, generateBendingConstraints)",
             "a cloth of one layer has no bending stiffness while it is flat, whatever springBendingStiffness "
-            "is: take two layers of nodes in tetrahedra; one k for all links is near ν = 1/3, and a sheet of "
-            "another ν is met in one stiffness alone",
+            "is: take two layers of nodes in tetrahedra; one k for all links gives about ν = 1/3, and for "
+            "another ν only one of the sheet's stiffnesses is matched",
             "tetrahedra",
             "springs",
             "zlib",
@@ -168,9 +166,9 @@ CODES = {
             "_kernel_solve_bending («-sqrt(1 - d**2) * constraint / (sum_wq + alpha)» where both have a sine "
             "to be divided by); materials/PBD/cloth.py («rho … is kg/m²»); pbd_entity.py («remesh("
             "edge_len_abs=particle_size)»)",
-            "springs along the sides of triangles are near ν = 1/3; a flat sheet with any bending compliance "
-            "does not resist bending, and relaxation makes hinges near clamps stiffer, but where each has "
-            "its own; the mesh that you give is replaced by one of its own, but where the script keeps it",
+            "springs along triangles' sides give about ν = 1/3; hinges with a bending compliance above 0 "
+            "do not resist the bending of a flat sheet, and one bending_relaxation for all makes those near "
+            "clamps too stiff; the engine remeshes the given mesh unless the script prevents it",
             elements="springs",
             licence="Apache-2.0",
             runs=True,
@@ -213,7 +211,7 @@ CODES = {
                 Key(
                     "stretching 4",
                     "N/m",
-                    "G h, of the force; the energy that is printed has half of it",
+                    "G h in the force; the printed energy has half of it",
                     lambda c: c["mu_h"],
                 ),
                 Key("bending", "N·m", "⅛ k L²/(A₁ + A₂) θ² of an edge", lambda c: 12.0 * c["hinge"]),
@@ -221,7 +219,7 @@ CODES = {
             "ArcSim as in DrapeTester/ClothDrapeTester, arcsim/AdaptiveCloth/physics.cpp: bending_energy («"
             "shape = sq(edge->l) / (2 * a); return ke * shape * sq(theta - …) / 4»), stretching_force («2 * "
             "k[3] * G(0, 1)»); dde.cpp: evaluate_stretching_sample («real_elastic[0] *= 2»)",
-            HINGED + "; remeshing changes what hinges weigh: set refine_angle and the like to nothing",
+            HINGED + "; remeshing changes the hinges' weights: switch it off (refine_angle and the like)",
             licence="University of California, not for profit",
         ),
         Code(
@@ -311,9 +309,9 @@ CODES = {
             "newton-physics/newton 1.8.0, newton/_src/utils/import_usd_deformable_cloth.py: _resolve_surface_"
             "structural_stiffnesses («youngs * thickness / plane_stress», «youngs * thickness**3 / (12.0 * "
             "plane_stress)»)",
-            "of use for hinges as they are: a program has to make its hinges of the sheet's stiffness. "
-            "Newton 1.8 takes them for tri_ke and edge_ke, a stiffness [N·m] for what is multiplied by an "
-            "edge's length [N], and tri_ka = 0: there take what --for newton says",
+            "the bending stiffness is the sheet's [N·m], to be converted to hinges by programs. Newton 1.8 "
+            "reads it as edge_ke [N], which it multiplies by the edge's length, and sets tri_ka = 0: "
+            "for Newton use the values of --for newton",
             licence="Apache-2.0 (modified)",
         ),
         Code(

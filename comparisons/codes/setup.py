@@ -93,20 +93,20 @@ class CodeSetup(Answer):
         )
 
     def notes(self) -> list[str]:
-        chosen = "best in this scene" if self.best else "nearest to the sheet's moduli"
-        told = [f"Hinges and springs have the values that are {chosen}."] if self.elastic else []
+        chosen = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
+        notes = [f"Coefficients of hinges and springs: those that {chosen}."] if self.elastic else []
         if self.elastic and self.limit_error is not None:
-            told.append(
-                f"With them a mesh of this cell, however fine, is {100 * self.limit_error:.1f} % of the "
-                "largest displacement off in this scene."
+            notes.append(
+                "Error of an infinitely fine mesh with them in this scene: "
+                f"{100 * self.limit_error:.1f} % of the largest displacement."
             )
-        told.append(f"What it cannot be: {self.code.cannot}.")
-        told.append(f"Where that is said: {self.code.source}.")
-        run = "was run here" if self.code.runs else "was not run here: its files were read back and checked"
-        told.append(f"{self.code.title} ({self.code.licence}) {run}.")
+        notes.append(f"Limits: {self.code.cannot}.")
+        notes.append(f"Source: {self.code.source}.")
+        tested = "by running it" if self.code.runs else "by reading the files back; not run itself"
+        notes.append(f"{self.code.title} ({self.code.licence}): tested {tested}.")
         if why := refusal(self.scene):
-            told.append(f"No files: {why}.")
-        return told
+            notes.append(f"No files: {why}.")
+        return notes
 
     @property
     def elastic(self) -> bool:

@@ -289,7 +289,9 @@ class Comparison(Answer):
             *([f"{self.solutions[0].model}: {self.expected}"] if self.expected else []),
             *self._bar_notes(),
             f"off by: |u − {ref}| / |{ref}| at the probe. "
-            f"error: largest component of u − {ref} over the probes / largest component of {ref}.",
+            f"error: largest component of u − {ref} over the probes / largest component of {ref}."
+            + " ±: mesh or grid error of the model at the probe."
+            * bool(self.bars),
             *([BUCKLED] if self.reference.settings.get("branch") == "buckled" else []),
         ]
 

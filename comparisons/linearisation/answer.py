@@ -25,7 +25,7 @@ ROUNDING = 1e-6  # of what an input moves most
 EXPLANATION = (
     "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
     "load or gravity",
-    "with --out linear.npz and linear.mat hold M, C, K, F, F_rate, G, H and ss_A to ss_D",
+    "--out DIR writes M, C, K, F, F_rate, G, H and ss_A to ss_D to linear.npz and linear.mat",
 )
 
 
@@ -175,7 +175,7 @@ class Linearisation(Answer):
         pairs = zip(self.upper, self.damping_ratios, strict=True)
         rows = [PoleRow(abs(p) / (2.0 * np.pi), ratio, p.real, p.imag) for p, ratio in pairs]
         undamped = not any(self.damping_ratios)
-        caption = "Poles (nothing damps them)" if undamped else "Poles"
+        caption = "Poles (undamped)" if undamped else "Poles"
         details = ("damping_ratio", "real") if undamped else ()
         return Table.of(PoleRow, rows, caption, "poles", details=details)
 

@@ -230,6 +230,8 @@ class Spectra(Answer, Sequence[Spectrum]):
             )
         for spectrum in self[1:]:
             notes += _pairing_notes(self.against(spectrum.model))
+        if len(self) > 1:
+            notes.append("MAC: modal assurance criterion of both models' shapes, 1 where they are the same")
         if self[0].rigid:
             notes.append(f"{self[0].rigid} rigid-body modes, of frequency 0, are left out")
         if self.scene.actuators:

@@ -167,7 +167,7 @@ def _measures(found: MotionComparison) -> Table:
     truth = found.histories[found.reference]
     probe, component = leading(truth)
     rows = [replace(measured_alike(one, truth)[0], model=name) for name, one in found.histories.items()]
-    caption = f"{COMPONENTS[component]} of {probe}, which moves farthest: first peak, period, log decrement"
+    caption = f"{COMPONENTS[component]} of {probe}, which moves farthest: its peak, period and log decrement"
     fields = ("model", "peak", "peak_time", "period", "decay", "damping")
     return Table.of(Measures, rows, caption, "measures", fields=fields)
 
@@ -185,8 +185,8 @@ def _differences(found: MotionComparison) -> Table:
             rows.append(DifferenceRow(d["of"], probe, float(np.abs(off).max()) / scale, rms))
         rows.append(DifferenceRow(probe="all", **{k: v for k, v in d.items() if k in WHOLE}))
     caption = (
-        f"Difference from the {found.reference}: largest and rms of its largest displacement, phase of "
-        "a period; decay: difference of the logarithmic decrements"
+        f"Difference from the {found.reference}: largest and rms over its largest displacement, phase over "
+        "its period; decay: difference of the log decrements"
     )
     return Table.of(DifferenceRow, rows, caption, "differences")
 
@@ -212,7 +212,7 @@ def _bars(found: MotionComparison) -> list[str]:
     if largest is not None and mesh is not None and largest < mesh:
         notes.append(
             f"the lattice is {number(100 * largest, '.2g')} % off, less than what larger elements change: "
-            "give more --elements before judging it"
+            "use more --elements before judging it"
         )
     return notes
 

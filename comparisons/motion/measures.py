@@ -34,12 +34,12 @@ class Measures:
     peak: Annotated[float | None, MILLIMETRES("z.3f", "first peak")] = None
     peak_time: Annotated[float | None, MILLISECONDS("z.2f", "at")] = None
     period: Annotated[float | None, MILLISECONDS("z.2f")] = None
-    decay: Annotated[float | None, NUMBER("z.4f", "decay per period")] = None
+    decay: Annotated[float | None, NUMBER("z.4f", "log decrement")] = None
     last: float | None = None
     model: str = ""
 
     @property
-    def damping(self) -> Annotated[float | None, NUMBER("z.4f", "as a damping ratio")]:
+    def damping(self) -> Annotated[float | None, NUMBER("z.4f", "damping ratio")]:
         """The damping ratio of the decrement."""
         return None if self.decay is None else float(self.decay / np.hypot(2.0 * np.pi, self.decay))
 

@@ -62,9 +62,10 @@ class Suite(Answer):
 
     def notes(self) -> tuple[str, ...]:
         return (
-            "bar: what the reference's mesh and steps leave uncertain, of its largest value; agreeing: codes "
-            "within that or 1 %",
-            "--out DIR writes scenes, values and forms to fill in; sheetbench score answers-statics.csv",
+            "bar: uncertainty by the reference's mesh and steps, over its largest value; agreeing: "
+            "models within that or 1 %",
+            "--out DIR writes scenes, values and forms for answers; sheetbench score "
+            f"answers-{self.suite or 'statics'}.csv scores a filled one",
         )
 
     def files(self) -> dict[str, Write]:

@@ -20,12 +20,12 @@ _MEANINGS = {
     "shear": "strain spring of a cell in a layer, in-plane shear",
     "stretch": "strain spring of a cell in a layer, stretching",
     "mid_shear": "strain spring of a mid-surface cell, in-plane shear",
-    "neo_hookean_shear": "2 f'(0) of a layer's cells as a rubber membrane",
-    "neo_hookean_volume": "Λ of that membrane",
-    "mooney_rivlin": "of I2 - 3 of that membrane",
-    "yeoh_square": "of (I1 - 3)² of that membrane",
-    "yeoh_cube": "of (I1 - 3)³ of that membrane",
-    "gent_limit": "I1 - 3 that no load reaches",
+    "neo_hookean_shear": "shear modulus × thickness of a layer as a rubber membrane",
+    "neo_hookean_volume": "Λ × thickness of that membrane, energy ½ Λ ln² J",
+    "mooney_rivlin": "coefficient × thickness of I2 − 3 of that membrane",
+    "yeoh_square": "coefficient × thickness of (I1 − 3)² of that membrane",
+    "yeoh_cube": "coefficient × thickness of (I1 − 3)³ of that membrane",
+    "gent_limit": "limit of I1 − 3, without a unit",
     "face_shear": "strain spring of an upright face along a cell's side, transverse shear",
     "face_diagonal_shear": "face_shear over a cell's diagonals",
     "edge_shear": "correction to the shear spring of a layer's cells along a free, hinged or held edge",
@@ -37,14 +37,15 @@ _MEANINGS = {
 
 
 def springs(calibration: dict[str, Any]) -> Table:
-    """A row per family, and per direction where they differ, of unequal cells the softest and the stiffest;
-    `calibration` as its `document` gives it."""
+    """A row per family, and per direction where they differ, of unequal cells the softest and the stiffest
+    that is not 0; `calibration` as its `document` gives it."""
     rows = []
     by_axis = [value if isinstance(value, dict) else {"": value} for value in calibration["springs"].values()]
     unequal = any(np.ndim(k) for directions in by_axis for k in directions.values())
     for name, directions in zip(calibration["springs"], by_axis, strict=True):
         for axis, k in directions.items():
-            ends = [float(np.min(k)), float(np.max(k))] if unequal else [k]
+            there = np.ravel(k)[np.ravel(k) != 0.0] if np.any(k) else np.zeros(1)  # none in holes
+            ends = [float(there.min()), float(there.max())] if unequal else [k]
             rows.append((f"{name} {axis}".strip(), _MEANINGS.get(name, ""), *ends))
     headings = ("least", "largest") if unequal else ("stiffness",)
     columns = (
@@ -77,8 +78,8 @@ def moduli(calibration: dict[str, Any]) -> Table:
         Column("off target by", "", "%", 100.0, "z.2f"),
     )
     said = (
-        "S: the target is S*, 1/S* = 1/κGh + l²/12D11, smaller than the sheet's κGh on purpose: it cancels "
-        "the shear error of cells of length l"
+        "S: the target is S*, 1/S* = 1/κGh + l²/12D11, below the sheet's κGh to cancel the shear error of "
+        "cells of length l"
     )
     return Table(
         "Moduli of the sheet and of the lattice",

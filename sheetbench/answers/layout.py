@@ -82,11 +82,12 @@ def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal
     if table.grouped:
         firsts[:] = [text if first else "" for text, first in zip(firsts, new, strict=True)]
     starts = [*(table.grouped and first for first in new[1:]), False][: len(firsts)]
-    if table.grouped and not _fits(strips, width) and _fits(strips[1:], width):
-        return [_under_names(strips, width, starts)]
     naming = next((i for i, c in enumerate(brief.columns) if c.numeric or c.prose), 1)
     while naming < len(strips) - 1 and len({tuple(row[:naming]) for row in shown}) < len(shown):
         naming += 1
+    if table.grouped and not _fits(strips, width):
+        parts = _stacked(strips[1:], max(naming - 1, 1), width)
+        return [_under_names([strips[0], *part], width, starts) for part in parts]
     return [_block(part, width, starts) for part in _stacked(strips, max(naming, 1), width)]
 
 

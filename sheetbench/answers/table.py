@@ -129,8 +129,9 @@ def _column(name: str, hint: Any) -> Column:
 
 
 def number(value: float, form: str = "g") -> str:
-    """Return a number as people read it: with a minus sign, not a hyphen."""
-    return format(value, form).removesuffix(".").replace("-", "−")
+    """Return a number as people read it: with a minus sign, not a hyphen; a zero without zeros behind it."""
+    shown = format(value, form if value else form.removeprefix("#"))
+    return shown.removesuffix(".").replace("-", "−")
 
 
 def quantity(value: float, si: str, form: str = ".4g") -> str:

@@ -40,7 +40,8 @@ def milliseconds(seconds: float) -> str:
 def few(value: float, digits: int = 2) -> str:
     """A few digits of a number in a sentence; without an exponent from 0.001 to a million."""
     rounded = float(f"{value:.{digits}g}")
-    return f"{rounded:.7g}" if 1e-3 <= abs(rounded) <= 1e6 else f"{value:.{digits}g}"
+    shown = f"{rounded:.7g}" if 1e-3 <= abs(rounded) <= 1e6 else f"{value:.{digits}g}"
+    return shown.replace("-", "−")
 
 
 def without_rounding(forces: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

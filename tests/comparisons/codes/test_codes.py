@@ -217,7 +217,7 @@ def test_the_verb_writes_a_scene_and_says_where_its_numbers_are_from(tmp_path, c
     options = ("--for", "newton", "--grid", "5", "--out", str(tmp_path / "n"))
     assert run("calibrate", "one-edge-clamped", *options) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "particle_vbd_kernels.py" in said and "best in this scene" in said
+    assert "particle_vbd_kernels.py" in said and "least error in this scene" in said
     assert (tmp_path / "n" / "run_newton.py").exists()
     document = json.loads((tmp_path / "n" / "code.json").read_text())
     assert document["parameters"][1]["unit"] == "N/m" and document["limit_error"] < 0.05

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated
 
-from comparisons.cli.lattice_options import SpringOptions
-from comparisons.cli.options import Calibration, Large, Scene, option
-from comparisons.cli.verb import OutputOptions
+from comparisons.cli.options import Calibration, Large, Scene, SpringOptions, option
+from comparisons.cli.output import OutputOptions
 
 
 def command(

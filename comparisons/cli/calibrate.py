@@ -7,9 +7,8 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.lattice_options import SheetOptions
-from comparisons.cli.options import Export, Grading, Grid, K, Large, LayerDistance, option
-from comparisons.cli.verb import OutputOptions
+from comparisons.cli.options import Export, Grading, Grid, K, Large, LayerDistance, SheetOptions, option
+from comparisons.cli.output import OutputOptions
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
 
@@ -31,7 +30,7 @@ def command(
     ] = None,
     k: K = None,
     layer_distance: LayerDistance = None,
-    toml: Annotated[bool, option("Print the \\[springs] table for a scene file.", None, "--toml")] = False,
+    toml: Annotated[bool, option("Print the \\[springs] table for a scene file.")] = False,
     export: Export = None,
     simulators: Annotated[
         list[str] | None,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from comparisons.cli.options import Scene
-from comparisons.cli.verb import OutputOptions
+from comparisons.cli.output import OutputOptions
 
 
 def command(scene: Scene, *, output: OutputOptions) -> None:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated
 
-from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Export, Large, Law, Models, Scene, Symmetry, option
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.options import Export, Large, LatticeOptions, Law, Models, Scene, Symmetry, option
+from comparisons.cli.output import PictureOptions
 from sheetbench.choices import BRANCHES, ELEMENTS, REFERENCE, REFERENCES, listed
 
 FRAMES = 100  # of a motion
@@ -23,7 +22,6 @@ def command(
             "The reference's elements along the shorter side, or 8x4 along x and y; "
             f"default: {ELEMENTS}; 8 with --duration.",
             "N",
-            "--elements",
         ),
     ] = None,
     law: Law = None,
@@ -31,15 +29,9 @@ def command(
     model: Models = None,
     uncertainty: Annotated[
         bool,
-        option(
-            "Solve the reference on coarser meshes too, for its error bar; plates and shells always are.",
-            None,
-            "--uncertainty",
-        ),
+        option("Solve the reference on coarser meshes too, for its error bar; plates and shells always are."),
     ] = False,
-    no_uncertainty: Annotated[
-        bool, option("Solve the reference once, without its error bar.", None, "--no-uncertainty")
-    ] = False,
+    no_uncertainty: Annotated[bool, option("Solve the reference once, without its error bar.")] = False,
     branch: Annotated[
         str,
         option(
@@ -50,7 +42,7 @@ def command(
         float | None, option("Compare the motion over this time, from rest.", "S", unit="s")
     ] = None,
     animate: Annotated[
-        bool, option("With --duration and --out: draw both sheets moving, side by side.", None, "--animate")
+        bool, option("With --duration and --out: draw both sheets moving, side by side.")
     ] = False,
     export: Export = None,
     large: Large = False,

@@ -6,9 +6,8 @@ from typing import Annotated, Any
 
 import typer
 
-from comparisons.cli.lattice_options import SpringOptions
-from comparisons.cli.options import Calibration, Large, option
-from comparisons.cli.verb import CampaignOptions, PictureOptions
+from comparisons.cli.options import Calibration, CampaignOptions, Large, SpringOptions, option
+from comparisons.cli.output import PictureOptions
 from sheetbench.choices import REFERENCE, REFERENCES
 
 SIZES = {"lumped": "9,13,17", "plate": "8,12,16", "shell": "8,12,16", "solid": "6,8,12"}
@@ -60,6 +59,7 @@ def command(
 
     An empty list leaves a model, or all external codes, out: --solid "". An interrupted run is resumed.
     """
+    from comparisons.cli import console
     from comparisons.crosscheck.candidates import candidates, load_scenes
     from comparisons.crosscheck.crosscheck import crosscheck
     from comparisons.external.installed import find_codes
@@ -80,6 +80,8 @@ def command(
         if len(scenes) > 1 or not isinstance(own, Lattice) or not isinstance(shell_spec, Elements):
             raise BadInput("--duration: one scene, a lattice, and a shell that others are measured against")
         scene = load(*scenes)
+        if campaign.workers is not None or campaign.retry:
+            console.warn("--workers, --retry: no effect with --duration, where one model moves after another")
         with output.open(scene=scene, variant={"--duration": duration}) as out:
             others, kept = list(finest.values()), out.reserve("runs/")
             out.show(

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.options import option
-from comparisons.cli.verb import OutputOptions
+from comparisons.cli.output import OutputOptions
 
 SPACINGS = 8  # cells along the shorter side, unless a spacing is given
 

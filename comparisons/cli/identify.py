@@ -7,9 +7,8 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Elements, Large, Law, option
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.options import Elements, Large, LatticeOptions, Law, option
+from comparisons.cli.output import PictureOptions
 from sheetbench.choices import ELEMENTS
 from sheetbench.errors import BadInput
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Large, Scene, option
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.options import Large, LatticeOptions, Scene, option
+from comparisons.cli.output import PictureOptions
 
 MODES = 20
 

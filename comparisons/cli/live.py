@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Scene, option
+from comparisons.cli.options import LatticeOptions, Scene, option
 
 ELEMENTS = 8
 

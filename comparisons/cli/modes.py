@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Elements, Large, Scene, option
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.options import Elements, Large, LatticeOptions, Scene, option
+from comparisons.cli.output import PictureOptions
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
 
 
@@ -23,8 +22,7 @@ def command(
         ),
     ] = None,
     reference: Annotated[
-        list[str] | None,
-        option(f"{listed(REFERENCES)}; may be repeated. Default: {REFERENCE}.", "MODEL"),
+        list[str] | None, option(f"{listed(REFERENCES)}; may be repeated. Default: {REFERENCE}.", "MODEL")
     ] = None,
     elements: Elements = str(ELEMENTS),
     about: Annotated[

@@ -11,8 +11,7 @@ from warnings import warn
 
 import typer
 
-from comparisons.cli.lattice_options import SheetOptions
-from comparisons.cli.options import option
+from comparisons.cli.options import SheetOptions, option
 
 if TYPE_CHECKING:
     from sheetbench.scenes import Material, Sheet
@@ -38,7 +37,7 @@ def command(
     clamped: Annotated[
         str | None, option("x0, x1, y0, y1; several with commas. Default: x0.", "EDGES")
     ] = None,
-    overwrite: Annotated[bool, option("Replace the file where there is one.", None, "--overwrite")] = False,
+    overwrite: Annotated[bool, option("Replace the file where there is one.")] = False,
 ) -> None:
     """Write a commented scene to start from: a sheet under its own weight, and what can be added.
 

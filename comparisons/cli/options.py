@@ -1,13 +1,24 @@
-"""Options that several verbs share."""
+"""Options that several verbs share, alone and in groups, each declared once.
+
+A command whose parameter is of the type `LatticeOptions` has --grid, --calibration, --k, --layer-distance and
+--grading; with `SpringOptions` the last three, beside lists of grids and calibrations of its own.
+`SheetOptions` are --young, --poisson, --thickness, --density and --side; `CampaignOptions` those of many
+runs. Those of the output stand in `comparisons.cli.output`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated, Any
+from dataclasses import dataclass, fields
+from inspect import Parameter
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
 from sheetbench.choices import CALIBRATION, CALIBRATIONS, STRAIN_LAW, STRAIN_LAWS, listed
+
+if TYPE_CHECKING:
+    from comparisons.models.spec import Lattice
 
 
 def option(
@@ -35,15 +46,22 @@ def quantity_in(unit: str) -> Callable[[str], float]:
     return parse
 
 
+def _let_through(context: typer.Context, value: bool) -> bool:
+    """Hold --large for all that the command does."""
+    if value:
+        from comparisons.models.context import running
+
+        context.with_resource(running(large=True))
+    return value
+
+
 Scene = Annotated[str, typer.Argument(metavar="SCENE", help="Catalogue name or path to a TOML file.")]
-Json = Annotated[bool, option("Print one JSON document instead of tables.", None, "--json")]
-Out = Annotated[str | None, option("Write files into this folder.", "DIR", "--out")]
+Json = Annotated[bool, option("Print one JSON document instead of tables.")]
 Export = Annotated[
     str | None,
     option(
         "Write the lattice for another simulator: masses, springs, supports, loads, values to check by.",
         "DIR",
-        "--export",
     ),
 ]
 Grid = Annotated[
@@ -62,83 +80,27 @@ Grading = Annotated[
         "How much finer the lattice is at its edges, 0 (cells of one size) to 1; 0.5:x0 or 0.5:x0,x1: "
         "at these edges only; auto: by the scene's boundary layers. Default: 0.",
         "G",
-        "--grading",
     ),
 ]
-Figure = Annotated[
-    str | None,
-    option(
-        "With --out: pictures for a paper, without a title, as pdf, svg or png, several with commas; "
-        "pdf:single as wide as one column (89 mm), else as both (183 mm).",
-        "FORMAT",
-        "--figure",
-    ),
-]
-NoPictures = Annotated[bool, option("With --out: all files but the pictures.", None, "--no-pictures")]
-NoPicturesAnyway = Annotated[  # of verbs that draw none, for scripts that give it to all
-    bool, typer.Option("--no-pictures", hidden=True)
-]
-Quiet = Annotated[
-    bool,
-    option("No progress and no notes on standard error; results, warnings and errors stay.", None, "--quiet"),
-]
-Overwrite = Annotated[
-    bool,
-    option(
-        "With --out: first remove what an earlier run left there; its manifest lists it.", None, "--overwrite"
-    ),
-]
-Scheduler = Annotated[str | None, option("A dask scheduler, as tcp://host:8786.", "ADDRESS", "--scheduler")]
-Wait = Annotated[
-    bool, option("With --scheduler: wait where there is no worker, instead of stopping.", None, "--wait")
-]
-
-
-def _let_through(context: typer.Context, value: bool) -> bool:
-    """Hold --large for all that the command does."""
-    if value:
-        from comparisons.models.context import running
-
-        context.with_resource(running(large=True))
-    return value
-
-
+NoPictures = Annotated[bool, option("With --out: all files but the pictures.")]
 Large = Annotated[
     bool,
     option(
-        "Solve models that need more memory than is free, instead of refusing them.",
-        None,
-        "--large",
-        callback=_let_through,
+        "Solve models that need more memory than is free, instead of refusing them.", callback=_let_through
     ),
 ]
-Workers = Annotated[
-    int | None,
-    option("Processes for runs that are not timed; default: one per core.", "N", "--workers", min=1),
-]
-Retry = Annotated[bool, option("Run again what failed in an earlier run.", None, "--retry")]
 Calibration = Annotated[
     str | None,
     option(
         f"How k is found from E, ν and h: {listed(CALIBRATIONS)}; auto: the consistent one that suits "
         f"the scene. Default: {CALIBRATION}; auto with --grading auto.",
         "NAME",
-        "--calibration",
     ),
 ]
-K = Annotated[float | None, option("Stiffness of every spring; implies uniform.", "N/M", "--k", unit="N/m")]
-LayerDistance = Annotated[
-    float | None, option("Distance of the lattice's layers.", "M", "--layer-distance", unit="m")
-]
-Side = Annotated[str | None, option("Sides: 0.188, 0.188x0.3 (x by y) or 12cmx4cm.", "M", "--side")]
-Thickness = Annotated[float | None, option("Thickness: 0.002 or 2mm.", "M", "--thickness", unit="m")]
-Young = Annotated[float | None, option("Young's modulus E: 6e5 or 0.6MPa.", "PA", "--young", unit="Pa")]
-Poisson = Annotated[float | None, option("Poisson's ratio ν.", "NU", "--poisson", unit="")]
-Density = Annotated[
-    float | None, option("Density: 1100 or 1.1g/cm3; default: 1000 kg/m³.", "KG/M3", unit="kg/m³")
-]
+K = Annotated[float | None, option("Stiffness of every spring; implies uniform.", "N/M", unit="N/m")]
+LayerDistance = Annotated[float | None, option("Distance of the lattice's layers.", "M", unit="m")]
 Elements = Annotated[
-    str, option("The reference's elements along the shorter side, or 8x4 along x and y.", "N", "--elements")
+    str, option("The reference's elements along the shorter side, or 8x4 along x and y.", "N")
 ]
 Law = Annotated[
     str | None,
@@ -146,16 +108,10 @@ Law = Annotated[
         f"Law of strain of a shell or solid: {listed(STRAIN_LAWS)}. Default: the material's own, "
         f"else {STRAIN_LAW}.",
         "NAME",
-        "--law",
     ),
 ]
 Symmetry = Annotated[
-    bool,
-    option(
-        "Solve a half or a quarter where scene and grid are symmetric; solids are solved whole.",
-        None,
-        "--symmetry",
-    ),
+    bool, option("Solve a half or a quarter where scene and grid are symmetric; solids are solved whole.")
 ]
 Models = Annotated[
     list[str] | None,
@@ -163,6 +119,96 @@ Models = Annotated[
         "A further model: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped, "
         "lumped-pair, plate, shell, solid; settings after it, as NAME:grid=9x5. May be repeated.",
         "MODEL",
-        "--model",
     ),
 ]
+
+
+class Group:
+    """A dataclass whose fields with typer's annotations are options."""
+
+    @classmethod
+    def parameters(cls) -> list[Parameter]:
+        """Return the options as keyword parameters of a command."""
+        hints = get_type_hints(cls, include_extras=True)
+        return [
+            Parameter(one.name, Parameter.KEYWORD_ONLY, default=one.default, annotation=hints[one.name])
+            for one in fields(cls)  # type: ignore[arg-type]
+            if hasattr(hints[one.name], "__metadata__")
+        ]
+
+
+class LatticeGroup(Group):
+    """Options by the names of a lattice's settings."""
+
+    @property
+    def spec(self) -> Lattice:
+        """The lattice that is asked for."""
+        from comparisons.models.spec import Lattice  # help does not wait for models
+
+        return Lattice(**vars(self))
+
+    def given(self) -> dict[str, Any]:
+        """Return the values by the options' names."""
+        return {"--lumped" if k == "grid" else f"--{k.replace('_', '-')}": v for k, v in vars(self).items()}
+
+
+@dataclass(frozen=True)
+class SpringOptions(LatticeGroup):
+    """Settings that all lattices of a list have in common."""
+
+    k: K = None
+    layer_distance: LayerDistance = None
+    grading: Grading = None
+
+
+@dataclass(frozen=True)
+class LatticeOptions(LatticeGroup):
+    """The lattice of a verb."""
+
+    grid: Grid = None
+    calibration: Calibration = None
+    k: K = None
+    layer_distance: LayerDistance = None
+    grading: Grading = None
+
+
+@dataclass(frozen=True)
+class SheetOptions(Group):
+    """A sheet and its material."""
+
+    young: Annotated[float | None, option("Young's modulus E: 6e5 or 0.6MPa.", "PA", unit="Pa")] = None
+    poisson: Annotated[float | None, option("Poisson's ratio ν.", "NU", unit="")] = None
+    thickness: Annotated[float | None, option("Thickness: 0.002 or 2mm.", "M", unit="m")] = None
+    density: Annotated[
+        float | None, option("Density: 1100 or 1.1g/cm3; default: 1000 kg/m³.", "KG/M3", unit="kg/m³")
+    ] = None
+    side: Annotated[str | None, option("Sides: 0.188, 0.188x0.3 (x by y) or 12cmx4cm.", "M")] = None
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """Values by the keys of a scene's sheet and material, None where they are not given."""
+        from comparisons.models.quantities import sides
+
+        return {key: value for key, value in vars(self).items() if key != "side"} | sides(self.side)
+
+
+@dataclass(frozen=True)
+class CampaignOptions(Group):
+    """How a campaign's runs are carried out."""
+
+    workers: Annotated[
+        int | None, option("Processes for runs that are not timed; default: one per core.", "N", min=1)
+    ] = None
+    scheduler: str | None = None
+    wait: bool = False
+    retry: Annotated[bool, option("Run again what failed in an earlier run.")] = False
+
+
+@dataclass(frozen=True)
+class ClusterOptions(CampaignOptions):
+    """The options of a campaign whose runs may go to a cluster."""
+
+    scheduler: Annotated[str | None, option("A dask scheduler, as tcp://host:8786.", "ADDRESS")] = None
+    wait: Annotated[bool, option("With --scheduler: wait where there is no worker, instead of stopping.")] = (
+        False
+    )

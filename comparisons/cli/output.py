@@ -9,18 +9,18 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from comparisons.cli import console, messages, startup
+from comparisons.cli import messages, startup
+from comparisons.cli.options import CampaignOptions, Group, Json, NoPictures, option
 from sheetbench import clock
 
 if TYPE_CHECKING:
-    from comparisons.cli.verb import CampaignOptions, OutputOptions
     from comparisons.report.work import Work
     from comparisons.runs.folder import Folder
     from lumped import Calibration
@@ -53,6 +53,8 @@ class Output:
     def progress(self, what: Work | str) -> None:
         """Show on standard error what is being done."""
         if self._progress is None:
+            from comparisons.cli import console  # with rich: help must not wait for it
+
             self._progress = self._spinner.enter_context(console.progress())
         self._progress(what)
 
@@ -79,6 +81,7 @@ class Output:
     @contextmanager
     def campaign(self, options: CampaignOptions) -> Iterator[dict[str, Any]]:
         """Yield the keywords of a campaign: its store, in the folder or passing, workers, pool, progress."""
+        from comparisons.cli import console
         from comparisons.runs.campaign import campaign
         from comparisons.runs.executors import pool_of
         from comparisons.runs.store import FILE
@@ -98,6 +101,8 @@ class Output:
 
     def stop(self, complaint: str) -> None:
         """End the command without an answer, with the reason and exit status 3."""
+        from comparisons.cli import console
+
         self.close()
         console.warn(complaint)
         raise typer.Exit(NOT_CONVERGED)
@@ -107,6 +112,8 @@ class Output:
 
         Exits with status 3 where the answer is incomplete.
         """
+        from comparisons.cli import console
+
         report = answer.report()
         own = report.document.get("warnings", ())  # before those about the scene
         document = {**report.document, "warnings": [*own, *messages.shown]}
@@ -134,6 +141,8 @@ class Output:
         self._progress = None
 
     def _print(self, report: Report) -> None:
+        from comparisons.cli import console
+
         console.heading(report.title, report.subtitle)
         if report.lead:
             console.note(report.lead)
@@ -152,50 +161,80 @@ class Output:
             console.note(f"Files in {self._folder.path}: {', '.join(written)}")
 
 
-@contextmanager
-def opened(
-    options: OutputOptions,
-    *,
-    scene: Scene | None = None,
-    about: Mapping[str, Any] | None = None,
-    variant: Mapping[str, Any] | None = None,
-    alone: bool = False,
-) -> Iterator[Output]:
-    """Open the output of a verb, to be shown its report.
+@dataclass(frozen=True)
+class OutputOptions(Group):
+    """Where the answer of a verb goes: --json, --out and --overwrite."""
 
-    scene, or about: what the answer is about; variant: options that decide which files it leaves; alone: no
-    other process may write to the folder meanwhile (campaigns see to that themselves). Raises BadInput for a
-    folder that cannot be made, or that holds files of something else.
-    """
-    from comparisons.models.context import running
-    from sheetbench.answers.figure_style import parse_figure
-    from sheetbench.errors import BadInput
+    verb: str
+    json: Json = False
+    out: Annotated[str | None, option("Write files into this folder.", "DIR")] = None
+    overwrite: Annotated[
+        bool, option("With --out: first remove what an earlier run left there; its manifest lists it.")
+    ] = False
+    figure: str | None = None
+    no_pictures: bool = False
 
-    startup.end()
-    style = parse_figure(options.figure)
-    if options.figure is not None and options.out is None:
-        raise BadInput("--figure: needs --out, a folder to draw into")
-    if options.figure is not None and options.no_pictures:
-        raise BadInput("--figure: names pictures, and --no-pictures says to draw none; leave one of them out")
-    with ExitStack() as stack:
-        folder = None
-        if options.out is not None:
-            from comparisons.runs.folder import Folder
-            from sheetbench.answers import files
-            from sheetbench.files import only_writer
+    @contextmanager
+    def open(
+        self,
+        *,
+        scene: Scene | None = None,
+        about: Mapping[str, Any] | None = None,
+        variant: Mapping[str, Any] | None = None,
+        alone: bool = False,
+    ) -> Iterator[Output]:
+        """Open the output of a verb, to be shown its report.
 
-            if scene is not None:
-                about = {"scene": scene.document()}
-            if alone:
-                stack.enter_context(only_writer(files.folder(options.out)))
-            folder = Folder(
-                options.out,
-                options.verb,
-                command_line(),
-                about=about,
-                variant=variant,
-                overwrite=options.overwrite,
+        scene, or about: what the answer is about; variant: options that decide which files it leaves; alone:
+        no other process may write to the folder meanwhile (campaigns see to that themselves). Raises BadInput
+        for a folder that cannot be made, or that holds files of something else.
+        """
+        from comparisons.models.context import running
+        from sheetbench.answers.figure_style import parse_figure
+        from sheetbench.errors import BadInput
+
+        startup.end()
+        style = parse_figure(self.figure)
+        if self.figure is not None and self.out is None:
+            raise BadInput("--figure: needs --out, a folder to draw into")
+        if self.figure is not None and self.no_pictures:
+            raise BadInput(
+                "--figure: names pictures, and --no-pictures says to draw none; leave one of them out"
             )
-        out = stack.enter_context(closing(Output(options, folder, style)))
-        stack.enter_context(running(progress=out.progress))
-        yield out
+        with ExitStack() as stack:
+            folder = None
+            if self.out is not None:
+                from comparisons.runs.folder import Folder
+                from sheetbench.answers import files
+                from sheetbench.files import only_writer
+
+                if scene is not None:
+                    about = {"scene": scene.document()}
+                if alone:
+                    stack.enter_context(only_writer(files.folder(self.out)))
+                folder = Folder(
+                    self.out,
+                    self.verb,
+                    command_line(),
+                    about=about,
+                    variant=variant,
+                    overwrite=self.overwrite,
+                )
+            out = stack.enter_context(closing(Output(self, folder, style)))
+            stack.enter_context(running(progress=out.progress))
+            yield out
+
+
+@dataclass(frozen=True)
+class PictureOptions(OutputOptions):
+    """The output of a verb that draws pictures: --figure and --no-pictures besides."""
+
+    figure: Annotated[
+        str | None,
+        option(
+            "With --out: pictures for a paper, without a title, as pdf, svg or png, several with commas; "
+            "pdf:single as wide as one column (89 mm), else as both (183 mm).",
+            "FORMAT",
+        ),
+    ] = None
+    no_pictures: NoPictures = False

@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import Annotated
 
 from comparisons.cli.options import Elements, option
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.output import PictureOptions
 from sheetbench.choices import ELEMENTS
 
 
 def command(
     part: Annotated[
-        list[str] | None,
-        option("Only tables or settling; may be repeated. Default: both.", "NAME", "--part"),
+        list[str] | None, option("Only tables or settling; may be repeated. Default: both.", "NAME")
     ] = None,
     elements: Elements = str(ELEMENTS),
     *,

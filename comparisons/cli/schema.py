@@ -8,9 +8,7 @@ from comparisons.cli.options import option
 
 
 def command(
-    markdown: Annotated[
-        bool, option("Print a page that explains every key instead.", None, "--markdown")
-    ] = False,
+    markdown: Annotated[bool, option("Print a page that explains every key instead.")] = False,
 ) -> None:
     """Print the JSON Schema of a scene, for editors that complete and check TOML files.
 

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.options import option
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.output import PictureOptions
 
 
 def command(
@@ -23,7 +23,7 @@ def command(
             "--suite",
         ),
     ] = None,
-    case: Annotated[list[str] | None, option("Only this case; may be repeated.", "NAME", "--case")] = None,
+    case: Annotated[list[str] | None, option("Only this case; may be repeated.", "NAME")] = None,
     *,
     output: PictureOptions,
 ) -> None:

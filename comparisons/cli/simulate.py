@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Export, Large, Scene, option
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.options import Export, Large, LatticeOptions, Scene, option
+from comparisons.cli.output import PictureOptions
 from sheetbench.choices import INTEGRATOR, INTEGRATORS
 
 FRAMES = 100
@@ -35,7 +34,7 @@ def command(
     measured: Annotated[
         Path | None, option("Measured histories, CSV: time,probe,ux,uy,uz in s and m.", "FILE")
     ] = None,
-    animate: Annotated[bool, option("Also draw an animation (with --out).", None, "--animate")] = False,
+    animate: Annotated[bool, option("Also draw an animation (with --out).")] = False,
     export: Export = None,
     large: Large = False,
     *,

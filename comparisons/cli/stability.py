@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from comparisons.cli.lattice_options import LatticeOptions
-from comparisons.cli.options import Large, Scene, option
-from comparisons.cli.verb import ClusterOptions, PictureOptions
+from comparisons.cli.options import ClusterOptions, Large, LatticeOptions, Scene, option
+from comparisons.cli.output import PictureOptions
 from sheetbench.choices import REFERENCE, REFERENCES, listed
 
 
@@ -18,7 +17,6 @@ def command(
         option(
             "Only load, slenderness, young, grid, damping or time-step; may be repeated. Default: all.",
             "NAME",
-            "--vary",
         ),
     ] = None,
     reference: Annotated[str, option(f"What errors are against: {listed(REFERENCES)}.", "MODEL")] = REFERENCE,

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Annotated
 
 from comparisons.cli.options import option
-from comparisons.cli.verb import OutputOptions
+from comparisons.cli.output import OutputOptions
 
 
 def command(
-    suite: Annotated[str | None, option("Only statics, motion, modes or curves.", "NAME", "--suite")] = None,
+    suite: Annotated[str | None, option("Only statics, motion, modes or curves.", "NAME")] = None,
     *,
     output: OutputOptions,
 ) -> None:

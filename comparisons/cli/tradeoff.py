@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any
 
-from comparisons.cli import options
-from comparisons.cli.lattice_options import SpringOptions
-from comparisons.cli.options import Large, Models, Symmetry, option
-from comparisons.cli.verb import ClusterOptions, PictureOptions
+from comparisons.cli.options import ClusterOptions, Large, Models, Scene, SpringOptions, Symmetry, option
+from comparisons.cli.output import PictureOptions
 from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
 if TYPE_CHECKING:
@@ -28,7 +26,7 @@ def _elements(name: str, what: str) -> Any:
 
 
 def command(
-    scene: options.Scene,
+    scene: Scene,
     lattice: SpringOptions,
     grid: Annotated[
         str | None,
@@ -46,7 +44,6 @@ def command(
             "Pairs of grids, the coarser first, and one answer extrapolated from both, with its error "
             f"bar. Default: {PAIRS}, none where grids or other springs are listed.",
             "PAIRS",
-            "--lumped-pair",
         ),
     ] = None,
     calibration: Annotated[
@@ -108,15 +105,7 @@ def command(
                 raise BadInput(f"{option}: is for statics; leave it out with --duration")
         loaded = load(scene)
         measure = of_motion(
-            loaded,
-            duration,
-            grid,
-            calibration,
-            lattice.spec,
-            integrator,
-            meshes,
-            model or (),
-            elements,
+            loaded, duration, grid, calibration, lattice.spec, integrator, meshes, model or (), elements
         )
     else:
         loaded = load_static(scene)

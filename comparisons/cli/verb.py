@@ -1,95 +1,28 @@
-"""A verb from its command: groups of options in place of one parameter, --quiet, what an interrupt leaves.
-
-A command whose keyword `output` is of the type `OutputOptions` has --json, --out and --overwrite, and with
-`PictureOptions` --figure and --no-pictures besides; `CampaignOptions` are those of many runs.
-"""
+"""A verb from its command: groups of options in place of one parameter, --quiet, what an interrupt leaves."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from contextlib import AbstractContextManager
-from dataclasses import dataclass, fields
+from collections.abc import Callable
 from functools import wraps
 from inspect import Parameter, isclass, signature
-from typing import TYPE_CHECKING, Any, get_type_hints
+from typing import Annotated, Any
 
-from comparisons.cli import interruption, options
-from comparisons.cli.options import Figure, Json, NoPictures, Out, Overwrite, Retry, Scheduler, Wait, Workers
+import typer
 
-if TYPE_CHECKING:
-    from comparisons.cli.output import Output
-    from sheetbench.scenes import Scene
+from comparisons.cli import interruption
+from comparisons.cli.options import CampaignOptions, Group, option
+from comparisons.cli.output import OutputOptions
 
-
-class Group:
-    """A dataclass whose fields with typer's annotations are options."""
-
-    @classmethod
-    def parameters(cls) -> list[Parameter]:
-        """Return the options as keyword parameters of a command."""
-        hints = get_type_hints(cls, include_extras=True)
-        return [
-            Parameter(one.name, Parameter.KEYWORD_ONLY, default=one.default, annotation=hints[one.name])
-            for one in fields(cls)  # type: ignore[arg-type]
-            if hasattr(hints[one.name], "__metadata__")
-        ]
-
-
-@dataclass(frozen=True)
-class OutputOptions(Group):
-    """Where the answer of a verb goes."""
-
-    verb: str
-    json: Json = False
-    out: Out = None
-    overwrite: Overwrite = False
-    figure: str | None = None
-    no_pictures: bool = False
-
-    def open(
-        self,
-        *,
-        scene: Scene | None = None,
-        about: Mapping[str, Any] | None = None,
-        variant: Mapping[str, Any] | None = None,
-        alone: bool = False,
-    ) -> AbstractContextManager[Output]:
-        """Return the context in which a verb works and shows its report (`comparisons.cli.output.opened`)."""
-        from comparisons.cli.output import opened  # with rich: help must not wait for it
-
-        return opened(self, scene=scene, about=about, variant=variant, alone=alone)
-
-
-@dataclass(frozen=True)
-class PictureOptions(OutputOptions):
-    """The output of a verb that draws pictures."""
-
-    figure: Figure = None
-    no_pictures: NoPictures = False
-
-
-@dataclass(frozen=True)
-class CampaignOptions(Group):
-    """How a campaign's runs are carried out."""
-
-    workers: Workers = None
-    scheduler: str | None = None
-    wait: bool = False
-    retry: Retry = False
-
-
-@dataclass(frozen=True)
-class ClusterOptions(CampaignOptions):
-    """The options of a campaign whose runs may go to a cluster."""
-
-    scheduler: Scheduler = None
-    wait: Wait = False
+Quiet = Annotated[
+    bool, option("No progress and no notes on standard error; results, warnings and errors stay.")
+]
+NoPicturesAnyway = Annotated[bool, typer.Option(hidden=True)]  # of verbs that draw none, for scripts
 
 
 def as_verb(name: str, command: Callable[..., None]) -> Callable[..., None]:
     """Return the command as typer reads it, with the options of its groups and those of every verb.
 
-    An Impossible scene is refused with the name of its file.
+    A flag is `--name` alone, unless it says more. An Impossible scene is refused with the name of its file.
     """
     own = signature(command, eval_str=True)
     groups: dict[str, type[Group]] = {}
@@ -102,9 +35,11 @@ def as_verb(name: str, command: Callable[..., None]) -> Callable[..., None]:
             parameters.append(parameter.replace(kind=Parameter.KEYWORD_ONLY))
     of_campaign = any(issubclass(kind, CampaignOptions) for kind in groups.values())
     draws = any(parameter.name == "no_pictures" for parameter in parameters)
-    for added, option in {"no_pictures": options.NoPicturesAnyway, "quiet": options.Quiet}.items():
+    for added, annotation in {"no_pictures": NoPicturesAnyway, "quiet": Quiet}.items():
         if added != "no_pictures" or not draws:
-            parameters.append(Parameter(added, Parameter.KEYWORD_ONLY, default=False, annotation=option))
+            parameters.append(Parameter(added, Parameter.KEYWORD_ONLY, default=False, annotation=annotation))
+    for parameter in parameters:
+        _name_flag(parameter)
 
     @wraps(command)
     def run(*, quiet: bool, **values: Any) -> None:
@@ -135,3 +70,10 @@ def as_verb(name: str, command: Callable[..., None]) -> Callable[..., None]:
     run.__signature__ = own.replace(parameters=parameters)  # type: ignore[attr-defined]
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return run
+
+
+def _name_flag(parameter: Parameter) -> None:
+    """Name a flag without a name of its own, to which typer would add `--no-name`."""
+    for one in getattr(parameter.annotation, "__metadata__", ()):
+        if parameter.annotation.__origin__ is bool and one.default is ...:
+            one.param_decls = (f"--{parameter.name.replace('_', '-')}",)

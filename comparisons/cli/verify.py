@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Annotated
 
 from comparisons.cli.options import option
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.output import PictureOptions
 
 
 def command(
     case: Annotated[
-        list[str] | None, option("Only this case; may be repeated. Default: all.", "NAME", "--case")
+        list[str] | None, option("Only this case; may be repeated. Default: all.", "NAME")
     ] = None,
     *,
     output: PictureOptions,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from comparisons.cli.options import option
-from comparisons.cli.verb import CampaignOptions, OutputOptions
+from comparisons.cli.options import CampaignOptions, option
+from comparisons.cli.output import OutputOptions
 from studies.advisor.study import study
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from comparisons.cli.options import option
-from comparisons.cli.verb import CampaignOptions, OutputOptions
+from comparisons.cli.options import CampaignOptions, option
+from comparisons.cli.output import OutputOptions
 from sheetbench.choices import REFERENCES
 from sheetbench.errors import require_choice
 from studies.coverage import study
@@ -22,7 +22,7 @@ def command(
     ] = 40,
     seed: Annotated[int, option("Seed of the scenes.", "N", min=0)] = 41,
     model: Annotated[
-        list[str] | None, option("Only plate, shell or solid; may be repeated.", "NAME", "--model")
+        list[str] | None, option("Only plate, shell or solid; may be repeated.", "NAME")
     ] = None,
     *,
     campaign: CampaignOptions,

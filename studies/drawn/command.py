@@ -12,7 +12,7 @@ from studies.drawn.study import measure, table
 
 
 def command(
-    scene: Annotated[list[str] | None, option("Only this one; may be repeated.", "NAME", "--scene")] = None,
+    scene: Annotated[list[str] | None, option("Only this one; may be repeated.", "NAME")] = None,
 ) -> None:
     """Print the errors of lattices of 9, 17 and 33 masses, and the order by which they fall."""
     warnings.simplefilter("ignore")

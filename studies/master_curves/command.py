@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.output import PictureOptions
 from studies.master_curves.study import measure
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from comparisons.cli.options import option
-from comparisons.cli.verb import OutputOptions
+from comparisons.cli.output import OutputOptions
 from sheetbench.errors import require_choice
 from studies.peers.study import QUESTIONS, study
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Annotated
 
 from comparisons.cli.options import Elements, option
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.output import PictureOptions
 from comparisons.models.grids import parse_elements
 from sheetbench.choices import ELEMENTS
 from sheetbench.errors import require_choice
@@ -17,7 +17,7 @@ def command(
     part: Annotated[
         list[str] | None,
         option(
-            "Only errors, tables, settling or nearest; may be repeated. All unless given.", "NAME", "--part"
+            "Only errors, tables, settling or nearest; may be repeated. All unless given.", "NAME"
         ),
     ] = None,
     elements: Elements = str(ELEMENTS),

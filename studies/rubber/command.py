@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated
 
 from comparisons.cli.options import option
-from comparisons.cli.verb import PictureOptions
+from comparisons.cli.output import PictureOptions
 from studies.rubber.answer import measure
 
 
@@ -15,7 +15,7 @@ def command(
         "../shared/data"
     ),
     block: Annotated[
-        bool, option("Also the block of silicone-beam/ (C3D; half an hour).", None, "--block")
+        bool, option("Also the block of silicone-beam/ (C3D; half an hour).", None)
     ] = False,
     *,
     output: PictureOptions,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from comparisons.cli.verb import OutputOptions
+from comparisons.cli.output import OutputOptions
 from studies.simulators.study import study
 
 

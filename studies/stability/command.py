@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from comparisons.cli.options import Grading, Large, option
-from comparisons.cli.verb import ClusterOptions, PictureOptions
+from comparisons.cli.options import ClusterOptions, Grading, Large, option
+from comparisons.cli.output import PictureOptions
 from sheetbench.answers.figure_style import parse_figure
 from sheetbench.errors import BadInput, require_choice
 from studies.stability import STUDIES
@@ -20,10 +20,9 @@ def command(
             "Only this study, may be repeated: time-step, stiffness, slenderness, grid, load, damping, "
             "mass or curved-edge. All unless given.",
             "NAME",
-            "--study",
         ),
     ] = None,
-    full: Annotated[bool, option("Every cell: finer maps, grids to 257 × 257.", None, "--full")] = False,
+    full: Annotated[bool, option("Every cell: finer maps, grids to 257 × 257.")] = False,
     grading: Grading = None,
     large: Large = False,
     *,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from comparisons.cli.options import Grading, Large, option
-from comparisons.cli.verb import CampaignOptions, OutputOptions
+from comparisons.cli.options import CampaignOptions, Grading, Large, option
+from comparisons.cli.output import OutputOptions
 from studies.transfer import parse
 from studies.transfer.study import transfer
 

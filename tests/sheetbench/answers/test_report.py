@@ -11,7 +11,7 @@ from commands import one_line, run
 from scene_files import written
 
 from comparisons.cli.messages import in_lines
-from comparisons.cli.verb import OutputOptions
+from comparisons.cli.output import OutputOptions
 from comparisons.runs.folder import MANIFEST, Folder
 from sheetbench import scenes
 from sheetbench.answers import escape

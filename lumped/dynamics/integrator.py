@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -27,6 +27,29 @@ class Advance:
     state: State
     dissipated: float
     work: float
+
+
+class Samples(NamedTuple):
+    """States at k moments: times (k,) [s]; displacements, velocities, accelerations (k, size, 3); memories of
+    the material's branches; energies (k,) [J] that dampers took and that were put in."""
+
+    time: np.ndarray
+    u: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    memory: list[np.ndarray | None]
+    dissipated: np.ndarray
+    work: np.ndarray
+
+    @classmethod
+    def of(cls, state: State, dissipated: float = 0.0, work: float = 0.0) -> Samples:
+        """One state, with the energies until then."""
+        u, v, a = (np.ascontiguousarray(vector)[None] for vector in (state.u, state.v, state.a))
+        return cls(np.array([state.time]), u, v, a, [state.memory], np.array([dissipated]), np.array([work]))
+
+    def state(self, i: int) -> State:
+        """State i."""
+        return State(float(self.time[i]), self.u[i], self.v[i], self.a[i], self.memory[i])
 
 
 class Integrator(ABC):
@@ -81,5 +104,5 @@ class DenseIntegrator(Integrator):
     """One that tells the states within its steps, which need not end at samples."""
 
     @abstractmethod
-    def at(self, time: float) -> Advance:
-        """The state at a time within the last step."""
+    def at(self, times: np.ndarray) -> Samples:
+        """The states at times (k,) [s] within the last step; energies since it began."""

@@ -95,7 +95,7 @@ def follow(
             if ends or problem.factorisations > limit:
                 return state, str(failure)
             continue
-        problem.fault = broken(problem.assembly, state.u)
+        problem.fault = broken(problem.assembly, state.u[None])[1]
         if problem.fault is not None:
             return state, problem.fault.message
         if problem.factorisations > limit:

@@ -13,7 +13,7 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.statics.limits import COLLAPSED
-from lumped.statics.soundness import least_facing, shortest
+from lumped.statics.soundness import first_collapsed, first_inverted
 from sheetbench.scenes import Status
 
 
@@ -24,24 +24,32 @@ class Fault(NamedTuple):
     message: str
 
 
-def broken(assembly: Assembly, u: np.ndarray) -> Fault | None:
-    """The first of: a number that is not finite, a collapsed link, an inverted cell; u: (n, 3) [m]."""
-    lattice = assembly.lattice
-    finite = np.isfinite(u[: lattice.mass_count]).all(axis=1)
+def broken(assembly: Assembly, states: np.ndarray) -> tuple[int, Fault | None]:
+    """Return how many of the displacements (k, n, 3) [m] mean something before the first that does not, and
+    why that one does not: a number that is not finite, or a collapsed link, or an inverted cell."""
+    lattice, sound, fault = assembly.lattice, len(states), None
+    finite = np.isfinite(states[:, : lattice.mass_count])
     if not finite.all():
-        where = place(lattice, int(np.argmin(finite)))
-        return Fault(Status.NON_FINITE, f"the mass at {where} has left the range of numbers")
+        sound = int(np.argmin(finite.all(axis=(1, 2))))
+        where = place(lattice, int(np.argmin(finite[sound].all(axis=1))))
+        fault = Fault(Status.NON_FINITE, f"the mass at {where} has left the range of numbers")
     for nodes, offset, rest_length in assembly.link_geometry:
-        share, link = shortest(u, nodes, offset, rest_length)
-        if share < COLLAPSED:
+        i, link = first_collapsed(states[:sound], nodes, offset, rest_length, COLLAPSED)
+        if i < sound:
             where = place(lattice, int(nodes[link, 0]))
-            return Fault(Status.INVERTED, f"the link at {where} has no length left: refine the grid")
+            sound, fault = (
+                i,
+                Fault(Status.INVERTED, f"the link at {where} has no length left: refine the grid"),
+            )
     columns, positions, areas = assembly.plan
-    facing, j, i = least_facing(columns, positions, areas, u)
-    if facing <= 0.0:
-        where = place(lattice, int(columns[j, i, 0]))
-        return Fault(Status.INVERTED, f"the cell at {where} has turned inside out: refine the grid")
-    return None
+    i, row, column = first_inverted(columns, positions, areas, states[:sound])
+    if i < sound:
+        where = place(lattice, int(columns[row, column, 0]))
+        sound, fault = (
+            i,
+            Fault(Status.INVERTED, f"the cell at {where} has turned inside out: refine the grid"),
+        )
+    return sound, fault
 
 
 def place(lattice: Lattice, mass: int) -> str:

@@ -281,7 +281,7 @@ def _from_near(scene: Scene, problem: Problem, u: np.ndarray) -> Outcome | None:
         state = newton_at_load(problem, began, 1.0)
     except (StepFailed, SingularMatrixError):
         return None
-    if state.negative != 0 or broken(problem.assembly, state.u) is not None:
+    if state.negative != 0 or broken(problem.assembly, state.u[None])[1] is not None:
         return None
     return classify(scene, problem, state)
 

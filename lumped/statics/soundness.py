@@ -1,6 +1,6 @@
-"""What every answer and every sample of a motion is looked at for, as compiled loops: which link is shortest
-and which cell faces upwards least (`lumped.statics.faults`), how sharply the sheet bends, what rounding its
-links carry (`lumped.statics.validity`)."""
+"""What every answer and every sample of a motion is looked at for, as compiled loops: collapsed links and
+inverted cells (`lumped.statics.faults`), how sharply the sheet bends, what rounding its links carry
+(`lumped.statics.validity`)."""
 
 from __future__ import annotations
 
@@ -16,17 +16,20 @@ TIED = 1.0 + 1e-9  # of mirror images, which rounding tells apart, the first is 
 
 
 @njit(cache=True)
-def shortest(
-    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray
-) -> tuple[float, int]:
-    """Return the least length of the links as a share of their rest length, and of which; u: (n, 3) [m];
-    arrays as in `lumped.springs.links`."""
-    least, which = np.inf, 0
-    for m in range(len(nodes)):
-        square = measure(u, nodes, offset, m)[1] / rest_length[m] ** 2
-        if square < least:
-            least, which = square, m
-    return math.sqrt(least), which
+def first_collapsed(
+    states: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray, limit: float
+) -> tuple[int, int]:
+    """Return the first of the displacements (k, n, 3) [m] with a link shorter than this share of its rest
+    length, k if none, and its shortest link; arrays as in `lumped.springs.links`."""
+    for k in range(len(states)):
+        least, which = np.inf, 0
+        for m in range(len(nodes)):
+            square = measure(states[k], nodes, offset, m)[1] / rest_length[m] ** 2
+            if square < least:
+                least, which = square, m
+        if least < limit * limit:
+            return k, which
+    return len(states), 0
 
 
 @njit(cache=True)
@@ -54,30 +57,33 @@ def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[
 
 
 @njit(cache=True)
-def least_facing(
-    columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, u: np.ndarray
-) -> tuple[float, int, int]:
-    """Return the least of the normals of the mid-surface's cells times the mean director of their corners,
-    over their area when flat, and the cell (j, i); areas (ny − 1, nx − 1) [m²], 0 of absent ones, the rest as
-    in `surface`."""
+def first_inverted(
+    columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, states: np.ndarray
+) -> tuple[int, int, int]:
+    """Return the first of the displacements (k, n, 3) [m] with a cell of the mid-surface whose normal points
+    away from the mean director of its corners, k if none, and the cell (j, i) that does so most, for its area
+    when flat; areas (ny − 1, nx − 1) [m²], 0 of absent ones, the rest as in `surface`."""
     ny, nx, _ = columns.shape
-    middle, director = surface(columns, positions, u)
     first, second, mean = np.empty(3), np.empty(3), np.empty(3)
-    least, row, column = np.inf, 0, 0
-    for j in range(ny - 1):
-        for i in range(nx - 1):
-            for q in range(3):
-                first[q] = middle[j + 1, i + 1, q] - middle[j, i, q]
-                second[q] = middle[j + 1, i, q] - middle[j, i + 1, q]
-                mean[q] = director[j, i, q] + director[j, i + 1, q]
-                mean[q] += director[j + 1, i + 1, q] + director[j + 1, i, q]
-            facing = 0.0
-            for q in range(3):
-                r, s = (q + 1) % 3, (q + 2) % 3
-                facing += (first[r] * second[s] - first[s] * second[r]) * mean[q]
-            if areas[j, i] > 0.0 and 0.125 * facing / areas[j, i] < least:
-                least, row, column = 0.125 * facing / areas[j, i], j, i
-    return least, row, column
+    for k in range(len(states)):
+        middle, director = surface(columns, positions, states[k])
+        least, row, column = np.inf, 0, 0
+        for j in range(ny - 1):
+            for i in range(nx - 1):
+                for q in range(3):
+                    first[q] = middle[j + 1, i + 1, q] - middle[j, i, q]
+                    second[q] = middle[j + 1, i, q] - middle[j, i + 1, q]
+                    mean[q] = director[j, i, q] + director[j, i + 1, q]
+                    mean[q] += director[j + 1, i + 1, q] + director[j + 1, i, q]
+                facing = 0.0
+                for q in range(3):
+                    r, s = (q + 1) % 3, (q + 2) % 3
+                    facing += (first[r] * second[s] - first[s] * second[r]) * mean[q]
+                if areas[j, i] > 0.0 and facing / areas[j, i] < least:
+                    least, row, column = facing / areas[j, i], j, i
+        if least <= 0.0:
+            return k, row, column
+    return len(states), 0, 0
 
 
 @njit(cache=True)

@@ -11,7 +11,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from sheetbench.numerics.direct import DirectSolver, Factor
 
-DENSE = 600  # unknowns up to which dense matrices are quicker
+DENSE = 600  # unknowns up to which dense matrices are quicker; a third of them for one mode alone
 SHARE = 2  # where half of all modes are wanted, too
 
 
@@ -35,7 +35,7 @@ def lowest_modes(
     factor : callable, optional
         What makes the factors of K − σM, where that is better than `DirectSolver` without fronts.
     dense : int, optional
-        Unknowns up to which dense matrices are used, DENSE unless given.
+        Unknowns up to which dense matrices are used for several modes, DENSE unless given.
 
     Returns
     -------
@@ -54,7 +54,8 @@ def lowest_modes(
     array([1., 4.])
     """
     n = stiffness.shape[0]
-    if n <= max(DENSE if dense is None else dense, SHARE * count):
+    few = DENSE if dense is None else dense
+    if n <= max(few if count > 1 else few // 3, SHARE * count):
         found = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), subset_by_index=[0, count - 1])
         return found[0], found[1]
     factors = factor() if factor else DirectSolver().factor(stiffness - shift * mass if shift else stiffness)

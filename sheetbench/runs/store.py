@@ -38,9 +38,9 @@ class MemoryStore:
         self._samples: list[np.ndarray] = []
         self._frames: list[np.ndarray] = []
 
-    def sample(self, row: np.ndarray) -> None:
-        """Keep one sample (width,)."""
-        self._samples.append(row)
+    def sample(self, rows: np.ndarray) -> None:
+        """Keep one sample (width,), or several (k, width)."""
+        self._samples.append(rows)
 
     def frame(self, displacement: np.ndarray) -> None:
         """Keep one frame (rows, 3)."""
@@ -55,7 +55,7 @@ class MemoryStore:
 
     def samples(self) -> np.ndarray:
         """All samples, (n, width)."""
-        return np.array(self._samples).reshape(-1, self._width)
+        return np.vstack([np.empty((0, self._width)), *self._samples])
 
     def frames(self) -> np.ndarray:
         """All frames, (n, rows, 3)."""
@@ -101,9 +101,9 @@ class FolderStore:
                 partial.write_text(text, encoding="utf-8")
         self.plan = plan
 
-    def sample(self, row: np.ndarray) -> None:
-        """Append one sample (width,)."""
-        self._append("samples", row)
+    def sample(self, rows: np.ndarray) -> None:
+        """Append one sample (width,), or several (k, width)."""
+        self._append("samples", rows)
 
     def frame(self, displacement: np.ndarray) -> None:
         """Append one frame (rows, 3)."""

@@ -10,6 +10,7 @@ from fem_reference.shell import validity
 from fem_reference.shell.state import State as ShellState
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import rectangle
+from lumped.dynamics.integrator import Samples
 from lumped.dynamics.runs import watchdog
 from lumped.dynamics.system import State
 from lumped.statics import faults
@@ -38,7 +39,7 @@ def pressed(share):
 
 
 def test_a_whole_lattice_has_nothing_to_say(problem):
-    assert faults.broken(problem.assembly, np.zeros_like(problem.loads.dead)) is None
+    assert faults.broken(problem.assembly, np.zeros((2, *problem.loads.dead.shape))) == (2, None)
 
 
 def test_a_collapsed_link_is_told_with_its_place(problem):
@@ -46,7 +47,8 @@ def test_a_collapsed_link_is_told_with_its_place(problem):
     lattice = problem.assembly.lattice
     first, second = lattice.columns()[2, 3:5, 0]
     u[second] = (lattice.positions[first] - lattice.positions[second]) * (1.0 - 1e-8)
-    fault = faults.broken(problem.assembly, u)
+    sound, fault = faults.broken(problem.assembly, np.stack([np.zeros_like(u), u, u]))
+    assert sound == 1
     assert fault is not None and fault.status is Status.INVERTED
     assert "no length left" in fault.message and "y = 0.094 m" in fault.message
 
@@ -58,7 +60,8 @@ def test_an_inverted_cell_is_told_with_its_place(problem):
     u[corner, 2] = -2.2 * lattice.positions[corner, 2]  # four neighbours' layers change places
     for column in (lattice.columns()[0, 1], lattice.columns()[1, 0], lattice.columns()[1, 1]):
         u[column, 2] = -2.2 * lattice.positions[column, 2]
-    fault = faults.broken(problem.assembly, u)
+    sound, fault = faults.broken(problem.assembly, np.stack([np.zeros_like(u), u, u]))
+    assert sound == 1
     assert fault is not None and fault.status is Status.INVERTED
     assert "turned inside out" in fault.message and "x = 0 m, y = 0 m" in fault.message
 
@@ -66,7 +69,8 @@ def test_an_inverted_cell_is_told_with_its_place(problem):
 def test_a_number_out_of_range_is_told_with_its_place(problem):
     u = np.zeros_like(problem.loads.dead)
     u[problem.assembly.lattice.columns()[4, 4, 1], 2] = np.nan
-    fault = faults.broken(problem.assembly, u)
+    sound, fault = faults.broken(problem.assembly, np.stack([np.zeros_like(u), u, u]))
+    assert sound == 1
     assert fault is not None and fault.status is Status.NON_FINITE and "x = 0.188 m" in fault.message
 
 
@@ -98,15 +102,15 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem):
     state = start(equations, np.zeros_like(problem.loads.dead))
     v = np.zeros_like(state.v)
     v[equations.assembly.lattice.columns()[2, 4, 0], 2] = 1.0
-    moving = State(0.25, state.u, v, state.a)
-    row = np.array([0.25, 1.0, 1.0, 0.0, 0.0, 0.0])  # time, kinetic, elastic, potential, dissipated, work
-    assert watchdog.check_sample(equations, moving, row, origin=0.0, round_about=3.0) is None
-    fault = watchdog.check_sample(equations, moving, row, origin=0.0, round_about=1.0)
-    assert fault is not None and fault.status is Status.DIVERGED
+    moving = Samples.of(State(0.25, state.u, v, state.a))
+    row = np.array([[0.25, 1.0, 1.0, 0.0, 0.0, 0.0]])  # time, kinetic, elastic, potential, dissipated, work
+    assert watchdog.check_samples(equations, moving, row, 0.0, largest=np.array([3.0])) == (1, None)
+    sound, fault = watchdog.check_samples(equations, moving, row, 0.0, largest=np.array([1.0]))
+    assert sound == 0 and fault is not None and fault.status is Status.DIVERGED
     assert "0.25 s" in fault.message and "x = 0.188 m, y = 0.094 m" in fault.message
-    row[2] = np.inf
-    fault = watchdog.check_sample(equations, moving, row, origin=0.0, round_about=1.0)
-    assert fault is not None and fault.status is Status.NON_FINITE
+    row[0, 2] = np.inf
+    sound, fault = watchdog.check_samples(equations, moving, row, 0.0, largest=np.array([1.0]))
+    assert sound == 0 and fault is not None and fault.status is Status.NON_FINITE
 
 
 def test_a_stagnating_integrator_stops(monkeypatch):

@@ -24,7 +24,7 @@ from numba import njit
 from lumped.dynamics.implicit.compiled_stages import Stages, Step
 from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
-from lumped.dynamics.integrator import Advance, DenseIntegrator, StepFailed
+from lumped.dynamics.integrator import Advance, DenseIntegrator, Samples, StepFailed
 from lumped.dynamics.system import State, System
 from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
@@ -59,8 +59,6 @@ class Esdirk(DenseIntegrator):
         self._newton = Newton(system, STEP_TOLERANCE, STALE)
         self._largest = 0.0
         self._end: tuple[State | None, np.ndarray] = None, np.zeros(2)  # the last state, and its power
-        self._curve: np.ndarray | None = None  # of the last step, once it is asked for,
-        self._passed = np.empty((0, 2))  # and coefficients of θ⁰ to θ⁷ of its energies [J]
 
     @classmethod
     def default_step(cls, period: object, limit: object) -> float:
@@ -214,19 +212,21 @@ class Esdirk(DenseIntegrator):
         missed = self._relaxed(h * ERRORS)[:, 1] / maxwell.times[:, None]
         return float(np.abs(missed).max()) / largest if largest else 0.0
 
-    def at(self, time: float) -> Advance:
-        """The state at a time within the last step, and what was taken and put in since its start."""
+    def at(self, times: np.ndarray) -> Samples:
+        """The states at times (k,) [s] within the last step; energies since it began."""
         stages, h = self._step
-        if self._curve is None:
-            self._curve, self._passed = _curve(stages, h), h * (CUMULATIVE @ stages.power)
-        theta = (time - float(stages.time[0])) / h
-        (u, v, a), taken, put_in = _at(self._curve, self._passed, theta, h)
-        maxwell, start, memory = self.system.maxwell, self._memories[0], None
+        theta = (times - stages.time[0]) / h
+        u, v, a = _within(stages, h, theta)
+        weights = h * (np.vander(theta, len(CUMULATIVE), increasing=True) @ CUMULATIVE)
+        taken, put_in = (weights @ stages.power).T
+        maxwell, start = self.system.maxwell, self._memories[0]
+        memories: list[np.ndarray | None] = [None] * len(times)
         if maxwell is not None and start is not None:
-            maxwell.stage(start, self._relaxed(h * theta ** np.arange(8) @ CUMULATIVE), 0.0)
-            memory = maxwell.after(u)
-            taken -= maxwell.stored(memory) - maxwell.stored(start)
-        return Advance(State(time, u, v, a, memory), taken, put_in)
+            for i, until in enumerate(weights):
+                maxwell.stage(start, self._relaxed(until), 0.0)
+                memories[i] = memory = maxwell.after(u[i])
+                taken[i] -= maxwell.stored(memory) - maxwell.stored(start)
+        return Samples(times, u, v, a, memories, taken, put_in)
 
     def _advance(self, start: State, stages: Stages, h: float) -> Advance:
         system, power = self.system, stages.power
@@ -239,7 +239,7 @@ class Esdirk(DenseIntegrator):
         if system.moving or system.working:
             for i in range(1, len(power)):
                 power[i, 1] = self._put_in(self._stage(stages, i), start.time)
-        self._step, self._curve = (stages, h), None
+        self._step = stages, h
         taken, put_in = h * (STAGES[-1] @ power)
         if system.maxwell is not None and start.memory is not None and end.memory is not None:
             taken -= system.maxwell.stored(end.memory) - system.maxwell.stored(start.memory)
@@ -262,36 +262,25 @@ class Esdirk(DenseIntegrator):
 
 
 @njit(cache=True)
-def _curve(stages: Stages, h: float) -> np.ndarray:
-    """Coefficients (6, 3 n) of θ⁰ to θ⁵: the polynomial with the displacements, velocities and accelerations
-    of both ends of a step."""
+def _within(stages: Stages, h: float, theta: np.ndarray) -> np.ndarray:
+    """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step of length h [s], by
+    the polynomial with those of both its ends."""
     u0, v0, a0 = stages.u[0].ravel(), stages.v[0].ravel(), stages.a[0].ravel()
     u1, v1, a1 = stages.u[-1].ravel(), stages.v[-1].ravel(), stages.a[-1].ravel()
-    out = np.empty((6, len(u0)))
+    out, curve = np.empty((3, len(theta), len(u0))), np.empty(6)
     for i in range(len(u0)):
         change = u1[i] - u0[i] - h * v0[i] - 0.5 * h * h * a0[i]
         speed = h * (v1[i] - v0[i] - h * a0[i])
         bend = h * h * (a1[i] - a0[i])
-        out[0, i], out[1, i], out[2, i] = u0[i], h * v0[i], 0.5 * h * h * a0[i]
-        out[3, i] = 10.0 * change - 4.0 * speed + 0.5 * bend
-        out[4, i] = -15.0 * change + 7.0 * speed - bend
-        out[5, i] = 6.0 * change - 3.0 * speed + 0.5 * bend
-    return out
-
-
-@njit(cache=True)
-def _at(curve: np.ndarray, passed: np.ndarray, theta: float, h: float) -> tuple[np.ndarray, float, float]:
-    """Displacement, velocity and acceleration (3, n, 3) at θ of a step of length h [s], and both energies."""
-    out = np.empty((3, curve.shape[1]))
-    for i in range(curve.shape[1]):
-        u = v = a = 0.0
-        for power in range(5, -1, -1):  # Horner's rule, with the derivatives
-            a = a * theta + 2.0 * v
-            v = v * theta + u
-            u = u * theta + curve[power, i]
-        out[0, i], out[1, i], out[2, i] = u, v / h, a / (h * h)
-    taken = put_in = 0.0
-    for power in range(len(passed) - 1, -1, -1):
-        taken = taken * theta + passed[power, 0]
-        put_in = put_in * theta + passed[power, 1]
-    return out.reshape(3, -1, 3), taken, put_in
+        curve[0], curve[1], curve[2] = u0[i], h * v0[i], 0.5 * h * h * a0[i]
+        curve[3] = 10.0 * change - 4.0 * speed + 0.5 * bend
+        curve[4] = -15.0 * change + 7.0 * speed - bend
+        curve[5] = 6.0 * change - 3.0 * speed + 0.5 * bend
+        for k in range(len(theta)):
+            u = v = a = 0.0
+            for power in range(5, -1, -1):  # Horner's rule, with the derivatives
+                a = a * theta[k] + 2.0 * v
+                v = v * theta[k] + u
+                u = u * theta[k] + curve[power]
+            out[0, k, i], out[1, k, i], out[2, k, i] = u, v / h, a / (h * h)
+    return out.reshape(3, len(theta), -1, 3)

@@ -1,4 +1,4 @@
-"""A run from its start, or from its last checkpoint, to its end: steps to the next sample, over and over.
+"""A run from its start, or from its last checkpoint, to its end: steps to the next samples, over and over.
 
 Samples, frames and checkpoints go to a store as they come. What a checkpoint holds takes the run up again as
 if it had never stopped; hence integrators forget there what they keep only for speed.
@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from lumped.dynamics.integrator import DenseIntegrator, Integrator, StepFailed
+from lumped.dynamics.integrator import DenseIntegrator, Integrator, Samples, StepFailed
 from lumped.dynamics.runs import watchdog
 from lumped.dynamics.runs.plan import Plan
 from lumped.dynamics.runs.sampling import Sampling
@@ -55,7 +55,7 @@ class Run:
     ):
         self._system, self._method, self._plan, self._sampling = system, method, plan, sampling
         self._kept, self._shown, self._drawn = kept, shown, drawn
-        self._last = 0.0, 0.0  # energies dissipated and put in when the last step began
+        self._dense = method if plan.adapts and isinstance(method, DenseIntegrator) else None
         self._progress = progress if progress is not None else lambda time: None
 
     def begin(self, start: State) -> None:
@@ -64,10 +64,10 @@ class Run:
         checkpoint = self._kept.resume()
         if checkpoint is None:
             self.reached = Reached(start)
-            row = self._sampling.row(start, 0.0, 0.0)
-            self.reached.origin = float(row[1:4].sum())
-            self._kept.sample(row)
-            self._keep_frame(start)
+            samples = Samples.of(start)
+            rows = self._sampling.rows(samples)
+            self.reached.origin = float(rows[0, 1:4].sum())
+            self._keep(rows, samples.u, 0)
             return
         u, v, a = (checkpoint[name] for name in ("u", "v", "a"))
         state = State(float(checkpoint["time"]), u, v, a, checkpoint.get("memory"))
@@ -80,13 +80,15 @@ class Run:
     def finish(self) -> tuple[Status, str]:
         """Go on to the end, or to a fault: how it ended."""
         while self.reached.samples < self._plan.samples:
-            fault = self._step_to_sample() or self._sample()
+            found = self._step_to_sample()
+            fault = found if isinstance(found, Fault) else self._sample(found)
             if fault is not None:
                 return fault.status, fault.message
             self._progress(self.reached.state.time)
         return Status.CONVERGED, ""
 
-    def _step_to_sample(self) -> Fault | None:
+    def _step_to_sample(self) -> Samples | Fault:
+        """Steps to the next sample; the samples that the last of them reached or passed."""
         plan, reached, taken = self._plan, self.reached, 0
         goal = (reached.samples + 1) * plan.every
         while (goal - reached.state.time > 1e-9 * plan.every) if plan.adapts else (taken < plan.steps):
@@ -100,52 +102,52 @@ class Run:
                 return Fault(Status.DIVERGED, f"at {reached.state.time:.6g} s: {failure}")
             reached.state, taken = advance.state, taken + steps
             reached.steps += steps
-            self._last = reached.dissipated, reached.work
+            before = reached.dissipated, reached.work
             reached.dissipated += advance.dissipated
             reached.work += advance.work
             stuck = watchdog.stagnates(reached.state, taken) if plan.adapts else None
             if stuck is not None:
                 return stuck
-        if reached.state.time - goal < 1e-9 * plan.every:
-            reached.state = replace(reached.state, time=goal)
-        return None
+        last = reached.samples + 1
+        if self._dense is not None:
+            last = max(last, int(reached.state.time / plan.every + 1e-9))
+        if reached.state.time - last * plan.every < 1e-9 * plan.every:
+            reached.state = replace(reached.state, time=last * plan.every)
+        end, times = reached.state, plan.every * np.arange(reached.samples + 1, last + 1)
+        if self._dense is None or end.time == times[0]:
+            return Samples.of(end, reached.dissipated, reached.work)
+        samples = self._dense.at(times)
+        if end.time == times[-1]:
+            samples.u[-1], samples.v[-1], samples.a[-1] = end.u, end.v, end.a
+        dissipated, work = before
+        return samples._replace(dissipated=dissipated + samples.dissipated, work=work + samples.work)
 
     def _at_most(self, goal: float) -> float:
         """How long the next adaptive step may be [s]: to the next sample, or the next checkpoint or the end
         where states within steps are known."""
         plan, reached = self._plan, self.reached
-        if isinstance(self._method, DenseIntegrator):
+        if self._dense is not None:
             whole = reached.samples // SAMPLES_PER_CHECKPOINT + 1
             goal = min(whole * SAMPLES_PER_CHECKPOINT, plan.samples) * plan.every
         return goal - reached.state.time
 
-    def _now(self) -> tuple[State, float, float]:
-        """The state at the sample reached, and the energies dissipated and put in until then."""
-        plan, reached = self._plan, self.reached
-        time = (reached.samples + 1) * plan.every
-        if reached.state.time == time or not isinstance(self._method, DenseIntegrator):
-            return reached.state, reached.dissipated, reached.work
-        passed = self._method.at(time)
-        return passed.state, self._last[0] + passed.dissipated, self._last[1] + passed.work
-
-    def _sample(self) -> Fault | None:
-        reached = self.reached
-        state, dissipated, work = self._now()
-        row = self._sampling.row(state, dissipated, work)
-        reached.largest = max(reached.largest, float(np.abs(row[1:6]).max()))
-        fault = watchdog.check_sample(self._system, state, row, reached.origin, reached.largest)
-        if fault is None or fault.status is not Status.NON_FINITE:
-            self._kept.sample(row)
-        if fault is None:
-            reached.samples += 1
-            self._keep_frame(state)
-            if reached.samples % SAMPLES_PER_CHECKPOINT == 0:
-                self._checkpoint()
+    def _sample(self, samples: Samples) -> Fault | None:
+        reached, rows = self.reached, self._sampling.rows(samples)
+        largest = np.maximum.accumulate(np.append(reached.largest, np.abs(rows[:, 1:6]).max(axis=1)))[1:]
+        sound, fault = watchdog.check_samples(self._system, samples, rows, reached.origin, largest)
+        kept = sound + (fault is not None and fault.status is not Status.NON_FINITE)
+        self._keep(rows[:kept], samples.u[:sound], reached.samples + 1)
+        reached.samples += sound
+        reached.largest = float(largest[-1])
+        if fault is None and reached.samples % SAMPLES_PER_CHECKPOINT == 0:
+            self._checkpoint()
         return fault
 
-    def _keep_frame(self, state: State) -> None:
-        if self.reached.samples in self._shown:
-            self._kept.frame(state.u[self._drawn])
+    def _keep(self, rows: np.ndarray, displacements: np.ndarray, first: int) -> None:
+        self._kept.sample(rows)
+        for number, u in enumerate(displacements, first):
+            if number in self._shown:
+                self._kept.frame(u[self._drawn])
 
     def _checkpoint(self) -> None:
         reached, state = self.reached, self.reached.state

@@ -1,15 +1,41 @@
-"""What a run writes down at a sample: probes, energies, reactions, actuator forces, as a row of numbers."""
+"""What a run writes down at its samples: energies, probes, reactions, actuator forces, as rows of numbers.
+
+All states of a step in one compiled call, for systems without chains and branches in double precision; call
+by call for the others.
+"""
 
 from __future__ import annotations
 
-import numpy as np
+from typing import NamedTuple
 
-from lumped.dynamics.runs.observation import Observed, observe
-from lumped.dynamics.system import State, System
+import numpy as np
+from numba import njit
+
+from lumped.dynamics.drag import Drag, add_drag
+from lumped.dynamics.integrator import Samples
+from lumped.dynamics.system import System
 from lumped.mid_surface import MidSurface
-from sheetbench.numerics.maps import csr_arrays
+from lumped.springs.all_forces import add_forces
+from lumped.springs.packing import Packing, Scratch
+from lumped.springs.tiles import NUMBA_TRUE
+from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.runs.columns import Part, width
 from sheetbench.scenes.history import ENERGIES
+
+
+class Observed(NamedTuple):
+    """Springs and dampers; M; mass-proportional damping (n,) [kg/s]; the air's drag; loads with a potential
+    (n, 3) [N]; what takes a displacement to the probes', (3 p, 3 n), and forces on masses to those of each
+    support, (3 s, 3 n)."""
+
+    packing: Packing
+    scratch: Scratch
+    mass: Rows
+    rate: np.ndarray
+    drag: Drag
+    dead: np.ndarray
+    probes: Rows
+    supports: Rows
 
 
 class Sampling:
@@ -46,25 +72,57 @@ class Sampling:
             )
         self.width = width(self.columns)
 
-    def row(self, state: State, dissipated: float, work: float) -> np.ndarray:
-        """The sample of a state, (width,)."""
-        system = self._system
-        if self._observed is not None:
-            row, first = np.empty(self.width), 1 + len(ENERGIES)
-            last = len(row) - 3 * len(self._supports)
-            external = system.external(state.u, state.time)
-            found = observe(state.u, state.v, state.a, external, self._observed, row[first:last], row[last:])
-            row[:first] = state.time, *found, dissipated, work
-            return row
-        energies, exerted = system.balance(state)
-        energies |= {"dissipated": dissipated, "work": work}
+    def rows(self, samples: Samples) -> np.ndarray:
+        """The numbers of samples, (k, width)."""
+        system, rows = self._system, np.empty((len(samples.time), self.width))
+        rows[:, 0], rows[:, 4], rows[:, 5] = samples.time, samples.dissipated, samples.work
+        if self._observed is None:
+            for i, row in enumerate(rows):
+                self._fill(row, samples, i)
+            return rows
+        loads = self._observed.dead[None]
+        if system.working:
+            loads = np.array([system.external(*at) for at in zip(samples.u, samples.time, strict=True)])
+        observe(samples.u, samples.v, samples.a, loads, self._observed, rows)
+        return rows
+
+    def _fill(self, row: np.ndarray, samples: Samples, i: int) -> None:
+        """Fill the row of sample i but for what it knows."""
+        system, u = self._system, samples.u[i]
+        energies, exerted = system.balance(samples.state(i))
+        row[1:4] = list(energies.values())
         reactions, _ = system.problem.constraints.reactions(exerted)
-        parts = [
-            np.array([state.time, *(energies[name] for name in ENERGIES)]),
-            self._probes.of(state.u).ravel(),
-            *(reactions[edge] for edge in self._supports),
-        ]
+        parts = [self._probes.of(u), *(reactions[edge] for edge in self._supports)]
         if system.coupling is not None:
             parts.extend(system.coupling.reactions(exerted).values())
-            parts.extend(w.ravel() for w in system.coupling.wrenches(state.u, exerted).values())
-        return np.concatenate(parts)
+            parts.extend(system.coupling.wrenches(u, exerted).values())
+        row[6:] = np.concatenate([part.ravel() for part in parts])
+
+
+@njit(cache=True)
+def observe(
+    u: np.ndarray, v: np.ndarray, a: np.ndarray, loads: np.ndarray, observed: Observed, rows: np.ndarray
+) -> None:
+    """Fill the rows of states (k, n, 3) under loads (k, n, 3), or (1, n, 3) if they stay the same [N]: the
+    kinetic, elastic and potential energy [J], the probes' displacements [m], the supports' forces [N]."""
+    mass, dead, damped = observed.mass, observed.dead.ravel(), observed.packing.damped
+    first, last = 6, 5 + len(observed.probes.pointers)
+    for k in range(len(u)):
+        exerted = np.zeros_like(u[k])
+        elastic, _ = add_forces(u[k], v[k], NUMBA_TRUE, damped, observed.packing, observed.scratch, exerted)
+        add_drag(observed.drag, u[k], v[k], exerted)
+        for i in range(len(observed.rate)):
+            for q in range(3):
+                exerted[i, q] += observed.rate[i] * v[k, i, q]
+        forces, speed, gained = exerted.ravel(), v[k].ravel(), a[k].ravel()
+        place, acting = u[k].ravel(), loads[min(k, len(loads) - 1)].ravel()
+        kinetic = potential = 0.0
+        for row in range(len(forces)):
+            forces[row] -= acting[row]
+            potential -= dead[row] * place[row]
+            for e in range(mass.pointers[row], mass.pointers[row + 1]):
+                forces[row] += mass.values[e] * gained[mass.columns[e]]
+                kinetic += 0.5 * speed[row] * mass.values[e] * speed[mass.columns[e]]
+        rows[k, 1], rows[k, 2], rows[k, 3] = kinetic, elastic, potential
+        rows[k, first:last] = product(observed.probes, place)
+        rows[k, last:] = product(observed.supports, forces)

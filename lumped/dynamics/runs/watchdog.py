@@ -1,6 +1,6 @@
 """What ends a run early: numbers that overflow, energy from nowhere, cells inside out, stagnation.
 
-Looked at once a sample. The balance of energies, kinetic + elastic + potential + dissipated − work, is
+Looked at in every sample. The balance of energies, kinetic + elastic + potential + dissipated − work, is
 constant in an exact run; a growth of it by as much as the energy that goes round is a divergence. Less than
 that is an error of the steps, which the energies of the answer tell, and no fault. What is wrong is said with
 the time, the place on the sheet and what to change.
@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lumped.dynamics.integrator import Samples
 from lumped.dynamics.system import State, System
 from lumped.statics.faults import Fault, broken, fastest
 from sheetbench.scenes import Status
@@ -18,23 +19,28 @@ GROWN = 1.0  # energy from nowhere, relative to the energy that went round, that
 MOST_STEPS = 100_000  # of an adaptive integrator between two samples
 
 
-def check_sample(
-    system: System, state: State, row: np.ndarray, origin: float, round_about: float
-) -> Fault | None:
-    """Return what is wrong with a sampled state, or None.
+def check_samples(
+    system: System, samples: Samples, rows: np.ndarray, origin: float, largest: np.ndarray
+) -> tuple[int, Fault | None]:
+    """Return how many samples are sound before the first that is not, and what is wrong with that one.
 
-    row: its sample; origin: the balance at the start [J]; round_about: the largest energy so far [J].
+    rows: of the samples; origin: the balance at the start [J]; largest: the energy so far (k,) [J].
     """
-    lattice, when = system.assembly.lattice, f"at {state.time:.6g} s"
-    if not np.isfinite(row).all():
-        where = fastest(lattice, state.v)
-        return Fault(Status.NON_FINITE, f"{when} a number overflowed, first at {where}: use smaller steps")
-    kinetic, elastic, potential, dissipated, work = row[1:6].tolist()
-    gained = kinetic + elastic + potential + dissipated - work - origin
-    if grows := energy_grows(system, state, gained, round_about):
-        return grows
-    fault = broken(system.assembly, state.u)
-    return None if fault is None else Fault(fault.status, f"{when} {fault.message}")
+    finite = np.isfinite(rows).all(axis=1)
+    with np.errstate(invalid="ignore"):
+        gained = rows[:, 1:5].sum(axis=1) - rows[:, 5] - origin
+        sound = int(np.argmin(np.append(finite & (gained <= GROWN * largest), False)))
+    before, fault = broken(system.assembly, samples.u[:sound])
+    if fault is not None:
+        return before, Fault(fault.status, f"at {samples.time[before]:.6g} s {fault.message}")
+    if sound == len(rows):
+        return sound, None
+    state = samples.state(sound)
+    if finite[sound]:
+        return sound, energy_grows(system, state, gained[sound], largest[sound])
+    where = fastest(system.assembly.lattice, state.v)
+    text = f"at {state.time:.6g} s a number overflowed, first at {where}: use smaller steps"
+    return sound, Fault(Status.NON_FINITE, text)
 
 
 def energy_grows(system: System, state: State, gained: float, round_about: float) -> Fault | None:

@@ -184,16 +184,8 @@ def test_every_figure_is_there():
 # imported where they are used, as they decide how soon a command answers: the solvers (compiled kernels) and
 # what draws, reads or writes by a large library; the command line and the face import nothing before its use
 SLOW = (
-    "lumped",
-    "fem_reference",
-    "scipy",
-    "matplotlib",
-    "vtkmodules",
-    "pyvista",
-    "meshio",
-    "pandas",
-    "xarray",
-)
+    "lumped", "fem_reference", "scipy", "matplotlib", "vtkmodules", "pyvista", "meshio", "pandas", "xarray",
+)  # fmt: skip
 SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "comparisons.models.training")
 SLOW += ("ezc3d", "shapely", "xarray")
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled

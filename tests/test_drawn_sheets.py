@@ -64,19 +64,13 @@ def deflection(thickness, young):
 
 ROOT = {"shape": {"rectangle": {"x": (0.0, 0.073), "y": (0.0, WIDTH)}}}  # ends within a cell
 STRIPS = {
-    "tapered": (
-        strip(sheet=Sheet(LENGTH, WIDTH, THICK, taper_x=(THICK, 1e-3))),
-        deflection(lambda x: THICK - 2e-3 * x / LENGTH, lambda x: YOUNG),
-    ),
-    "of two materials": (
-        strip(patches=[{**ROOT, "young": 10.0 * YOUNG}]),
-        deflection(lambda x: THICK, lambda x: np.where(x < 0.073, 10.0 * YOUNG, YOUNG)),
-    ),
-    "with a step": (
-        strip(patches=[{**ROOT, "thickness": 2.0 * THICK}]),
-        deflection(lambda x: np.where(x < 0.073, 2.0 * THICK, THICK), lambda x: YOUNG),
-    ),
-}
+    "tapered": (strip(sheet=Sheet(LENGTH, WIDTH, THICK, taper_x=(THICK, 1e-3))),
+        deflection(lambda x: THICK - 2e-3 * x / LENGTH, lambda x: YOUNG)),
+    "of two materials": (strip(patches=[{**ROOT, "young": 10.0 * YOUNG}]),
+        deflection(lambda x: THICK, lambda x: np.where(x < 0.073, 10.0 * YOUNG, YOUNG))),
+    "with a step": (strip(patches=[{**ROOT, "thickness": 2.0 * THICK}]),
+        deflection(lambda x: np.where(x < 0.073, 2.0 * THICK, THICK), lambda x: YOUNG)),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", STRIPS)
@@ -219,14 +213,10 @@ SHAPED = {
     "cutout": {"cutouts": [{"shape": CUT[1]["shape"]}]},
     "support.where": {"supports": [{"kind": "clamped", "where": CUT[0]["shape"]}]},
     "load.where": {"loads": [{"kind": "pressure", "value": 1.0, "where": CUT[0]["shape"]}]},
-    "load.where on an edge": {
-        "loads": [
-            {"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 1.0), "moment_per_length": 0.01}
-            | {"where": {"rectangle": {"x": (0.15, 0.188), "y": (0.0, 0.08)}}}
-        ]
-    },
+    "load.where on an edge": {"loads": [{"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 1.0),
+        "moment_per_length": 0.01} | {"where": {"rectangle": {"x": (0.15, 0.188), "y": (0.0, 0.08)}}}]},
     'load.kind = "area"': {"loads": [{"kind": "area", "force_per_area": (0.0, 0.0, 1.0)}]},
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("word", ["cutout", "support.where"])

@@ -145,23 +145,12 @@ VERBS = {
     "simulate": (SCENE, "--lumped", "3", "--duration", "0.02"),
     "tradeoff": (SCENE, "--lumped", "3", "--plate", "", "--shell", "", "--solid", "", "--elements", "4"),
     "compare motions": (SCENE, "--duration", "0.004", "--lumped", "3", "--elements", "2"),
-    "tradeoff motions": (
-        SCENE,
-        "--duration",
-        "0.004",
-        "--lumped",
-        "3",
-        "--plate",
-        "",
-        "--shell",
-        "2",
-        "--solid",
-        "",
-    ),
+    "tradeoff motions": (SCENE, "--duration", "0.004", "--lumped", "3", "--plate", "", "--shell", "2",
+        "--solid", ""),
     "crosscheck motions": (SCENE, "--duration", "0.004", "--lumped", "3,4", "--shell", "1,2", "--judges", ""),
     "advise": (SCENE,),
     "stability": (SCENE, "--lumped", "3", "--elements", "2", "--vary", "grid"),
-}
+}  # fmt: skip
 
 
 @pytest.fixture

@@ -51,15 +51,11 @@ def test_every_cell_meets_every_modulus(grading, method):
 
 
 @pytest.mark.parametrize("grading", GRADINGS)
-@pytest.mark.parametrize(
-    "field",
-    [
-        lambda x, y, z: (x * z, 0 * y, -0.5 * x**2),
-        lambda x, y, z: (0 * x, y * z, -0.5 * y**2),
-        lambda x, y, z: (y * z, x * z, -x * y),
-    ],
-    ids=["bending along x", "bending along y", "twisting"],
-)
+@pytest.mark.parametrize("field", [
+    lambda x, y, z: (x * z, 0 * y, -0.5 * x**2),
+    lambda x, y, z: (0 * x, y * z, -0.5 * y**2),
+    lambda x, y, z: (y * z, x * z, -x * y),
+], ids=["bending along x", "bending along y", "twisting"])  # fmt: skip
 def test_pure_bending_and_twisting_are_in_equilibrium(grading, field):
     """No inner mass of the flat sheet is left with a force, to the rounding of the stiffness."""
     assembly = assembly_of(grading)

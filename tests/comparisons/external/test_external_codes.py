@@ -171,24 +171,17 @@ SHIFT = EdgeMotion(
     rotation=((0.0, 0.0, 0.0), (0.1, 0.0, 0.0)),
 )
 WORDS: dict[str, dict[str, Any]] = {
-    "pressure": {
-        "supports": tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1")),
-        "gravity": None,
-        "loads": (Pressure(value=300.0),),
-    },
-    "point": {
-        "supports": (Clamped(edge="x0"), Held(edge="x1", components=("z",))),
-        "loads": (PointLoad(at=(0.11, 0.07), force=(0.0, 0.02, 0.2)),),
-    },
+    "pressure": {"supports": tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1")), "gravity": None,
+        "loads": (Pressure(value=300.0),)},
+    "point": {"supports": (Clamped(edge="x0"), Held(edge="x1", components=("z",))),
+        "loads": (PointLoad(at=(0.11, 0.07), force=(0.0, 0.02, 0.2)),)},
     "tilt": {"supports": (Clamped(edge="y1", tilt=0.3),)},
-    "edge": {
-        "supports": (Clamped(edge="x0"),),
-        "loads": (EdgeLoad(edge="x1", force_per_length=(3.0, 0.0, 0.5)),),
-    },
+    "edge": {"supports": (Clamped(edge="x0"),),
+        "loads": (EdgeLoad(edge="x1", force_per_length=(3.0, 0.0, 0.5)),)},
     "motion": {"supports": (Clamped(edge="x0"),), "actuators": (SHIFT,)},
     "half": {"supports": (Clamped(edge="x0"), Symmetric(edge="y0"))},
     "curved": {"supports": (Curved(edge="x0", curvature=-1.0),)},
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("word", WORDS)

@@ -113,26 +113,22 @@ def test_a_given_k_has_a_slider_and_goes_with_the_calibrations_that_take_it():
         Panel(SCENE, 2, Lattice("3x9"))
 
 
-@pytest.mark.parametrize(
-    ("message", "said"),
-    [
-        ({"grid": MASSES_CAP + 1}, "grid = 34: from 3 to 33"),
-        ({"grid": 4.5}, "grid = 4.5: a whole number"),
-        ({"elements": ELEMENTS_CAP + 1}, "elements = 17"),
-        ({"young": float("nan")}, "NaN: not a finite number"),
-        ({"young": float("inf")}, "Infinity: not a finite number"),
-        ({"young": "5e7"}, "young: a finite number is needed"),
-        ({"young": True}, "young: a finite number is needed"),
-        ({"young": 10**400}, "young: a finite number is needed"),
-        ({"young": -1.0}, "young = -1: from"),
-        ({"weight": 1.0}, "values: weight"),
-        ({"calibration": "magic"}, "calibration: choose from consistent"),
-        ("[" * 4000, "no JSON"),
-        ("1e999", "not a question"),
-        (b"\xff", "no JSON"),
-    ],
-    ids=str,
-)
+@pytest.mark.parametrize(("message", "said"), [
+    ({"grid": MASSES_CAP + 1}, "grid = 34: from 3 to 33"),
+    ({"grid": 4.5}, "grid = 4.5: a whole number"),
+    ({"elements": ELEMENTS_CAP + 1}, "elements = 17"),
+    ({"young": float("nan")}, "NaN: not a finite number"),
+    ({"young": float("inf")}, "Infinity: not a finite number"),
+    ({"young": "5e7"}, "young: a finite number is needed"),
+    ({"young": True}, "young: a finite number is needed"),
+    ({"young": 10**400}, "young: a finite number is needed"),
+    ({"young": -1.0}, "young = -1: from"),
+    ({"weight": 1.0}, "values: weight"),
+    ({"calibration": "magic"}, "calibration: choose from consistent"),
+    ("[" * 4000, "no JSON"),
+    ("1e999", "not a question"),
+    (b"\xff", "no JSON"),
+], ids=str)  # fmt: skip
 def test_a_question_beyond_the_bounds_is_refused_in_a_line(panel, message, said):
     text = asked(panel, **message) if isinstance(message, dict) else message
     with pytest.raises(BadInput) as refused:

@@ -46,13 +46,9 @@ def test_auto_says_why(verb, tmp_path, monkeypatch, capsys):
 
 AUTO = Lattice(grading="auto")
 GRADED_SCENES = (
-    "curved-edge",
-    "curved-edge-down",
-    "half-thickness",
-    "tenth-of-young",
-    "tenth-of-young-one-edge",
+    "curved-edge", "curved-edge-down", "half-thickness", "tenth-of-young", "tenth-of-young-one-edge",
     "pressure",
-)
+)  # fmt: skip
 
 
 def test_auto_grades_the_scenes_that_grading_mends():

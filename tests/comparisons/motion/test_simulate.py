@@ -55,20 +55,14 @@ def test_files_of_a_run(tmp_path, capsys):
     assert found == pytest.approx(document["probes"]["P4"][-1], rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    "text, said",
-    [
-        ("t,probe,ux,uy,uz\n", "the header must be"),
-        ("time,probe,ux,uy,uz\n0.1,P9,0,0,0\n", "line 2"),
-        ("time,probe,ux,uy,uz\n0.1,P1,0,0,zero\n", "not a number"),
-        ("time,probe,ux,uy,uz\n0.1,P1,0,0,inf\n", "line 2: uz = 'inf'"),
-        ("time,probe,ux,uy,uz\n,P1,0,0,0\n", "line 2: time = ''"),
-        (
-            "time,probe,ux,uy,uz\n0,P1,,,-0.02\n1,P1,,,-0.04",
-            "uz = -0.02 m at time = 0: a run begins with the",
-        ),
-    ],
-)
+@pytest.mark.parametrize("text, said", [
+    ("t,probe,ux,uy,uz\n", "the header must be"),
+    ("time,probe,ux,uy,uz\n0.1,P9,0,0,0\n", "line 2"),
+    ("time,probe,ux,uy,uz\n0.1,P1,0,0,zero\n", "not a number"),
+    ("time,probe,ux,uy,uz\n0.1,P1,0,0,inf\n", "line 2: uz = 'inf'"),
+    ("time,probe,ux,uy,uz\n,P1,0,0,0\n", "line 2: time = ''"),
+    ("time,probe,ux,uy,uz\n0,P1,,,-0.02\n1,P1,,,-0.04", "uz = -0.02 m at time = 0: a run begins with the"),
+])  # fmt: skip
 def test_measured_files_are_checked(tmp_path, text, said):
     path = tmp_path / "measured.csv"
     path.write_text(text)

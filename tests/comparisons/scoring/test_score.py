@@ -79,25 +79,15 @@ def test_an_error_is_that_of_the_design(write):
     assert found.notes()[-1] == said
 
 
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        (
-            lambda case, u: 1000.0 * u,
-            "displacements are 1000 times too large, as in mm for m, in all 20 cases",
-        ),
-        (lambda case, u: u / 1000.0, "displacements are 1000 times too small in all 20 cases"),
-        (lambda case, u: u * [1, 1, -1], "uz has the opposite sign in all 20 cases"),
-        (
-            lambda case, u: u[[0, 3, 2, 1]] if case.name == "soft-one-edge" else u,
-            "probes P2 and P4 look swapped in soft-one-edge",
-        ),
-        (
-            lambda case, u: -u if case.name in ("thick", "thin") else u,
-            "ux, uy and uz have the opposite sign in thin",
-        ),
-    ],
-)
+@pytest.mark.parametrize(("change", "said"), [
+    (lambda case, u: 1000.0 * u, "displacements are 1000 times too large, as in mm for m, in all 20 cases"),
+    (lambda case, u: u / 1000.0, "displacements are 1000 times too small in all 20 cases"),
+    (lambda case, u: u * [1, 1, -1], "uz has the opposite sign in all 20 cases"),
+    (lambda case, u: u[[0, 3, 2, 1]] if case.name == "soft-one-edge" else u,
+        "probes P2 and P4 look swapped in soft-one-edge"),
+    (lambda case, u: -u if case.name in ("thick", "thin") else u,
+        "ux, uy and uz have the opposite sign in thin"),
+])  # fmt: skip
 def test_faults_are_named(write, change, said, capsys):
     path = write(change=change)
     found = score(path)

@@ -54,15 +54,11 @@ def test_quick_cases_pass(name):
     assert {row.case for row in rows} == {name}
 
 
-@pytest.mark.parametrize(
-    ("case", "coarse"),
-    [
-        (manufactured_solid, {"ELEMENTS": (2, 4)}),
-        (elliptic_plate, {"RADIAL": 4, "AROUND": 6, "LAYERS": 2, "TOLERANCE": 0.07}),
-        (slit_annulus, {"RADIAL": 2, "AROUND": 16, "TOLERANCE": 0.013, "PUBLISHED": LIFTED}),
-    ],
-    ids=["manufactured-solid", "nafems-le10", "slit-annulus"],
-)
+@pytest.mark.parametrize(("case", "coarse"), [
+    (manufactured_solid, {"ELEMENTS": (2, 4)}),
+    (elliptic_plate, {"RADIAL": 4, "AROUND": 6, "LAYERS": 2, "TOLERANCE": 0.07}),
+    (slit_annulus, {"RADIAL": 2, "AROUND": 16, "TOLERANCE": 0.013, "PUBLISHED": LIFTED}),
+], ids=["manufactured-solid", "nafems-le10", "slit-annulus"])  # fmt: skip
 def test_slow_cases_come_near_on_coarse_meshes(monkeypatch, case, coarse):
     for name, value in coarse.items():
         monkeypatch.setattr(case, name, value)

@@ -56,38 +56,12 @@ SMALL = {  # what keeps a run short; a mutation comes after it and wins
     "modes": ("--lumped", "3", "--elements", "2", "--count", "2"),
 }
 WORDS = (
-    *(
-        "",
-        " ",
-        "0",
-        "1",
-        "-1",
-        "2",
-        "3",
-        "3x2",
-        "2x2x3",
-        "0x0",
-        "3.5",
-        "1e-308",
-        "1e308",
-        "-1e308",
-        "nan",
-        "inf",
-    ),
+    *("", " ", "0", "1", "-1", "2", "3", "3x2", "2x2x3", "0x0", "3.5", "1e-308", "1e308", "-1e308", "nan",
+        "inf"),
     *("consistent", "uniform", "cauchy", "moduli", "verlet", "midpoint", "plate", "shell", "solid"),
-    *(
-        "true",
-        "weight",
-        "é",
-        "\x1b[31m",
-        "../../etc",
-        "--json",
-        "9" * 30,
-        "lumped:grid=3",
-        "lumped:grid=,",
-        "a:b",
-    ),
-)
+    *("true", "weight", "é", "\x1b[31m", "../../etc", "--json", "9" * 30, "lumped:grid=3", "lumped:grid=,",
+        "a:b"),
+)  # fmt: skip
 
 
 def numbers(least: float, most: float) -> st.SearchStrategy[float]:
@@ -286,26 +260,10 @@ def command_lines(draw: st.DrawFn) -> list[str]:
 
 ROW = ("0.188,0.188,-0.0004,-0.0004,-0.0135", "0.094,0.094,0,0,-0.00245", "0.1,0.15,,,-0.0075", "0.1,0.1,1,,")
 CELLS = (
-    *(
-        "",
-        "nan",
-        "-inf",
-        "inf",
-        "1e308",
-        "1e-308",
-        "1,5",
-        "x",
-        "P4",
-        '"',
-        '"a',
-        ";",
-        "\t",
-        "#",
-        "\x00",
-        "\n\n",
-    ),
+    *("", "nan", "-inf", "inf", "1e308", "1e-308", "1,5", "x", "P4", '"', '"a', ";", "\t", "#", "\x00",
+        "\n\n"),
     *("9" * 140_000, "x,y,uz", "time", "-", "0x10", "١", "\ufeff", "=1+1"),
-)
+)  # fmt: skip
 
 
 @st.composite

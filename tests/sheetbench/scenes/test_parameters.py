@@ -16,18 +16,10 @@ RICH = SCENE.replace(
     patches=[{"shape": {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}, "young": 1e8, "thickness": 0.004}],
 )
 VALUES = {
-    "young": 1e6,
-    "poisson": -0.2,
-    "density": 900.0,
-    "damping_time": 1e-3,
-    "damping_rate": 5.0,
-    "thickness": 2e-3,
-    "curvature_x1": -3.0,
-    "curvature_y0": 4.0,
-    "tilt_x0": 0.2,
-    "patch1.young": 1e6,
+    "young": 1e6, "poisson": -0.2, "density": 900.0, "damping_time": 1e-3, "damping_rate": 5.0,
+    "thickness": 2e-3, "curvature_x1": -3.0, "curvature_y0": 4.0, "tilt_x0": 0.2, "patch1.young": 1e6,
     "patch1.thickness": 0.001,
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", VALUES)

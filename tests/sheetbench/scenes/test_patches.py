@@ -51,21 +51,16 @@ def test_tapers_multiply():
     assert mass_of(scene_of(taper_x=(0.003, 0.001))) == pytest.approx(1e3 * 0.2 * 0.1 * 0.002)
 
 
-@pytest.mark.parametrize(
-    ("patch", "said"),
-    [
-        (
-            {"shape": {"rectangle": {"x": (0.3, 0.4), "y": (0.0, 0.1)}}, "young": 1e6},
-            "patch 1.shape: .*no part of it is on",
-        ),
-        ({"shape": DISC}, "needs one of thickness, young, poisson, density, angle"),
-        ({"shape": DISC, "thickness": 0.2}, r"patch 1.thickness = 0.2 m is more than"),
-        ({"shape": {**ROOT, **DISC}, "young": 1e6}, "rectangle and circle: give one of"),
-        ({"shape": {"rectangle": {"x": (0.05, 0.0), "y": (0.0, 0.1)}}, "young": 1e6}, r"x = \[0.05, 0\]"),
-        ({"shape": {"polygon": [(0, 0), (0.1, 0.1), (0.1, 0.0), (0.0, 0.1)]}, "young": 1e6}, "sides cross"),
-        ({"shape": DISC, "poisson": 0.5}, "must be less than 0.5"),
-    ],
-)
+@pytest.mark.parametrize(("patch", "said"), [
+    ({"shape": {"rectangle": {"x": (0.3, 0.4), "y": (0.0, 0.1)}}, "young": 1e6},
+        "patch 1.shape: .*no part of it is on"),
+    ({"shape": DISC}, "needs one of thickness, young, poisson, density, angle"),
+    ({"shape": DISC, "thickness": 0.2}, r"patch 1.thickness = 0.2 m is more than"),
+    ({"shape": {**ROOT, **DISC}, "young": 1e6}, "rectangle and circle: give one of"),
+    ({"shape": {"rectangle": {"x": (0.05, 0.0), "y": (0.0, 0.1)}}, "young": 1e6}, r"x = \[0.05, 0\]"),
+    ({"shape": {"polygon": [(0, 0), (0.1, 0.1), (0.1, 0.0), (0.0, 0.1)]}, "young": 1e6}, "sides cross"),
+    ({"shape": DISC, "poisson": 0.5}, "must be less than 0.5"),
+])  # fmt: skip
 def test_what_is_no_patch_is_refused(patch, said):
     with pytest.raises(SceneError, match=said):
         scene_of(patch)

@@ -80,23 +80,18 @@ def test_the_key_the_value_and_what_is_allowed_are_said(tmp_path, text, said):
     assert refusal(tmp_path, text) == said
 
 
-@pytest.mark.parametrize(
-    ("text", "part"),
-    [
-        (GOOD.replace('edge = "x0"', "edge = []"), "support 1.edge = []"),
-        (GOOD.replace('edge = "x0"', "edge = {}"), "support 1.edge = {}"),
-        (
-            "support = 3.0\n" + GOOD.replace('[[support]]\nedge = "x0"\nkind = "clamped"', ""),
-            "support = 3.0: must be a list",
-        ),
-        (f"a = {'[' * 500}{']' * 500}\n{GOOD}", "within each other"),
-        (GOOD.replace("thickness = 0.003", f"thickness = 1{'0' * 4301}"), "more digits than can be read"),
-        (GOOD.replace("thickness = 0.003", f"thickness = 0x1{'0' * 9000}"), "a number of about 1083"),
-        (f"{'.'.join(['a'] * 5000)} = 1\n{GOOD}", "a = {'a': {'a'"),
-        (f"{'a' * 5000} = 1\n{GOOD}", "unknown key"),
-        (GOOD.replace("thickness = 0.003", f'thickness = "{"3" * 9000}"'), "write a number"),
-    ],
-)
+@pytest.mark.parametrize(("text", "part"), [
+    (GOOD.replace('edge = "x0"', "edge = []"), "support 1.edge = []"),
+    (GOOD.replace('edge = "x0"', "edge = {}"), "support 1.edge = {}"),
+    ("support = 3.0\n" + GOOD.replace('[[support]]\nedge = "x0"\nkind = "clamped"', ""),
+        "support = 3.0: must be a list"),
+    (f"a = {'[' * 500}{']' * 500}\n{GOOD}", "within each other"),
+    (GOOD.replace("thickness = 0.003", f"thickness = 1{'0' * 4301}"), "more digits than can be read"),
+    (GOOD.replace("thickness = 0.003", f"thickness = 0x1{'0' * 9000}"), "a number of about 1083"),
+    (f"{'.'.join(['a'] * 5000)} = 1\n{GOOD}", "a = {'a': {'a'"),
+    (f"{'a' * 5000} = 1\n{GOOD}", "unknown key"),
+    (GOOD.replace("thickness = 0.003", f'thickness = "{"3" * 9000}"'), "write a number"),
+])  # fmt: skip
 def test_hostile_files_are_refused_in_a_short_line(tmp_path, text, part):
     assert text != GOOD
     said = refusal(tmp_path, text)

@@ -43,22 +43,15 @@ def test_free_rigid_motions_are_refused_for_a_static_answer(tmp_path, case):
         scenes.require_static(scene)
 
 
-@pytest.mark.parametrize(
-    ("supports", "free"),
-    [
-        ((Hinged(edge="x0"),), ["rotation about edge x0"]),
-        ((Hinged(edge="y1"),), ["rotation about edge y1"]),
-        ((Hinged(edge="x0"), Hinged(edge="x1")), []),
-        (
-            (Held(edge="x1", components=("z",)),),
-            ["translation along x", "translation along y", "rotation about edge x1", "rotation about z"],
-        ),
-        (
-            (Held(edge="x0", components=("x", "y")),),
-            ["translation along z", "rotation about x", "rotation about y"],
-        ),
-    ],
-)
+@pytest.mark.parametrize(("supports", "free"), [
+    ((Hinged(edge="x0"),), ["rotation about edge x0"]),
+    ((Hinged(edge="y1"),), ["rotation about edge y1"]),
+    ((Hinged(edge="x0"), Hinged(edge="x1")), []),
+    ((Held(edge="x1", components=("z",)),),
+        ["translation along x", "translation along y", "rotation about edge x1", "rotation about z"]),
+    ((Held(edge="x0", components=("x", "y")),),
+        ["translation along z", "rotation about x", "rotation about y"]),
+])  # fmt: skip
 def test_only_motions_that_are_free_are_named(supports, free):
     """As many names as independent motions: the vibration solvers count them."""
     scene = scenes.load("one-edge-clamped").replace(supports=supports)
@@ -89,19 +82,14 @@ def test_absent_probes_are_centre_mid_sides_and_far_corner(edge, far):
     assert scene.probes == {"P1": (0.1, 0.05), "P2": (0.1, far[1]), "P3": (far[0], 0.05), "P4": far}
 
 
-@pytest.mark.parametrize(
-    ("held", "at"),
-    [
-        ([("x0", "clamped"), ("x1", "clamped")], {"P2": (0.1, 0.1), "P3": (0.15, 0.05), "P4": (0.15, 0.1)}),
-        ([("y0", "hinged"), ("y1", "held")], {"P2": (0.1, 0.075), "P3": (0.2, 0.05), "P4": (0.2, 0.075)}),
-        (
-            [("x0", "hinged"), ("x1", "hinged"), ("y0", "hinged"), ("y1", "clamped")],
-            {"P2": (0.1, 0.075), "P3": (0.15, 0.05), "P4": (0.15, 0.075)},
-        ),
-        ([("x0", "symmetric"), ("x1", "clamped")], {"P2": (0.1, 0.1), "P3": (0.15, 0.05), "P4": (0.15, 0.1)}),
-        ([("x0", "clamped"), ("x1", "motion")], {"P2": (0.1, 0.1), "P3": (0.15, 0.05), "P4": (0.15, 0.1)}),
-    ],
-)
+@pytest.mark.parametrize(("held", "at"), [
+    ([("x0", "clamped"), ("x1", "clamped")], {"P2": (0.1, 0.1), "P3": (0.15, 0.05), "P4": (0.15, 0.1)}),
+    ([("y0", "hinged"), ("y1", "held")], {"P2": (0.1, 0.075), "P3": (0.2, 0.05), "P4": (0.2, 0.075)}),
+    ([("x0", "hinged"), ("x1", "hinged"), ("y0", "hinged"), ("y1", "clamped")],
+        {"P2": (0.1, 0.075), "P3": (0.15, 0.05), "P4": (0.15, 0.075)}),
+    ([("x0", "symmetric"), ("x1", "clamped")], {"P2": (0.1, 0.1), "P3": (0.15, 0.05), "P4": (0.15, 0.1)}),
+    ([("x0", "clamped"), ("x1", "motion")], {"P2": (0.1, 0.1), "P3": (0.15, 0.05), "P4": (0.15, 0.1)}),
+])  # fmt: skip
 def test_absent_probes_do_not_lie_where_the_sheet_is_held(held, at):
     more = {
         "held": {"components": ["z"]},

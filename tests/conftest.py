@@ -5,7 +5,7 @@ from pathlib import Path
 
 import fake_solutions
 import pytest
-from campaigns import Here
+from campaigns import FEW, Here
 from hypothesis import HealthCheck, settings
 from matplotlib.figure import Figure
 from matrix_options import scene_files
@@ -82,12 +82,8 @@ def in_process(monkeypatch):
 @pytest.fixture
 def few(in_process, monkeypatch):
     """Campaigns run here, and maps have two runs along each axis."""
-    monkeypatch.setattr(
-        extremes, "FACTORS", {name: (1.0, max(all_)) for name, all_ in extremes.FACTORS.items()}
-    )
-    monkeypatch.setattr(extremes, "CELLS", {"lumped": (2, 4), "references": (2,)})
-    monkeypatch.setattr(extremes, "DAMPING", (0.1,))
-    monkeypatch.setattr(extremes, "DIVISIONS", (20, 4))
+    for name, values in FEW.items():
+        monkeypatch.setattr(extremes, name, values)
 
 
 @pytest.fixture(scope="module")

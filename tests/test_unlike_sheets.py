@@ -30,35 +30,12 @@ def folder(tmp_path, monkeypatch):
         scene.save(f"{name}.toml")
 
 
-@pytest.mark.parametrize("sheet", SHEETS)
-@pytest.mark.parametrize(
-    ("verb", "options"),
-    [
-        ("check", []),
-        ("compare", SMALL),
-        ("modes", [*SMALL, "--count", "2"]),
-        ("simulate", ["--lumped", "5", "--duration", "0.01", "--no-pictures"]),
-        ("calibrate", ["--grid", "5"]),
-        ("tradeoff", ["--lumped", "5", "--shell", "2", "--plate", "2", "--solid", "1", "--repeats", "1"]),
-        ("linearise", ["--lumped", "5"]),
-    ],
-)
-def test_verbs_that_know_such_sheets(sheet, verb, options, capsys):
-    assert run(verb, f"{sheet}.toml", *options) == 0, capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("verb", "options"),
     [("compare", [*SMALL, "--duration", "0.01"]), ("calibrate", ["--grid", "5", "--toml"])],
 )
 def test_verbs_that_know_fibres(verb, options, capsys):
     assert run(verb, "fabric.toml", *options) == 0, capsys.readouterr().err
-
-
-@pytest.mark.parametrize("calibration", ["auto", "consistent"])
-def test_compare_knows_supports_where_a_shape_says(calibration, capsys):
-    asked = [*SMALL, "--calibration", calibration]
-    assert run("compare", "gripper-finger", *asked) == 0, capsys.readouterr().err
 
 
 def test_files_say_what_each_cell_is_made_of():

@@ -46,7 +46,7 @@ def test_a_scene_is_checked_and_written_only_where_asked(folder, text):
 @tries(20)
 @given(data=sound())
 def test_a_sound_scene_is_solved_and_what_converges_is_in_balance(folder, data):
-    trials.solves(folder, data)
+    trials.compares(folder, data)
 
 
 @tries(60)

@@ -10,10 +10,21 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.runs.campaign import Run
+from comparisons.stability import extremes
 
 
 def task(name: str, **arguments: object) -> Run:
     return Run(f"campaign_tasks:{name}", arguments, name)
+
+
+FEW: dict[str, Any] = {  # of comparisons.stability.extremes: two runs along each axis, motions short
+    "FACTORS": {name: (1.0, max(all_)) for name, all_ in extremes.FACTORS.items()},
+    "CELLS": {"lumped": (2, 4), "references": (2,)},
+    "DAMPING": (0.1,),
+    "DIVISIONS": (20, 4),
+    "FINE": 100,
+    "PERIODS": 1.0,
+}
 
 
 class Here(Executor):

@@ -22,7 +22,7 @@ time.perf_counter = lambda: 1e-3 * next(_ticks)
 os.getloadavg = lambda: (0.0, 0.0, 0.0)
 
 from answers import once  # noqa: E402
-from campaigns import Here  # noqa: E402
+from campaigns import FEW, Here  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from terminals import resize  # noqa: E402
 
@@ -30,6 +30,7 @@ from comparisons.advice import probing  # noqa: E402
 from comparisons.cli import console, main  # noqa: E402
 from comparisons.comparison import comparison  # noqa: E402
 from comparisons.runs import campaign, executors, load  # noqa: E402
+from comparisons.stability import extremes  # noqa: E402
 
 
 class Echo(io.RawIOBase):
@@ -81,6 +82,7 @@ if __name__ == "__main__":
         module.solve = once(module.solve)
     load.average = lambda: None  # a busy machine is noted with its load, which changes
     executors.processes = Here
+    vars(extremes).update(FEW)
     campaign.carry_out.__kwdefaults__["pool"] = executors.processes
     Figure.savefig = lambda self, place, *_, **__: Path(place).touch()  # type: ignore[method-assign, assignment]
     asked = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))

@@ -23,7 +23,7 @@ OF_NONE = {"calibrate", "crosscheck"}  # whose answer is of a sheet, or of sever
 
 
 @pytest.fixture(autouse=True)
-def here(tmp_path, monkeypatch, undrawn, in_process):
+def here(tmp_path, monkeypatch, undrawn, few):
     monkeypatch.chdir(tmp_path)
     write_inputs(tmp_path)
 

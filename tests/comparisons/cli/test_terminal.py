@@ -51,7 +51,6 @@ def test_a_campaigns_bar_stands_before_its_first_run_is_done(monkeypatch, width)
 WIDE = 400  # columns, where nothing has to give way
 WAYS: dict[str, tuple[int, dict[str, str], str]] = {
     "50": (50, {}, "utf-8"),
-    "80": (80, {}, "utf-8"),
     "160, no colour": (160, {"NO_COLOR": "1"}, "utf-8"),
     "80, ASCII": (80, {"NO_COLOR": "1"}, "ascii"),
 }

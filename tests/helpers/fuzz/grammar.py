@@ -27,41 +27,23 @@ BROKEN = (
     *(".".join("a" * 600) + " = 1", "[a]\n[a]\n", "\ufeff", '"\\ud800"', "#\r", "1979-05-27T07:32:00Z"),
 )
 OPTIONS = {  # verb → its options, without one that names what is run
-    "calibrate": (
-        "--grid",
-        "--layer-distance",
-        "--k",
-        "--young",
-        "--poisson",
-        "--thickness",
-        "--side",
-        "--method",
-    ),
-    "check": (),
-    "compare": (
-        "--lumped",
-        "--elements",
-        "--calibration",
-        "--k",
-        "--layer-distance",
-        "--reference",
-        "--model",
-    ),
-    "simulate": ("--lumped", "--duration", "--step", "--every", "--integrator", "--calibration"),
-    "modes": ("--lumped", "--elements", "--count", "--calibration", "--reference", "--about"),
+    "calibrate": "--grid --layer-distance --k --young --poisson --thickness --side --method",
+    "check": "",
+    "compare": "--lumped --elements --calibration --k --layer-distance --reference --model",
+    "simulate": "--lumped --duration --step --every --integrator --calibration",
+    "modes": "--lumped --elements --count --calibration --reference --about",
 }
 SMALL = {  # what keeps a run short; a mutation comes after it and wins
-    "compare": ("--lumped", "3", "--elements", "2", "--no-uncertainty"),
-    "simulate": ("--lumped", "3", "--duration", "0.004", "--every", "0.002"),
-    "modes": ("--lumped", "3", "--elements", "2", "--count", "2"),
+    "compare": "--lumped 3 --elements 2 --no-uncertainty",
+    "simulate": "--lumped 3 --duration 0.004 --every 0.002",
+    "modes": "--lumped 3 --elements 2 --count 2",
 }
 WORDS = (
-    *("", " ", "0", "1", "-1", "2", "3", "3x2", "2x2x3", "0x0", "3.5", "1e-308", "1e308", "-1e308", "nan",
-        "inf"),
-    *("consistent", "uniform", "cauchy", "moduli", "verlet", "midpoint", "plate", "shell", "solid"),
-    *("true", "weight", "é", "\x1b[31m", "../../etc", "--json", "9" * 30, "lumped:grid=3", "lumped:grid=,",
-        "a:b"),
-)  # fmt: skip
+    *("", " ", "0", "1", "-1", "2", "3", "3x2", "2x2x3", "0x0", "3.5", "1e-308", "1e308", "-1e308", "nan"),
+    *("consistent", "uniform", "cauchy", "moduli", "verlet", "midpoint", "plate", "shell", "solid", "inf"),
+    *("true", "weight", "é", "\x1b[31m", "../../etc", "--json", "9" * 30, "lumped:grid=3", "lumped:grid=,"),
+    "a:b",
+)
 
 
 def numbers(least: float, most: float) -> st.SearchStrategy[float]:
@@ -158,20 +140,9 @@ def support(draw: st.DrawFn, edge: str) -> dict[str, Any]:
 def load(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
     force = draw(st.lists(numbers(-0.2, 0.2), min_size=3, max_size=3))
     share = draw(st.sampled_from([0.0, 0.3, 1.0]))
-    data: dict[str, Any] = draw(
-        st.sampled_from(
-            [
-                {"kind": "point", "at": [share * length for length in lengths], "force": force},
-                {
-                    "kind": "edge",
-                    "edge": "x1",
-                    "force_per_length": force,
-                    "moment_per_length": 0.1 * force[0],
-                },
-                {"kind": "pressure", "value": 100.0 * force[1]},
-            ]
-        )
-    )
+    point = {"kind": "point", "at": [share * length for length in lengths], "force": force}
+    edge = {"kind": "edge", "edge": "x1", "force_per_length": force, "moment_per_length": 0.1 * force[0]}
+    data = draw(st.sampled_from([point, edge, {"kind": "pressure", "value": 100.0 * force[1]}]))
     if draw(st.booleans()):
         data["history"] = {"time": [0.0, 1.0], "factor": [1.0, draw(numbers(-1.0, 1.0))]}
     return data
@@ -251,19 +222,18 @@ def _broken(draw: st.DrawFn, text: bytes, pieces: tuple[str, ...]) -> bytes:
 def command_lines(draw: st.DrawFn) -> list[str]:
     """A verb, its scene and up to three options with values that may be anything; short runs else."""
     verb = draw(st.sampled_from(list(OPTIONS)))
-    asked = [verb, draw(st.sampled_from([*CATALOGUE, "no-such-scene"])), *SMALL.get(verb, ())]
+    asked = [verb, draw(st.sampled_from([*CATALOGUE, "no-such-scene"])), *SMALL.get(verb, "").split()]
     for _ in range(draw(st.integers(0, 3)) if OPTIONS[verb] else 0):
-        option = draw(st.sampled_from(OPTIONS[verb]))
+        option = draw(st.sampled_from(OPTIONS[verb].split()))
         asked += [option, draw(st.one_of(st.sampled_from(WORDS), numbers(-10.0, 10.0).map(str)))]
     return [*asked, *(["--json"] if draw(st.booleans()) else [])]
 
 
 ROW = ("0.188,0.188,-0.0004,-0.0004,-0.0135", "0.094,0.094,0,0,-0.00245", "0.1,0.15,,,-0.0075", "0.1,0.1,1,,")
 CELLS = (
-    *("", "nan", "-inf", "inf", "1e308", "1e-308", "1,5", "x", "P4", '"', '"a', ";", "\t", "#", "\x00",
-        "\n\n"),
-    *("9" * 140_000, "x,y,uz", "time", "-", "0x10", "١", "\ufeff", "=1+1"),
-)  # fmt: skip
+    *("", "nan", "-inf", "inf", "1e308", "1e-308", "1,5", "x", "P4", '"', '"a', ";", "\t", "#", "\x00"),
+    *("\n\n", "9" * 140_000, "x,y,uz", "time", "-", "0x10", "١", "\ufeff", "=1+1"),
+)
 
 
 @st.composite

@@ -52,7 +52,9 @@ KINDS = {
     "measured": Kind("measured files", measured(), trials.measures, 2000, 100),
     "shapes": Kind("scenes of shapes", shaped(), trials.solves_shapes, 5000, 250),
     "compared": Kind("scenes of shapes compared", shaped(), trials.compares_shapes, 300, 25),
-    "solved": Kind("sound scenes solved", sound(), trials.solves, 1000, 50, ("done", "not converged", FAULT)),
+    "solved": Kind(
+        "sound scenes solved", sound(), trials.compares, 1000, 50, ("done", "not converged", FAULT)
+    ),
 }
 
 

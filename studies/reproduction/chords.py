@@ -14,16 +14,18 @@ taken at the end of what the printed digits allow that makes each statement the 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import acos
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from comparisons.reproduction.published import DIGIT, SOURCES, published, scene
+from sheetbench.answers.table import MILLIMETRES, PERCENT, Column, Unit
 from sheetbench.scenes import EDGES
 from sheetbench.scenes.kinematics import bent_or_tilted
+from studies.reproduction.sheets import RODS
 
 
 @dataclass(frozen=True)
@@ -33,14 +35,29 @@ class Chord:
     sense: of the rod that holds the first, or 0."""
 
     test: int
-    source: str
-    start: str
-    end: str
-    flat: float
-    published: float
+    source: Annotated[str, Column("table")]
+    start: Annotated[str, Column("from")]
+    end: Annotated[str, Column("to")]
+    flat: Annotated[float, MILLIMETRES("z.2f")]
+    published: Annotated[float, MILLIMETRES("z.2f")]
     stretch: float
     turning: float
     sense: int
+
+    @property
+    def rod(self) -> str:
+        """The sense of the rod in words."""
+        return RODS[self.sense]
+
+    @property
+    def least_stretch(self) -> Annotated[float | None, PERCENT(".2f", "stretch ≥")]:
+        """The stretch, None without."""
+        return self.stretch or None
+
+    @property
+    def least_span(self) -> Annotated[float | None, Unit("rad", "°", 180.0 / np.pi)(".0f", "span ≥")]:
+        """The angle that directions span, None without."""
+        return self.turning or None
 
 
 def chords() -> list[Chord]:
@@ -48,37 +65,38 @@ def chords() -> list[Chord]:
     return [chord for test in (1, 2) for source in SOURCES for chord in of_table(test, source)]
 
 
+class Point(NamedTuple):
+    """Where a point lies on the flat sheet and where it is (3,) [m], and how far that may be from what is
+    printed."""
+
+    name: str
+    flat: np.ndarray
+    moved: np.ndarray
+    digits: np.ndarray
+
+
 def of_table(test: int, source: str, table: np.ndarray | None = None) -> list[Chord]:
     """The chords of a test's published displacements, or of others in their place, (4, 3) [m]."""
     moved = published(test, source) if table is None else table
-    posed = scene(test)
-    names, flat = list(posed.probes), np.column_stack([posed.probe_points(), np.zeros(len(moved))])
+    probed = scene(test)
+    flat = np.column_stack([probed.probe_points(), np.zeros(len(moved))])
     digits = np.where(np.isfinite(moved), 0.5 * DIGIT, 0.0)
-    chords = []
-    for i, j in combinations(range(len(names)), 2):
-        ends = (flat[i] + moved[i], flat[j] + moved[j])
-        chords.append(
-            _chord(test, source, (names[i], names[j]), (flat[i], flat[j]), ends, digits[i] + digits[j])
-        )
+    probes = [Point(*of) for of in zip(probed.probes, flat, flat + moved, digits, strict=True)]
+    pairs = [(start, end, 0) for start, end in combinations(probes, 2)]
     for sense in (1, -1) if test == 2 else (0,):
         here = scene(test, sense or 1)
         rods = {rod.edge: rod for rod in bent_or_tilted(here.supports, here.sheet)}
         for support in here.supports:
-            edge = EDGES[support.edge]
+            edge, rod = EDGES[support.edge], rods.get(support.edge)
             at = flat.copy()
             at[:, edge.normal_axis] = here.sheet.lengths[edge.normal_axis] if edge.far_end else 0.0
-            rod = rods.get(support.edge)
             stays = np.zeros_like(at) if rod is None else rod.placed(at[:, :2]).displacement
-            for i, probe in enumerate(names):
-                turned = bool(stays[i].any())
-                if sense == -1 and not turned:
-                    continue
-                chords.append(
-                    _chord(
-                        test, source, (f"{support.edge} beside {probe}", probe), (at[i], flat[i]),
-                        (at[i] + stays[i], flat[i] + moved[i]), digits[i], sense if turned else 0,
-                    )
-                )  # fmt: skip
+            for probe, place, shift in zip(probes, at, stays, strict=True):
+                turned = bool(shift.any())
+                if turned or sense != -1:
+                    held = Point(f"{support.edge} beside {probe.name}", place, place + shift, np.zeros(3))
+                    pairs.append((held, probe, sense if turned else 0))
+    chords = [_chord(test, source, *pair) for pair in pairs]
     return [chord for chord in chords if np.isfinite(chord.published)]
 
 
@@ -90,28 +108,19 @@ def nearer(of: Chord, moved: np.ndarray) -> float:
     return same.flat - same.published
 
 
-def _chord(
-    test: int,
-    source: str,
-    names: tuple[str, str],
-    flat: Sequence[np.ndarray],
-    ends: Sequence[np.ndarray],
-    digits: np.ndarray,
-    sense: int = 0,
-) -> Chord:
-    """digits (3,) [m]: how far the difference of the ends may be from the printed one."""
-    offset = np.abs(ends[1] - ends[0])
-    rest = float(np.linalg.norm(flat[1] - flat[0]))
+def _chord(test: int, source: str, start: Point, end: Point, sense: int) -> Chord:
+    offset, digits = np.abs(end.moved - start.moved), start.digits + end.digits
+    flat = float(np.linalg.norm(end.flat - start.flat))
     least = float(np.linalg.norm(np.maximum(offset - digits, 0.0)))
     most = float(np.linalg.norm(offset + digits))
     return Chord(
         test=test,
         source=source,
-        start=names[0],
-        end=names[1],
-        flat=rest,
+        start=start.name,
+        end=end.name,
+        flat=flat,
         published=float(np.linalg.norm(offset)),
-        stretch=max(least / rest - 1.0, 0.0),
-        turning=2.0 * acos(min(most / rest, 1.0)),
+        stretch=max(least / flat - 1.0, 0.0),
+        turning=2.0 * acos(min(most / flat, 1.0)),
         sense=sense,
     )

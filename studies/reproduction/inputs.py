@@ -7,12 +7,14 @@ of k lz² (`lumped.calibration.uniform`), so that a layer distance √(D/k) is w
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
 import lumped
 from comparisons.reproduction.answers import bending_stiffness, matched_layer_distance
 from comparisons.reproduction.published import scene
+from sheetbench.answers.table import NUMBER, PERCENT, Column, Unit, unit
 from sheetbench.scenes.seed import seed_inputs
 from studies.reproduction.printed_errors import cells, means
 
@@ -24,11 +26,17 @@ class Check:
     """A printed figure beside what follows from the others, in the unit (SI), and from what; printed is None
     where none is given."""
 
-    what: str
+    what: Annotated[str, Column("figure")]
     unit: str
-    printed: float | None
-    computed: float
-    follows: str
+    printed: Annotated[float | None, NUMBER(".4g")]
+    computed: Annotated[float, NUMBER(".4g", "others give")]
+    follows: Annotated[str, Column("by")]
+
+    @property
+    def shown_unit(self) -> Annotated[Unit, Column("unit")]:
+        """The unit as people read it."""
+        shown = {"": NUMBER, "kg": Unit("kg", "g", 1e3)}
+        return PERCENT if self.what.startswith("mean") else shown.get(self.unit) or unit(self.unit)
 
     @property
     def agrees(self) -> bool | None:

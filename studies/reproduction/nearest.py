@@ -1,19 +1,19 @@
 """Which sheets come nearest to the published tables, and how near.
 
-Two questions: could the seed's lattice have computed the published model's table, and could a plate have
-shown the published experiment's? Each is asked of every test by itself and of both together, and for test 2
-with the rod's ends up and down. Scans: the tests over a row of layer distances with k as published, and of E.
-Fits: from the nearest of a scan on, in ever more numbers, by the search of `comparisons.identification`;
-every published component weighs the same. Where a sheet snaps as a number changes, the misfit jumps, and a
-search may end at the jump. Least squares mind the largest entries; beside them stands the sheet of each scan
-that meets most entries.
+Two questions: could the lattice of Habibi et al. have computed the published model's table, and could a plate
+have shown the published experiment's? Each is asked of every test by itself and of both together, and for
+test 2 with the rod's ends up and down. Scans: the tests over a row of layer distances with k as published,
+and of E. Fits: from the nearest of a scan on, in ever more numbers, by the search of
+`comparisons.identification`; every published component weighs the same. Where a sheet snaps as a number
+changes, the misfit jumps, and a search may end at the jump. Least squares mind the largest entries; beside
+them stands the sheet of each scan that meets most entries.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -22,8 +22,9 @@ from comparisons.identification.misfit import Misfit
 from comparisons.identification.prediction import NotReached
 from comparisons.identification.search import search
 from comparisons.reproduction.published import DIGIT, published, scene
+from sheetbench.answers.table import MEGAPASCALS, MILLIMETRES, PERCENT, Column, Unit
 from sheetbench.scenes.seed import seed_inputs
-from studies.reproduction.sheets import KINDS, Sheets
+from studies.reproduction.sheets import KINDS, RODS, Sheets
 
 FIRST = {"sheet": "young", "lattice": "layer_distance"}
 SOURCE = {"sheet": "experiment", "lattice": "model"}  # which published table a kind is asked for
@@ -39,6 +40,13 @@ ENOUGH = 1e-5  # change of x, or of the sum of squares, that ends a search: far 
 EVALUATIONS = 20  # of a search
 SQUARES, MOST = "misfit", "entries"
 NEAR = 0.1  # of an entry: what counts as met
+COLUMNS = {
+    "young": MEGAPASCALS(".3g", "E"),
+    "k": Unit("N/m", "N/m")(".3g", "k"),
+    "layer_distance": MILLIMETRES(".3g", "lz"),
+    "tilt": Unit("rad", "°", 180.0 / np.pi)(".2g", "tilt"),
+    "curvature": Unit("1/m", "1/m")(".3g", "κ"),
+}
 
 
 @dataclass(frozen=True)
@@ -62,7 +70,7 @@ class Fit:
     the measure that it is the nearest in; converged: whether a search reached its end.
     """
 
-    kind: str
+    kind: Annotated[str, Column("of")]
     tests: tuple[int, ...]
     sense: int
     sought: Mapping[str, float]
@@ -72,17 +80,37 @@ class Fit:
     converged: bool
 
     @property
-    def source(self) -> str:
+    def test_names(self) -> Annotated[str, Column("tests")]:
+        """The tests in words."""
+        return " and ".join(map(str, self.tests))
+
+    @property
+    def rod(self) -> str:
+        """The sense of the rod in words."""
+        return "sought" if ROD in self.sought else RODS[self.sense]
+
+    @property
+    def values(self) -> dict[Column, float | None]:
+        """What was found, None of what is as published."""
+        return {column: self.sought.get(name) for name, column in COLUMNS.items()}
+
+    @property
+    def met(self) -> str:
+        """How many published components it has."""
+        return f"{int(self.matches.sum())} of {self.entries}"
+
+    @property
+    def source(self) -> Annotated[str, Column("table", detail=True)]:
         """Which published table it was to come near to."""
         return SOURCE[self.kind]
 
     @property
-    def rms(self) -> float:
+    def rms(self) -> Annotated[float, PERCENT(".3g")]:
         """Of the differences, of the largest published component."""
         return float(np.sqrt(np.nanmean((self.displacement - self.target) ** 2))) / self._largest
 
     @property
-    def error(self) -> float:
+    def error(self) -> Annotated[float, PERCENT(".3g")]:
         """The largest difference, of the largest published component."""
         return float(np.nanmax(np.abs(self.displacement - self.target))) / self._largest
 

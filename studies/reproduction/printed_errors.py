@@ -10,10 +10,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import floor
+from typing import Annotated
 
 import numpy as np
 
 from comparisons.reproduction.published import COMPONENTS, printed
+from sheetbench.answers.table import PERCENT, Column
 from sheetbench.scenes.seed import PROBES, seed_errors
 
 PRINTED = 1e-3  # the last digit of a printed error, 0.1 %
@@ -28,11 +30,11 @@ class Cell:
     changes: whether it is relative to something else than the experiment, as an error is."""
 
     test: int
-    component: str
+    component: Annotated[str, Column("u")]
     probe: str
-    printed: float
-    of_experiment: float
-    of_model: float
+    printed: Annotated[float, PERCENT(".1f")]
+    of_experiment: Annotated[float, PERCENT(".2f")]
+    of_model: Annotated[float, PERCENT(".2f")]
     of_larger: float
     of: str
     digits: str
@@ -46,6 +48,16 @@ class Cell:
     def changes(self) -> bool:
         """Whether the cell is not relative to the experiment."""
         return self.of not in ("experiment", "both")
+
+    @property
+    def relative_to(self) -> str:
+        """Whose magnitude it is relative to, with an asterisk where that is not the experiment."""
+        return f"{self.of} *" if self.changes else self.of
+
+    @property
+    def digits_kept(self) -> Annotated[str, Column("digits")]:
+        """How its digits follow, "no" where they do not."""
+        return self.digits or "no"
 
 
 def cells() -> list[Cell]:

@@ -11,12 +11,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
 from comparisons.reproduction.published import SOURCES, published, scene
+from sheetbench.answers.table import NUMBER, Column
 from sheetbench.scenes.seed import PROBES
 from studies.reproduction.nearest import SOURCE, Scan
+from studies.reproduction.sheets import RODS
 
 Entry = tuple[str, int]  # a probe and a component
 
@@ -28,11 +31,21 @@ class Ratio:
 
     test: int
     sense: int
-    name: str
-    kind: str
-    published: dict[str, float]
-    least: float | None
-    most: float | None
+    name: Annotated[str, Column("ratio")]
+    kind: Annotated[str, Column("of")]
+    published: Annotated[dict[str, float], NUMBER(".3g")]
+    least: Annotated[float | None, NUMBER(".3g")]
+    most: Annotated[float | None, NUMBER(".3g")]
+
+    @property
+    def rod(self) -> str:
+        """The sense of the rod in words."""
+        return RODS[self.sense]
+
+    @property
+    def matches(self) -> Annotated[str, Column("met")]:
+        """Which published tables have a ratio that a sheet of the scan has."""
+        return " and ".join(source for source in SOURCES if self.met(source)) or "neither"
 
     def met(self, source: str) -> bool:
         """Whether the published ratio lies within the range."""
@@ -59,11 +72,8 @@ def _of_scan(one: Scan) -> list[Ratio]:
             for moved in one.displacement
             if np.isfinite(moved).all() and _signs(moved, of, to) == signs
         ]
-        rows.append(
-            Ratio(
-                test, one.sense, name, one.kind, values, min(range_, default=None), max(range_, default=None)
-            )
-        )
+        least, most = min(range_, default=None), max(range_, default=None)
+        rows.append(Ratio(test, one.sense, name, one.kind, values, least, most))
     return rows
 
 

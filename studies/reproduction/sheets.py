@@ -1,7 +1,7 @@
-"""Sheets that differ in a few numbers, and what they say of the seed's tests.
+"""Sheets that differ in a few numbers, and what they say of the tests of Habibi et al.
 
-sheet     `consistent` springs of the seed's grid: a plate of the published thickness and ν; `young` varies
-lattice   the seed's own: one k for all springs, equal masses, full springs along edges; `k` and
+sheet     `consistent` springs on the published grid: a plate of the published thickness and ν; `young` varies
+lattice   that of Habibi et al.: one k for all springs, equal masses, full springs along edges; `k` and
           `layer_distance` vary
 
 Of both, `curvature` is that of the rod, and `tilt` [rad] turns the supports as one, about the rod's middle
@@ -17,6 +17,7 @@ with a the point that stays and e the horizontal direction into the sheet.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -32,6 +33,7 @@ from sheetbench.scenes.seed import seed_inputs
 STEP = 1e-4  # in x, for differences of solutions that are accurate to about 1e-9
 UNITS = {"young": "Pa", "k": "N/m", "layer_distance": "m", "tilt": "rad", "curvature": "1/m"}
 KINDS = ("sheet", "lattice")
+RODS = {0: "–", 1: "ends up", -1: "ends down"}
 
 Values = Mapping[str, float]
 
@@ -89,21 +91,17 @@ class Sheets:
     def solutions(self, many: Sequence[Values]) -> list[list[Solution]]:
         """The solutions for each set of values, one a test, in the frame that turns with the supports."""
         scenes = [_posed(scene, values) for values in many for scene in self.scenes]
-        if self.kind == "sheet":
-            springs = [
-                lumped.calibrate(s.sheet, s.material, grid=self.grid, method="consistent") for s in scenes
-            ]
-            solutions = lumped.solve_many(scenes, springs)
-        else:
-            springs = [
-                lumped.calibrate(
-                    scene.sheet, scene.material, grid=self.grid, method="uniform",
-                    k=values.get("k", seed_inputs()["k"]), layer_distance=values.get("layer_distance"),
-                )
-                for values in many
-                for scene in self.scenes
-            ]  # fmt: skip
-            solutions = lumped.solve_many(scenes, springs, weights="full")
+        own: list[dict[str, Any]] = [{"method": "consistent"} for _ in scenes]
+        if self.kind == "lattice":
+            published = {"method": "uniform", "k": seed_inputs()["k"]}
+            given = [{key: v[key] for key in ("k", "layer_distance") if key in v} for v in many]
+            own = [published | values for values in given for _ in self.scenes]
+        springs = [
+            lumped.calibrate(scene.sheet, scene.material, grid=self.grid, **options)
+            for scene, options in zip(scenes, own, strict=True)
+        ]
+        weights: Any = "full" if self.kind == "lattice" else "tributary"
+        solutions = lumped.solve_many(scenes, springs, weights=weights)
         count = len(self.scenes)
         return [solutions[i : i + count] for i in range(0, len(solutions), count)]
 

@@ -8,9 +8,11 @@ nearest   which sheets come nearest to the tables, and what in the tables none o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
 
 from comparisons.models.grids import Elements
 from comparisons.report.work import Work, silent
@@ -18,19 +20,37 @@ from comparisons.reproduction import findings as of_models
 from comparisons.reproduction.findings import Finding
 from comparisons.reproduction.reproduction import reproduce
 from comparisons.reproduction.tables import Reproduction, findings_table
+from comparisons.reproduction.words import percent
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.table import Table
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes.seed import seed_inputs
-from studies.reproduction import findings, tables
+from studies.reproduction import findings
 from studies.reproduction.chords import Chord, chords
 from studies.reproduction.inputs import Check, checks
-from studies.reproduction.nearest import Fit, Scan, nearest, scans
+from studies.reproduction.nearest import NEAR, Fit, Scan, nearest, scans
 from studies.reproduction.printed_errors import Cell, cells, means
 from studies.reproduction.ratios import Ratio, ratios
 
 PARTS = ("errors", "tables", "settling", "nearest")
+TURNING = np.pi / 6.0  # rad: chords that ask for less, and for no stretch, are in the document alone
+TEXTS = {
+    "errors": "|model − experiment| of the published tables, relative to the one and to the other. * the "
+    "printed error is not relative to the experiment: the normalisation changes there.",
+    "inputs": "What the other inputs give for a printed figure. D = E h³/12(1 − ν²), I = l h³/12, l the "
+    "distance of the masses; the layer distance is not published.",
+    "nearest": "sheet: a plate (consistent springs), of the published experiment; lattice: equal springs, of "
+    "the published model. A number is given where it was sought, else it is as published. tilt: the supports "
+    "turned as one, > 0 downwards. by: nearest by the least misfit, or the one of the scan with most "
+    "entries met. rms and error: of the differences, over the largest published component. met: entries "
+    f"within {percent(NEAR)} of themselves. The picture: misfit over E, and over the layer distance.",
+    "ratios": "Published ratios beside the range that they run through as E (of a sheet) or the layer "
+    "distance (of a lattice, k as published) varies, where both entries have the published sign.",
+    "chords": "Distances of points, as published and on the flat sheet, where the line of the sheet between "
+    "them is stretched for certain, or where its directions span 30° or more unless it is compressed. No "
+    "material, support or load enters.",
+}
 
 
 @dataclass(frozen=True, repr=False)
@@ -49,10 +69,14 @@ class Forensics(Answer):
 
     def findings(self) -> list[Finding]:
         """Every finding of the parts there are."""
-        before, after = (
-            [Finding(about, sentence) for part in parts for about, sentence in part(self)]
-            for parts in (findings.BEFORE, findings.AFTER)
-        )
+        before = [*findings.of_errors(self.cells), *findings.of_inputs(self.checks)]
+        after = [
+            *findings.of_fits(self.fits),
+            *findings.of_senses(self.fits),
+            *findings.of_ratios(self.ratios),
+            *findings.of_stretch(self.chords, self.fits),
+            *findings.of_shortening(self.chords, self.fits),
+        ]
         return [*before, *of_models.all_of(self.models.answers, self.models.settling), *after]
 
     def document(self) -> dict[str, Any]:
@@ -84,9 +108,13 @@ class Forensics(Answer):
 
     def tables(self) -> list[Table]:
         """What `reproduce` shows, the other parts before and after."""
-        before = [tables.errors(self), tables.inputs(self)] if self.cells else []
-        after = [tables.nearest(self), tables.ratios(self), tables.chords(self)] if self.scans else []
-        return [findings_table(self.findings()), *before, *self.models.tables()[1:], *after]
+        tables = [findings_table(self.findings())]
+        if self.cells:
+            tables += [errors(self.cells), inputs(self.checks)]
+        tables += self.models.tables()[1:]
+        if self.scans:
+            tables += [nearest_sheets(self.fits), of_ratios(self.ratios), of_chords(self.chords)]
+        return tables
 
     def figures(self) -> list[Picture]:
         drawn = [Picture("nearest", "studies.reproduction.figure:misfit", (self,))] if self.scans else []
@@ -104,6 +132,43 @@ class Forensics(Answer):
     @property
     def succeeded(self) -> bool:
         return self.models.succeeded
+
+
+def errors(cells: Sequence[Cell]) -> Table:
+    """A row per printed error: of the experiment, of the model, and which of the two it is."""
+    fields = (
+        "test", "component", "probe", "printed", "of_experiment", "of_model", "relative_to", "digits_kept"
+    )  # fmt: skip
+    caption = "Printed errors, computed again"
+    return Table.of(Cell, cells, caption, "errors", fields=fields, grouped=True, text=TEXTS["errors"])
+
+
+def inputs(checks: Sequence[Check]) -> Table:
+    """A row per printed figure that others should give."""
+    fields = ("what", "shown_unit", "printed", "computed", "follows", "agrees")
+    caption = "Published inputs held against one another"
+    return Table.of(Check, checks, caption, "inputs", fields=fields, text=TEXTS["inputs"])
+
+
+def nearest_sheets(fits: Sequence[Fit]) -> Table:
+    """A row per fit: what was sought, what was found, how near."""
+    fields = ("test_names", "rod", "kind", "source", "values", "by", "rms", "error", "met")
+    return Table.of(Fit, fits, "The nearest sheets", "nearest", fields=fields, text=TEXTS["nearest"])
+
+
+def of_ratios(ratios: Sequence[Ratio]) -> Table:
+    """A row per ratio and scan."""
+    fields = ("test", "rod", "name", "published", "kind", "least", "most", "matches")
+    caption = "Ratios between entries"
+    return Table.of(Ratio, ratios, caption, "ratios", fields=fields, grouped=True, text=TEXTS["ratios"])
+
+
+def of_chords(chords: Sequence[Chord]) -> Table:
+    """A row per pair of points whose distance asks for stretch or for much turning."""
+    telling = (c for c in chords if c.stretch > 0.0 or c.turning > TURNING)
+    fields = ("test", "rod", "source", "start", "end", "flat", "published", "least_stretch", "least_span")
+    caption = "What distances ask of any sheet"
+    return Table.of(Chord, telling, caption, "chords", fields=fields, grouped=True, text=TEXTS["chords"])
 
 
 def study(

@@ -27,7 +27,8 @@ from comparisons.tradeoff.row import TradeoffRow
 from lumped.calibration.tables import moduli
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, WIDTHS
-from studies.reproduction.tables import nearest
+from studies.reproduction.nearest import Fit
+from studies.reproduction.study import nearest_sheets
 from studies.stability import STUDIES
 
 PUBLISHED = Path(__file__).parents[2] / "docs" / "stability"
@@ -127,13 +128,11 @@ def test_grading_changes_no_rate_and_a_calibration_does():
 
 def test_a_fit_is_shown_in_the_tables_units():
     sought = {"young": 2.5e6, "k": 321.0, "layer_distance": 1.5e-3, "tilt": np.pi / 6.0, "curvature": 4.0}
-    fit = SimpleNamespace(
-        tests=(1,), kind="sheet", source="model", sought=sought, by="misfit", rms=0.25, error=0.5, entries=12,
-        matches=np.array([True, True, False]),
-    )  # fmt: skip
-    row = shown(nearest(SimpleNamespace(fits=[fit])))
+    wanted = np.full((4, 3), 1e-3)
+    moved = wanted * np.array([[0.5], [1.0], [1.0], [1.0]])
+    row = shown(nearest_sheets([Fit("sheet", (1,), 0, sought, moved, wanted, "misfit", True)]))
     assert [float(row[name]) for name in ("E", "k", "lz", "tilt", "κ")] == [2.5, 321.0, 1.5, 30.0, 4.0]
-    assert (float(row["rms"]), float(row["error"]), row["met"]) == (25.0, 50.0, "2 of 12")
+    assert (float(row["rms"]), float(row["error"]), row["met"]) == (25.0, 50.0, "9 of 12")
 
 
 def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer():

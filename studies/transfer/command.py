@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from typing import Annotated
 
 from comparisons.cli.options import CampaignOptions, Grading, Large, option
 from comparisons.cli.output import OutputOptions
-from studies.transfer import parse
-from studies.transfer.study import transfer
+from comparisons.models.spec import items
+from sheetbench.choices import AUTO, CALIBRATIONS
+from sheetbench.errors import BadInput, require_choice
+from studies.transfer.scenes import transfer_scenes
+from studies.transfer.study import METHODS, PARTS, transfer
 
 
 def command(
@@ -38,18 +42,37 @@ def command(
 
     With --out an interrupted study is resumed.
     """
-    calibrations, named = parse.methods(methods), parse.scenes(scenes)
-    parts, sizes = parse.parts(part), parse.grids(grids)
+    calibrations = _known("--methods", items(methods), (*CALIBRATIONS, AUTO))
+    names, parts = _known("--scenes", items(scenes), transfer_scenes()), _known("--part", part, PARTS)
+    sizes = _masses(grids)
     with output.open() as out:
         with out.campaign(campaign) as run:
             result = transfer(
                 **run,
-                methods=calibrations,
+                methods=calibrations or METHODS,
                 grids=sizes,
                 grading=grading,
-                scenes=named,
-                parts=parts,
+                scenes=names or None,
+                parts=parts or PARTS,
                 elements=elements,
                 large=large,
             )
         out.show(result)
+
+
+def _known(name: str, values: Sequence[str] | None, known: Collection[str]) -> Sequence[str]:
+    """Return the values. Raises BadInput for one that is not known."""
+    for value in values or ():
+        require_choice(name, value, known)
+    return values or ()
+
+
+def _masses(text: str) -> list[int]:
+    """Return masses a side. Raises BadInput unless every one is 4 n + 1 and they grow."""
+    try:
+        sizes = [int(part) for part in items(text)]
+    except ValueError:
+        sizes = []
+    if not sizes or sizes != sorted(set(sizes)) or any(n < 5 or n % 4 != 1 for n in sizes):
+        raise BadInput(f"--grids = '{text}': masses a side, 4 n + 1 of them and rising, as 9,17,33")
+    return sizes

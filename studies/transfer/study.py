@@ -16,7 +16,6 @@ moduli on a grid is to be held against the error there; 33 masses a side may be 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from typing import Any, Unpack
 
 import numpy as np
@@ -27,11 +26,9 @@ from comparisons.models.sizes import require_room
 from comparisons.models.spec import Elements, GradingLike, Lattice, lattices
 from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
-from sheetbench.answers.answer import Answer
-from sheetbench.answers.table import Table
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
-from studies.transfer import tables
+from studies.transfer.answer import Transfer
 from studies.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
 from studies.transfer.tasks import FINE
 
@@ -51,45 +48,6 @@ LONG_EVERYWHERE = ((17, 17), (17, 25), (17, 33), (17, 49), (49, 17))  # on every
 LIMITS = (*TRAINING, *LINEAR)
 
 
-@dataclass(frozen=True, repr=False)
-class Transfer(Answer):
-    """The study's rows by part; `failed`: a sentence for every run without an answer."""
-
-    file_name = "transfer"
-
-    methods: tuple[str, ...]
-    grids: tuple[int, ...]
-    elements: int
-    static: list[dict[str, Any]] = field(default_factory=list)
-    limits: list[dict[str, Any]] = field(default_factory=list)
-    modal: list[dict[str, Any]] = field(default_factory=list)
-    aspect: list[dict[str, Any]] = field(default_factory=list)
-    left_out: list[dict[str, Any]] = field(default_factory=list)
-    failed: list[str] = field(default_factory=list)
-
-    def heading(self) -> tuple[str, str, str]:
-        return "transfer", "calibrations judged on scenes that they were not made on", ""
-
-    def document(self) -> dict[str, Any]:
-        return dict(vars(self))  # errors and misses are fractions
-
-    def tables(self) -> list[Table]:
-        return tables.tables(self)
-
-    def notes(self) -> tuple[str, ...]:
-        return (tables.explanation(self),)
-
-    def complaints(self) -> list[str]:
-        return self.failed
-
-    def choices(self) -> dict[str, Any]:
-        return {"methods": self.methods, "grids": self.grids, "elements": self.elements}
-
-    @property
-    def succeeded(self) -> bool:
-        return not self.failed
-
-
 def transfer(
     store: Store,
     *,
@@ -104,28 +62,29 @@ def transfer(
 ) -> Transfer:
     """Carry out the parts asked for, through a campaign's store, and put their rows together.
 
-    methods: names of calibrations; grids: masses a side, 4 n + 1, coarsest first; grading: in
-    the part "static", of the methods that take one, a number or "auto"; scenes: names of
-    `transfer_scenes`, all of them unless given; elements: of the shell, along a side.
-    Raises BadInput, before the first run, unless `large` for what takes more memory than there is.
+    methods: names of calibrations; grids: masses a side, 4 n + 1, coarsest first; grading: in the part
+    "static", of the methods that take one, a number or "auto"; scenes: names of `transfer_scenes`, all of
+    them unless given; elements: of the shell, along a side. Raises BadInput, before the first run, unless
+    `large` for what takes more memory than there is.
     """
     chosen = {name: scene for name, scene in transfer_scenes().items() if scenes is None or name in scenes}
     for scene in () if large else chosen.values():
         require_room(scene, Lattice((max(grids), max(grids))), "--grids")
         require_room(scene, Elements("shell", elements))
     study = _Study(chosen, tuple(methods), tuple(grids), elements, grading)
-    study.plan(parts)
+    study.rows(parts)
     done = carry_out(study.runs, store, **how)
     study.outcomes = dict(zip((run.key for run in study.runs), done, strict=True))
-    result = Transfer(study.methods, study.grids, elements)
-    for part in parts:
-        getattr(result, part.replace("-", "_")).extend(getattr(study, part.replace("-", "_"))())
-    result.failed.extend(study.failures())
-    return result
+    failed = [
+        f"{run.label}: {end.status}: {end.message}"
+        for run, end in zip(study.runs, done, strict=True)
+        if not _answered(end)
+    ]
+    return Transfer(study.methods, study.grids, elements, **study.rows(parts), failed=failed)
 
 
 class _Study:
-    """The runs asked for, and rows from their outcomes. What is asked before there are any is planned."""
+    """The runs that the parts need, and rows from their outcomes."""
 
     def __init__(
         self,
@@ -145,10 +104,10 @@ class _Study:
     def runs(self) -> list[Run]:
         return list(self.planned.values())
 
-    def plan(self, parts: Sequence[str]) -> None:
-        """Note every run that the parts ask for."""
-        for part in parts:
-            list(getattr(self, part.replace("-", "_"))())
+    def rows(self, parts: Sequence[str]) -> dict[str, list[dict[str, Any]]]:
+        """Return the rows by part; before there are outcomes, every run that they need is noted."""
+        names = [part.replace("-", "_") for part in parts]
+        return {name: list(getattr(self, name)()) for name in names}
 
     def static(self) -> Iterator[dict[str, Any]]:
         for name in self.scenes:
@@ -178,12 +137,13 @@ class _Study:
         return {m: values[i * count : (i + 1) * count] for i, m in enumerate(self.methods)}, reasons
 
     def limits(self) -> Iterator[dict[str, Any]]:
+        n = self.grids[-1]
         for name in (name for name in self.scenes if name in LIMITS):
             truth = self._reference(name)
             for method in (m for m in self.methods if m not in FITTED):
                 fields = [self._lattice(name, method, (n, n)) for n in self.grids]
-                finest = self._homogenised(name, method, self.grids[-1])
-                limit = self._homogenised(name, method, FINE)
+                finest = self._lattice(name, method, (n, n), "homogenised", elements=self.elements)
+                limit = self._lattice(name, method, (FINE, FINE), "homogenised", elements=self.elements)
                 yield {
                     "scene": name,
                     "method": method,
@@ -196,10 +156,13 @@ class _Study:
 
     def modal(self) -> Iterator[dict[str, Any]]:
         for name in (name for name in self.scenes if name in MODAL):
-            truth = self._reference_frequencies(name)
+            truth = self._reference(name, "reference_frequencies")
             for method in self.methods:
                 for masses in MASSES:
-                    frequencies = [self._frequencies(name, method, (n, n), masses) for n in self.grids]
+                    frequencies = [
+                        self._lattice(name, method, (n, n), "lattice_frequencies", masses=masses)
+                        for n in self.grids
+                    ]
                     yield {
                         "scene": name,
                         "method": method,
@@ -210,25 +173,23 @@ class _Study:
     def aspect(self) -> Iterator[dict[str, Any]]:
         for name in self.scenes:
             for grid in (*(LONG if name in TRAINING else ()), *LONG_EVERYWHERE):
-                u = self._lattice(name, "moduli", grid)
+                error = _error(self._lattice(name, "moduli", grid), self._reference(name))
                 ratio = (max(grid) - 1) / (min(grid) - 1)
-                yield {
-                    "scene": name,
-                    "grid": list(grid),
-                    "aspect": ratio,
-                    "error": _error(u, self._reference(name)),
-                }
+                yield {"scene": name, "grid": list(grid), "aspect": ratio, "error": error}
 
     def left_out(self) -> Iterator[dict[str, Any]]:
         n = self.grids[0]
         held_out = [name for name in self.scenes if name in HELD_OUT]
         for method in (m for m in self.methods if m in FITTED):
+            own_masses = "gregory" if method == "fit-modal" else "tributary"
             for name in held_out:
                 if not (training := [other for other in held_out if other != name]):
                     continue
-                u = self._lattice(name, method, (n, n), training)
-                f = self._frequencies(name, method, (n, n), _own_masses(method), training)
-                truth = self._reference_frequencies(name)
+                u = self._lattice(name, method, (n, n), training=training)
+                f = self._lattice(
+                    name, method, (n, n), "lattice_frequencies", training=training, masses=own_masses
+                )
+                truth = self._reference(name, "reference_frequencies")
                 yield {
                     "method": method,
                     "left_out": name,
@@ -236,15 +197,6 @@ class _Study:
                     "error": _error(u, self._reference(name)),
                     "misses": _misses(f, truth),
                 }
-
-    def failures(self) -> list[str]:
-        """Runs that ended without an answer."""
-        assert self.outcomes is not None
-        return [
-            f"{run.label}: {done.status}: {done.message}"
-            for run in self.runs
-            if not _answered(done := self.outcomes[run.key])
-        ]
 
     def _method(self, name: str, method: str) -> str:
         """The calibration of a scene's lattices, "auto" as it has it."""
@@ -255,65 +207,37 @@ class _Study:
         name: str,
         method: str,
         grid: tuple[int, int],
-        training: list[str] | None = None,
+        task: str = "lattice",
+        *,
+        training: Sequence[str] = (),
         grading: float | str = 0.0,
+        **more: Any,
     ) -> np.ndarray | None:
+        """What a task finds of a lattice; training: scenes of a fitted method in place of its own."""
         method = self._method(name, method)
-        arguments: dict[str, Any] = {"scene": self.texts[name], "method": method, "grid": [*grid, 2]}
-        arguments |= {"grading": grading} if grading else {}
-        if training is not None:
-            arguments["training"] = [self.texts[other] for other in training]
-        return self._ask("lattice", arguments, f"{name} {method} {grid[0]}×{grid[1]}", "displacement")
+        if training:
+            more["training"] = [self.texts[other] for other in training]
+        if grading:
+            more["grading"] = grading
+        label = f"{method} {grid[0]}×{grid[1]} {'' if task == 'lattice' else task}".rstrip()
+        return self._ask(task, name, label, method=method, grid=[*grid, 2], **more)
 
-    def _reference(self, name: str) -> np.ndarray | None:
-        arguments = {"scene": self.texts[name], "model": "shell", "elements": self.elements}
-        return self._ask("reference", arguments, f"{name} shell", "displacement")
+    def _reference(self, name: str, task: str = "reference") -> np.ndarray | None:
+        return self._ask(task, name, task, elements=self.elements)
 
-    def _homogenised(self, name: str, method: str, n: int) -> np.ndarray | None:
-        arguments = {
-            "scene": self.texts[name],
-            "model": "shell",
-            "elements": self.elements,
-            "method": self._method(name, method),
-            "grid": [n, n, 2],
-        }
-        return self._ask("homogenised", arguments, f"{name} {method} homogenised {n}", "displacement")
-
-    def _frequencies(
-        self, name: str, method: str, grid: tuple[int, int], masses: str, training: list[str] | None = None
-    ) -> np.ndarray | None:
-        arguments: dict[str, Any] = {
-            "scene": self.texts[name],
-            "method": self._method(name, method),
-            "grid": [*grid, 2],
-            "masses": masses,
-        }
-        if training is not None:
-            arguments["training"] = [self.texts[other] for other in training]
-        label = f"{name} {method} {grid[0]}×{grid[1]} {masses} frequencies"
-        return self._ask("lattice_frequencies", arguments, label, "frequencies")
-
-    def _reference_frequencies(self, name: str) -> np.ndarray | None:
-        arguments = {"scene": self.texts[name], "elements": self.elements}
-        return self._ask("reference_frequencies", arguments, f"{name} shell frequencies", "frequencies")
-
-    def _ask(self, task: str, arguments: dict[str, Any], label: str, key: str) -> np.ndarray | None:
-        """What a run found, or None where it has no answer to the whole load; planned if not yet done."""
-        run = Run(f"studies.transfer.tasks:{task}", arguments, label)
+    def _ask(self, task: str, name: str, label: str, **arguments: Any) -> np.ndarray | None:
+        """What a run found, or None where it has no answer to the whole load or is not done yet."""
+        arguments["scene"] = self.texts[name]
+        run = Run(f"studies.transfer.tasks:{task}", arguments, f"{name} {label}")
         self.planned.setdefault(run.key, run)
-        if self.outcomes is None:
+        if self.outcomes is None or not _answered(done := self.outcomes[run.key]):
             return None
-        done = self.outcomes[run.key]
-        return np.array(done.row[key], dtype=float) if _answered(done) else None
+        return np.array(done.row["found"], dtype=float)
 
 
 def _answered(done: Finished) -> bool:
     """Whether a run ended with what may be used: what it was to do done, or an answer to compare."""
     return done.status == "done" or comparable(done.status, done.row.get("load_factor", 1.0))
-
-
-def _own_masses(method: str) -> str:
-    return "gregory" if method == "fit-modal" else "tributary"
 
 
 def _error(u: np.ndarray | None, truth: np.ndarray | None) -> float | None:

@@ -13,7 +13,6 @@ from sheetbench.scenes import Clamped
 from studies.transfer import study as studies
 from studies.transfer.scenes import TRAINING, transfer_scenes
 from studies.transfer.study import FITTED, _Study, transfer
-from studies.transfer.tables import tables
 
 SCENES = transfer_scenes()
 SEED = list(TRAINING)
@@ -100,7 +99,7 @@ def test_leave_one_out(study):
 
 def test_tables_have_a_column_per_method_and_a_row_per_scene(study):
     found = study(methods=["consistent", "uniform"], grids=[5, 9], scenes=SEED, parts=["static", "modal"])
-    over_all, *made = tables(found)
+    over_all, *made = found.tables()
     assert [column.name for column in made[0].columns] == ["scene", "consistent", "uniform"]
     assert [row[0] for row in made[0].rows] == SEED
     uniform = by_scene(found.static)[SEED[0], "uniform"], by_scene(found.static)[SEED[1], "uniform"]

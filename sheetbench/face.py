@@ -6,9 +6,7 @@ The other verbs of `sheetbench` are the functions of the packages below, as they
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Unpack, overload
 
 from comparisons.models import solve as solvers
@@ -220,10 +218,7 @@ def tradeoff(
     for name, meshes in zip(REFERENCES, (plate, shell, solid), strict=True):
         rows += [Elements(name, count) for count in meshes]
     rows += [parse(model) if isinstance(model, str) else model for model in models]
-    with ExitStack() as stack:
-        folder = Path(stack.enter_context(TemporaryDirectory()) if out is None else out)
-        folder.mkdir(parents=True, exist_ok=True)
-        store = stack.enter_context(campaign(folder))
+    with campaign(out) as store:
         return tradeoff(
             loaded, rows, store, repeats=repeats, workers=workers, reasons=reasons, progress=progress
         )

@@ -7,10 +7,8 @@ under `if __name__ == "__main__":`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Unpack
 
 from comparisons.models.context import large_in_context
@@ -24,7 +22,6 @@ from sheetbench.scenes.schema import for_editors
 
 if TYPE_CHECKING:
     from comparisons.crosscheck.crosscheck import Crosscheck
-    from comparisons.runs.store import Store
     from comparisons.scoring.score import Score
     from comparisons.stability.extremes import Stability
     from lumped import Calibration
@@ -80,6 +77,7 @@ def crosscheck(
     from comparisons.crosscheck.candidates import candidates
     from comparisons.crosscheck.crosscheck import crosscheck as check
     from comparisons.external.installed import find_codes
+    from comparisons.runs.campaign import campaign
 
     def listed(numbers: Sequence[int] | None) -> str:
         return ",".join(map(str, numbers or ()))
@@ -91,7 +89,7 @@ def crosscheck(
     counts = dict(zip(REFERENCES, map(listed, (plate, shell, solid)), strict=True))
     of_programs = None if meshes is None else listed(meshes)
     models = candidates(listed(grid), usual, counts, codes, of_programs)
-    with _store(out) as store:
+    with campaign(out) as store:
         return check([scene_of(one) for one in many], store, models=models, codes=codes, workers=workers)
 
 
@@ -113,10 +111,11 @@ def stability(
     varied: "load", "slenderness", "young", "grid", "damping", "time-step", all unless some are named. out: a
     folder that keeps the rows of an interrupted call.
     """
+    from comparisons.runs.campaign import campaign
     from comparisons.stability.extremes import VARIED
     from comparisons.stability.extremes import stability as measure
 
-    with _store(out) as store:
+    with campaign(out) as store:
         return measure(
             scene_of(scene),
             store,
@@ -154,15 +153,3 @@ def score(answers: str | Path, suite: str | None = None, case: str | Sequence[st
 def schema() -> dict[str, Any]:
     """Return the JSON Schema of a scene, for editors."""
     return for_editors(Scene)
-
-
-@contextmanager
-def _store(out: str | Path | None) -> Iterator[Store]:
-    """The rows of a campaign: in a folder, or passing."""
-    from comparisons.runs.campaign import campaign
-
-    with TemporaryDirectory() as passing:
-        folder = Path(passing if out is None else out)
-        folder.mkdir(parents=True, exist_ok=True)
-        with campaign(folder) as store:
-            yield store

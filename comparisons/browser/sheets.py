@@ -174,8 +174,8 @@ def _held(points: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
         if place(support) is not None:  # no line of points
             continue
         edge = EDGES[support.edge]
-        across = scene.sheet.lengths[edge.normal_axis] if edge.far_end else 0.0
-        on = np.flatnonzero(np.abs(points[:, edge.normal_axis] - across) < 1e-6 * size)
+        across = np.abs(points[:, edge.normal_axis] - scene.sheet.edge_at(support.edge))
+        on = np.flatnonzero(across < 1e-6 * size)
         if not len(on):
             continue
         levels = np.unique(np.round(points[on, 2], 12))

@@ -32,7 +32,7 @@ def scene(test: int, sense: int = 1) -> Scene:
 @cache
 def printed(test: int, source: str) -> np.ndarray:
     """Displacements (4, 3) [m] of the probes as printed, in the published axes."""
-    given = {(d.test, d.source, d.component, d.probe): d.value for d in seed_displacements()}
+    given = seed_displacements()
     return np.array([[given[test, source, component, probe] for component in COMPONENTS] for probe in PROBES])
 
 

@@ -22,6 +22,7 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any, TypedDict
 
@@ -81,11 +82,14 @@ class Progress:
 
 
 @contextmanager
-def campaign(folder: Path) -> Iterator[Store]:
-    """The store of a folder's campaigns, open. Raises BadInput where it cannot be, see `Store`, and where
-    another process has it open."""
-    with only_writer(folder), closing(Store(folder / FILE)) as store:
-        yield store
+def campaign(folder: Path | str | None) -> Iterator[Store]:
+    """The store of a folder's campaigns, open; without a folder one that passes. Raises BadInput where it
+    cannot be, see `Store`, and where another process has it open."""
+    with TemporaryDirectory() as passing:
+        path = Path(passing if folder is None else folder)
+        path.mkdir(parents=True, exist_ok=True)
+        with only_writer(path), closing(Store(path / FILE)) as store:
+            yield store
 
 
 class CampaignKeywords(TypedDict, total=False):

@@ -1,17 +1,10 @@
 """The two kinds of actuator, each bound to one edge of the sheet.
 
-chain   a flexible chain of rigid segments: joints divide the edge evenly and need not coincide with masses;
-        each has the stiffness EI/ds and the rest angle curvature × ds. The chain alone carries its own
-        weight and inertia, and holds the edge's tilt about the rod. `curvature` > 0 lifts the ends towards +z
-        (plane "normal" or "spatial") or bends them outwards (plane "inplane").
-motion  the edge moved rigidly as prescribed over time: no chain, no forces of its own; a support or motion
-        on a neighbouring edge must agree with it at their corner (`sheetbench.scenes.corners`)
-
-curvature [1/m] is a number, a list with one value a joint (in the order of the edge's axis; a held base adds
-the half-length joints beside it), or a table {time, value}: linear between samples, the last value kept.
-Statics take the last value of a table, and of a motion.
-
-A chain that is held along itself at two places could not bend, and is refused (`sheetbench.scenes.corners`).
+A chain's joints divide the edge evenly; each has the stiffness EI/ds and the rest angle curvature × ds. The
+chain alone carries its own weight and inertia, and holds the edge's tilt about the rod. A curvature is a
+number, a list with one value a joint (in the order of the edge's axis; a held base adds the half-length
+joints beside it), or a table {time, value}, of which statics take the last value, as of a motion. A motion is
+no chain and has no forces of its own. What neighbouring edges must agree on: `sheetbench.scenes.corners`.
 
 An actuator's name is its edge, or, where an edge has several, its edge and its number in the scene: "x1.2".
 What holds it is named among the reactions: a motion as its edge, the base of an edge's chains as "EDGE base".
@@ -57,10 +50,9 @@ Curvature = Annotated[
 
 
 class Chain(Frozen):
-    """A chain of `segments` rigid segments; bending_stiffness [N·m²], line_density [kg/m], radius [m]."""
+    """A flexible chain of rigid segments bound to an edge; it carries weight and inertia of its own."""
 
     kind: Literal["chain"] = Field(default="chain", kw_only=True)
-    """A flexible chain of rigid segments bound to an edge; it carries weight and inertia of its own."""
     edge: EdgeName
     """The edge it is bound to, which has no support."""
     segments: Annotated[int, Field(ge=1, strict=True)]
@@ -127,11 +119,9 @@ class Chain(Frozen):
 
 
 class EdgeMotion(OverTime):
-    """The edge displaced by `displacement` (n, 3) [m] and turned about its middle by the rotation vectors
-    `rotation` (n, 3) [rad] at the times `time` (n,) [s], linear between samples."""
+    """The edge moved rigidly as prescribed over time."""
 
     kind: Literal["motion"] = Field(kw_only=True)
-    """The edge moved rigidly as prescribed over time."""
     edge: EdgeName
     """The edge that is moved, which has no support."""
     displacement: Annotated[tuple[Vector3, ...], Unit("m")] = ()

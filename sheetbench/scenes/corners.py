@@ -117,19 +117,12 @@ def _at_corner(one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet)
         for axis in axes:
             if (gap := abs(u[axis] - v[axis])) > max(apart, EXACT * max(sheet.lengths)):
                 mover, held = (one, other) if abs(u[axis]) >= abs(v[axis]) else (other, one)
-                apart, moved = (
-                    gap,
-                    (
-                        f"{_named(mover)} moves the corner that {_named(held)} holds: "
-                        f"{'xyz'[axis]} by {gap:.3g} m{when}"
-                    ),
-                )
+                by = f"{'xyz'[axis]} by {gap:.3g} m{when}"
+                apart, moved = gap, f"{_named(mover)} moves the corner that {_named(held)} holds: {by}"
         if np.abs(director - normal)[turns].max(initial=0.0) > EXACT:
             turner, held = (one, other) if director[2] <= normal[2] else (other, one)
-            turned = (
-                f"{_named(turner)} turns the director at the corner where {_named(held)} "
-                f"holds it otherwise{when}"
-            )
+            where = f"the corner where {_named(held)} holds it otherwise"
+            turned = f"{_named(turner)} turns the director at {where}{when}"
     return moved or turned
 
 

@@ -162,7 +162,7 @@ def _middle(rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet) -> floa
     along = EDGES[rod.edge].along_axis
     for support in supports:
         if isinstance(support, Symmetric) and EDGES[support.edge].normal_axis == along:
-            return sheet.lengths[along] if EDGES[support.edge].far_end else 0.0
+            return sheet.edge_at(support.edge)
     return sheet.lengths[along] / 2.0
 
 

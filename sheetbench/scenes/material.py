@@ -35,7 +35,7 @@ from sheetbench.scenes import orthotropy
 from sheetbench.scenes.orthotropy import Fibres, Modulus
 from sheetbench.scenes.quantities import Finite, NonNegative, Number, Positive, Unit
 from sheetbench.scenes.relaxation import Branches, Relaxation, constant_loss
-from sheetbench.scenes.units import converted
+from sheetbench.scenes.units import numbers
 
 RubberLaw = Literal["neo-hookean", "mooney-rivlin", "yeoh", "gent"]
 
@@ -160,15 +160,11 @@ class Material(Fibres):
         words = WORDS.get(data.get("law", "")) if isinstance(data, dict) else None
         if words is None or "young" in data:
             return data
-        try:
-            given: list[Any] = [converted(data[k], "Pa" if k in STRESSES else "") for k in words.keys]
-            young = 2.0 * (1.0 + float(data["poisson"])) * words.energy(*map(float, given)).shear
-        except (KeyError, TypeError, ValueError, ZeroDivisionError, BadInput):
-            young = 0.0
-        return {
-            **data,
-            "young": young if young > 0.0 else 1.0,
-        }  # `_law_with_its_constants` says what is wrong
+        given = numbers(data, {key: "Pa" if key in STRESSES else "" for key in ("poisson", *words.keys)})
+        poisson, *constants = given.values() or (0.0,)
+        young = 2.0 * (1.0 + poisson) * words.energy(*constants).shear if constants else 0.0
+        # where it makes no sense `_law_with_its_constants` says why
+        return {**data, "young": young if young > 0.0 else 1.0}
 
     @model_validator(mode="after")
     def _law_with_its_constants(self) -> Self:

@@ -18,9 +18,8 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from sheetbench.errors import BadInput
 from sheetbench.scenes.quantities import Frozen, Number, Positive, Unit
-from sheetbench.scenes.units import converted
+from sheetbench.scenes.units import numbers
 
 if TYPE_CHECKING:
     from sheetbench.scenes.material import Material
@@ -106,14 +105,9 @@ def like_isotropic(given: Mapping[str, float]) -> tuple[float, float]:
 def with_likeness(data: Mapping[str, Any]) -> dict[str, Any]:
     """Return the keys of an orthotropic material with young and poisson, where those are not given; any,
     where constants are not numbers, which their own checks say."""
-    try:
-        units = ("" if key == "poisson_12" else "Pa" for key in NEEDED)
-        texts: list[Any] = [converted(data[key], unit) for key, unit in zip(NEEDED, units, strict=True)]
-        young, poisson = like_isotropic(dict(zip(NEEDED, map(float, texts), strict=True)))
-    except (KeyError, TypeError, ValueError, ZeroDivisionError, BadInput):
-        young, poisson = 1.0, 0.0
-    if isinstance(young, complex) or not young > 0.0:
-        young, poisson = 1.0, 0.0
+    given = numbers(data, {key: "" if key == "poisson_12" else "Pa" for key in NEEDED})
+    real = given and min(given["young_1"], given["young_2"]) > 0.0
+    young, poisson = like_isotropic(given) if real else (1.0, 0.0)
     return {"young": young, "poisson": poisson, **data}
 
 

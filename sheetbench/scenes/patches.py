@@ -20,7 +20,7 @@ from sheetbench.scenes.material import Material
 from sheetbench.scenes.orthotropy import in_own_axes
 from sheetbench.scenes.quantities import Finite, Frozen, Number, Positive, Unit
 from sheetbench.scenes.region import area_in, require_rectangle
-from sheetbench.scenes.shapes import APART, Shape
+from sheetbench.scenes.shapes import APART, Shape, straight_sides
 from sheetbench.scenes.sheet import Sheet
 
 if TYPE_CHECKING:
@@ -188,7 +188,7 @@ def sides_of(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     """x and y [m], rising, of the patches' sides along the axes, of those within the sheet's edges."""
     found = []
     for axis, length in enumerate(scene.sheet.lengths):
-        sides = np.unique([at for patch in scene.patches for at in patch.shape.sides[axis]])
+        sides = np.unique([*straight_sides(*(patch.shape.area for patch in scene.patches))[axis]])
         inside = sides[(sides > APART * length) & (sides < (1.0 - APART) * length)]
         found.append(inside[np.diff(inside, prepend=-length) > APART * length])
     return found[0], found[1]

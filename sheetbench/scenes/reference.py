@@ -26,62 +26,39 @@ The flat, stress-free sheet's mid-surface is z = 0, with 0 ≤ x ≤ `length_x` 
 up. An edge is named by the axis it is normal to and the end of that axis: `x0`, `x1`, `y0`, `y1`.
 Displacements are the mid-surface's, from that state.
 """
-OVER_TIME = """## Tables over time
+WITHIN = """## Tables within tables
 
-Written as inline tables: `history = {time = [0.0, 0.5], factor = [0.0, 1.0]}`. Between samples they are
-linear, before the first and after the last one constant. `simulate` follows them; statics take the last
-sample.
+Written in a line, as `history = {time = [0.0, 0.5], factor = [0.0, 1.0]}`, or under headings of their own, as
+`[[material.relaxation]]`. Tables over time are linear between samples, before the first and after the last
+one constant; `simulate` follows them, statics take the last sample.
 """
 
 
 def markdown() -> str:
-    """The page."""
+    """Return the page."""
     schema = json_schema(Scene)
-    top = schema["properties"]
-    tables = {key for key, node in top.items() if _heading(key, node, schema)}
-    parts = [HEAD, "## At the top\n", _keys_table(schema, schema, leave_out=tables)]
-    for key, node in top.items():
-        if (heading := _heading(key, node, schema)) is None:
-            continue
-        parts += [f"## {heading}\n", f"{node['description']}\n"]
-        below = branches(schema, node.get("items", node))
+    top, shown = schema["properties"], list[dict[str, Any]]()
+    headings = {key: heading for key, node in top.items() if (heading := _heading(key, node, schema))}
+    parts = [HEAD, "## At the top\n", _keys_table(schema, schema, leave_out=headings)]
+    for key, heading in headings.items():
+        parts += [f"## {heading}\n", f"{top[key]['description']}\n"]
         if key == "probes":
             parts.append("Any name, with a plan point [x, y] in metres: `P1 = [0.094, 0.094]`.\n")
             continue
-        for table in below:
-            if len(below) > 1:
+        tables = branches(schema, top[key].get("items", top[key]))
+        for table in tables:
+            if len(tables) > 1:
                 optional = "" if "kind" in table["required"] else " The kind where none is given."
                 parts.append(f'### kind = "{kind(table)}"\n')
                 parts.append(f"{table['properties']['kind']['description']}{optional}\n")
-            parts.append(_keys_table(table, schema, leave_out={"kind"} if len(below) > 1 else ()))
-            for inner, items in table["properties"].items():
-                if "$ref" in (entries := items.get("items", {})):
-                    inside = resolved(schema, entries)
-                    parts += [f"### [[{key}.{inner}]]\n", f"{inside['description']}\n"]
-                    parts.append(_keys_table(inside, schema))
-            if "mesh" in table["properties"]:
-                inside = branches(schema, table["properties"]["mesh"])[-1]
-                parts += ["### sheet.mesh\n", f"{inside['description']}\n", _keys_table(inside, schema)]
-            if "shape" in table["properties"]:
-                parts += _shapes(table["properties"]["shape"], schema)
-    parts.append(OVER_TIME)
-    for name, table in sorted(schema["$defs"].items()):
-        if table["properties"].get("time", {}).get("type") == "array" and kind(table) is None:
+            parts.append(_keys_table(table, schema, leave_out={"kind"} if len(tables) > 1 else ()))
+        shown += tables
+    parts.append(WITHIN)
+    for name, table in schema["$defs"].items():
+        if not any(table["properties"].items() <= one["properties"].items() for one in shown):
             users = ", ".join(f"`{user}`" for user in _users(name, schema))
-            parts += [f"### For {users}\n", _keys_table(table, schema)]
+            parts += [f"### For {users}\n", f"{table['description']}\n", _keys_table(table, schema)]
     return "\n".join(parts)
-
-
-def _shapes(node: dict[str, Any], schema: dict[str, Any]) -> Iterator[str]:
-    """The keys of a shape, and of each of its kinds that is a table."""
-    shape = resolved(schema, node)
-    yield f"### shape\n\n{shape['description']}\n"
-    yield _keys_table(shape, schema)
-    for name, each in shape["properties"].items():
-        for table in branches(schema, each):
-            if table.get("type") == "object":
-                yield f"### shape.{name}\n\n{table['description']}\n"
-                yield _keys_table(table, schema)
 
 
 def _heading(key: str, node: dict[str, Any], schema: dict[str, Any]) -> str | None:
@@ -139,12 +116,7 @@ def _shown(default: Any) -> str:
 
 
 def _users(name: str, schema: dict[str, Any]) -> list[str]:
-    """The keys that take the table of this name."""
+    """Return the keys that take the table of this name."""
     tables = [schema, *schema["$defs"].values()]
-    keys = (
-        key
-        for table in tables
-        for key, node in table["properties"].items()
-        if any(below.get("$ref", "").endswith(f"/{name}") for below in [node, *node.get("oneOf", ())])
-    )
-    return list(dict.fromkeys(keys))
+    every = [key for table in tables for key in table["properties"].items()]
+    return list(dict.fromkeys(key for key, node in every if f"/{name}'" in str(node)))

@@ -5,7 +5,6 @@ What lies on a shape's boundary belongs to it. A region is one piece that hangs 
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from sheetbench.errors import Impossible
 from sheetbench.scenes.grading import Places
 from sheetbench.scenes.loads import AnyLoad, AreaLoad, EdgeLoad, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint
-from sheetbench.scenes.shapes import APART, Shape
+from sheetbench.scenes.shapes import APART, Shape, straight_sides
 from sheetbench.scenes.sheet import EDGES, Sheet
 from sheetbench.scenes.supports import named, place
 
@@ -73,8 +72,7 @@ def nearest(plan: Polygon, point: PlanPoint) -> PlanPoint:
 def edge_parts(scene: Scene, edge: str, where: Shape | None = None) -> list[tuple[float, float]]:
     """From where to where along an edge [m] the sheet reaches it: the sides of the plan on that line, or the
     part of them in a shape."""
-    normal, along, far = EDGES[edge]
-    at = scene.sheet.lengths[normal] if far else 0.0
+    (normal, along, _), at = EDGES[edge], scene.sheet.edge_at(edge)
     found = []
     for ring in (scene.region.exterior, *scene.region.interiors):
         corners = np.array(ring.coords)
@@ -94,19 +92,12 @@ def edge_parts(scene: Scene, edge: str, where: Shape | None = None) -> list[tupl
 def sides_of_shapes(scene: Scene) -> Places:
     """x and y [m], rising, of the sides along the axes of the rim and of shapes that hold or load the sheet,
     and of the ends of its sides at the edges; those within the edges."""
-    import shapely
-
-    found: tuple[set[float], set[float]] = (set(), set())
-    for name, edge in EDGES.items() if scene.pierced else ():
-        found[edge.along_axis].update(at for part in edge_parts(scene, name) for at in part)
     shapes = [place(support) for support in scene.supports]
     shapes += [getattr(load, "where", None) for load in scene.loads]
     rims = [scene.region] if scene.pierced else []
-    for ring in shapely.get_rings([*rims, *(shape.area for shape in shapes if shape is not None)]):
-        for first, second in pairwise(ring.coords):
-            for axis in (0, 1):
-                if first[axis] == second[axis]:
-                    found[axis].add(first[axis])
+    found = straight_sides(*rims, *(shape.area for shape in shapes if shape is not None))
+    for name, edge in EDGES.items() if scene.pierced else ():
+        found[edge.along_axis].update(at for part in edge_parts(scene, name) for at in part)
     x, y = (
         tuple(sorted(at for at in one if APART * length < at < (1.0 - APART) * length))
         for one, length in zip(found, scene.sheet.lengths, strict=True)

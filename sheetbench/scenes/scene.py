@@ -271,31 +271,24 @@ def _warn_author(scene: Scene, known: Scene | None = None) -> None:
 
 
 def default_probes(sheet: Sheet, supported: list[str], held: list[str]) -> dict[str, PlanPoint]:
-    """Centre P1, middles P2 (y side) and P3 (x side) next to P4, the corner farthest from the supports.
+    """Return centre P1, middles P2 (y side) and P3 (x side) beside P4, the corner farthest from supports.
 
     A point on one of the edges that are `held` would tell nothing: it lies a quarter of the sheet inside.
     """
     lx, ly = sheet.lengths
 
     def distance(corner: PlanPoint) -> float:
-        total = 0.0
-        for name in supported:
-            edge = EDGES[name]
-            end = sheet.lengths[edge.normal_axis] if edge.far_end else 0.0
-            total += abs(corner[edge.normal_axis] - end)
-        return total
-
-    corners = [(lx, ly), (lx, 0.0), (0.0, ly), (0.0, 0.0)]
-    far = max(corners, key=distance)  # ties go to (length_x, length_y)
+        return sum(abs(corner[EDGES[edge].normal_axis] - sheet.edge_at(edge)) for edge in supported)
 
     def free(point: PlanPoint) -> PlanPoint:
-        place = list(point)
-        for name in held:
-            axis, length = EDGES[name].normal_axis, sheet.lengths[EDGES[name].normal_axis]
-            if point[axis] == (length if EDGES[name].far_end else 0.0):
-                place[axis] = 0.75 * length if EDGES[name].far_end else 0.25 * length
-        return place[0], place[1]
+        inside = list(point)
+        for edge in held:
+            axis, at = EDGES[edge].normal_axis, sheet.edge_at(edge)
+            if point[axis] == at:
+                inside[axis] = 0.25 * sheet.lengths[axis] + 0.5 * at
+        return inside[0], inside[1]
 
+    far = max([(lx, ly), (lx, 0.0), (0.0, ly), (0.0, 0.0)], key=distance)  # of ties the first
     points = {"P1": (lx / 2, ly / 2), "P2": (lx / 2, far[1]), "P3": (far[0], ly / 2), "P4": far}
     return {name: free(point) for name, point in points.items()}
 

@@ -89,6 +89,8 @@ def sentences(table: type[BaseModel]) -> dict[str, str]:
             match key, below:
                 case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str(text))):
                     texts[name] = " ".join(text.split())
+    if "kind" in table.model_fields:  # which it is, is what the class is
+        texts.setdefault("kind", " ".join((table.__doc__ or "").split()))
     return texts
 
 

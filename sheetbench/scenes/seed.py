@@ -1,4 +1,4 @@
-"""The seed's published figures, as data: inputs and displacements in SI units, printed errors, known faults.
+"""What Habibi et al. published, as data: inputs and displacements in SI units, printed errors, known faults.
 
 Source: Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation continuum
 surfaces. See scenes/published/README.md.
@@ -7,7 +7,6 @@ surfaces. See scenes/published/README.md.
 from __future__ import annotations
 
 import csv
-from dataclasses import dataclass
 from importlib import resources
 
 _SI = {"mm": 1e-3, "GPa": 1e9, "percent": 1e-2}
@@ -28,53 +27,32 @@ KNOWN_FAULTS = (
 )
 
 
-@dataclass(frozen=True)
-class SeedDisplacement:
-    """A published displacement component [m]: test 1 or 2, source `model` or `experiment`, ux, uy or uz."""
-
-    test: int
-    source: str
-    component: str
-    probe: str
-    value: float
-
-
-@dataclass(frozen=True)
-class SeedError:
-    """A printed error, as a fraction."""
-
-    test: int
-    component: str
-    probe: str
-    value: float
-
-
-def seed_displacements() -> tuple[SeedDisplacement, ...]:
-    """Every published displacement as printed, in metres and in the published axes."""
-    return tuple(
-        SeedDisplacement(
-            int(row["test"]), row["source"], row["component"], probe, float(row[probe]) * _SI[row["unit"]]
-        )
+def seed_displacements() -> dict[tuple[int, str, str, str], float]:
+    """Return every published displacement as printed, in metres and in the published axes, by test (1 or 2),
+    source (`model` or `experiment`), component (ux, uy or uz) and probe."""
+    return {
+        (int(row["test"]), row["source"], row["component"], probe): float(row[probe]) * _SI[row["unit"]]
         for row in _rows("seed_displacements.csv")
         for probe in PROBES
-    )
+    }
 
 
 def seed_inputs() -> dict[str, float]:
-    """Every published input and figure by name, in SI units, errors as fractions; see the file for what each
-    is."""
+    """Return every published input and figure by name, in SI units, errors as fractions; the file says what
+    each is."""
     return {
         row["quantity"]: float(row["value"]) * _SI.get(row["unit"], 1.0) for row in _rows("seed_inputs.csv")
     }
 
 
-def seed_errors() -> tuple[SeedError, ...]:
-    """Every printed error of the seed's model against its experiment, as a fraction."""
-    return tuple(
-        SeedError(int(row["test"]), row["component"], probe, float(row[probe]) / 100)
+def seed_errors() -> dict[tuple[int, str, str], float]:
+    """Return every printed error of the published model against its experiment, as a fraction, by test,
+    component and probe."""
+    return {
+        (int(row["test"]), row["component"], probe): float(row[probe]) / 100
         for row in _rows("seed_errors_printed.csv")
         for probe in PROBES
-    )
+    }
 
 
 def _rows(name: str) -> list[dict[str, str]]:

@@ -103,16 +103,6 @@ class Shape(Frozen):
         found: np.ndarray = shapely.intersects_xy(self.area, x, y)
         return found
 
-    @property
-    def sides(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """x and y [m] of its sides along the axes."""
-        if self.rectangle is not None:
-            return self.rectangle.x, self.rectangle.y
-        corners = [] if self.polygon is None else [*self.polygon, self.polygon[0]]
-        upright = {a[0] for a, b in pairwise(corners) if a[0] == b[0]}
-        level = {a[1] for a, b in pairwise(corners) if a[1] == b[1]}
-        return tuple(sorted(upright)), tuple(sorted(level))
-
     def in_words(self) -> str:
         """Kind and place, in millimetres."""
         left, low, right, high = (f"{1e3 * value:.4g}" for value in self.area.bounds)
@@ -133,3 +123,18 @@ def crossing(corners: tuple[PlanPoint, ...]) -> str:
     if polygon.is_valid and polygon.area > 0.0:
         return ""
     return f"its sides cross or it has no area ({shapely.is_valid_reason(polygon)} m)"
+
+
+def straight_sides(*areas: Area) -> tuple[set[float], set[float]]:
+    """Return x and y [m] of the sides along the axes of areas and of their holes."""
+    found: tuple[set[float], set[float]] = (set(), set())
+    if not areas:
+        return found
+    import shapely
+
+    for ring in shapely.get_rings(areas):
+        for first, second in pairwise(ring.coords):
+            for axis in (0, 1):
+                if first[axis] == second[axis]:
+                    found[axis].add(first[axis])
+    return found

@@ -118,14 +118,14 @@ class Sheet(Frozen):
         """Sides along x and y [m]."""
         return (self.length_x, self.length_y)
 
+    def edge_at(self, name: str) -> float:
+        """Return where an edge lies along its normal axis [m]."""
+        return self.lengths[EDGES[name].normal_axis] if EDGES[name].far_end else 0.0
+
     def edge_ends(self, name: str) -> tuple[PlanPoint, PlanPoint]:
-        """Plan points [m] of an edge's two ends, in the direction of its axis."""
-        edge = EDGES[name]
-        start, end = [0.0, 0.0], [0.0, 0.0]
-        for point in (start, end):
-            point[edge.normal_axis] = self.lengths[edge.normal_axis] if edge.far_end else 0.0
-        end[edge.along_axis] = self.lengths[edge.along_axis]
-        return (start[0], start[1]), (end[0], end[1])
+        """Return plan points [m] of an edge's two ends, in the direction of its axis."""
+        at, length = self.edge_at(name), self.lengths[EDGES[name].along_axis]
+        return ((at, 0.0), (at, length)) if EDGES[name].normal_axis == 0 else ((0.0, at), (length, at))
 
 
 class Gravity(Loading):

@@ -1,17 +1,13 @@
 """The kinds of support, of an edge or, in place of `edge`, of the part of the sheet `where` a shape says.
 
-clamped  mid-surface and its normal (the director) held; `tilt` τ [rad] turns the clamp about the edge's
-         mid-line, which stays where it is in the flat sheet. With n pointing out of the sheet the director is
-         e_z cos τ − n sin τ: τ > 0 turns what lies beyond the edge towards +z, as `moment_per_length` does,
-         and lets the sheet start off downwards.
-hinged   mid-surface held, director free to turn
-held     the named components of the mid-surface's displacement held
-curved   clamped to a rigid rod bent to `curvature` [1/m] in the plane of the edge and z: arc length kept,
-         the edge's middle point and tangent unmoved; curvature > 0 lifts the ends towards +z. With s
-         measured from the middle along the edge the director is e_z cos κs − e_edge sin κs.
-symmetric  not a support but a cut: the sheet goes on beyond the edge as its own mirror image. The
-         displacement across the edge and the director's tilt across it are held. A rod that ends at such an
-         edge has its middle there.
+A support holds the mid-surface, or components of it, and may hold its normal too, the director. With n
+pointing out of the sheet, e along the edge and s measured from its middle, the director is
+
+    e_z cos τ − n sin τ    in a clamp of tilt τ, which turns about the edge's mid-line
+    e_z cos κs − e sin κs  on a rod of curvature κ, which keeps arc length and the middle's place and tangent
+
+A rod that ends at a plane of symmetry has its middle there. A plane of symmetry holds the displacement across
+it and the director's tilt across it.
 """
 
 from __future__ import annotations
@@ -67,10 +63,9 @@ class _Support(_EdgeSupport):
 
 
 class Clamped(_Support):
-    """Mid-surface and director held, the director turned about the edge by `tilt` [rad]."""
+    """Mid-surface and its normal held."""
 
     kind: Literal["clamped"] = Field(default="clamped", kw_only=True)
-    """Mid-surface and its normal held."""
     tilt: Annotated[Number, Unit("rad")] = 0.0
     """The clamp turned about the edge, at most π/2 either way; > 0 lets the sheet start off downwards."""
 
@@ -89,17 +84,15 @@ class Clamped(_Support):
 
 
 class Hinged(_Support):
-    """Mid-surface held, director free."""
+    """Mid-surface held, free to turn."""
 
     kind: Literal["hinged"] = Field(default="hinged", kw_only=True)
-    """Mid-surface held, free to turn."""
 
 
 class Held(_Support):
-    """Named components of the mid-surface's displacement held."""
+    """Some components of the mid-surface's displacement held, free to turn."""
 
     kind: Literal["held"] = Field(default="held", kw_only=True)
-    """Some components of the mid-surface's displacement held, free to turn."""
     components: tuple[Component, ...] = Field(min_length=1)
     """Which of "x", "y" and "z" are held, for instance ["z"] for an edge that slides on a rail."""
 
@@ -112,19 +105,17 @@ class Held(_Support):
 
 
 class Curved(_EdgeSupport):
-    """Clamped to a rod bent to `curvature` [1/m]."""
+    """Clamped to a rigid rod bent in the plane of the edge and z."""
 
     kind: Literal["curved"] = Field(default="curved", kw_only=True)
-    """Clamped to a rigid rod bent in the plane of the edge and z."""
     curvature: Annotated[Number, Unit("1/m")]
     """Of the rod; > 0 lifts the edge's ends towards +z, its middle stays where it is."""
 
 
 class Symmetric(Frozen):
-    """The plane of symmetry through which the sheet is cut."""
+    """A plane of symmetry: beyond the edge the sheet goes on as its own mirror image."""
 
     kind: Literal["symmetric"] = Field(default="symmetric", kw_only=True)
-    """A plane of symmetry: beyond the edge the sheet goes on as its own mirror image."""
     edge: EdgeName
     """The edge where the sheet is cut."""
     motion: None = Field(default=None, kw_only=True)

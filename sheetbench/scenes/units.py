@@ -7,9 +7,11 @@ multiply and `/` divides. What stands for another dimension than the one asked f
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import cache
 from math import pi
+from typing import Any
 
 from sheetbench.errors import BadInput
 
@@ -107,6 +109,16 @@ def converted(value: object, unit: str) -> object:
     if isinstance(value, dict):
         return {key: converted(entry, unit) for key, entry in value.items()}
     return value
+
+
+def numbers(data: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, float]:
+    """Return the numbers of these keys, by their units, in SI units; none where one is missing or no number,
+    which whoever checks that key says."""
+    try:
+        texts: dict[str, Any] = {key: converted(data[key], unit) for key, unit in units.items()}
+        return {key: float(text) for key, text in texts.items()}
+    except (KeyError, TypeError, ValueError):
+        return {}
 
 
 def _bare(text: str) -> bool:

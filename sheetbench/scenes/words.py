@@ -261,11 +261,7 @@ def _vector(vector: Sequence[float], unit: str) -> str:
 
 
 def _on_edges(point: PlanPoint, sheet: Sheet) -> str:
-    at = [
-        name
-        for name, edge in EDGES.items()
-        if point[edge.normal_axis] == (sheet.lengths[edge.normal_axis] if edge.far_end else 0.0)
-    ]
+    at = [name for name, edge in EDGES.items() if point[edge.normal_axis] == sheet.edge_at(name)]
     return f", the corner of {' and '.join(at)}" if len(at) == 2 else f", on edge {at[0]}" if at else ""
 
 

@@ -62,7 +62,7 @@ class Cell:
 
 def cells() -> list[Cell]:
     """Every printed error, in its order."""
-    return [_cell(e.test, e.component, e.probe, e.value) for e in seed_errors()]
+    return [_cell(*of, value) for of, value in seed_errors().items()]
 
 
 def _cell(test: int, component: str, probe: str, value: float) -> Cell:

@@ -165,6 +165,7 @@ def _advice(
             str(trial.solution.status),
             probing.error(trial) if trial.usable else None,
             trial.seconds,
+            trial is chosen,
         )
         for trial in probing.trials.values()
     )

@@ -18,29 +18,28 @@ from sheetbench.scenes.summary import few
 
 
 @dataclass(frozen=True)
-class TrialRow:
-    """A probing solve."""
-
-    model: Annotated[str, Column(prose=True)]
-    size: str
-    seconds: Annotated[float, MILLISECONDS(".2f", "solve")]
-    error: Annotated[float | None, PERCENT(".3g")]
-    choice: Annotated[bool, Column(words=("yes", ""))]
-    status: Annotated[str, Column(prose=True)]
-
-
-@dataclass(frozen=True)
 class Tried:
     """A quick solve: its error is the distance from the finest one, None where it has no answer."""
 
     spec: Spec
-    status: str
-    error: float | None
-    solve_seconds: float
+    status: Annotated[str, Column(prose=True)]
+    error: Annotated[float | None, PERCENT(".3g")]
+    solve_seconds: Annotated[float, MILLISECONDS(".2f", "solve")]
+    choice: Annotated[bool, Column(words=("yes", ""))] = False
+
+    @property
+    def model(self) -> Annotated[str, Column(prose=True)]:
+        """The model without its size."""
+        return self.spec.series
+
+    @property
+    def size(self) -> str:
+        """The numbers of masses or elements."""
+        return self.spec.size
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
-        own = {name: value for name, value in vars(self).items() if name != "spec"}
+        own = {name: getattr(self, name) for name in ("status", "error", "solve_seconds")}
         return {"model": self.spec.model, "settings": self.spec.settings, **own}
 
 
@@ -125,18 +124,10 @@ class Advice(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         """Return a row per probing solve, the quickest first; the choice is marked."""
-        rows = [
-            TrialRow(
-                one.spec.series,
-                one.spec.size,
-                one.solve_seconds,
-                one.error,
-                one.spec == self.choice,
-                one.status,
-            )
-            for one in sorted(self.tried, key=lambda one: one.solve_seconds)
-        ]
-        return (Table.of(TrialRow, rows, "Quick solves; errors are distances from the finest one", "tried"),)
+        rows = sorted(self.tried, key=lambda one: one.solve_seconds)
+        caption = "Quick solves; errors are distances from the finest one"
+        fields = ("model", "size", "solve_seconds", "error", "choice", "status")
+        return (Table.of(Tried, rows, caption, "tried", fields=fields),)
 
     def notes(self) -> list[str]:
         """Return the advice and its reasons, a sentence a line, and the command that solves the choice."""

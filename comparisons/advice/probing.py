@@ -76,7 +76,7 @@ class Probing:
         self.seconds = 0.0
         self.loads: list[float | None] = []
         self.samples: list[list[float]] = []
-        require_room(scene, self._reference(MESHES[FIRST - 1]), instead="advise has no coarser one")
+        require_room(scene, self.elements("shell", MESHES[FIRST - 1]), instead="advise has no coarser one")
 
     def lattice(self, cells: int, linear: bool = False) -> Lattice:
         """Return a lattice of that many cells along the shorter side, cut where the scene is symmetric."""
@@ -135,15 +135,15 @@ class Probing:
         if len(self.meshes) == len(MESHES):
             return False
         cells = MESHES[len(self.meshes)]
-        if not has_room(self.scene, self._reference(cells)):
+        if not has_room(self.scene, self.elements("shell", cells)):
             return False
         self.meshes.append(cells)
-        return self.trial(self._reference(cells), repeats=1).usable
+        return self.trial(self.elements("shell", cells), repeats=1).usable
 
     @property
     def reference(self) -> Trial:
         """The reference on its finest mesh so far."""
-        return self.trial(self._reference(self.meshes[-1]))
+        return self.trial(self.elements("shell", self.meshes[-1]))
 
     @property
     def uncertainty(self) -> float:
@@ -152,7 +152,7 @@ class Probing:
         from fem_reference.uncertainty import estimate
 
         finest = self.meshes[:-4:-1]
-        trials = [self.trial(self._reference(cells)) for cells in finest]
+        trials = [self.trial(self.elements("shell", cells)) for cells in finest]
         answers = [trial.solution.displacement(self.points) for trial in trials if trial.usable]
         if len(answers) < len(finest) or len(answers) < 2:
             return float("inf")
@@ -189,9 +189,6 @@ class Probing:
             ratio = unknowns(near.candidate) / unknowns(others[0].candidate)
             exponent = float(np.clip(np.log(near.seconds / others[0].seconds) / np.log(ratio), 0.3, 1.6))
         return near.seconds * float(size / unknowns(near.candidate)) ** exponent
-
-    def _reference(self, cells: int) -> Elements:
-        return self.elements("shell", cells)
 
 
 def _rate(candidate: Spec) -> str:

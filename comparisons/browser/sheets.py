@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.report.arrows import load_arrows
-from comparisons.report.plan import PLAN_CELLS, free_side, rims
+from comparisons.report.plan import PLAN_CELLS, eye_heading, rims
 from sheetbench.scenes import EDGES, FieldMesh, Scene, holds_director
 from sheetbench.scenes.supports import place
 
@@ -119,8 +119,7 @@ def outline(scene: Scene) -> dict[str, str]:
 def eye(scene: Scene) -> list[float]:
     """Return the direction of an eye that looks at the sheet from where it is free, above and a little
     aside."""
-    away = free_side(scene)
-    heading = np.arctan2(away[1], away[0]) - np.radians(24.0) if np.any(away) else np.radians(-64.0)
+    heading = eye_heading(scene)
     return [float(np.cos(heading)), float(np.sin(heading)), 0.55]
 
 

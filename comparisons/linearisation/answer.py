@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from comparisons.linearisation.units import unit_of
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, Unit
@@ -21,6 +20,7 @@ from sheetbench.scenes import Scene
 if TYPE_CHECKING:
     from lumped import Balanced, Linear, StateSpace
 
+UNITS = {"fx": "N", "fy": "N", "fz": "N", "curvature": "1/m", "x": "m", "y": "m", "z": "m"}
 ROUNDING = 1e-6  # of what an input moves most
 EXPLANATION = (
     "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
@@ -213,3 +213,9 @@ class Linearisation(Answer):
             "frequency 0",
             *EXPLANATION,
         )
+
+
+def unit_of(name: str) -> str:
+    """Return the unit of an input by the last word of its name; of a load and gravity "factor", of what the
+    scene has."""
+    return UNITS.get(name.split()[-1], "factor")

@@ -13,13 +13,14 @@ import socket
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from http import HTTPStatus
+from importlib import resources
 
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
-from comparisons.live.assets import SOCKET, assets
+from comparisons.browser import viewer
 from comparisons.live.guard import LOOPBACK, Guard
 from comparisons.live.models import Models
 from comparisons.live.panel import Panel
@@ -28,6 +29,8 @@ from sheetbench.errors import BadInput
 
 MESSAGE = 4096  # bytes of a question at most
 PAGES = 4  # open at once
+SOCKET = "socket"
+TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript"}
 
 
 def run(panel: Panel, port: int, opened: Callable[[str], None]) -> None:
@@ -89,7 +92,7 @@ class _Desk:
 
     def __init__(self, panel: Panel, models: Models, guard: Guard, warm: asyncio.Future[None]) -> None:
         self._panel, self._models, self._guard, self._warm = panel, models, guard, warm
-        self._assets = assets()
+        self._assets = _assets()
         self._pages = 0
 
     def answer(self, connection: ServerConnection, request: Request) -> Response | None:
@@ -126,6 +129,20 @@ class _Desk:
         headers = {**self._guard.headers, "Content-Type": kind, "Content-Length": str(len(body))}
         headers["Connection"] = "close"
         return Response(status.value, status.phrase, Headers(headers), body)
+
+
+def _assets() -> dict[str, tuple[str, bytes]]:
+    """Return type and content of the page's files by name, read once; the page itself has none."""
+    page = resources.files("comparisons.live").joinpath("page")
+    own = {
+        name: page.joinpath(name).read_text(encoding="utf-8") for name in ("live.html", "live.css", "live.js")
+    }
+    texts = {**own, "viewer.js": viewer.script(), "viewer.css": viewer.style()}
+    found = {
+        name: (f"{TYPES[name.rpartition('.')[2]]}; charset=utf-8", text.encode())
+        for name, text in texts.items()
+    }
+    return {"": found.pop("live.html"), **found}
 
 
 def _silent() -> logging.Logger:

@@ -16,19 +16,47 @@ import sys
 import traceback
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import suppress
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
 from comparisons.live.answers import Answered
 from comparisons.live.models import Models
-from comparisons.live.newest import Newest
 from comparisons.live.panel import Panel, Question
 from sheetbench.errors import BadInput
 
 PAUSE = 0.3  # s without a new question: one rests
 Send = Callable[[str], Awaitable[None]]
 T = TypeVar("T")
+
+
+class Newest(Generic[T]):
+    """Room for one value: what is put last is what is got next, in place of what was not got yet."""
+
+    def __init__(self) -> None:
+        self._waiting: T | None = None
+        self._there = asyncio.Event()
+
+    def put(self, value: T) -> None:
+        """Leave a value, in place of one that was not got yet."""
+        self._waiting = value
+        self._there.set()
+
+    async def comes_within(self, seconds: float) -> bool:
+        """Return whether there is a value to be got by then."""
+        try:
+            await asyncio.wait_for(self._there.wait(), seconds)
+        except TimeoutError:
+            return False
+        return True
+
+    async def get(self) -> T:
+        """Return the newest value, as soon as there is one; it is gone then."""
+        await self._there.wait()
+        self._there.clear()
+        found, self._waiting = self._waiting, None
+        assert found is not None
+        return found
 
 
 class Session:

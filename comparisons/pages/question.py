@@ -6,8 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from comparisons.pages.studies import Study
-from sheetbench.answers.table import number
+from sheetbench.answers.table import number, quantity
 from sheetbench.scenes.words import in_words
+
+TIMES = ("duration", "step", "largest_step", "every")
+UNITS = {"layer_distance": "m", "k": "N/m", **dict.fromkeys(TIMES, "s")}  # of settings
 
 
 def question(study: Study) -> list[tuple[str, str]]:
@@ -28,22 +31,20 @@ def _settings(settings: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 def _line(values: Mapping[str, Any]) -> str:
-    shown = ((key.replace("_", " "), short(value)) for key, value in _several(values).items())
+    shown = ((key.replace("_", " "), _short(key, value)) for key, value in values.items())
     return ", ".join(f"{key} {value}" for key, value in shown if value and not key.endswith(" reason"))
 
 
-def _several(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Grids that are several, and not the sides of one, as a text."""
-    grids = values.get("grids")
-    return {**values, **({"grids": ", ".join(map(str, grids))} if isinstance(grids, list) else {})}
-
-
-def short(value: Any) -> str:
+def _short(key: str, value: Any) -> str:
     """Return a setting in a few characters; nothing of one that is long, which the document has."""
-    if isinstance(value, bool) or value is None:
-        return "" if value is None else "on" if value else "off"
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if isinstance(value, int | float) and key in UNITS:
+        return quantity(value, UNITS[key])
     if isinstance(value, float):
         return number(value, ".4g")
+    if isinstance(value, list) and key == "grids":  # several, and not the sides of one
+        return ", ".join(map(str, value))
     if isinstance(value, list) and all(isinstance(one, int) for one in value) and len(value) <= 3:
         return " × ".join(map(str, value))
     return str(value) if isinstance(value, str | int) and len(str(value)) <= 60 else ""

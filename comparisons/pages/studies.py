@@ -20,7 +20,6 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 
 OURS = ("report.html", MANIFEST)
-Say = Callable[[str], None]
 
 
 @dataclass
@@ -180,7 +179,7 @@ def read(root: Path) -> FolderContents:
         place = folder.relative_to(root).as_posix().removeprefix(".")
         record = _manifest(folder, place, troubles)
         claimed: set[str] = set()
-        for verb, run in _runs(record).items():
+        for verb, run in record.get("runs", {}).items():
             names = tuple(run.get("files", ()))
             claimed.update(names)
             studies.append(Study(folder, place, verb, names, run, record))
@@ -199,16 +198,13 @@ def _folders(root: Path, troubles: list[str]) -> Iterator[Path]:
         return
     yield root
     series = {path.stem for path in root.glob("*.pvd")}
-    kept = {name.rstrip("/") for run in _runs(_manifest(root, "", [])).values() for name in _names(run)}
+    runs = _manifest(root, "", []).get("runs", {}).values()
+    kept = {name.rstrip("/") for run in runs for name in run.get("files", ()) if name.endswith("/")}
     for path in inside:
         if path.is_dir() and not path.is_symlink() and not path.name.startswith("."):
             if path.name in series | kept or (path / "run.json").exists():
                 continue
             yield from _folders(path, troubles)
-
-
-def _names(run: Mapping[str, Any]) -> list[str]:
-    return [name for name in run.get("files", ()) if name.endswith("/")]
 
 
 def _counts(path: Path) -> bool:
@@ -221,7 +217,3 @@ def _manifest(folder: Path, place: str, troubles: list[str]) -> Mapping[str, Any
     except BadInput as error:
         troubles.append(f"{place}/{MANIFEST}".lstrip("/") + f": damaged, cannot be read: {error}")
         return {}
-
-
-def _runs(record: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
-    return dict(record.get("runs", {}))

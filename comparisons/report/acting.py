@@ -36,7 +36,7 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
             stage.chain(stage.deformed(solution, plan))
     plan, arrows = load_arrows(scene, partial(_normals, stage, solution))
     if len(plan):
-        seen += _arrows(stage, stage.deformed(solution, plan), arrows)
+        seen.append(_arrows(stage, stage.deformed(solution, plan), arrows))
     for load in scene.loads:
         if isinstance(load, EdgeLoad) and load.moment_per_length:
             plan = edge_plan(scene, load.edge, np.linspace(0.0, 1.0, ALONG), load.where)[1::2]
@@ -44,9 +44,9 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
     return np.vstack(seen)
 
 
-def _arrows(stage: Stage, starts: np.ndarray, vectors: np.ndarray) -> list[np.ndarray]:
-    """Arrows of vectors (n, 3), in units of the longer side; where they end."""
-    ends = starts + stage.size * vectors
+def _arrows(stage: Stage, starts: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Draw arrows of vectors (n, 3), in units of the longer side; return where they end."""
+    ends: np.ndarray = starts + stage.size * vectors
     for start, end in zip(starts, ends, strict=True):
         length = float(np.linalg.norm(end - start))
         if length:
@@ -56,7 +56,7 @@ def _arrows(stage: Stage, starts: np.ndarray, vectors: np.ndarray) -> list[np.nd
                 tip_radius=0.25 * slender, shaft_radius=0.09 * slender,
             )  # fmt: skip
             stage.plotter.add_mesh(arrow, color=LOAD, smooth_shading=True)
-    return [ends]
+    return ends
 
 
 def _turns(stage: Stage, places: np.ndarray, edge: str, moment: float) -> None:

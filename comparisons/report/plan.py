@@ -16,6 +16,7 @@ from sheetbench.scenes.sheet import EDGES
 from sheetbench.scenes.supports import place
 
 PLAN_CELLS = 64
+ASIDE = np.radians(24.0)  # from the free side's direction to the eye
 LEAST_SHARE = 0.05  # of a cell's area on the sheet, from which it is drawn
 
 
@@ -96,10 +97,11 @@ def held_lines(scene: Scene, support: Support) -> list[np.ndarray]:
     return [_divided(ends, 60) for ends in edge_ends(scene, support.edge)]
 
 
-def free_side(scene: Scene) -> np.ndarray:
-    """Direction (2,) on the plan away from the edges that hold the sheet, zero where they balance."""
+def eye_heading(scene: Scene) -> float:
+    """Direction [rad] on the plan towards the eye: away from the edges that hold the sheet, and aside."""
     held = [support.edge for support in scene.supports if place(support) is None]
-    return -sum((np.array(EDGES[edge].outward[:2]) for edge in held), np.zeros(2))
+    free = -sum((np.array(EDGES[edge].outward[:2]) for edge in held), np.zeros(2))
+    return float(np.arctan2(free[1], free[0]) if np.any(free) else np.radians(-40.0)) - ASIDE
 
 
 def edge_ends(

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 import pyvista
 
-from comparisons.report.plan import free_side, held_lines, plan_lines, plan_mesh, rims
+from comparisons.report.plan import eye_heading, held_lines, plan_lines, plan_mesh, rims
 from sheetbench.answers.style import DARK, GREY
 from sheetbench.scenes import FieldMesh, Scene, Solution, holds_director
 
 REFERENCE_PIXELS = 1800  # across an image, in which the widths of lines below are pixels
 MARGIN = 0.04  # as a share of the image's width
-ELEVATION, TURN = 27.0, 24.0  # degrees above the plane, and aside from the free side's direction
+ELEVATION = 27.0  # degrees above the plane
 PALE, OUTLINE, ROD = "#c9ced4", "#a9afb6", "#c8553d"
 
 
@@ -109,9 +109,7 @@ class Stage:
 
     def _axes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Unit vectors towards the eye, to its right and up: from the free side, above and a little aside."""
-        free = free_side(self.scene)
-        heading = np.degrees(np.arctan2(free[1], free[0])) if np.any(free) else -40.0
-        azimuth, raised = np.radians(heading - TURN), np.radians(ELEVATION)
+        azimuth, raised = eye_heading(self.scene), np.radians(ELEVATION)
         ahead = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
         upright = np.array([0.0, 0.0, 1.0])
         toward = ahead * np.cos(raised) + upright * np.sin(raised)

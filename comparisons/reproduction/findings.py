@@ -11,9 +11,8 @@ import numpy as np
 from comparisons.reproduction.answers import ReproducedTest, of_model
 from comparisons.reproduction.published import published
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling
-from comparisons.reproduction.words import millimetres, percent
-from sheetbench.answers.table import Column, number
-from sheetbench.scenes import Solution, Status
+from sheetbench.answers.table import Column, number, percent, quantity
+from sheetbench.scenes import Status
 from sheetbench.scenes.seed import PROBES, seed_inputs
 
 
@@ -30,10 +29,7 @@ def all_of(answers: Sequence[ReproducedTest], settling: Settling | None) -> list
     return [Finding(*one) for one in (*_tables(answers), *(_settling(settling) if settling else ()))]
 
 
-Findings = Iterator[tuple[str, str]]
-
-
-def _tables(answers: Sequence[ReproducedTest]) -> Findings:
+def _tables(answers: Sequence[ReproducedTest]) -> Iterator[tuple[str, str]]:
     for one in answers:
         comparison = one.comparison
         off = comparison.error(comparison.solutions[0])
@@ -57,35 +53,29 @@ def _tables(answers: Sequence[ReproducedTest]) -> Findings:
         for solution in comparison.solutions[2:]:
             distance = np.nanmax(np.abs(_moved(one, solution.model) - table)) / np.nanmax(np.abs(table))
             how = "" if solution.status is Status.CONVERGED else f" (its answer is {solution.status})"
+            layers = quantity(solution.settings["layer_distance"], "m", ".3g")
             yield (
                 one.title,
-                f"A lattice of the published k with layers {_layers(solution)} "
+                f"A lattice of the published k with layers {layers} "
                 f"apart{how} is off the published model by up to {percent(float(distance), '.0f')} of its "
                 "largest displacement.",
             )
-
-
-def _layers(solution: Solution) -> str:
-    return millimetres(solution.settings["layer_distance"], ".3g")
 
 
 def _moved(one: ReproducedTest, model: str) -> np.ndarray:
     return np.array(list(one.comparison.probes(of_model(one, model)).values()))
 
 
-def _who(model: str) -> str:
-    return "Consistent springs" if model == "lumped" else f"The published k, {model}"
-
-
-def _settling(settling: Settling) -> Findings:
+def _settling(settling: Settling) -> Iterator[tuple[str, str]]:
     for model, run in settling.runs.items():
+        lattice = "Consistent springs" if model == "lumped" else f"The published k, {model}"
         settled = settling.settled(model)
         still = "is not at rest at its end"
         if settled is not None:
             still = f"stays within {percent(SETTLED)} of it from {settled:.2f} s on"
         yield (
             "settling",
-            f"{_who(model)}: uz of {PROBE} swings to {settling.largest(model):.2f} times its static value "
+            f"{lattice}: uz of {PROBE} swings to {settling.largest(model):.2f} times its static value "
             f"and {still}. The {run.time[-1]:g} s took {settling.seconds(model):.1f} s here, set-up "
             f"included; {seed_inputs()['run_time']:g} s are published as the average of one simulation, "
             "whose length and machine are not named.",

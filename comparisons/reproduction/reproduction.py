@@ -1,4 +1,4 @@
-"""The study of Habibi et al. again, part by part.
+"""The study of Habibi et al. again, part by part: findings first, then a table a part, and their pictures.
 
 tables    tests 1 and 2: published model and experiment, our lattices, our shell with its error bar
 settling  the run from rest, and what it takes
@@ -9,17 +9,161 @@ What in the published figures contradicts itself, and which sheets come nearest 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from typing import Any
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Annotated, Any
+
+import numpy as np
 
 from comparisons.models.grids import Elements
+from comparisons.motion.frames import write_frames
+from comparisons.report.vtk import write_solution
 from comparisons.report.work import Work, silent
-from comparisons.reproduction.answers import answers
-from comparisons.reproduction.settling import settling
-from comparisons.reproduction.tables import Reproduction
+from comparisons.reproduction import findings
+from comparisons.reproduction.answers import ReproducedTest, answers
+from comparisons.reproduction.published import SOURCES, published, scene
+from comparisons.reproduction.settling import PROBE, SETTLED, Settling, settling
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Column, Table, percent
 from sheetbench.choices import ELEMENTS
+from sheetbench.scenes import Status
+from sheetbench.scenes.seed import KNOWN_FAULTS, PROBES, seed_inputs
+from sheetbench.scenes.words import sheet_in_words
 
 PARTS = ("tables", "settling")
+SEED = (
+    "Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation "
+    "continuum surfaces"
+)
+DISPLACEMENTS = (
+    "In the axes of our scene: of test 1 the published y is turned round; a dash where a printed value must "
+    "be a misprint. lumped: consistent springs. k…-lz…: the published k everywhere, equal masses, layers "
+    "so many mm apart. ±: mesh error of the shell. off: |u − u_model|/|u_model|, of the published model."
+)
+POINTS = "P1 is the centre, P2 and P3 the middles of two free sides, P4 the corner farthest from the support."
+
+
+@dataclass(frozen=True)
+class DisplacementRow:
+    """Displacement at a probe by a source, our shell's bars, and the difference from the published model."""
+
+    probe: str
+    source: str
+    u: Mapping[Column, float | None]
+    bar: Mapping[Column, float | None]
+    off: Annotated[float | None, PERCENT(".0f")]
+
+
+@dataclass(frozen=True)
+class RunRow:
+    """A settling run: what it took, how far it swings, and when it is at rest."""
+
+    model: str
+    integrator: Annotated[str, Column("by")]
+    time: Annotated[float, SECONDS(".3g")]
+    faster: Annotated[float | None, NUMBER(".3g", "times faster")] = None
+    steps: Annotated[int | None, NUMBER("d")] = None
+    swing: Annotated[float | None, NUMBER(".2f")] = None
+    settled: Annotated[float | None, SECONDS(".3f")] = None
+    rest: Annotated[float | None, MILLIMETRES("z.2f")] = None
+
+
+def length(name: str, form: str = "z.2f", detail: bool = False) -> Column:
+    return Column(name, "m", "mm", 1e3, form, detail=detail)
+
+
+@dataclass(frozen=True, repr=False)
+class Reproduction(Answer):
+    """What each part found; empty, or None, where a part was not asked for."""
+
+    file_name = "reproduction"
+    parts: tuple[str, ...]
+    elements: Elements
+    answers: tuple[ReproducedTest, ...] = ()
+    settling: Settling | None = None
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether our own models have answers; lattices of the published k need not."""
+        runs = self.settling.runs.values() if self.settling is not None else ()
+        moved = all(run.status is Status.CONVERGED for run in runs)
+        return moved and all(one.comparison.succeeded for one in self.answers)
+
+    @property
+    def folders(self) -> list[str]:
+        """Folders of files that are written beside the others: frames of the settling runs."""
+        return [f"settling-{model}/" for model in (self.settling.runs if self.settling is not None else ())]
+
+    def document(self) -> dict[str, Any]:
+        """Return the JSON document of `sheetbench reproduce`: SI units, errors as fractions."""
+        document: dict[str, Any] = {
+            "parts": list(self.parts),
+            "inputs": seed_inputs(),
+            "known_faults": list(KNOWN_FAULTS),
+            "findings": [vars(one) for one in findings.all_of(self.answers, self.settling)],
+        }
+        if self.answers:
+            document["tests"] = [
+                {"test": one.test, "sense": one.sense, "name": one.name, **one.comparison.document()}
+                for one in self.answers
+            ]
+        if self.settling is not None:
+            document["settling"] = self.settling.as_dict()
+        return document
+
+    def heading(self) -> tuple[str, str, str]:
+        """Return what was published, its tests and its sheet."""
+        first, second = scene(1), scene(2)
+        sheet = sheet_in_words(first.sheet, first.material)
+        lead = f"{SEED}. {first.title}. {second.title}. {sheet}. {POINTS}"
+        return (
+            "The study of Habibi et al., reproduced",
+            "what was published, and what the same inputs give",
+            lead,
+        )
+
+    def _drawn(self) -> list[tuple[Table, str, Any]]:
+        """Return every table with the figure beside it, and what that is of."""
+        tests: list[tuple[Table, str, Any]] = [(displacements(one), "test", one) for one in self.answers]
+        return tests if self.settling is None else [*tests, (runs(self.settling), "motion", self.settling)]
+
+    def tables(self) -> list[Table]:
+        found = findings.all_of(self.answers, self.settling)
+        return [findings_table(found), *(table for table, *_ in self._drawn())]
+
+    def figures(self) -> list[Picture]:
+        module = "comparisons.reproduction.figure"
+        return [Picture(table.name, f"{module}:{kind}", (of,)) for table, kind, of in self._drawn()]
+
+    def notes(self) -> list[str]:
+        return [DISPLACEMENTS] if self.answers else []
+
+    def complaints(self) -> list[str]:
+        """Return a sentence for every model of ours without an answer."""
+        return [
+            f"{one.title}, {s.model}: {s.status}: {s.status.advice}"
+            for one in self.answers
+            for s in one.comparison.solutions
+            if s.status is not Status.CONVERGED
+        ]
+
+    def files(self) -> dict[str, Write]:
+        """Return the sheets of every test as VTU, and the histories."""
+        files: dict[str, Write] = {}
+        for one in self.answers:
+            files[f"{one.name}.vtu"] = one.comparison.write_plan
+            for solution in one.comparison.solutions:
+                files[f"{one.name}-{solution.model}.vtu"] = partial(write_solution, solution=solution)
+        for model, run in self.settling.runs.items() if self.settling is not None else ():
+            files[f"settling-{model}.csv"] = partial(write_text, text=run.series().to_csv())
+            files[f"settling-{model}.pvd"] = partial(write_frames, history=run)
+        return files
+
+    def choices(self) -> dict[str, Any]:
+        return {"parts": list(self.parts), "elements": self.elements}
 
 
 def reproduce(
@@ -35,3 +179,49 @@ def reproduce(
     if "settling" in parts:
         parts_done["settling"] = settling(progress=progress)
     return Reproduction(tuple(part for part in PARTS if part in parts), elements, **parts_done)
+
+
+def findings_table(every: Sequence[findings.Finding]) -> Table:
+    """Return a row per finding."""
+    return Table.of(findings.Finding, every, "Findings", "findings", grouped=True)
+
+
+def displacements(one: ReproducedTest) -> Table:
+    """Return a row per probe and source: published, our lattices, our shell with its bar."""
+    comparison = one.comparison
+    tables = {f"published {source}": published(one.test, source) for source in SOURCES}
+    ordered = sorted(comparison.solutions, key=lambda s: s is not comparison.reference)
+    moved = {s.model: np.array(list(comparison.probes(s).values())) for s in ordered}
+    bars = comparison.bar.uncertainty.bar if comparison.bar is not None else np.full((len(PROBES), 3), np.nan)
+    truth, names = tables["published model"], ("ux", "uy", "uz")
+    moves = [length(name) for name in names]
+    spans = [length(f"± {name}", ".1g", detail=name != "uz") for name in names]
+    rows = []
+    for i, probe in enumerate(PROBES):
+        for name, table in (tables | moved).items():
+            own = [float(b) if name == comparison.reference.model else None for b in bars[i]]
+            size = float(np.linalg.norm(truth[i]))
+            off = None if name in tables else float(np.linalg.norm(table[i] - truth[i])) / size
+            u = dict(zip(moves, map(float, table[i]), strict=True))
+            rows.append(DisplacementRow(probe, name, u, dict(zip(spans, own, strict=True)), off))
+    return Table.of(DisplacementRow, rows, one.title, one.name, grouped=True)
+
+
+def runs(settling: Settling) -> Table:
+    """Return a row per run: what it took beside what is published, how far it swings and when it is at
+    rest."""
+    rows = [RunRow("published", "MATLAB R2016a", seed_inputs()["run_time"])]
+    for model, run in settling.runs.items():
+        rows.append(
+            RunRow(
+                model, run.integrator, settling.seconds(model), settling.faster(model), run.steps,
+                settling.largest(model), settling.settled(model), float(settling.rest[model][2]),
+            )
+        )  # fmt: skip
+    text = (
+        f"Test 1 from rest, gravity on at t = 0, dampers of our scene {settling.scene.name} (none are "
+        f"published); uz of {PROBE}. time: a run on warm code, set-up included. swing: its largest value "
+        f"over its static one. settled: from when on it is within {percent(SETTLED)} of that. The published "
+        "figure has no numbers to compare with."
+    )
+    return Table.of(RunRow, rows, "The settling run", "settling", text=text)

@@ -140,6 +140,11 @@ def quantity(value: float, si: str, form: str = ".4g") -> str:
     return f"{number(value * shown.scale, form)} {shown.shown}".rstrip()
 
 
+def percent(fraction: float, form: str = ".2g") -> str:
+    """Return a fraction in per cent, as people read it."""
+    return f"{number(100.0 * fraction, form)} %"
+
+
 @dataclass(frozen=True, repr=False)
 class Table:
     """A caption, columns, and rows of as many values [SI] as there are columns.

@@ -16,9 +16,7 @@ from studies.reproduction.study import PARTS, study
 def command(
     part: Annotated[
         list[str] | None,
-        option(
-            "Only errors, tables, settling or nearest; may be repeated. All unless given.", "NAME"
-        ),
+        option("Only errors, tables, settling or nearest; may be repeated. All unless given.", "NAME"),
     ] = None,
     elements: Elements = str(ELEMENTS),
     *,

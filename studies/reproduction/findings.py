@@ -9,8 +9,7 @@ import numpy as np
 
 from comparisons.reproduction.findings import Finding
 from comparisons.reproduction.published import COMPONENTS, published
-from comparisons.reproduction.words import millimetres, percent
-from sheetbench.answers.table import number, quantity
+from sheetbench.answers.table import number, percent, quantity
 from sheetbench.scenes.seed import PROBES, seed_inputs
 from studies.reproduction.chords import Chord, nearer
 from studies.reproduction.inputs import Check
@@ -24,6 +23,11 @@ KINDS = {
     "lattice": "lattice of equal springs",
 }
 SYMBOLS = {"young": ("E", "Pa"), "k": ("k", "N/m"), "layer_distance": ("lz", "m"), "curvature": ("κ", "1/m")}
+
+
+def millimetres(length: float, form: str = ".2f") -> str:
+    """Return a length [m]."""
+    return quantity(length, "m", form)
 
 
 def of_errors(cells: Sequence[Cell]) -> Iterator[Finding]:

@@ -18,12 +18,10 @@ from comparisons.models.grids import Elements
 from comparisons.report.work import Work, silent
 from comparisons.reproduction import findings as of_models
 from comparisons.reproduction.findings import Finding
-from comparisons.reproduction.reproduction import reproduce
-from comparisons.reproduction.tables import Reproduction, findings_table
-from comparisons.reproduction.words import percent
+from comparisons.reproduction.reproduction import Reproduction, findings_table, reproduce
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture, Write
-from sheetbench.answers.table import Table
+from sheetbench.answers.table import Table, percent
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes.seed import seed_inputs
 from studies.reproduction import findings

@@ -25,10 +25,9 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 import sheetbench as sb
 from comparisons.cli import interruption
 from comparisons.live import answers, server
-from comparisons.live.newest import Newest
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import MESSAGE
-from comparisons.live.session import Session
+from comparisons.live.session import Newest, Session
 from comparisons.models.spec import Lattice
 from sheetbench.errors import BadInput
 

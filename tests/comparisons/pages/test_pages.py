@@ -151,10 +151,12 @@ def test_the_page_is_opened_where_that_is_asked(tmp_path, capsys, monkeypatch, t
     assert ("There is no browser here" in capsys.readouterr().err) is not there
 
 
-def test_several_grids_are_not_the_sides_of_one(tmp_path):
-    settings = {"grids": [5, 9], "grid": [5, 9]}
+def test_settings_have_units_and_several_grids_are_not_the_sides_of_one(tmp_path):
+    settings = {"grids": [5, 9], "grid": [5, 9], "layer_distance": 0.002, "k": 5000.0, "every": 0.01}
     study = Study(tmp_path, "", "crosscheck", (), {"settings": settings})
-    assert question(study) == [("settings", "grids 5, 9, grid 5 × 9")]
+    assert question(study) == [
+        ("settings", "grids 5, 9, grid 5 × 9, layer distance 2 mm, k 5000 N/m, every 10 ms")
+    ]
 
 
 def _motion_tradeoff(folder, drawn=False):

@@ -8,7 +8,7 @@ import pytest
 from comparisons.reproduction.answers import answer
 from comparisons.reproduction.findings import all_of
 from comparisons.reproduction.published import published, scene
-from comparisons.reproduction.tables import Reproduction
+from comparisons.reproduction.reproduction import Reproduction
 from sheetbench.answers.report import Report
 from sheetbench.scenes import Status
 from sheetbench.scenes.seed import seed_inputs

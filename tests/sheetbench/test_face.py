@@ -119,17 +119,6 @@ def test_grids_are_numbers_or_tuples():
     assert direct == lumped.calibrate(scene.sheet, scene.material, grid=(5, 5)) == sb.calibrate(scene, grid=5)
 
 
-def test_identify_reads_a_file_and_finds_the_modulus_again(tmp_path):
-    softer = sb.load(NAME).model_copy(update={"material": sb.Material(4.0e7, 0.48, 1678.0)})
-    points = np.array([[0.1, 0.05], [0.1, 0.15], [0.188, 0.094]])
-    moved = sb.solve(softer, grid=3).displacement(points)
-    rows = [",".join(map(repr, map(float, [*at, *u]))) for at, u in zip(points, moved, strict=True)]
-    file = tmp_path / "measured.csv"
-    file.write_text("\n".join(["x,y,ux,uy,uz", *rows]) + "\n")
-    found = sb.identify(NAME, file, "young", grid=3, refine=False)
-    assert found.unknowns["young"].value == pytest.approx(4.0e7, rel=1e-4)
-
-
 def test_a_trade_off_is_asked_in_lists(tmp_path, monkeypatch):
     asked: list[Any] = []
     monkeypatch.setattr(statics, "tradeoff", lambda scene, candidates, store, **_: asked.extend(candidates))

@@ -41,14 +41,6 @@ def said():
     return Lines(told.append, lambda: now[0]), told, now
 
 
-def test_what_is_soon_over_is_not_said_in_a_pipe(said):
-    lines, told, now = said
-    lines.say(Work("solving lumped", QUICK))
-    now[0] += QUIET / 2
-    lines.look()
-    assert told == []
-
-
 def test_what_lasts_is_said_now_and_then(said):
     lines, told, now = said
     one = Work("solving shell", QUICK)

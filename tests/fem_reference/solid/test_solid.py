@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from cases import CONVERGED, WEIGHT, relative, with_material
+from cases import CONVERGED, relative, with_material
 from solid_cases import block
 
 from fem_reference.shell import statics as shell
@@ -22,7 +22,7 @@ def with_poisson(name, poisson):
 
 @pytest.mark.parametrize("name", CONVERGED)
 def test_seed_scenes(name):
-    """Within 0.3 % of the published figures and of the shell, probe by probe; reactions balance to 1e-8."""
+    """Within 0.3 % of the published figures and of the shell, probe by probe."""
     scene = scenes.load(name)
     points = scene.probe_points()
     answer = solid.solve(scene, 10)
@@ -32,7 +32,6 @@ def test_seed_scenes(name):
     for (probe, axis), millimetres in CONVERGED[name].items():
         assert at[probe][axis] * 1e3 == pytest.approx(millimetres, rel=3e-3)
     assert relative(u, shell.solve(scene, 12).displacement(points)) < 3e-3
-    np.testing.assert_allclose(sum(answer.reactions.values()), [0.0, 0.0, WEIGHT], atol=1e-8 * WEIGHT)
 
 
 @pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])
@@ -55,7 +54,6 @@ def test_curved_edge(name):
     np.testing.assert_allclose(along, x[face, 2], atol=2e-4 * 0.003 + 2e-2 * np.abs(x[face, 2]).max())
     mid = np.abs(x[face, 2]) < 1e-12
     np.testing.assert_allclose(along[mid], 0.0, atol=1e-12)
-    np.testing.assert_allclose(answer.reactions["x0"], [0.0, 0.0, WEIGHT], atol=1e-7 * WEIGHT)
 
 
 def test_no_volumetric_locking_of_a_full_clamp():
@@ -151,25 +149,15 @@ def test_cantilever_end_moment():
     assert relative(u.displacement([[12.0, 0.5]])[0], np.array(exact)) < 2e-4
 
 
-def test_pressure_agrees_with_the_shell():
-    scene = scenes.load("one-edge-clamped").model_copy(
-        update={"gravity": None, "loads": (scenes.Pressure(value=60.0),)}
-    )
-    points = scene.probe_points()
-    got, expected = (model.solve(scene, 8).displacement(points) for model in (solid, shell))
-    assert relative(got, expected) < 3e-3
-
-
 @pytest.mark.parametrize("hinged", [["x0", "x1"], ["x0", "x1", "y0", "y1"]])
 def test_hinges_agree_with_the_shell(hinged):
-    """Hinged edges, also where stretching carries the load; reactions balance it."""
+    """Hinged edges, also where stretching carries the load."""
     scene = scenes.load("one-edge-clamped").model_copy(
         update={"supports": tuple(scenes.Hinged(edge=edge) for edge in hinged)}
     )
     answer, expected = (model.solve(scene, 8) for model in (solid, shell))
     points = scene.probe_points()[:1]
     assert relative(answer.displacement(points), expected.displacement(points)) < 3e-3
-    np.testing.assert_allclose(sum(answer.reactions.values()), [0.0, 0.0, WEIGHT], atol=1e-8 * WEIGHT)
 
 
 def test_full_clamp_is_stiffer():

@@ -227,11 +227,6 @@ def test_a_manifest_that_is_not_ours_is_refused(tmp_path, text):
         Folder(tmp_path, "modes", ["m"], about=about(), overwrite=True)
 
 
-def test_brackets_in_help_are_no_markup(capsys):
-    assert run("calibrate", "--help") == 0
-    assert "[springs]" in capsys.readouterr().out
-
-
 def test_a_questions_own_warnings_stand_before_those_about_its_scene(capsys):
     with in_lines():
         warnings.warn(Implausible("young = 54.5 Pa"), stacklevel=1)

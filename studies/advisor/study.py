@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import Annotated, Any, Unpack
 
 import numpy as np
@@ -21,21 +22,20 @@ from comparisons.advice.advisor import advise
 from comparisons.comparison.comparison import error
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
-from comparisons.models.spec import Elements, Spec, lattices, references, spec_of
+from comparisons.models.spec import Spec, lattices, references, spec_of
 from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.manifest import record
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import timing
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import NUMBER, PERCENT, Table
-from sheetbench.scenes import Clamped, Curved, Gravity, Hinged, Material, PointLoad, Scene, Sheet, Status
+from sheetbench.scenes import Clamped, Curved, Gravity, Hinged, PointLoad, Scene, Status
 from sheetbench.scenes.supports import AnySupport
+from studies.coverage.scenes import GRAVITY, sheet_at_random
 
 SEED = 7
 TOLERANCES = (0.005, 0.01, 0.02, 0.05)
 TRUTH = 32  # elements along the shorter side
-GRAVITY = 9.81
-LARGEST_STRAIN = 0.03
 WITHIN = 2.0  # times the cheapest adequate row's time
 
 
@@ -44,31 +44,23 @@ def scenes_at_random(seed: int = SEED) -> Iterator[Scene]:
     random = np.random.default_rng(seed)
     number = 0
     while True:
-        short, aspect = _log(random, 0.05, 0.5), random.uniform(1.0, 2.5)
-        sides = (short, short * aspect) if random.random() < 0.5 else (short * aspect, short)
-        thickness, poisson = short * _log(random, 0.003, 0.05), random.uniform(0.0, 0.49)
-        density, load_number = random.uniform(900.0, 2000.0), _log(random, 0.03, 100.0)
-        young = 12.0 * (1.0 - poisson**2) * density * GRAVITY * short**3 / (load_number * thickness**2)
-        young = max(young, density * GRAVITY * max(sides) / LARGEST_STRAIN)
+        sheet, material = sheet_at_random(random, 2.5, 100.0)
+        sides = sheet.lengths
         curvature = random.choice([-1.0, 1.0]) * random.uniform(0.1, 0.75) / sides[1]
         supports = _arrangements(curvature)[random.integers(10)]
         at = tuple(float(random.uniform(0.2, 0.9) * side) for side in sides)
-        weight = density * GRAVITY * thickness * sides[0] * sides[1]
+        weight = material.density * GRAVITY * sheet.thickness * sides[0] * sides[1]
         pull = (0.0, 0.0, float(random.uniform(-1.0, 1.0) * weight))
         loads = (PointLoad(at=(at[0], at[1]), force=pull),) if number % 4 == 3 else ()
         yield Scene(
             name=f"random-{number}",
-            sheet=Sheet(length_x=sides[0], length_y=sides[1], thickness=thickness),
-            material=Material(young=young, poisson=poisson, density=density),
+            sheet=sheet,
+            material=material,
             gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
             supports=supports,
             loads=loads,
         )
         number += 1
-
-
-def _log(random: np.random.Generator, low: float, high: float) -> float:
-    return float(np.exp(random.uniform(np.log(low), np.log(high))))
 
 
 def _arrangements(curvature: float) -> list[tuple[AnySupport, ...]]:
@@ -94,17 +86,6 @@ def rows(scene: Scene) -> list[Spec]:
     return [*lattice_rows, *references("plate", ["4"]), *references("shell", ["2", "3", "4", "6", "8", "12"])]
 
 
-def truth(scene: dict[str, Any], elements: int) -> dict[str, Any]:
-    """Task: what the fine shell says at the probes."""
-    parsed = Scene.model_validate(scene)
-    solution = solve(resolve(parsed, Elements("shell", elements)))
-    return {
-        "status": str(solution.status),
-        "message": solution.message,
-        "displacement": solution.displacement(parsed.probe_points()),
-    }
-
-
 def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
     """Task: the advice, and what its choice says at the probes."""
     parsed = Scene.model_validate(scene)
@@ -116,10 +97,7 @@ def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
     return {
         "status": str(solution.status),
         "displacement": solution.displacement(parsed.probe_points()),
-        **{
-            key: document[key]
-            for key in ("choice", "predicted", "met", "needs", "probing_seconds", "message")
-        },
+        **{key: document[key] for key in ("choice", "predicted", "probing_seconds", "message")},
     }
 
 
@@ -197,30 +175,25 @@ def study(
 ) -> Study:
     """The advisor on `count` scenes; on the first `compared` of them its cost beside that of `rows`."""
 
-    def runs(task: str, inputs: list[tuple[Scene, dict[str, Any]]], timed: bool) -> list[Finished]:
+    def runs(task: str, inputs: list[tuple[Scene, dict[str, Any]]], timed: bool = False) -> list[Finished]:
         wanted = [
-            Run(
-                f"studies.advisor.study:{task}",
-                {"scene": scene.document(), **rest},
-                f"{task} {scene.name}",
-                timed,
-            )
+            Run(f"studies.{task}", {"scene": scene.document(), **rest}, f"{task} {scene.name}", timed)
             for scene, rest in inputs
         ]
         return carry_out(wanted, store, **how)
 
     endless, inside, skipped = scenes_at_random(seed), list[tuple[Scene, Finished]](), dict[str, str]()
+    fine_shell = {"model": "shell", "elements": elements}
     while len(inside) < count:
-        drawn = [next(endless) for _ in range(count - len(inside))]
-        for scene, outcome in zip(
-            drawn, runs("truth", [(s, {"elements": elements}) for s in drawn], False), strict=True
-        ):
+        drawn = list(islice(endless, count - len(inside)))
+        outcomes = runs("coverage.study:answer", [(scene, fine_shell) for scene in drawn])
+        for scene, outcome in zip(drawn, outcomes, strict=True):
             if outcome.status == Status.CONVERGED:
                 inside.append((scene, outcome))
             else:
                 skipped[scene.name] = f"{outcome.status}: {outcome.message}"
     inputs = [(scene, {"tolerance": tolerance}) for scene, _ in inside for tolerance in tolerances]
-    given = runs("advice", inputs, True)
+    given = runs("advisor.study:advice", inputs, timed=True)
     fine = {scene.name: outcome for scene, outcome in inside}
     cases = [_case(scene, rest, fine, outcome) for (scene, rest), outcome in zip(inputs, given, strict=True)]
     for scene, outcome in inside[:compared]:

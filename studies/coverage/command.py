@@ -21,9 +21,7 @@ def command(
         ),
     ] = 40,
     seed: Annotated[int, option("Seed of the scenes.", "N", min=0)] = 41,
-    model: Annotated[
-        list[str] | None, option("Only plate, shell or solid; may be repeated.", "NAME")
-    ] = None,
+    model: Annotated[list[str] | None, option("Only plate, shell or solid; may be repeated.", "NAME")] = None,
     *,
     campaign: CampaignOptions,
     output: OutputOptions,

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.scenes import EDGES, Scene
+from sheetbench.scenes import EDGES, Material, Scene, Sheet
 
 SEED = 41
 GRAVITY = 9.81
@@ -36,13 +36,20 @@ def drawn_scenes(seed: int = SEED) -> Iterator[Scene]:
         number += 1
 
 
-def _scene(random: np.random.Generator, number: int) -> Scene:
-    short, aspect = _log(random, 0.05, 0.5), random.uniform(1.0, 1.6)
-    sides = (short, short * aspect) if random.random() < 0.5 else (short * aspect, short)
+def sheet_at_random(random: np.random.Generator, aspect: float, load_number: float) -> tuple[Sheet, Material]:
+    """A sheet of a material; aspect, load_number: the largest."""
+    short, ratio = _log(random, 0.05, 0.5), random.uniform(1.0, aspect)
+    sides = (short, short * ratio) if random.random() < 0.5 else (short * ratio, short)
     thickness, poisson = short * _log(random, 0.003, 0.05), random.uniform(0.0, 0.49)
-    density, load_number = random.uniform(900.0, 2000.0), _log(random, 0.03, 10.0)
-    young = 12.0 * (1.0 - poisson**2) * density * GRAVITY * short**3 / (load_number * thickness**2)
+    density, load = random.uniform(900.0, 2000.0), _log(random, 0.03, load_number)
+    young = 12.0 * (1.0 - poisson**2) * density * GRAVITY * short**3 / (load * thickness**2)
     young = max(young, density * GRAVITY * max(sides) / LARGEST_STRAIN)
+    return Sheet(*sides, thickness), Material(young, poisson, density)
+
+
+def _scene(random: np.random.Generator, number: int) -> Scene:
+    sheet, material = sheet_at_random(random, 1.6, 10.0)
+    sides, per_area = sheet.lengths, material.density * GRAVITY * sheet.thickness
     first = int(random.integers(4))
     edges: Any = tuple(ROUND[(first + i) % 4] for i in range(4))
     holding = ARRANGEMENTS[number % len(ARRANGEMENTS)](random, edges, sides)
@@ -50,10 +57,10 @@ def _scene(random: np.random.Generator, number: int) -> Scene:
     free = [edge for edge in ROUND if edge not in held]
     base = {
         "name": f"drawn-{number}",
-        "sheet": {"length_x": sides[0], "length_y": sides[1], "thickness": thickness},
-        "material": {"young": young, "poisson": poisson, "density": density},
+        "sheet": sheet,
+        "material": material,
         **holding,
-        **_loads(random, sides, density * GRAVITY * thickness, free),
+        **_loads(random, sides, per_area, free),
     }
     places = random.uniform(0.05, 0.95, (ADDED, 2)) * sides
     more = {f"P{5 + i}": place.tolist() for i, place in enumerate(places)}

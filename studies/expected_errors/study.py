@@ -19,6 +19,8 @@ import fem_reference
 import lumped
 from comparisons.comparison.comparison import error
 from comparisons.models.expected_error import estimate, finer_grid, largest_stretch, resolves
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
 from sheetbench.scenes import Scene, catalogue, load
 from sheetbench.scenes.grid import grid_of
 from studies.advisor.study import scenes_at_random
@@ -128,7 +130,7 @@ def scenes() -> dict[str, tuple[str, Scene]]:
 
 def lattice(scene: Scene, grid: tuple[int, int, int]) -> Row:
     """A lattice's displacement at the probes, and how its solve ended."""
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=grid)
+    springs = resolve(scene, Lattice(grid, "consistent"), "springs").springs
     solution = lumped.solve(scene, springs)
     return {
         "grid": list(grid),
@@ -159,7 +161,7 @@ def _rounded(u: np.ndarray) -> list[list[float]]:
 
 
 def pairs(row: Row, scene: Scene) -> list[tuple[float, float | None]]:
-    """True error and estimate, None where nothing is said, of every grid on which there is a true one."""
+    """True error and estimate, None where there is none, of every grid on which there is a true one."""
     of = {tuple(one["grid"]): one for one in row["lattices"]}
     both = []
     for grid in row["grids"]:
@@ -178,7 +180,7 @@ def pairs(row: Row, scene: Scene) -> list[tuple[float, float | None]]:
 
 
 def shares(both: list[tuple[float, float | None]]) -> tuple[int, int, float, float]:
-    """How many there are, how many are told of, the share of those within a factor of two, and the largest
+    """How many there are, how many have an estimate, the share of those within a factor of two, the largest
     true error in units of the estimate."""
     ratios = np.array([true / expected for true, expected in both if expected])
     within = float(np.mean((ratios < 2.0) & (ratios > 0.5))) if len(ratios) else np.nan
@@ -187,7 +189,7 @@ def shares(both: list[tuple[float, float | None]]) -> tuple[int, int, float, flo
 
 def table(rows: dict[str, Row]) -> str:
     """Markdown: a line per group, and per number of masses."""
-    lines = ["| scenes | masses | cases | told | within a factor of 2 [%] | largest true / told |"]
+    lines = ["| scenes | masses | cases | estimated | within a factor of 2 [%] | largest true / estimate |"]
     lines += ["| --- | --- | ---: | ---: | ---: | ---: |"]
     groups = list(dict.fromkeys(row["group"] for row in rows.values()))
     for group, masses in [*((group, None) for group in groups), *(("all", n) for n in (*GRIDS, None))]:

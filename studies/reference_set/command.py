@@ -15,9 +15,7 @@ from studies.reference_set.study import regenerate
 
 
 def command(
-    to: Annotated[
-        Path | None, option("Write here; the package's own file unless given.", "FILE")
-    ] = None,
+    to: Annotated[Path | None, option("Write here; the package's own file unless given.", "FILE")] = None,
     suite: Annotated[str | None, option("This suite alone; the others' values stay.", "SUITE")] = None,
 ) -> None:
     """Compute every value of the reference set with its bar, and write them.

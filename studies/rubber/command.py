@@ -14,9 +14,7 @@ def command(
     data: Annotated[Path, option("Where silicone-tensile/, treloar/ and silicone-beam/ are.", "DIR")] = Path(
         "../shared/data"
     ),
-    block: Annotated[
-        bool, option("Also the block of silicone-beam/ (C3D; half an hour).", None)
-    ] = False,
+    block: Annotated[bool, option("Also the block of silicone-beam/ (C3D; half an hour).", None)] = False,
     *,
     output: PictureOptions,
 ) -> None:

@@ -10,10 +10,10 @@ from campaigns import Here
 from comparisons.cli import main
 from sheetbench import scenes
 from sheetbench.scenes.rigid_motions import require_static
-from studies.coverage import row as docs_row
 from studies.coverage import study
+from studies.coverage.answer import GOAL, LOOSE, Component, Coverage
 from studies.coverage.scenes import ARRANGEMENTS, SEED, drawn_scenes
-from studies.coverage.study import GOAL, LOOSE, coverage, measured
+from studies.coverage.study import coverage, measured
 
 TRUTH = {"plate": 20, "shell": 16}  # enough beside 8 elements, and quick
 
@@ -56,10 +56,10 @@ def test_a_component_is_inside_where_its_error_is_below_its_bar():
 
 def test_what_is_complained_of_is_what_is_not_met():
     held, missed = (
-        study.Component("a", model, 8, "P", "uz", answer=2.0, truth=1.0, bar=bar, order=2.0)
+        Component("a", model, 8, "P", "uz", answer=2.0, truth=1.0, bar=bar, order=2.0)
         for model, bar in (("plate", 2.0), ("shell", 0.5))
     )
-    (said,) = study.Coverage((held, missed), ("a",), {}, {}).report().complaints
+    (said,) = Coverage((held, missed), ("a",), {}, {}).report().complaints
     assert said.startswith("shell, 8 elements: 0.0 % inside")
 
 
@@ -68,9 +68,9 @@ def test_bars_of_plate_and_shell_hold_on_six_drawn_scenes(store):
     six scenes' chance may take."""
     found = coverage(store, count=6, models=("plate", "shell"), meshes=(8,), truth=TRUTH, seed=27, pool=Here)
     assert len(found.scenes) == 6
-    for row in found.rows():
-        assert row["components"] > 30
-        assert row["inside"] >= GOAL - 0.03 and row["loose"] <= 1.5 * LOOSE
+    for row in found.shares():
+        assert row.components > 30
+        assert row.inside >= GOAL - 0.03 and row.loose <= 1.5 * LOOSE
 
 
 def test_the_command_writes_what_it_counted(tmp_path, capsys, in_process, monkeypatch):
@@ -95,18 +95,6 @@ def test_a_study_whose_solves_all_fail_ends(store, monkeypatch):
     def fail(*args, **kwargs):
         raise ValueError("the code changed")
 
-    monkeypatch.setattr("studies.coverage.tasks.answer", fail)
+    monkeypatch.setattr("studies.coverage.study.answer", fail)
     with pytest.raises(RuntimeError, match="the code changed"):
         coverage(store, count=2, models=("plate",), meshes=(8,), truth=TRUTH, pool=Here)
-
-
-def test_the_studys_row_stands_in_its_table_once():
-    """`make coverage` writes it; the rest of the page stays to the letter."""
-    page = docs_row.PAGE.read_text(encoding="utf-8")
-    found = [{"model": "solid", "elements": 16, "scenes": 40, "inside": 0.951, "loose": 4.04}]
-    once = docs_row.with_row(page, found)
-    added = next(line for line in once.splitlines() if line.startswith(docs_row.FIRST))
-    assert added == "| `make coverage` (40 scenes) |  |  |  |  |  | 95.1 / 4.0 |"
-    assert docs_row.with_row(once, found) == once
-    without = [line for line in page.splitlines() if not line.startswith(docs_row.FIRST)]
-    assert [line for line in once.splitlines() if line != added] == without

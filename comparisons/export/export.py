@@ -8,23 +8,19 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from comparisons.export.arrays import arrays
 from comparisons.export.mujoco import to_mjcf
 from comparisons.export.page import page
 from comparisons.export.sofa import to_sofa
 from comparisons.export.tables import plan, tables
+from comparisons.report.array_files import write_mat, write_npz
 from comparisons.runs.folder import Folder
 from sheetbench.answers.files import write_text
 from sheetbench.errors import require_choice
-from sheetbench.files import whole
 from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
     from lumped import Calibration, Description
-
-Arrays = dict[str, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -75,25 +71,9 @@ def export(
     for name, text in texts.items():
         target.write(name, partial(write_text, text=text))
     values = arrays(lattice)
-    target.write("lattice.npz", lambda path: _written(path, _to_npz, values))
-    target.write("lattice.mat", lambda path: _written(path, _to_mat, values))
+    target.write("lattice.npz", partial(write_npz, values=values))
+    target.write("lattice.mat", partial(write_mat, values=values))
     target.finish(calibration.document())
     missing = "".join(f"; {note}" for note in lattice.notes)
     named = "".join(f", and {file} for {name}" for name, file in zip(simulators, own, strict=True))
     return f"Springs, masses, supports and loads in {target.path}{named}: start at its README.md{missing}"
-
-
-def _written(path: Path, write: Callable[[Path, Arrays], None], values: Arrays) -> None:
-    with whole(path) as partial:
-        write(partial, values)
-
-
-def _to_npz(path: Path, values: Arrays) -> None:
-    np.savez(path, **values)  # type: ignore[arg-type]
-
-
-def _to_mat(path: Path, values: Arrays) -> None:
-    from scipy.io import savemat
-
-    texts = {name: np.array(v, dtype=object) for name, v in values.items() if v.dtype.kind == "U"}
-    savemat(path, {**values, **texts}, oned_as="column")

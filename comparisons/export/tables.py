@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,82 +18,44 @@ from sheetbench.scenes.patches import composition_at, shares_of
 if TYPE_CHECKING:
     from lumped import Description
 
-
 AXES = "xyz"
+Row = Sequence[Any]
 
 
 def tables(lattice: Description) -> dict[str, str]:
     """Return the text of every file by its name."""
-    x, y, z = (f"u{axis}" for axis in AXES)
+    numbers, corners = np.arange(len(lattice.mass)), ",".join(f"corner_{n}" for n in range(1, 5))
     formulas = dict.fromkeys(f"{table.kind}: E = {table.energy}" for table in lattice.cells)
     width = max(3, *(table.stiffness.shape[1] for table in lattice.cells), 0)
+    cells = [
+        "kind", corners, "rest_area", *(f"stiffness_{n}" for n in range(1, width + 1)),
+        *(f"damping_{n}" for n in range(1, 4)),
+    ]  # fmt: skip
+    loaded = np.flatnonzero(lattice.dead.any(axis=1))
     return {
         "nodes.csv": _csv(
-            ["number", "i", "j", "k", "x", "y", "z", "mass"],
-            (
-                [number, *index, *position, mass]
-                for number, (index, position, mass) in enumerate(
-                    zip(
-                        lattice.index.tolist(), lattice.positions.tolist(), lattice.mass.tolist(), strict=True
-                    )
-                )
-            ),
+            "number,i,j,k,x,y,z,mass", _rows(numbers, lattice.index, lattice.positions, lattice.mass)
         ),
-        "links.csv": _csv(
-            ["a", "b", "family", "rest_length", "stiffness", "damping"],
-            (
-                [*pair, *rest]
-                for pair, *rest in zip(
-                    *(values.tolist() for values in vars(lattice.links).values()), strict=True
-                )
-            ),
-        ),
-        "cells.csv": _csv(
-            [
-                "kind",
-                *(f"corner_{n}" for n in range(1, 5)),
-                "rest_area",
-                *(f"stiffness_{n}" for n in range(1, width + 1)),
-                *(f"damping_{n}" for n in range(1, 4)),
-                "; ".join((*formulas, "force -dE/dx")),
-            ],
-            (
-                [table.kind, *map(_joined, corners), area, *stiffness, *damping, table.energy]
-                for table in lattice.cells
-                for corners, area, stiffness, damping in zip(
-                    table.corners.tolist(),
-                    table.rest_area.tolist(),
-                    _wide(table.stiffness, width),
-                    _wide(table.damping[:, :3], 3),
-                    strict=True,
-                )
-            ),
-        ),
+        "links.csv": _csv("a,b,family,rest_length,stiffness,damping", _rows(*vars(lattice.links).values())),
+        "cells.csv": _csv(",".join(cells), _cells(lattice, width), "; ".join((*formulas, "force -dE/dx"))),
         "supports.csv": _csv(
-            ["edge", "masses", "component", "displacement"],
+            "edge,masses,component,displacement",
             (
                 [h.edge.replace(" ", "_"), _joined(h.masses), AXES[h.axis], h.displacement]
                 for h in lattice.holds
             ),
         ),
-        "loads.csv": _csv(
-            ["number", "fx", "fy", "fz"],
-            ([n, *force] for n, force in enumerate(lattice.dead.tolist()) if any(force)),
-        ),
-        "followers.csv": _csv(["kind", *(f"corner_{n}" for n in range(1, 5)), "value"], _followers(lattice)),
+        "loads.csv": _csv("number,fx,fy,fz", _rows(loaded, lattice.dead[loaded])),
+        "followers.csv": _csv(f"kind,{corners},value", _followers(lattice)),
         "check.csv": _csv(
-            ["state", "number", x, y, z, "fx", "fy", "fz"],
+            "state,number,ux,uy,uz,fx,fy,fz",
             (
-                [state.name, number, *displacement, *force]
+                row
                 for state in lattice.states
-                for number, (displacement, force) in enumerate(
-                    zip(state.displacement.tolist(), state.force.tolist(), strict=True)
-                )
+                for row in _rows([state.name] * len(numbers), numbers, state.displacement, state.force)
             ),
         ),
-        "states.csv": _csv(
-            ["state", "energy", "meaning"], ([s.name, s.energy, s.meaning] for s in lattice.states)
-        ),
+        "states.csv": _csv("state,energy,meaning", ([s.name, s.energy, s.meaning] for s in lattice.states)),
     }
 
 
@@ -105,38 +67,47 @@ def plan(lattice: Description, scene: Scene) -> str:
     rows, columns = np.nonzero(share)
     middle = np.column_stack([0.5 * (x[1:] + x[:-1])[columns], 0.5 * (y[1:] + y[:-1])[rows]])
     found = composition_at(scene, middle)
-    values = [columns, rows, *middle.T, share[rows, columns], *found.values()]
-    return _csv(["i", "j", "x", "y", "share", *found], zip(*(each.tolist() for each in values), strict=True))
+    values = _rows(columns, rows, middle, share[rows, columns], *found.values())
+    return _csv(",".join(["i,j,x,y,share", *found]), values)
 
 
-def _followers(lattice: Description) -> Iterable[list[Any]]:
+def _followers(lattice: Description) -> Iterator[Row]:
     """Loads that follow the sheet: pressed cells, and the couples of edges by their four groups of masses."""
     for corners, pressure in zip(lattice.pressed.tolist(), lattice.pressure.tolist(), strict=True):
         yield ["pressure", *map(_joined, corners), pressure]
     for couple in lattice.couples:
-        yield [
-            "moment",
-            couple.top,
-            couple.bottom,
-            _joined(couple.before),
-            _joined(couple.after),
-            couple.moment,
-        ]
+        around = map(_joined, (couple.before, couple.after))
+        yield ["moment", couple.top, couple.bottom, *around, couple.moment]
 
 
-def _wide(values: np.ndarray, width: int) -> list[list[float]]:
-    """Rows with zeros behind them, of so many columns."""
-    rows: list[list[float]] = np.pad(values, ((0, 0), (0, width - values.shape[1]))).tolist()
-    return rows
+def _cells(lattice: Description, width: int) -> Iterator[Row]:
+    """Kind, corners, area at rest, stiffness and damping of every cell with springs, and its energy."""
+    for table in lattice.cells:
+        corners = np.array([[*map(_joined, masses)] for masses in table.corners.tolist()])
+        stiffness, damping = _wide(table.stiffness, width), _wide(table.damping[:, :3], 3)
+        kind, energy = ([text] * len(corners) for text in (table.kind, table.energy))
+        yield from _rows(kind, corners, table.rest_area, stiffness, damping, energy)
+
+
+def _wide(values: np.ndarray, width: int) -> np.ndarray:
+    """Return rows with zeros behind them, of so many columns."""
+    return np.pad(values, ((0, 0), (0, width - values.shape[1])))
+
+
+def _rows(*parts: Sequence[Any] | np.ndarray) -> Iterator[Row]:
+    """Return the rows of columns (n,) and of several at once (n, k), side by side, as plain numbers."""
+    return zip(
+        *(column for part in parts for column in np.atleast_2d(np.transpose(part)).tolist()), strict=True
+    )
 
 
 def _joined(masses: Sequence[int]) -> str:
     return "+".join(map(str, masses))
 
 
-def _csv(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
+def _csv(header: str, rows: Iterable[Row], last: str = "") -> str:
+    """Return a file's text; header: names with commas; last: of one more column, whatever it has in it."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
+    writer.writerows([[*header.split(","), *([last] if last else [])], *rows])
     return text.getvalue()

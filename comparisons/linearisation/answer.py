@@ -5,16 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
-from pathlib import Path
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
+from comparisons.report.array_files import write_mat, write_npz
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, Unit
-from sheetbench.files import whole
 from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
@@ -87,7 +86,6 @@ class Linearisation(Answer):
         return found
 
     def document(self) -> dict[str, Any]:
-        """Return the JSON document of `sheetbench linearise`: SI units."""
         poles, matrices = self.space.poles, self.matrices
         return {
             "scene": self.scene.document(),
@@ -131,25 +129,6 @@ class Linearisation(Answer):
             **self._reduction,
         }
 
-    def write_npz(self, path: Path) -> None:
-        """Write the arrays for NumPy, a sparse matrix M as M_data, M_indices, M_indptr of its columns."""
-        parts: dict[str, Any] = {}
-        for name, value in self.arrays().items():
-            if hasattr(value, "indptr"):
-                parts |= {f"{name}_{part}": getattr(value, part) for part in ("data", "indices", "indptr")}
-            else:
-                parts[name] = value
-        with whole(path) as partial:
-            np.savez(partial, **parts)
-
-    def write_mat(self, path: Path) -> None:
-        """Write the arrays for MATLAB and Octave: there ss(ss_A, ss_B, ss_C, ss_D)."""
-        from scipy.io import savemat
-
-        texts = {name: np.array(list(self.arrays()[name]), dtype=object) for name in ("inputs", "outputs")}
-        with whole(path) as partial:
-            savemat(partial, {**self.arrays(), **texts}, oned_as="column")
-
     def heading(self) -> tuple[str, str, str]:
         """Return the scene, and how large the system is."""
         about = "flat sheet" if self.about == "flat" else "equilibrium"
@@ -192,15 +171,17 @@ class Linearisation(Answer):
         return Table.of(HeightRow, rows, "Static uz per unit of input")
 
     def figures(self) -> tuple[Picture, ...]:
-        """Frequency responses."""
         return (Picture("responses", "comparisons.linearisation.figure:compose", (self,)),)
 
     def files(self) -> dict[str, Write]:
-        """Return the matrices."""
-        return {"linear.npz": self.write_npz, "linear.mat": self.write_mat}
+        """Return the matrices; in MATLAB and Octave ss(ss_A, ss_B, ss_C, ss_D)."""
+        values = self.arrays()
+        return {
+            "linear.npz": partial(write_npz, values=values),
+            "linear.mat": partial(write_mat, values=values),
+        }
 
     def choices(self) -> dict[str, Any]:
-        """Return the lattice, and how many states."""
         return {"label": self.label, "about": self.about, "states": len(self.space.a)}
 
     def notes(self) -> tuple[str, ...]:

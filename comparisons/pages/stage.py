@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -38,19 +39,20 @@ def stage(study: Study) -> Options | None:
             continue
         model = Path(name).stem if Path(name).stem in models else ""
         key = model or name
-        sheet = study.attempt(name, lambda n=key, f=frames: _moving(n, f, study.scene))  # type: ignore[misc]
+        sheet = study.attempt(name, partial(_moving, key, frames, study.scene))
         if sheet is not None:
             sheets.append(sheet)
             coloured = _coloured(frames[-1][1])
             views.append({"name": key, "label": model or "Motion", "sheets": [key], "field": coloured})
     for name, mesh in meshes.items():
-        parts = study.attempt(name, lambda n=name, m=mesh: _parts(n, m, study))  # type: ignore[misc]
+        parts = study.attempt(name, partial(_parts, name, mesh, study))
         for sheet, view in parts or []:
             sheets.append(sheet)
             views.append(view)
     if not sheets:
         return None
-    return {"sheets": sheets, "views": _ordered(views, study), **_seen(study.scene, [*meshes.values()])}
+    seen = {} if study.scene is None else {"outline": outline(study.scene), "from": eye(study.scene)}
+    return {"sheets": sheets, "views": _ordered(views, study), **seen}
 
 
 def _parts(name: str, mesh: FieldMesh, study: Study) -> list[tuple[Options, Options]]:
@@ -58,7 +60,8 @@ def _parts(name: str, mesh: FieldMesh, study: Study) -> list[tuple[Options, Opti
     data = mesh.point_data
     modes = [key for key in data if re.fullmatch(r".+_mode_\d+", key)]
     if modes:
-        return [_one(key, _with(mesh, data[key]), key.replace("_", " "), study.scene) for key in modes]
+        moved = {key: FieldMesh(mesh.points, mesh.cells, {"displacement": data[key]}) for key in modes}
+        return [_one(key, one, key.replace("_", " "), study.scene) for key, one in moved.items()]
     off = {key: data[key] for key in data if key == "difference" or key.startswith("difference_")}
     if not off:
         stem = Path(name).stem
@@ -127,12 +130,6 @@ def _moving(name: str, frames: list[tuple[float, FieldMesh]], scene: Scene | Non
     return viewer_sheet(name, kept[-1][1], "motion", scene=scene, frames=moments)
 
 
-def _seen(scene: Scene | None, meshes: list[FieldMesh]) -> Options:
-    if scene is not None:
-        return {"outline": outline(scene), "from": eye(scene)}
-    return {}
-
-
 def _mesh(path: Path) -> FieldMesh:
     read = meshio.read(path)
     points = np.asarray(read.points, dtype=float)
@@ -157,10 +154,6 @@ def _series(path: Path) -> list[tuple[float, FieldMesh]]:
         found.append((float(entry.attrib["timestep"]), place))
     kept = np.unique(np.linspace(0, len(found) - 1, min(FRAMES, len(found))).astype(int))
     return [(found[i][0], _mesh(found[i][1])) for i in kept]
-
-
-def _with(mesh: FieldMesh, displacement: np.ndarray) -> FieldMesh:
-    return FieldMesh(mesh.points, mesh.cells, {"displacement": displacement})
 
 
 def coarser(mesh: FieldMesh) -> FieldMesh:

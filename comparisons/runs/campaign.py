@@ -21,6 +21,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
@@ -30,18 +31,24 @@ from comparisons.runs import interrupts
 from comparisons.runs.executors import Pool, Watched, processes, single_threaded
 from comparisons.runs.manifest import source, version
 from comparisons.runs.store import FILE, Finished, Store
-from comparisons.runs.tasks import function
 from sheetbench.answers.files import plain
 from sheetbench.errors import BadInput
 from sheetbench.files import only_writer
 
+# Tasks by the names that rows are kept under, so that moving a file loses no result.
+TASKS = {
+    "timing": "comparisons.tradeoff.timing:measure",
+    "motion": "comparisons.motion.run:measure",
+    "stability.run": "comparisons.stability.tasks:run",
+    "crosscheck": "comparisons.crosscheck.task:answer",
+}
 GOING = "going on"
 LOOK = 1.0  # s between looks at who carries out the runs
 
 
 @dataclass(frozen=True)
 class Run:
-    """The function that `task` names (see `comparisons.runs.tasks`), called with `arguments`.
+    """The function that `task` names, in `TASKS` or as "module:function", called with `arguments`.
 
     The arguments are plain JSON data, and so is the dictionary that the function returns; its "status" and
     "message", if any, become those of the run. label: what people read while it runs.
@@ -218,6 +225,14 @@ def _submit(executor: Executor, run: Run) -> Future[Finished]:
         future: Future[Finished] = Future()
         future.set_exception(error)
         return future
+
+
+def function(task: str) -> Callable[..., dict[str, Any]]:
+    """Return what a task is carried out by: of a name in `TASKS`, or of "module:function" for one of your
+    own."""
+    module, _, name = TASKS.get(task, task).partition(":")
+    carried_out: Callable[..., dict[str, Any]] = getattr(import_module(module), name)
+    return carried_out
 
 
 def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:

@@ -21,7 +21,7 @@ from sheetbench.scenes import load
 
 @dataclass(frozen=True)
 class Study:
-    """cells: of the default map, or of the full one; measure: a task (see `comparisons.runs.tasks`), called
+    """cells: of the default map, or of the full one; measure: a task (`comparisons.runs.campaign`), called
     with a cell as keyword arguments, that returns its row; columns: of the table, each named by a key of the
     cell or of the row; draw: the map onto an empty figure; says: what is varied, what the boundary is;
     graded: whether its cells take a grading of the lattice.

@@ -15,7 +15,7 @@ from comparisons.live import server
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from comparisons.runs.tasks import function
+from comparisons.runs.campaign import function
 from comparisons.tradeoff import motion, statics, timing
 from sheetbench.scenes import SpringTable
 

@@ -15,10 +15,9 @@ from campaigns import Here, alive, interrupt_when, rows_in, task, wait_for
 from limits import at_most
 
 from comparisons.runs import campaign as runs_campaign
-from comparisons.runs.campaign import Progress, Run, campaign, carry_out, execute
+from comparisons.runs.campaign import TASKS, Progress, Run, campaign, carry_out, execute, function
 from comparisons.runs.manifest import digest, source
 from comparisons.runs.store import FILE, Finished
-from comparisons.runs.tasks import TASKS, function
 from sheetbench.errors import BadInput
 from studies.stability import STUDIES
 

@@ -1,0 +1,32 @@
+"""Named arrays as files of NumPy and of MATLAB."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sheetbench.files import whole
+
+
+def write_npz(path: Path, values: Mapping[str, Any]) -> None:
+    """Write arrays for NumPy, a sparse matrix M as M_data, M_indices, M_indptr of its columns."""
+    parts: dict[str, Any] = {}
+    for name, value in values.items():
+        if hasattr(value, "indptr"):
+            parts |= {f"{name}_{part}": getattr(value, part) for part in ("data", "indices", "indptr")}
+        else:
+            parts[name] = value
+    with whole(path) as partial:
+        np.savez(partial, **parts)
+
+
+def write_mat(path: Path, values: Mapping[str, Any]) -> None:
+    """Write arrays and sparse matrices for MATLAB and Octave, texts as cells."""
+    from scipy.io import savemat
+
+    texts = {name: np.array(v, dtype=object) for name, v in values.items() if np.asarray(v).dtype.kind == "U"}
+    with whole(path) as partial:
+        savemat(partial, {**values, **texts}, oned_as="column")

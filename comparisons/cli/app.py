@@ -24,7 +24,8 @@ from typing import Any
 import typer
 from typer.main import get_command
 
-from comparisons.cli import characters, defaults, interruption, messages, removed, startup
+from comparisons.cli import characters, interruption, messages, startup
+from comparisons.cli.arguments import Refused, refuse_removed, with_defaults
 from comparisons.cli.verb import as_verb
 from comparisons.runs import interrupts
 
@@ -64,7 +65,7 @@ BOXES = 80  # columns; in narrower ones the boxes of a help page cut names off, 
 
 @cache
 def verb_group(verbs: Sequence[str] = VERBS, boxes: bool = True) -> Any:
-    """Return the command with these verbs; boxes: whether its help pages are drawn with boxes."""
+    """Return the command with these verbs; boxes: whether help pages have boxes."""
     app = typer.Typer(
         help="How good is your spring lattice? Lumped-mass models of soft sheets beside finite elements.",
         epilog="SCENE is a name that 'sheetbench scenes' lists, or a path to a TOML file.",
@@ -72,7 +73,7 @@ def verb_group(verbs: Sequence[str] = VERBS, boxes: bool = True) -> Any:
         pretty_exceptions_enable=False,
         rich_markup_mode="rich" if boxes else None,
         context_settings={"help_option_names": ["-h", "--help"]},
-        callback=_help_where_nothing_is_asked,
+        callback=_version_or_help,
     )
     for verb in verbs:
         module = import_module(f"comparisons.cli.{verb}")
@@ -81,7 +82,7 @@ def verb_group(verbs: Sequence[str] = VERBS, boxes: bool = True) -> Any:
     return get_command(app)
 
 
-def _help_where_nothing_is_asked(
+def _version_or_help(
     context: typer.Context,
     version: bool = typer.Option(False, "-V", "--version", help="Print the version and stop."),
     verbose: bool = typer.Option(
@@ -106,16 +107,14 @@ def main(arguments: list[str] | None = None) -> None:
         arguments = [*arguments[1:], "--help"]
     for stream in (sys.stdout, sys.stderr):
         characters.adapt(stream)
-    _make_sound(os.environ)
+    _clean_environment(os.environ)
     of_process = arguments == sys.argv[1:]
     try:
-        arguments = defaults.with_defaults(arguments, VERBS)
-        refusal = removed.refusal(arguments)
-    except defaults.Refused as refused:
-        refusal = str(refused)
-    if refusal is not None:
-        print(f"sheetbench: {refusal}", file=sys.stderr)
-        raise SystemExit(BAD_INPUT)
+        arguments = with_defaults(arguments, VERBS)
+        refuse_removed(arguments)
+    except Refused as refused:
+        print(f"sheetbench: {refused}", file=sys.stderr)
+        raise SystemExit(BAD_INPUT) from None
     if of_process:
         sys.argv[1:] = arguments  # which are kept beside the results
         startup.begin()
@@ -137,10 +136,10 @@ def main(arguments: list[str] | None = None) -> None:
             if isinstance(error, typer.Abort) or interrupts.is_behind(error):
                 interruption.say()
                 raise SystemExit(interruption.STATUS) from None
-            raise SystemExit(_explained(error)) from None
+            raise SystemExit(_report_error(error)) from None
 
 
-def _make_sound(environment: MutableMapping[str, str]) -> None:
+def _clean_environment(environment: MutableMapping[str, str]) -> None:
     """Drop impossible sizes of a terminal, and draw without a window whatever matplotlib is set to."""
     for name in ("COLUMNS", "LINES"):
         if not SIZE.fullmatch(environment.get(name, "")):
@@ -148,7 +147,7 @@ def _make_sound(environment: MutableMapping[str, str]) -> None:
     environment["MPLBACKEND"] = "agg"
 
 
-def _in_the_system(error: OSError) -> str | None:
+def _system_message(error: OSError) -> str | None:
     """Return the message for a name that is too long or an output that cannot be written, else None."""
     if error.errno == errno.ENAMETOOLONG:
         return f"{str(error.filename)[:SHOWN]}…: a name that is too long; choose a shorter one"
@@ -157,9 +156,9 @@ def _in_the_system(error: OSError) -> str | None:
     return None
 
 
-def _explained(error: Exception) -> int:
-    """Say what the user did wrong, or that we did; the exit status."""
-    if isinstance(error, OSError) and (message := _in_the_system(error)) is not None:
+def _report_error(error: Exception) -> int:
+    """Print what the user did wrong, or that the program did; return the exit status."""
+    if isinstance(error, OSError) and (message := _system_message(error)) is not None:
         with suppress(OSError):  # what is left to be written has no place to go
             os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         print(f"sheetbench: {message}", file=sys.stderr)

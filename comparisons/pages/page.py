@@ -28,6 +28,7 @@ from sheetbench.answers.escape import terminal
 from sheetbench.answers.files import plain
 
 PACKAGE = "comparisons.pages"
+AS_THEY_ARE = ("title", "verb", "place", "command", "date", "notes", "complaints")  # of a study
 MANY, OTHERS = 4, 30  # studies from which on each is folded; other files that are named
 
 
@@ -83,31 +84,22 @@ def _visible(value: Any) -> Any:
 
 def _study(study: Study, number: int) -> dict[str, Any]:
     """Return what the template shows of a study."""
-    sheets = stage(study)
-    words = study.words
-    record = study.record
-    drawn = pictures(study)
+    sheets, drawn, words = stage(study), pictures(study), study.words
     turning = sheets is not None and not any(sheet.get("frames") for sheet in sheets["sheets"])
     folded = [one for one in drawn if turning and not one[0].endswith(".svg")]
     return {
+        **{name: getattr(study, name) for name in AS_THEY_ARE},
         "id": f"study-{number}",
-        "title": study.title,
         "subtitle": words.get("subtitle") or "",
         "lead": words.get("lead") or "",
-        "verb": study.verb,
-        "place": study.place,
-        "command": study.command,
         "question": question(study),
-        "date": study.date,
-        "notes": study.notes,
-        "complaints": study.complaints,
         "unfinished": bool(study.run) and not study.run.get("finished", True),
         "stage": plain({**sheets, "label": f"Sheet of {study.title}"}) if sheets else None,
         "tables": tables(study),
         "pictures": drawn,
         "figures": [one for one in drawn if one not in folded],
         "folded": folded,
-        "made": [*_made(record, study.run)],
+        "made": _made(study.record, study.run),
         "files": [(name, _size(study.folder / name)) for name in study.files],
     }
 

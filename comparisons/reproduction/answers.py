@@ -61,11 +61,6 @@ class ReproducedTest:
         return f"Test {self.test}{rod}"
 
 
-def answers(elements: Elements, progress: Progress = silent) -> list[ReproducedTest]:
-    """Return every test by every model; elements: of the shell."""
-    return [answer(test, sense, elements, progress) for test, sense in SETS]
-
-
 def answer(test: int, sense: int, elements: Elements, progress: Progress = silent) -> ReproducedTest:
     """Return a test by every model."""
     case = scene(test, sense or 1)

@@ -21,7 +21,7 @@ from comparisons.motion.frames import write_frames
 from comparisons.report.vtk import write_solution
 from comparisons.report.work import Work, silent
 from comparisons.reproduction import findings
-from comparisons.reproduction.answers import ReproducedTest, answers
+from comparisons.reproduction.answers import SETS, ReproducedTest, answer
 from comparisons.reproduction.published import SOURCES, published, scene
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling, settling
 from sheetbench.answers.answer import Answer
@@ -175,7 +175,7 @@ def reproduce(
     """Return these parts of the study; elements: of the shell; progress: called with what is being done."""
     parts_done: dict[str, Any] = {}
     if "tables" in parts:
-        parts_done["answers"] = tuple(answers(elements, progress))
+        parts_done["answers"] = tuple(answer(*one, elements, progress) for one in SETS)
     if "settling" in parts:
         parts_done["settling"] = settling(progress=progress)
     return Reproduction(tuple(part for part in PARTS if part in parts), elements, **parts_done)

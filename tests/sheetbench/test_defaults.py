@@ -3,7 +3,7 @@
 import pytest
 from commands import json_of, one_line, run
 
-from comparisons.cli.defaults import FILE, with_defaults
+from comparisons.cli.arguments import FILE, with_defaults
 
 VERBS = ("compare", "modes")
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from commands import one_line, run
 
-from comparisons.cli import removed, study
+from comparisons.cli import arguments, study
 from comparisons.cli.app import VERBS
 from studies import STUDIES
 
@@ -36,10 +36,10 @@ def test_an_installed_package_says_where_studies_are(tmp_path, monkeypatch, caps
 
 
 def test_what_is_gone_is_refused_with_what_replaces_it(capsys):
-    for verb, instead in removed.VERBS.items():
+    for verb, instead in arguments.REMOVED_VERBS.items():
         assert verb not in VERBS
         assert run(verb, "two-edges-clamped") == 2
         assert one_line(capsys) == f"sheetbench: {verb}: removed; {instead}\n"
-    for (verb, option), instead in removed.OPTIONS.items():
+    for (verb, option), instead in arguments.REMOVED_OPTIONS.items():
         assert run(verb, option) == 2
         assert one_line(capsys) == f"sheetbench: {verb} {option}: removed; {instead}\n"

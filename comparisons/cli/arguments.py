@@ -1,4 +1,6 @@
-"""Options that a folder gives to the commands run in it: `sheetbench-defaults.toml`, a table a verb.
+"""A command's arguments before its verb reads them: what a folder adds to them, and what is no more.
+
+`sheetbench-defaults.toml` in a folder gives options to the commands run in it, a table a verb:
 
     [compare]
     elements = 24
@@ -16,10 +18,28 @@ from pathlib import Path
 from typing import Any
 
 FILE = "sheetbench-defaults.toml"
+REMOVED_VERBS = {
+    "transfer": "run 'sheetbench study transfer' in a checkout",
+    "view": "write a folder with --out and run 'sheetbench report DIR --open': its page turns the sheets; in "
+    "Python, solution.to_pyvista().warp_by_vector().plot() opens a window",
+}
+REMOVED_OPTIONS = {
+    ("compare", "--auto"): "'sheetbench advise SCENE' chooses a model and prints the command that solves it",
+    ("compare", "--tolerance"): "give it to 'sheetbench advise SCENE', which prints the command to run",
+    ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout; "
+    "'sheetbench stability SCENE --vary NAME' those of your sheet",
+    ("stability", "--full"): "'sheetbench study stability --full' has the published maps, in a checkout",
+    (
+        "verify",
+        "--locking",
+    ): "'--case locking-plate --case locking-shell --case locking-solid' draws the picture",
+    ("verify", "--laws"): "'--case strain-laws' has the table",
+    ("verify", "--coverage"): "run 'sheetbench study coverage' in a checkout",
+}
 
 
 class Refused(Exception):
-    """Why a file of defaults is refused, in a line."""
+    """Why a command is refused before its verb is called, in a line."""
 
 
 def with_defaults(arguments: Sequence[str], verbs: Collection[str]) -> list[str]:
@@ -55,3 +75,13 @@ def _written(verb: str, key: str, value: Any) -> Iterator[str]:
         if not isinstance(one, str | int | float):
             raise Refused(f"{FILE}: {verb}.{key}: a number, a text, true, false or a list of these is needed")
         yield f"--{option}={one}"
+
+
+def refuse_removed(arguments: Sequence[str]) -> None:
+    """Raise Refused for a verb or an option that is gone, with what replaces it."""
+    verb, *others = arguments or [""]
+    if verb in REMOVED_VERBS:
+        raise Refused(f"{verb}: removed; {REMOVED_VERBS[verb]}")
+    for option in (other.partition("=")[0] for other in others):
+        if (verb, option) in REMOVED_OPTIONS:
+            raise Refused(f"{verb} {option}: removed; {REMOVED_OPTIONS[verb, option]}")

@@ -20,7 +20,18 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from sheetbench.scenes.quantities import Frozen, NonNegative, Number, Positive, Unit, Vector3
+from sheetbench.scenes.quantities import (
+    A_LIST,
+    A_NUMBER,
+    A_TABLE,
+    FORM,
+    Frozen,
+    NonNegative,
+    Number,
+    Positive,
+    Unit,
+    Vector3,
+)
 from sheetbench.scenes.sheet import EdgeName
 from sheetbench.scenes.tables import OverTime, PiecewiseLinear
 
@@ -35,17 +46,9 @@ class CurvatureTable(OverTime):
     """Intrinsic curvature of all joints at each time; statics take the last one."""
 
 
-def _form(value: Any) -> str:
-    if isinstance(value, dict | CurvatureTable):
-        return "over time"
-    return "each joint" if isinstance(value, list | tuple) else "constant"
-
-
 Curvature = Annotated[
-    Annotated[Number, Tag("constant")]
-    | Annotated[tuple[Number, ...], Tag("each joint")]
-    | Annotated[CurvatureTable, Tag("over time")],
-    Discriminator(_form),
+    Annotated[Number, A_NUMBER] | Annotated[tuple[Number, ...], A_LIST] | Annotated[CurvatureTable, A_TABLE],
+    FORM,
 ]
 
 

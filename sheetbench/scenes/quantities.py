@@ -19,10 +19,12 @@ from pydantic import (
     AfterValidator,
     BaseModel,
     ConfigDict,
+    Discriminator,
     Field,
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     Strict,
+    Tag,
     ValidationError,
 )
 from pydantic.fields import FieldInfo
@@ -67,6 +69,17 @@ Positive = Annotated[Finite, Field(gt=0), AfterValidator(_not_too_small)]
 NonNegative = Annotated[Finite, Field(ge=0), AfterValidator(_not_too_large)]
 Vector3 = tuple[Number, Number, Number]
 PlanPoint = tuple[Number, Number]
+
+
+def _form(value: Any) -> str:
+    if isinstance(value, dict | BaseModel):
+        return "a table"
+    return "a list" if isinstance(value, list | tuple) else "a number"
+
+
+# of a key that takes a number, a list or a table: which of them a value is
+FORM = Discriminator(_form)
+A_NUMBER, A_LIST, A_TABLE = Tag("a number"), Tag("a list"), Tag("a table")
 
 
 @dataclass(frozen=True)

@@ -187,7 +187,7 @@ def _place(
     return where, nodes
 
 
-_FORMS = {"constant", "each joint", "over time", "one number", "per direction", "by cell"}
+_FORMS = {"a number", "a list", "a table"}
 
 
 def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> list[dict[str, Any]]:

@@ -30,7 +30,7 @@ from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.region import Cutout
 from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringTable
-from sheetbench.scenes.supports import Support, lets_twist_go, place
+from sheetbench.scenes.supports import Support, held_axes, lets_twist_go, place
 from sheetbench.scenes.words import in_words
 
 if TYPE_CHECKING:
@@ -97,25 +97,17 @@ class Scene(Frozen):
 
         __init__.__pydantic_base_init__ = True
 
-    @model_validator(mode="before")
-    @classmethod
-    def _default_probes(cls, data: Any) -> Any:
-        if isinstance(data, dict) and not data.get("probes") and isinstance(data.get("sheet"), dict | Sheet):
-            try:
-                sheet = Sheet.model_validate(data["sheet"])
-                cutouts = [Cutout.model_validate(c) for c in data.get("cutout") or data.get("cutouts") or ()]
-                plan = region.region(sheet, tuple(cutouts)) if cutouts or sheet.drawn else None
-            except ValueError:
-                return data  # the sheet's own fault is the one to report
-            supports = _edges(data.get("support") or data.get("supports") or ())
-            moved = _edges(data.get("actuator") or data.get("actuators") or ())
-            held = [edge for edge, part in supports if _holds_height(part)]
-            held += [edge for edge, part in moved if _value_of(part, "kind") == "motion"]
-            probes = default_probes(sheet, [edge for edge, _ in supports], held)
-            if plan is not None:
-                probes = {name: region.nearest(plan, point) for name, point in probes.items()}
-            data = {**data, "probes": probes, "sheet": sheet}
-        return data
+    @model_validator(mode="after")
+    def _with_probes(self) -> Scene:
+        if not self.probes:
+            on_edges = [support for support in self.supports if place(support) is None]
+            held = [support.edge for support in on_edges if 2 in held_axes(support)]
+            held += [motion.edge for motion in self.motions().values()]
+            probes = default_probes(self.sheet, [support.edge for support in on_edges], held)
+            if self.pierced:
+                probes = {name: region.nearest(self.region, point) for name, point in probes.items()}
+            vars(self)["probes"] = probes  # the scene is frozen, but not whole yet
+        return self
 
     @model_validator(mode="after")
     def _consistent(self) -> Scene:
@@ -291,21 +283,3 @@ def default_probes(sheet: Sheet, supported: list[str], held: list[str]) -> dict[
     far = max([(lx, ly), (lx, 0.0), (0.0, ly), (0.0, 0.0)], key=distance)  # of ties the first
     points = {"P1": (lx / 2, ly / 2), "P2": (lx / 2, far[1]), "P3": (far[0], ly / 2), "P4": far}
     return {name: free(point) for name, point in points.items()}
-
-
-def _edges(parts: Any) -> list[tuple[str, Any]]:
-    """The supports or actuators as they are asked for, as far as they name an edge, with their edges."""
-    if not isinstance(parts, list | tuple):
-        return []
-    named = [(_value_of(part, "edge"), part) for part in parts]
-    return [(edge, part) for edge, part in named if isinstance(edge, str) and edge in EDGES]
-
-
-def _value_of(part: Any, key: str) -> Any:
-    return part.get(key) if isinstance(part, dict) else getattr(part, key, None)
-
-
-def _holds_height(support: Any) -> bool:
-    """Whether a support, as it is asked for, holds the mid-surface along z."""
-    kind, components = _value_of(support, "kind"), _value_of(support, "components")
-    return "z" in (components or ()) if kind == "held" else kind != "symmetric"

@@ -19,27 +19,28 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Strict, Tag, model_validator
+from pydantic import Field, Strict, model_validator
 
 from sheetbench.scenes.grading import Graded, through, towards
-from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, Number, Positive, Unit
+from sheetbench.scenes.quantities import (
+    A_LIST,
+    A_NUMBER,
+    A_TABLE,
+    FORM,
+    Finite,
+    Frozen,
+    NonNegative,
+    Number,
+    Positive,
+    Unit,
+)
 from sheetbench.scenes.sheet import EdgeName
 
-
-def _form(value: Any) -> str:
-    if isinstance(value, dict | PerDirection | Either):
-        return "per direction"
-    return "by cell" if isinstance(value, list | tuple) else "one number"
-
-
-Form = Discriminator(_form)
 ByCell = tuple[tuple[Number, ...], ...]
 PositiveByCell = tuple[tuple[NonNegative, ...], ...]
-AnySign = Annotated[Annotated[Number, Tag("one number")] | Annotated[ByCell, Tag("by cell")], Form]
-Links = Annotated[Annotated[NonNegative, Tag("one number")] | Annotated[PositiveByCell, Tag("by cell")], Form]
-AlongEdge = Annotated[
-    Annotated[Number, Tag("one number")] | Annotated[tuple[Number, ...], Tag("by cell")], Form
-]
+AnySign = Annotated[Annotated[Number, A_NUMBER] | Annotated[ByCell, A_LIST], FORM]
+Links = Annotated[Annotated[NonNegative, A_NUMBER] | Annotated[PositiveByCell, A_LIST], FORM]
+AlongEdge = Annotated[Annotated[Number, A_NUMBER] | Annotated[tuple[Number, ...], A_LIST], FORM]
 
 
 class PerDirection(Frozen):
@@ -63,18 +64,14 @@ class Either(Frozen):
 
 
 Stiffness = Annotated[
-    Annotated[NonNegative, Tag("one number")]
-    | Annotated[PositiveByCell, Tag("by cell")]
-    | Annotated[PerDirection, Tag("per direction")],
-    Form,
+    Annotated[NonNegative, A_NUMBER] | Annotated[PositiveByCell, A_LIST] | Annotated[PerDirection, A_TABLE],
+    FORM,
     Unit("N/m"),
 ]
-EdgeStiffness = Annotated[
-    Annotated[Number, Tag("one number")] | Annotated[Either, Tag("per direction")], Form, Unit("N/m")
-]
+EdgeStiffness = Annotated[Annotated[Number, A_NUMBER] | Annotated[Either, A_TABLE], FORM, Unit("N/m")]
 Damping = Annotated[
-    Annotated[NonNegative, Tag("one number")] | Annotated[PerDirection, Tag("per direction")],
-    Form,
+    Annotated[NonNegative, A_NUMBER] | Annotated[PerDirection, A_TABLE],
+    FORM,
     Unit("N·s/m"),
 ]
 

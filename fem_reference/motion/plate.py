@@ -32,6 +32,7 @@ class MovingPlate(Moving):
         super().__init__(scene)
         counts = divisions(scene.sheet, elements)
         graded = bool(scene.twisting_edges()) if graded is None else graded
+        graded = graded and scene.sheet.mesh is None
         self.label = f"plate {counts[0]} × {counts[1]}"
         self.settings: dict[str, Any] = {"elements": list(counts), "graded": graded}
         self._plate = plate.Plate.on(mesh_of(scene, counts, graded))

@@ -39,6 +39,7 @@ class MovingShell(MovingElements):
     def __init__(self, scene: Scene, elements: Elements = 16, graded: bool = True, law: str = STRAIN_LAW):
         super().__init__(scene)
         counts = divisions(scene.sheet, elements)
+        graded = graded and scene.sheet.mesh is None
         self.label = f"shell {counts[0]} × {counts[1]}"
         self.settings: dict[str, Any] = {"elements": list(counts), "graded": graded, "law": law}
         self.conservative = law == STRAIN_LAW

@@ -5,6 +5,7 @@ import pytest
 
 import fem_reference
 from fem_reference.motion.generalised_alpha import GeneralisedAlpha
+from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
 from fem_reference.verification import settling_strip
 from sheetbench.errors import BadInput
@@ -97,3 +98,10 @@ def test_a_run_keeps_the_frames_asked_for():
     last = motion.extra["sample"](motion.extra["frames"][-1], points)[0]
     assert motion.extra["frame_times"][-1] == motion.time[-1]
     assert last == pytest.approx(motion.probes["P4"][-1], abs=1e-15)
+
+
+@pytest.mark.parametrize("model", [MovingPlate, MovingShell])
+def test_a_mesh_of_the_sheets_own_is_not_graded(model):
+    corners = [(0.0, 0.0), (0.188, 0.0), (0.188, 0.188), (0.0, 0.188)]
+    own = load("one-edge-clamped").replace(mesh={"points": corners, "quads": [(0, 1, 2, 3)]})
+    assert model(own).settings["graded"] is False

@@ -17,15 +17,9 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 def terminal(text: str, keep: str = "") -> str:
     """Return the text with its control characters spelled out, as `\\x1b`, but for those in `keep`."""
-    return "".join(_spelled(c) if c not in keep and _acts(c) else c for c in text)
-
-
-def _acts(character: str) -> bool:
-    return character in _TURNING or unicodedata.category(character) in _CONTROL
-
-
-def _spelled(character: str) -> str:
-    return character.encode("unicode_escape").decode("ascii")
+    acting = {c for c in set(text) if c in _TURNING or unicodedata.category(c) in _CONTROL} - set(keep)
+    spelled = {ord(c): c.encode("unicode_escape").decode("ascii") for c in acting}
+    return text.translate(spelled)
 
 
 def html(text: str) -> str:

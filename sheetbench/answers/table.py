@@ -261,8 +261,7 @@ class Table:
         """Return the table without its details."""
         kept = [i for i, column in enumerate(self.columns) if not column.detail]
         rows = tuple(tuple(row[i] for i in kept) for row in self.rows)
-        columns = tuple(self.columns[i] for i in kept)
-        return Table(self.caption, columns, rows, self.name, self.grouped, self.text)
+        return replace(self, columns=tuple(self.columns[i] for i in kept), rows=rows)
 
     def shown_rows(self) -> list[list[str]]:
         """Return the rows as people read them."""

@@ -8,12 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import reduce
 from inspect import Parameter, Signature
 from math import isfinite
-from operator import or_
-from types import UnionType
-from typing import Annotated, Any, Literal, Self, Union, dataclass_transform, get_args, get_origin
+from typing import Annotated, Any, Self, dataclass_transform, get_type_hints
 
 from pydantic import (
     AfterValidator,
@@ -163,25 +160,14 @@ class Frozen(BaseModel, frozen=True):
 
 
 def _signature(fields: dict[str, FieldInfo]) -> Signature:
-    """The keys of an object as `help` shows them: those that may go without a name first."""
+    """Return the keys of an object as `help` shows them, without bounds; first those that need no name."""
+    annotations = {name: field.annotation for name, field in fields.items()}
+    types = get_type_hints(type("Keys", (), {"__annotations__": annotations}))
     parameters: list[Parameter] = []
     needed = False  # by place, here or farther on
     for name, field in sorted(fields.items(), key=lambda item: bool(item[1].kw_only))[::-1]:
         kind = Parameter.KEYWORD_ONLY if field.kw_only else Parameter.POSITIONAL_OR_KEYWORD
         needed = field.is_required() or (needed and not field.kw_only)
         usual = Parameter.empty if needed else field.get_default(call_default_factory=True)
-        parameters.append(Parameter(name, kind, default=usual, annotation=_plain(field.annotation)))
+        parameters.append(Parameter(name, kind, default=usual, annotation=types[name]))
     return Signature(parameters[::-1])
-
-
-def _plain(annotation: Any) -> Any:
-    """A type without its bounds."""
-    if hasattr(annotation, "__metadata__"):
-        return _plain(annotation.__origin__)
-    inside = get_args(annotation)
-    if not inside or get_origin(annotation) is Literal:
-        return annotation
-    parts = tuple(_plain(part) for part in inside)
-    if get_origin(annotation) in (Union, UnionType):
-        return reduce(or_, parts)
-    return get_origin(annotation)[parts]

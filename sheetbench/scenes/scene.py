@@ -7,7 +7,7 @@ once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads`
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -262,7 +262,7 @@ def _warn_author(scene: Scene, known: Scene | None = None) -> None:
             warn(Implausible(f"scene '{scene.name}': {slip}"), stacklevel=3)
 
 
-def default_probes(sheet: Sheet, supported: list[str], held: list[str]) -> dict[str, PlanPoint]:
+def default_probes(sheet: Sheet, supported: Sequence[str], held: Sequence[str]) -> dict[str, PlanPoint]:
     """Return centre P1, middles P2 (y side) and P3 (x side) beside P4, the corner farthest from supports.
 
     A point on one of the edges that are `held` would tell nothing: it lies a quarter of the sheet inside.

@@ -22,7 +22,6 @@ from comparisons.comparison import strain_law
 from comparisons.models.context import in_context
 from comparisons.models.keywords import SpringKeywords
 from comparisons.models.resolve import resolve
-from comparisons.models.scales import Scales, scales
 from comparisons.models.spec import Lattice, Spec
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
@@ -62,8 +61,6 @@ def advise(
     require_static(scene)
     asked = Lattice.given(lattice, keywords)
     probing = Probing(scene, asked if calibration is None else asked.but(calibration=calibration))
-    sizes = scales(scene)
-    resolution = tolerance or 0.01
     for _ in range(3):
         probing.refine()
     while not probing.reference.usable and probing.refine():
@@ -71,8 +68,8 @@ def advise(
     if not probing.reference.usable:
         failed = probing.reference.solution
         reason = f"the shell finds no stable equilibrium: {failed.status}: {failed.message}"
-        return _advice(probing, sizes, tolerance, budget, None, resolution, reason)
-    linear = not scene.actuators and sizes.span_load_number <= LINEAR_LOAD_NUMBER
+        return _advice(probing, tolerance, budget, None, reason)
+    linear = not scene.actuators and probing.scales.span_load_number <= LINEAR_LOAD_NUMBER
     candidates = probing.candidates(linear)
     for candidate in candidates[:3]:
         probing.trial(candidate)
@@ -99,7 +96,7 @@ def advise(
             )
     elif chosen is None:
         chosen = probing.reference
-    return _advice(probing, sizes, tolerance, budget, chosen, resolution, message)
+    return _advice(probing, tolerance, budget, chosen, message)
 
 
 def checked_tolerance(tolerance: float) -> float:
@@ -150,15 +147,9 @@ def _most_accurate(probing: Probing, candidates: list[Spec], budget: float) -> T
 
 
 def _advice(
-    probing: Probing,
-    sizes: Scales,
-    tolerance: float | None,
-    budget: float | None,
-    chosen: Trial | None,
-    resolution: float,
-    message: str,
+    probing: Probing, tolerance: float | None, budget: float | None, chosen: Trial | None, message: str
 ) -> Advice:
-    needs, left_out = _effects(probing, chosen, resolution)
+    needs, left_out = _effects(probing, chosen, tolerance or 0.01)
     tried = tuple(
         Tried(
             trial.candidate,
@@ -179,7 +170,7 @@ def _advice(
         seconds=chosen.seconds if chosen is not None else None,
         needs=needs,
         left_out=left_out,
-        scales=sizes,
+        scales=probing.scales,
         probing_seconds=probing.seconds,
         tried=tried,
         message=message,

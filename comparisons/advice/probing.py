@@ -20,6 +20,7 @@ from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.models.context import running
 from comparisons.models.grading import fixed
 from comparisons.models.resolve import resolve
+from comparisons.models.scales import scales
 from comparisons.models.sizes import has_room, require_room
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice, Spec, counted
@@ -71,6 +72,7 @@ class Probing:
         self.because = resolved.reasons.get("calibration_reason", "")
         self.points = scene.probe_points()
         self.planes = planes(scene)
+        self.scales = scales(scene)
         self.trials: dict[Spec, Trial] = {}
         self.meshes: list[int] = []
         self.seconds = 0.0

@@ -70,8 +70,8 @@ def command(
         for option, value in statics.items():
             if value:
                 raise BadInput(f"{option}: is for statics; leave it out with --duration")
-        if animate and (output.out is None or output.no_pictures):
-            raise BadInput("--animate: needs --out, a folder to draw into, without --no-pictures")
+        if animate:
+            output.require_pictures("--animate")
         moving = scenes.load(scene)
         chosen = None if elements is None else parse_elements(elements)
         with output.open(scene=moving, variant={"--duration": duration, **models}) as out:

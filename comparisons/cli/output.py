@@ -174,6 +174,13 @@ class OutputOptions(Group):
     figure: str | None = None
     no_pictures: bool = False
 
+    def require_pictures(self, option: str) -> None:
+        """Raise BadInput for an option that needs pictures where none are drawn."""
+        from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
+
+        if self.out is None or self.no_pictures:
+            raise BadInput(f"{option}: needs --out, a folder to draw into, without --no-pictures")
+
     @contextmanager
     def open(
         self,
@@ -191,16 +198,11 @@ class OutputOptions(Group):
         """
         from comparisons.models.context import running
         from sheetbench.answers.figure_style import parse_figure
-        from sheetbench.errors import BadInput
 
         startup.end()
         style = parse_figure(self.figure)
-        if self.figure is not None and self.out is None:
-            raise BadInput("--figure: needs --out, a folder to draw into")
-        if self.figure is not None and self.no_pictures:
-            raise BadInput(
-                "--figure: names pictures, and --no-pictures says to draw none; leave one of them out"
-            )
+        if self.figure is not None:
+            self.require_pictures("--figure")
         with ExitStack() as stack:
             folder = None
             if self.out is not None:

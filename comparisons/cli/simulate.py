@@ -48,13 +48,10 @@ def command(
     from comparisons.report import amounts
     from comparisons.report.work import Pace, Work
     from sheetbench import scenes
-    from sheetbench.errors import BadInput
 
     loaded = scenes.load(scene)
-    if animate and output.out is None:
-        raise BadInput("--animate: needs --out, a folder to draw into")
-    if animate and output.no_pictures:
-        raise BadInput("--animate: draws, and --no-pictures says to draw nothing; leave one of them out")
+    if animate:
+        output.require_pictures("--animate")
     truth = {}
     if measured is not None:
         truth = read_measured(measured, list(loaded.probes))

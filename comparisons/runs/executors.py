@@ -109,12 +109,12 @@ def pool_of(
         return
     cluster = Cluster(scheduler, patient, say)
     try:
-        yield cluster.workers
+        yield cluster.connected
     finally:
         cluster.close()
 
 
-class Cluster:
+class Cluster(Executor):
     """The dask cluster at an address like tcp://host:8786.
 
     A run whose worker dies is given to another by dask itself. Where there has been no worker, or no
@@ -140,18 +140,34 @@ class Cluster:
             self._client = self._connect()
         except (OSError, ValueError) as error:
             raise BadInput(f"--scheduler = '{address}': no scheduler there: {error}") from None
+        self._dask: Executor
         self._missing_since: float | None = None
         self._said = False
 
-    def workers(self, count: int) -> Executor:
-        """Return the cluster's workers, however many they are, once it can be reached."""
+    def connected(self, count: int) -> Executor:
+        """Return the cluster, with however many workers, once it can be reached."""
         while self._client.status != "running":
             self.watch()
             if self._client.status == "closed":
                 with suppress(OSError):
                     self._client = self._connect()
             time.sleep(0.2)
-        return _Workers(self)
+        self._dask = self._client.get_executor(pure=False)  # of this connection
+        return self
+
+    def submit(self, task: Callable[..., Any], /, *arguments: Any, **named: Any) -> Future[Any]:
+        """Submit as any executor does."""
+        return self._dask.submit(task, *arguments, **named)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Wait for what is under way; the connection stays."""
+        self._dask.shutdown(wait=wait)
+
+    def abandon(self) -> None:
+        """Cancel what is under way, without waiting for a scheduler that may not be there."""
+        cancelling = threading.Thread(target=self._dask.shutdown, kwargs={"wait": False}, daemon=True)
+        cancelling.start()
+        cancelling.join(FAREWELL)
 
     def watch(self) -> None:
         """See who is there. Raises BadInput, or says that it waits, where nobody has been for long."""
@@ -186,29 +202,6 @@ class Cluster:
         except OSError:
             return "answer of the scheduler"
         return None if there["workers"] else "worker"
-
-
-class _Workers(Executor):
-    """The workers of a cluster as long as the connection lasts."""
-
-    def __init__(self, cluster: Cluster) -> None:
-        self._cluster = cluster
-        self._dask: Executor = cluster._client.get_executor(pure=False)
-
-    def submit(self, task: Callable[..., Any], /, *arguments: Any, **named: Any) -> Future[Any]:
-        return self._dask.submit(task, *arguments, **named)
-
-    def watch(self) -> None:
-        self._cluster.watch()
-
-    def abandon(self) -> None:
-        """Cancel what is under way, without waiting for a scheduler that may not be there."""
-        cancelling = threading.Thread(target=self._dask.shutdown, kwargs={"wait": False}, daemon=True)
-        cancelling.start()
-        cancelling.join(FAREWELL)
-
-    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        self._dask.shutdown(wait=wait)
 
 
 def _join(stopped: Connection) -> None:

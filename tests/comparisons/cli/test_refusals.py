@@ -91,7 +91,7 @@ ROWS = {
     f"{SIMULATE} --duration -1": "duration = -1 s",
     f"{SIMULATE} --measured nowhere.csv": "nowhere.csv",
     f"{SIMULATE} --animate": "--animate: needs --out",
-    f"{SIMULATE} --animate --no-pictures --out a": "--animate: draws, and --no-pictures",
+    f"{SIMULATE} --animate --no-pictures --out a": "--animate: needs --out|without --no-pictures",
     f"simulate {TWO} --lumped 3 --duration 1 --step 1e-12": "steps to 1 s",
     f"{SIMULATE} --every 1e-11": "samples, 1e-11 s apart",
     f"simulate {TWO} --lumped 3 --duration 1e9": "samples",

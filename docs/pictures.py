@@ -57,8 +57,8 @@ def main() -> None:
 def keep(answer: Report, drawn: str, folder: Path, name: str) -> None:
     """Draw one picture of an answer; keep it as a small file with its description."""
     (picture,) = (one for one in answer.pictures if drawn in one.names)
-    if said := picture.write(folder):
-        raise SystemExit(said)
+    if refusal := picture.write(folder):
+        raise SystemExit(refusal)
     with Image.open(folder / drawn) as image:
         words = PngInfo()
         for key, text in image.text.items():

@@ -30,10 +30,10 @@ def _page(verb: str, command: Any) -> str:
     for option in options:
         value = "" if option.is_flag else f" {option.metavar or option.type.name.upper()}"
         names = ", ".join(f"`{name}{value}`" for name in [*option.opts, *option.secondary_opts])
-        default, said = option.default, _cell(getattr(option, "help", None))
-        if default not in (None, False, True) and not callable(default) and "efault:" not in said:
-            said += f" Default: `{_text(default)}`."
-        lines.append(f"| {names} | {said} |")
+        default, help_text = option.default, _cell(getattr(option, "help", None))
+        if default not in (None, False, True) and not callable(default) and "efault:" not in help_text:
+            help_text += f" Default: `{_text(default)}`."
+        lines.append(f"| {names} | {help_text} |")
     return "\n".join([*lines, ""])
 
 

@@ -33,7 +33,7 @@ def solve(
     *,
     near: Callable[[np.ndarray], np.ndarray] | None = None,
     progress: Callable[[Iteration], None] | None = None,
-    **asked: Any,
+    **requested: Any,
 ) -> Solution:
     """The static answer of a reference model; `elements` along the shorter side, or a pair (nx, ny).
 
@@ -49,23 +49,23 @@ def solve(
     """
     scene = scene_of(scene)
     if scene.material.law is not None and "law" in options(model):
-        asked.setdefault("law", scene.material.law)
+        requested.setdefault("law", scene.material.law)
     if scene.sheet.mesh is not None and "graded" in options(model):
-        asked.setdefault("graded", False)
-    check(model, asked)
+        requested.setdefault("graded", False)
+    check(model, requested)
     if "progress" in _parameters(model):
-        asked["progress"] = progress
+        requested["progress"] = progress
     if near is not None:
         if model != "shell":
             raise BadInput(f"{model}: is not begun near a shape; the shell is")
-        asked["near"] = near
-    return _solver(model)(scene, **asked)
+        requested["near"] = near
+    return _solver(model)(scene, **requested)
 
 
-def check(model: str, asked: Mapping[str, Any]) -> None:
+def check(model: str, requested: Mapping[str, Any]) -> None:
     """Raise BadInput for a model that does not exist, an option it does not have, or one of another type."""
     known = options(model)
-    for name, value in asked.items():
+    for name, value in requested.items():
         if name == "elements":
             continue
         if name not in known:

@@ -63,8 +63,8 @@ def missed_by(scene: Scene, settings: Mapping[str, Any]) -> Missed:
     Bricks, which have a `grading`, also have a layer about as wide as the sheet is thick where its stiffness
     steps, and miss it: they converge in first order there.
     """
-    asked = settings["elements"]
-    counts = divisions(scene.sheet, asked if isinstance(asked, int) else tuple(asked))
+    requested = settings["elements"]
+    counts = divisions(scene.sheet, requested if isinstance(requested, int) else tuple(requested))
     even = settings.get("graded") is False or settings.get("grading") == "uniform"
     bricks = "grading" in settings
     rows = not bricks or has_lines(borders_of(scene))

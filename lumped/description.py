@@ -225,9 +225,9 @@ def _holds(problem: Problem) -> tuple[Hold, ...]:
         for column in columns.tolist():
             for axis in axes:
                 fixed = constraints.fixed[column[0], axis]
-                for together in [(mass,) for mass in column] if fixed else [tuple(column)]:
-                    mean = float(place[list(together), axis].mean())
-                    found.setdefault((together, axis), Hold(edge, together, axis, mean))
+                for held_masses in [(mass,) for mass in column] if fixed else [tuple(column)]:
+                    mean = float(place[list(held_masses), axis].mean())
+                    found.setdefault((held_masses, axis), Hold(edge, held_masses, axis, mean))
     return tuple(found.values())
 
 
@@ -301,7 +301,7 @@ def _left_out(scene: Scene) -> tuple[str, ...]:
         if support.motion is not None
     ]
     courses = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
-    said = [f"{name} moves over time; here it is where it ends" for name in moving]
+    changes = [f"{name} moves over time; here it is where it ends" for name in moving]
     if any(load.history is not None for load in courses):
-        said.append("loads change over time in this scene; here they have their last values")
-    return tuple(said)
+        changes.append("loads change over time in this scene; here they have their last values")
+    return tuple(changes)

@@ -56,7 +56,7 @@ class MidSurface:
         columns = lattice.columns()
         for cell in set(own):
             (row, column), which = cell, np.array([n for n, each in enumerate(own) if each == cell])
-            rows, over = _hanging_together(present, cell, 0 if order == 1 else REACH)
+            rows, over = _connected(present, cell, 0 if order == 1 else REACH)
             places = np.stack([x.at[over], y.at[rows]], axis=1)
             sides = np.array([x.widths[column], y.widths[row]])
             middle = np.array([x.at[column], y.at[row]]) + 0.5 * sides
@@ -106,9 +106,7 @@ def _own_cell(lattice: Lattice, present: np.ndarray, point: np.ndarray) -> tuple
     raise BadInput(f"point {point.tolist()} m: there is no sheet, by its outline or a cutout")
 
 
-def _hanging_together(
-    present: np.ndarray, cell: tuple[int, int], reach: int
-) -> tuple[np.ndarray, np.ndarray]:
+def _connected(present: np.ndarray, cell: tuple[int, int], reach: int) -> tuple[np.ndarray, np.ndarray]:
     """Rows and columns of the lines that cross at the corners of a cell, and of those that can be reached
     from it over so many sides."""
     found, last = {cell}, {cell}

@@ -10,7 +10,7 @@ from sheetbench.numerics.fronts import Cells
 from sheetbench.scenes.grid import Grid
 
 SHARED_UP_TO = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
-ASKED = 32  # sets of masses whose blocks a small pattern keeps
+PATTERN_CACHE = 32  # sets of masses whose blocks a small pattern keeps
 
 
 class Pattern:
@@ -57,7 +57,7 @@ class Pattern:
         key = nodes.shape, nodes.tobytes()
         found = self._found.get(key)
         if found is None:
-            if len(self._found) == ASKED:
+            if len(self._found) == PATTERN_CACHE:
                 self._found.clear()
             found = self._found[key] = self._among(nodes)
         return found

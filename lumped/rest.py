@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.lattice import Lattice, mean_sides
-from lumped.pattern import ASKED, SHARED_UP_TO, Pattern
+from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO, Pattern
 
 
 class LinkRest(NamedTuple):
@@ -68,7 +68,7 @@ class Rest:
         key = which.tobytes()
         found = self._found.get(key)
         if found is None:
-            if len(self._found) == ASKED:
+            if len(self._found) == PATTERN_CACHE:
                 self._found.clear()
             joined = self._lattice.joined
             nodes, offset, rest, kind = joined if which.all() else (part[which] for part in joined)

@@ -32,7 +32,7 @@ from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, requir
 from sheetbench.scenes.cells import NUMBERS
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.patches import APART, of_sheet, parts_between, shares_of, sides_of
+from sheetbench.scenes.patches import COINCIDENT, of_sheet, parts_between, shares_of, sides_of
 
 SHEAR_CORRECTION = 5.0 / 6.0
 FINER = 4
@@ -112,7 +112,7 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | No
     directions. A cell that the outline cuts has its share of what all of it would have."""
     lines = grid_lines(scene.sheet, grid, grading)
     whole, clamped = _as_if_whole(scene, grid, lines), clamped_stiffness(scene, lines)
-    cut = bool(np.any(np.abs(clamped - 1.0) > APART))
+    cut = bool(np.any(np.abs(clamped - 1.0) > COINCIDENT))
     if not (scene.pierced or cut):
         return whole
     if whole is None:
@@ -143,7 +143,7 @@ def _divided(lines: Lines, sides: np.ndarray) -> np.ndarray:
     """The lines, those between and those at sides [m] on the sheet."""
     within = lines.at[:-1, None] + np.outer(lines.widths, np.arange(FINER) / FINER)
     finer = np.append(within, lines.at[-1])
-    on_line = np.isclose(sides[:, None], finer, rtol=0.0, atol=APART * lines.at[-1]).any(axis=1)
+    on_line = np.isclose(sides[:, None], finer, rtol=0.0, atol=COINCIDENT * lines.at[-1]).any(axis=1)
     return np.sort(np.concatenate([finer, sides[~on_line]]))
 
 

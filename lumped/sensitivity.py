@@ -133,9 +133,9 @@ def rates(
         changed = build_problem(changed_scene, recalibrated, same=problem if changed_scene is scene else None)
         moved = changed.prescribed(1.0) - placed
         sides.append((changed.residual(u + moved, 1.0).force, moved))
-    apart = float(ends[0] - ends[1])
-    rate = (sides[0][0] - sides[1][0]) / apart
-    return value, rate, (sides[0][1] - sides[1][1]) / apart
+    interval = float(ends[0] - ends[1])
+    rate = (sides[0][0] - sides[1][0]) / interval
+    return value, rate, (sides[0][1] - sides[1][1]) / interval
 
 
 def _value(scene: Scene, calibration: Calibration, name: str) -> tuple[float, float, float]:

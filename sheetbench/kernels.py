@@ -69,7 +69,7 @@ SHIPPED = Path(__file__).resolve().parent / "compiled"
 OURS = ("lumped", "fem_reference", "sheetbench.numerics")
 IMPORTS = re.compile(rf"^from ((?:{'|'.join(OURS)})[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 COMPILED = re.compile(r"\b(njit|NamedTuple|intrinsic|OPTIONS)\b")
-SAID = "compiling for this machine, once: a minute or two …"
+NOTICE = "compiling for this machine, once: a minute or two …"
 
 
 class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba is not typed
@@ -196,14 +196,14 @@ def _ours(file: str) -> bool:
 class _Announcement(event.Listener):  # type: ignore[misc]
     """Says once a process that something is compiled, and stops the solvers' clock meanwhile."""
 
-    said = False
+    announced = False
 
     def on_start(self, event: object) -> None:
         """Say it before the first."""
-        if not self.said:
-            self.said = True
+        if not self.announced:
+            self.announced = True
             _mismatches_in_brief()
-            logging.getLogger("sheetbench").info(SAID)
+            logging.getLogger("sheetbench").info(NOTICE)
         clock.stop()
 
     def on_end(self, event: object) -> None:

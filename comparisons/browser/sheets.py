@@ -146,8 +146,8 @@ def _links(mesh: FieldMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Links along an axis, the others, and the axes of chains, (m, 2) each."""
     pairs = _cells(mesh, ("line",), 2)
     chain = np.asarray(mesh.point_data.get("actuator", np.zeros(len(mesh.points))))[pairs].min(axis=1) > 0
-    apart = np.abs(np.diff(mesh.points[pairs], axis=1)[:, 0])
-    straight = (apart > 1e-9 * np.ptp(mesh.points, axis=0).max()).sum(axis=1) == 1
+    gaps = np.abs(np.diff(mesh.points[pairs], axis=1)[:, 0])
+    straight = (gaps > 1e-9 * np.ptp(mesh.points, axis=0).max()).sum(axis=1) == 1
     return pairs[straight & ~chain], pairs[~straight & ~chain], pairs[chain]
 
 

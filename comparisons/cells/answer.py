@@ -62,10 +62,10 @@ class CellModuli(Answer):
     def rows(self) -> list[Modulus]:
         """The moduli of the sheet and of the cell."""
         own = section_of(self.scene.material, self.scene.sheet.thickness)
-        asked = Moduli(own.membrane, 0.0 * own.membrane, own.bending, own.shear).named()
-        scales = {"A": asked["A11"], "D": asked["D11"], "S": asked["Sx"]}
+        target = Moduli(own.membrane, 0.0 * own.membrane, own.bending, own.shear).named()
+        scales = {"A": target["A11"], "D": target["D11"], "S": target["Sx"]}
         return [
-            Modulus(name, UNITS[name[0]], asked[name], got, (got - asked[name]) / scales[name[0]])
+            Modulus(name, UNITS[name[0]], target[name], got, (got - target[name]) / scales[name[0]])
             for name, got in self.moduli.named().items()
         ]
 

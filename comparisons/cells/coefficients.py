@@ -37,15 +37,15 @@ def nearest(
     units = cell.units()
     known = {name: value for name, value in exact.items() if name in units}
     names = [name for name in units if name not in known]
-    asked = section_of(material, thickness)
+    target = section_of(material, thickness)
     # a value of the right size for each: of springs the membrane's, of hinges the plate's by its length
-    sizes = np.array([stretching if units[n] == "N/m" else asked.bending[0, 0] for n in names])
+    sizes = np.array([stretching if units[n] == "N/m" else target.bending[0, 0] for n in names])
     if "hinge" in names and units["hinge"] == "N":
         sizes[names.index("hinge")] /= cell.area**0.5
 
     def weighted(values: np.ndarray) -> np.ndarray:
         got = moduli_of(cell, known | dict(zip(names, values * sizes, strict=True)))
-        pairs = ((got.membrane, asked.membrane), (got.bending, asked.bending))
+        pairs = ((got.membrane, target.membrane), (got.bending, target.bending))
         return np.concatenate([(TURNED * (a - b) / b[0, 0]).ravel() for a, b in pairs])
 
     if not names:

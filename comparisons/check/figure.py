@@ -39,8 +39,8 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
         axis.add_collection(PolyCollection(elements, facecolors="none", edgecolors=HELD, linewidths=0.3))
     for number, patch in enumerate(scene.patches, start=1):
         colour = colormaps[PATCHES](0.2 + 0.6 * number / (len(scene.patches) + 1))
-        look = {"facecolor": colour, "edgecolor": DARK, "linewidth": 0.4, "alpha": 0.7}
-        _part(axis, scene, patch.shape, f"patch {number}", look)
+        drawn_as = {"facecolor": colour, "edgecolor": DARK, "linewidth": 0.4, "alpha": 0.7}
+        _part(axis, scene, patch.shape, f"patch {number}", drawn_as)
     for name, support in named(scene.supports).items():
         if (shape := place(support)) is not None:
             _part(axis, scene, shape, name, {"facecolor": HELD, "edgecolor": "none", "alpha": 0.6})
@@ -51,8 +51,8 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
             for ends in edge_ends(scene, load.edge, load.where):
                 axis.plot(*1e3 * np.array(ends).T, color=LOAD, linewidth=1.5)
         elif (shape := getattr(load, "where", None)) is not None:
-            look = {"facecolor": LOAD, "edgecolor": LOAD, "alpha": 0.2}
-            _part(axis, scene, shape, f"load {number}", look)
+            drawn_as = {"facecolor": LOAD, "edgecolor": LOAD, "alpha": 0.2}
+            _part(axis, scene, shape, f"load {number}", drawn_as)
     _arrows(axis, scene, 1e3 * LONGEST * lengths.max())
     for name, at in scene.probes.items():
         axis.plot(1e3 * at[0], 1e3 * at[1], "o", markersize=3, markerfacecolor="white", markeredgecolor=DARK)
@@ -79,10 +79,10 @@ def _arrows(axis: Axes, scene: Scene, longest: float) -> None:
             axis.plot(*at, marker="." if along[2] > 0.0 else "x", color=LOAD, markersize=5)
 
 
-def _part(axis: Axes, scene: Scene, shape: Shape, name: str, look: Mapping[str, Any]) -> None:
+def _part(axis: Axes, scene: Scene, shape: Shape, name: str, drawn_as: Mapping[str, Any]) -> None:
     """The part of the sheet in a shape, with its name at the upper left, a patch's at the lower right."""
     area = scene.region.intersection(shape.area)
-    axis.add_patch(_filled(area, **look))
+    axis.add_patch(_filled(area, **drawn_as))
     left, low, right, top = (1e3 * bound for bound in area.bounds)
     if name.startswith("patch"):
         axis.annotate(name, (right, low), (-2, 2), textcoords="offset points", fontsize=6, ha="right")
@@ -90,8 +90,8 @@ def _part(axis: Axes, scene: Scene, shape: Shape, name: str, look: Mapping[str, 
         axis.annotate(name, (left, top), (3, -3), textcoords="offset points", fontsize=6, va="top")
 
 
-def _filled(area: Any, **look: Any) -> PathPatch:
+def _filled(area: Any, **drawn_as: Any) -> PathPatch:
     """An area [m] without its holes, which run the other way round."""
     parts = [part for part in getattr(area.normalize(), "geoms", [area.normalize()]) if part.area > 0.0]
     rings = [np.array(ring.coords) for part in parts for ring in (part.exterior, *part.interiors)]
-    return PathPatch(Path.make_compound_path(*(Path(1e3 * ring, closed=True) for ring in rings)), **look)
+    return PathPatch(Path.make_compound_path(*(Path(1e3 * ring, closed=True) for ring in rings)), **drawn_as)

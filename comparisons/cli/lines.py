@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 QUIET = 2.0  # s, at first
 BETWEEN = 10.0  # s, from line to line
-LOOK = 0.25  # s
+POLL = 0.25  # s
 
 
 class Lines:
@@ -62,5 +62,5 @@ class Lines:
         self._printed, self._due = text, self._clock() + BETWEEN
 
     def _look_on(self) -> None:
-        while not self._over.wait(LOOK):
+        while not self._over.wait(POLL):
             self.look()

@@ -108,7 +108,7 @@ def layered_springs(
     return {"k": k, "layers": height}, moduli, limit_error(scene, moduli) if best else None
 
 
-def _share(form: np.ndarray, asked: np.ndarray) -> float:
+def _share(form: np.ndarray, target: np.ndarray) -> float:
     """The factor that brings a form nearest to one that is asked for, in Mandel's norm."""
     weighted = TURNED**2 * form
-    return float(np.sum(weighted * asked) / np.sum(weighted * form))
+    return float(np.sum(weighted * target) / np.sum(weighted * form))

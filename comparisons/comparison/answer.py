@@ -110,10 +110,10 @@ class Comparison(Answer):
             both = self.measurable(solution)
             for name, value in self.probes(solution).items():
                 off = relative(value, truth[name], least) if both else None
-                told_apart = None
+                beyond_bar = None
                 if self.bar is not None and off is not None:
-                    told_apart = bool(np.linalg.norm(value - truth[name]) > self.bar.at(name))
-                found.append(Difference(name, solution.model, self.reference.model, off, told_apart))
+                    beyond_bar = bool(np.linalg.norm(value - truth[name]) > self.bar.at(name))
+                found.append(Difference(name, solution.model, self.reference.model, off, beyond_bar))
         return tuple(found)
 
     @property

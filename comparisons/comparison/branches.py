@@ -43,7 +43,7 @@ def joined(
 
     again = lumped.solve(scene, lattice.springs, near=shape(scene, reference, first.mesh.points))
     if _on_branch(again, points, right, own):
-        return _begun(again, first, reference), reference, _said(first, reference, own, right)
+        return _begun(again, first, reference), reference, _converged_text(first, reference, own, right)
     if reference.model != "shell" or against.spec.symmetry:
         return None
     begun = {"elements": against.spec.elements, **against.spec.but(branch=None).options}
@@ -51,7 +51,7 @@ def joined(
         scene, model="shell", near=lambda places: shape(scene, first, places), **begun
     )
     if _on_branch(again, points, own, right):
-        return first, _begun(again, reference, first), _said(reference, first, right, own)
+        return first, _begun(again, reference, first), _converged_text(reference, first, right, own)
     return None
 
 
@@ -75,7 +75,7 @@ def _begun(again: Solution, before: Solution, other: Solution) -> Solution:
     return replace(again, model=before.model, settings=settings, setup_seconds=before.setup_seconds)
 
 
-def _said(moved: Solution, kept: Solution, own: np.ndarray, other: np.ndarray) -> str:
+def _converged_text(moved: Solution, kept: Solution, own: np.ndarray, other: np.ndarray) -> str:
     own_path = f"on its own load path {moved.model} comes to {_largest(own)} mm"
     return (
         f"{moved.model} and {kept.model} came to different branches of equilibria: "
@@ -91,9 +91,9 @@ def shape(scene: Scene, reference: Solution, places: np.ndarray) -> np.ndarray:
     for axis in np.eye(3)[:2]:
         step = STEP * min(scene.sheet.lengths) * axis[:2]
         low, high = _beside(scene, plan, -step), _beside(scene, plan, step)
-        apart = np.abs(high - low).sum(axis=1)
+        distance = np.abs(high - low).sum(axis=1)
         change = reference.displacement(high) - reference.displacement(low)
-        slopes.append(change / np.where(apart > 0.0, apart, 1.0)[:, None] + axis)
+        slopes.append(change / np.where(distance > 0.0, distance, 1.0)[:, None] + axis)
     normal = np.cross(*slopes)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     moved: np.ndarray = reference.displacement(plan) + places[:, 2:] * (normal - [0.0, 0.0, 1.0])

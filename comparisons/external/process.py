@@ -31,7 +31,7 @@ MOST = 2**24  # bytes of standard output
 TAIL = 2000  # bytes of standard error that are kept
 LATE = "late"
 DRAIN = 1.0  # s for reading what is in the pipes at its end; others may go on to fill them
-LOOK = 0.05  # s between checks whether it has ended, where nothing is written
+POLL = 0.05  # s between checks whether it has ended, where nothing is written
 BLOCK = 2**16  # bytes read at once
 
 
@@ -113,7 +113,7 @@ def _hear(process: subprocess.Popen[bytes], until: float) -> tuple[bytes, bytes,
             if ended:
                 until = min(until, perf_counter() + DRAIN)
             left = max(0.0, until - perf_counter())
-            ready = waiting.select(0.0 if ended else min(LOOK, left))
+            ready = waiting.select(0.0 if ended else min(POLL, left))
             for key, _ in ready:
                 if block := os.read(key.fd, BLOCK):
                     key.data.extend(block)

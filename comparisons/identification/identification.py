@@ -131,7 +131,7 @@ def identify(
     return _answer(question, measured)
 
 
-def _answer(question: _Question, measured: Measured, look: bool = True) -> Identification:
+def _answer(question: _Question, measured: Measured, find_outliers: bool = True) -> Identification:
     """Return the answer; look: whether for rows that do not fit."""
     unknowns, model = question.unknowns, question.fitted()
     fit = Fit(measured, unknowns, model.axes, model.predictor, question.offset, context().progress)
@@ -143,7 +143,7 @@ def _answer(question: _Question, measured: Measured, look: bool = True) -> Ident
 
     def enough(one: Nearest) -> bool:
         nonlocal odd
-        odd = outliers(fit, one) if look else ()
+        odd = outliers(fit, one) if find_outliers else ()
         return bool(odd) or explained(one.noise, runs(measured, fit.misfit().per_point(one.residuals)))
 
     best, starts = nearest(fit, require_sense, enough)
@@ -165,7 +165,7 @@ def _answer(question: _Question, measured: Measured, look: bool = True) -> Ident
     without: dict[str, Estimate] = {}
     if odd and isinstance(measured, Displacements):
         context().progress("without the rows that do not fit")
-        without = _answer(question, measured.without([one.row for one in odd]), look=False).unknowns
+        without = _answer(question, measured.without([one.row for one in odd]), find_outliers=False).unknowns
     warnings = [
         *remarks.on_outliers(odd, without),
         *known.warnings,

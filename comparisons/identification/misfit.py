@@ -30,7 +30,7 @@ class Misfit:
     offset: float = 0.0
 
     @property
-    def asked(self) -> np.ndarray:
+    def requested(self) -> np.ndarray:
         """Plan points (n, 2) [m] at which the model is to answer."""
         return surface.plan_points(self.axes) if isinstance(self.measured, Surface) else self.measured.points
 

@@ -96,7 +96,7 @@ def _step(fit: Fit, x: np.ndarray) -> np.ndarray:
     """Return the Gauss–Newton step of x, of what the data see; nan where the model has no answer."""
     misfit = fit.misfit()
     try:
-        residuals, slopes = misfit.of(fit.predictor(fit.measured)(fit.unknowns, x, misfit.asked))
+        residuals, slopes = misfit.of(fit.predictor(fit.measured)(fit.unknowns, x, misfit.requested))
     except NotReached:
         return np.full(len(x), np.nan)
     step, *_ = np.linalg.lstsq(slopes, -residuals, rcond=Identifiability.threshold)

@@ -64,7 +64,7 @@ def search(
     def at(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         key = x.tobytes()
         if key not in kept:
-            predicted = predict(unknowns, x, misfit.asked)
+            predicted = predict(unknowns, x, misfit.requested)
             if not kept:
                 first(predicted)
             kept[key] = misfit.of(predicted)

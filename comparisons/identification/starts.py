@@ -70,7 +70,7 @@ class Fit:
     def residuals(self, x: np.ndarray) -> np.ndarray:
         """Of all measurements at x, in their shape [m]."""
         misfit = self.misfit()
-        values, _ = misfit.of(self.predictor(self.measured)(self.unknowns, x, misfit.asked))
+        values, _ = misfit.of(self.predictor(self.measured)(self.unknowns, x, misfit.requested))
         return misfit.per_point(values)
 
 

@@ -49,8 +49,8 @@ class Answered:
 
     def agrees(self, other: Answered) -> bool:
         """Return whether two answers to a question are one equilibrium."""
-        apart = np.abs(self.displacement - other.displacement).max(initial=0.0)
-        return bool(apart <= SAME * np.abs(other.displacement).max(initial=0.0))
+        difference = np.abs(self.displacement - other.displacement).max(initial=0.0)
+        return bool(difference <= SAME * np.abs(other.displacement).max(initial=0.0))
 
     @property
     def masses(self) -> np.ndarray:

@@ -79,8 +79,8 @@ def grading_of(
 
 def lines_on_shapes(scene: Scene, grid: Sequence[int], lattice: Lattice | LatticePair) -> Graded:
     """Return equal cells but for lines on the sides of shapes, where no grading is asked."""
-    asked = lattice.grading is not None or not scene.shaped_by or one_size(grid, lattice)
-    return 0.0 if asked else through(sides_of_shapes(scene))
+    requested = lattice.grading is not None or not scene.shaped_by or one_size(grid, lattice)
+    return 0.0 if requested else through(sides_of_shapes(scene))
 
 
 def _ends_of_cells(scene: Scene, grid: Sequence[int], grading: Grading) -> str:

@@ -99,8 +99,8 @@ class Study:
     @property
     def complaints(self) -> list[str]:
         """What went wrong, and what is doubtful about the scene."""
-        said = [*self.words.get("complaints", ()), *texts(self.document.get("warnings"))]
-        return list(dict.fromkeys(said))
+        complaints = [*self.words.get("complaints", ()), *texts(self.document.get("warnings"))]
+        return list(dict.fromkeys(complaints))
 
     def path(self, name: str) -> Path | None:
         """Return a file of the study; None, with a sentence said, where it is missing, outside or too

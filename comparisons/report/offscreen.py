@@ -44,8 +44,8 @@ def why_not() -> str | None:
 
     The first kind of window that works is kept for this process.
     """
-    asked = os.environ.get(_WINDOW)
-    for window in (asked,) if asked else _WINDOWS:
+    requested = os.environ.get(_WINDOW)
+    for window in (requested,) if requested else _WINDOWS:
         if _draws({**os.environ, _WINDOW: window}):
             os.environ[_WINDOW] = window
             return None

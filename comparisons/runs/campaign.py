@@ -43,7 +43,7 @@ TASKS = {
     "crosscheck": "comparisons.crosscheck.task:answer",
 }
 GOING = "going on"
-LOOK = 1.0  # s between looks at who carries out the runs
+POLL = 1.0  # s between looks at who carries out the runs
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ class _Session:
                     under_way[_submit(executor, run)] = run
                     self.going[run.key] = run.label
                     self._tell(run, GOING, width)
-                done, _ = wait(under_way, timeout=LOOK, return_when=FIRST_COMPLETED)
+                done, _ = wait(under_way, timeout=POLL, return_when=FIRST_COMPLETED)
                 if not done and isinstance(executor, Watched):
                     executor.watch()
                 broken, cancelled = [], []

@@ -142,7 +142,7 @@ class Cluster(Executor):
             raise BadInput(f"--scheduler = '{address}': no scheduler there: {error}") from None
         self._dask: Executor
         self._missing_since: float | None = None
-        self._said = False
+        self._warned = False
 
     def connected(self, count: int) -> Executor:
         """Return the cluster, with however many workers, once it can be reached."""
@@ -173,12 +173,12 @@ class Cluster(Executor):
         """See who is there. Raises BadInput, or says that it waits, where nobody has been for long."""
         missing = self._what_is_missing()
         if missing is None:
-            self._missing_since, self._said = None, False
+            self._missing_since, self._warned = None, False
             return
         now = time.monotonic()
         if self._missing_since is None:
             self._missing_since = now
-        if now - self._missing_since < PATIENCE or self._said:
+        if now - self._missing_since < PATIENCE or self._warned:
             return
         refusal = f"--scheduler = '{self.address}': no {missing} for {PATIENCE:g} s"
         if not self._patient:
@@ -186,7 +186,7 @@ class Cluster(Executor):
                 f"{refusal}; finished runs are kept: the same command continues, with --wait it waits for one"
             )
         self._say(f"{refusal}; waiting")
-        self._said = True
+        self._warned = True
 
     def close(self) -> None:
         """Leave the cluster, which keeps running."""

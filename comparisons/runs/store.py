@@ -69,7 +69,7 @@ class Store:
         """Open or make the file. Raises BadInput for one that is not a campaign's, damaged or read-only."""
         self.path = path
         require_file(path)  # SQLite would follow a link
-        with self._said():
+        with self._database_errors():
             self._database = sqlite3.connect(path)
         try:
             self._prepare()
@@ -79,7 +79,7 @@ class Store:
 
     def _prepare(self) -> None:
         columns = ", ".join(f"{name} {kind}" for name, kind in COLUMNS.items())
-        with self._said():
+        with self._database_errors():
             self._database.execute("pragma synchronous = full")
             (health,) = self._database.execute("pragma quick_check(1)").fetchone()
             if health == "ok":
@@ -99,13 +99,13 @@ class Store:
             *(run.started, run.finished, float(run.seconds)),
         )
         places = ", ".join("?" for _ in COLUMNS)
-        with self._said(), self._database:
+        with self._database_errors(), self._database:
             self._database.execute(f"insert into runs values ({places})", (*values, _digest(values)))
 
     def get(self, key: str) -> Finished | None:
         """Return the finished run of a key, if there is one. Raises BadInput for a row that was changed
         since."""
-        with self._said():
+        with self._database_errors():
             record = self._database.execute("select * from runs where key = ?", (key,)).fetchone()
         if record is None:
             return None
@@ -117,7 +117,7 @@ class Store:
 
     def forget(self, key: str) -> None:
         """Remove a run without an answer, so that it can be repeated."""
-        with self._said(), self._database:
+        with self._database_errors(), self._database:
             self._database.execute("delete from runs where key = ? and status in ('failed', 'lost')", (key,))
 
     def close(self) -> None:
@@ -125,7 +125,7 @@ class Store:
         self._database.close()
 
     @contextmanager
-    def _said(self) -> Iterator[None]:
+    def _database_errors(self) -> Iterator[None]:
         """What SQLite complains of, as a BadInput that names the file and the remedy."""
         try:
             yield

@@ -131,12 +131,12 @@ def _displacements(path: Path, reference: Reference, rows: list[Row]) -> np.ndar
 def _missing(needed: np.ndarray, given: list[float], sample: int) -> str:
     """The first time that is needed and not given, which all are needed, and what is given instead."""
     every = f"{len(needed)} times are needed, every {needed[1]:g} s from 0 to {needed[-1]:g} s"
-    said = (
+    refusal = (
         f"{needed[sample]:g} s: {every}; given are {len(set(given))} from {min(given):g} to {max(given):g} s"
     )
     if max(given) > 30.0 * needed[-1]:
-        said += ", as in ms: name the column time [ms]"
-    return said
+        refusal += ", as in ms: name the column time [ms]"
+    return refusal
 
 
 def _frequencies(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.report.labels import spread
-from comparisons.scoring.score import Score, Standing
+from comparisons.scoring.score import Place, Score
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, GREY, plain
 
@@ -21,7 +21,7 @@ LEAST = 1e-3  # percent, where an error of nothing is drawn
 
 def compose(score: Score, style: FigureStyle = PLAIN) -> Figure:
     """The figure: cases on the left; on the right time and score, where other models were measured."""
-    beside = len(score.standing) > 1
+    beside = len(score.leaderboard) > 1
     cases = 1.2 + 0.17 * max(8, len(score.answers))
     below = 2.8 if beside and style.narrow else 0.0
     figure = Figure(figsize=(style.width, cases + below), layout="constrained")
@@ -48,13 +48,13 @@ def _cases(axis: Axes, score: Score) -> None:
 
 
 def _place(axis: Axes, score: Score) -> None:
-    timed = [one for one in score.standing if one.seconds is not None]
+    timed = [one for one in score.leaderboard if one.seconds is not None]
     for one in timed:
         colour = OWN if one.model == "answers" else DARK
         kept = colour if one.model in score.front else "white"
         marker = "s" if one.foreign else "o"
         axis.plot(1e3 * (one.seconds or 0.0), 100.0 * one.score, marker, ms=5, color=colour, mfc=kept)
-    for one in score.standing:
+    for one in score.leaderboard:
         if one.seconds is None:
             axis.axhline(100.0 * one.score, color=OWN, lw=1.0, ls="--")
             axis.annotate(
@@ -71,7 +71,7 @@ def _place(axis: Axes, score: Score) -> None:
     _name(axis, timed)
 
 
-def _name(axis: Axes, timed: Sequence[Standing]) -> None:
+def _name(axis: Axes, timed: Sequence[Place]) -> None:
     """The models' names where they hide neither each other nor a point."""
     figure = axis.figure
     figure.draw_without_rendering()  # type: ignore[union-attr]

@@ -60,7 +60,7 @@ class CaseRow:
 
 
 @dataclass(frozen=True)
-class Standing:
+class Place:
     """A model's score and the geometric mean of its times [s], None where they are not told; whose: one of
     `WHOSE`; worst: its case of the largest error, if there is one; refused: cases that it has no answer to;
     on_the_front: whether none is both quicker and better.
@@ -119,16 +119,16 @@ class Score(ShownAnswer):
         ]
 
     @property
-    def standing(self) -> list[Standing]:
+    def leaderboard(self) -> list[Place]:
         """These answers and other models on the same cases, the best first."""
         front = self.front
         return [replace(one, on_the_front=one.model in front) for one in self._ranked]
 
     @property
-    def _ranked(self) -> list[Standing]:
+    def _ranked(self) -> list[Place]:
         times = [answer.seconds for answer in self.answers]
         known = [time for time in times if time]
-        own = Standing(OWN, self.score, _geometric(known) if len(known) == len(times) else None, YOURS)
+        own = Place(OWN, self.score, _geometric(known) if len(known) == len(times) else None, YOURS)
         ours = own_models([answer.reference for answer in self.answers])
         return sorted([own, *ours], key=lambda one: one.score)
 
@@ -136,7 +136,7 @@ class Score(ShownAnswer):
     def front(self) -> list[str]:
         """Models that none other is both quicker and better than, the quickest first. Answers that a slip has
         spoilt, or that are off by all of the displacement, are none however quick they are."""
-        kept: list[Standing] = []
+        kept: list[Place] = []
         wrong = self.faults or self.score >= 1.0
         timed = [one for one in self._ranked if one.seconds is not None and not (wrong and one.model == OWN)]
         for one in sorted(timed, key=lambda one: (one.seconds, one.score)):
@@ -156,7 +156,7 @@ class Score(ShownAnswer):
             "stiffer": stiffness(self.answers),
             "faults": self.faults,
             "score": self.score,
-            "standing": [asdict(one) for one in self.standing],
+            "standing": [asdict(one) for one in self.leaderboard],
             "front": self.front,
         }
 
@@ -178,8 +178,8 @@ class Score(ShownAnswer):
         cases = Table.of(CaseRow, self.cases, "Errors by case", "cases")
         caption = "Beside our own models and other programs on the same cases"
         fields = ("model", "whose", "score", "seconds", "on_the_front")
-        place = Table.of(Standing, self.standing, caption, "place", fields=fields)
-        return (cases, place) if len(self.standing) > 1 else (cases,)
+        place = Table.of(Place, self.leaderboard, caption, "place", fields=fields)
+        return (cases, place) if len(self.leaderboard) > 1 else (cases,)
 
     def figures(self) -> tuple[Picture, ...]:
         return (Picture("score", "comparisons.scoring.figure:compose", (self,)),)
@@ -190,8 +190,8 @@ class Score(ShownAnswer):
         ]
         if self.unanswered:
             notes.append(f"not answered yet: {', '.join(self.unanswered)}")
-        if len(self.standing) > 1:
-            if any(one.seconds is not None for one in self.standing if one.model != OWN):
+        if len(self.leaderboard) > 1:
+            if any(one.seconds is not None for one in self.leaderboard if one.model != OWN):
                 made = document()["made_with"]["machine"].get("processor", "another machine")
                 notes.append(f"times of the others are geometric means, measured on {made}")
                 notes.append("on the front: no other model is both faster and better")
@@ -201,7 +201,7 @@ class Score(ShownAnswer):
     @property
     def place(self) -> str:
         """The place among other models by score, and the model of the nearest score."""
-        ranked = self.standing
+        ranked = self.leaderboard
         at = [one.model for one in ranked].index(OWN)
         others = [one for one in ranked if one.model != OWN]
         nearest = min(others, key=lambda one: abs(np.log(max(one.score, 1e-12) / max(self.score, 1e-12))))
@@ -264,15 +264,15 @@ def _rms(answer: Answer) -> float:
     return float(np.sqrt(np.mean(np.sum(off**2, axis=-1))) / np.abs(known.values).max())
 
 
-def own_models(cases: Sequence[Reference]) -> list[Standing]:
+def own_models(cases: Sequence[Reference]) -> list[Place]:
     """Our own models and other programs that have an answer to any of these cases, as they were measured."""
     rows: dict[str, dict[str, dict[str, Any]]] = {}
     names = {case.name for case in cases}
-    standing = [row for row in document()["standing"] if row["case"] in names]
-    for row in standing or [row for case in cases for row in _judged(case)]:
+    leaderboard = [row for row in document()["standing"] if row["case"] in names]
+    for row in leaderboard or [row for case in cases for row in _of_models(case)]:
         rows.setdefault(str(spec_of(row["model"], row["settings"])), {})[row["case"]] = row
     return [
-        Standing(
+        Place(
             name,
             mean([of_model[case.name]["error"] for case in cases], cases),
             _geometric(times)
@@ -287,7 +287,7 @@ def own_models(cases: Sequence[Reference]) -> list[Standing]:
     ]
 
 
-def _judged(case: Reference) -> list[dict[str, Any]]:
+def _of_models(case: Reference) -> list[dict[str, Any]]:
     """Other models that solved a case when the set was made, whose times were not kept."""
     return [
         {**row, "case": case.name, "seconds": None, "settings": {k: row[k] for k in SIZES if k in row}}

@@ -10,7 +10,7 @@ from typing import Any
 
 from comparisons.scoring.answers import HEADERS
 from comparisons.scoring.reference import Reference, document, references
-from comparisons.scoring.score import Standing, own_models
+from comparisons.scoring.score import Place, own_models
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
@@ -45,9 +45,9 @@ class Suite(Answer):
 
     def tables(self) -> list[Table]:
         cases = Table.of(Reference, self.cases.values(), "Cases of the reference set", "cases", fields=CASE)
-        return [cases, *([self._standing()] if self.suite in (None, "statics") else [])]
+        return [cases, *([self._leaderboard()] if self.suite in (None, "statics") else [])]
 
-    def _standing(self) -> Table:
+    def _leaderboard(self) -> Table:
         """How our own models and other programs fare on the statics, the best first."""
         ours = own_models([case for case in self.cases.values() if case.suite == "statics"])
         rows = sorted(ours, key=lambda one: one.score)
@@ -58,7 +58,7 @@ class Suite(Answer):
         )
         fields = ("model", "score", "worst_error", "worst", "refused", "seconds")
         caption = "Our models and other programs on the statics"
-        return Table.of(Standing, rows, caption, "standing", fields=fields, text=text)
+        return Table.of(Place, rows, caption, "standing", fields=fields, text=text)
 
     def notes(self) -> tuple[str, ...]:
         return (

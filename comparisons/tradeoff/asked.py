@@ -40,8 +40,8 @@ def of_statics(
     """
     named = items(calibrations)
     of_one = lattices(scene, items(grids), named, lattice)
-    asked = [*of_one, *pairs(scene, items(of_two), named, lattice)]
-    resolved, reasons = resolve_each(scene, asked, lattice.grading)
+    lattices_of_both = [*of_one, *pairs(scene, items(of_two), named, lattice)]
+    resolved, reasons = resolve_each(scene, lattices_of_both, lattice.grading)
     candidates = [one for i, one in enumerate(resolved) if one not in resolved[:i]]
     for name, sizes in meshes.items():
         candidates += references(name, items(sizes))
@@ -50,8 +50,8 @@ def of_statics(
     candidates += [parse(text) for text in models]
     if not candidates:
         raise BadInput("no model left to measure")
-    judge = None if elements is None else Elements(REFERENCE, _halved_too(elements))
-    return partial(tradeoff, scene, candidates, reference=judge, repeats=repeats, reasons=reasons)
+    finest = None if elements is None else Elements(REFERENCE, _halved_too(elements))
+    return partial(tradeoff, scene, candidates, reference=finest, repeats=repeats, reasons=reasons)
 
 
 def _halved_too(text: str) -> Count:

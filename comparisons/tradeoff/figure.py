@@ -55,9 +55,9 @@ def compose(tradeoff: Tradeoff, style: FigureStyle = PLAIN) -> Figure:
         sized = [(1e3 * row.cell_size, 100 * (row.error or 0.0)) for row in rows if row.cell_size]
         right.plot([h for h, _ in sized], [e for _, e in sized], **line)
     _front(left, tradeoff)
-    for axis, said in ((left, "uncertainty of the reference"), (right, "")):
+    for axis, note in ((left, "uncertainty of the reference"), (right, "")):
         logarithmic(axis)
-        _floor(axis, tradeoff, said)
+        _floor(axis, tradeoff, note)
     left.set_xlabel("solve time [ms], one thread")
     left.set_ylabel("error at the probes [%]")
     right.set_xlabel("size of a cell or element [mm]")
@@ -152,7 +152,7 @@ def _front(axis: Axes, tradeoff: Tradeoff) -> None:
     axis.step(times, errors, where="post", zorder=0, label="front: the best in that time", **band)
 
 
-def _floor(axis: Axes, tradeoff: Tradeoff, said: str) -> None:
+def _floor(axis: Axes, tradeoff: Tradeoff, note: str) -> None:
     """Where the reference itself is uncertain."""
     if not tradeoff.uncertainty:
         return
@@ -162,7 +162,7 @@ def _floor(axis: Axes, tradeoff: Tradeoff, said: str) -> None:
     axis.set_ylim(bottom, 1.6 * max(floor, *shown))
     axis.axhspan(bottom, floor, color=GREY, alpha=0.18, lw=0)
     axis.annotate(
-        said,
+        note,
         (0.015, floor),
         (0, -2),
         xycoords=axis.get_yaxis_transform(),

@@ -90,33 +90,33 @@ def dynamic_tradeoff(
         label = f"{one.springs.title}, {name} {step:.3g} s"
         return run(one.spec, label=label, timed=timed, integrator=name, step=step)
 
-    judges = [run(finest.but(count=n), error=ERRORS[-1]) for n in coarser(finest.elements)]
-    judges.append(run(finest, error=LONGER * ERRORS[-1]))
+    finer_runs = [run(finest.but(count=n), error=ERRORS[-1]) for n in coarser(finest.elements)]
+    finer_runs.append(run(finest, error=LONGER * ERRORS[-1]))
     own = [of_lattice(one, "midpoint", period / n, False) for n in (fine, fine // 2) for one, period in each]
-    asked: list[tuple[Run, int | None]] = []  # with the number of its lattice
+    model_runs: list[tuple[Run, int | None]] = []  # with the number of its lattice
     for number, (one, period) in enumerate(each):
         for name in integrators:
             steps = [period / n for n in divisions]
             if lumped.INTEGRATORS[name].explicit:
                 limit = explicit_limit(name, scene, one.springs)
                 steps = [share * limit for share in SHARES]
-            asked += [(of_lattice(one, name, step), number) for step in steps]
+            model_runs += [(of_lattice(one, name, step), number) for step in steps]
     for other in others:
         if isinstance(other, Elements):
-            asked += [(run(other, timed=True, error=error), None) for error in ERRORS]
+            model_runs += [(run(other, timed=True, error=error), None) for error in ERRORS]
         else:
-            asked.append((run(other, timed=True), None))
-    found = carry_out([*judges, *own, *(one for one, _ in asked)], store, **how)
-    judged, found = found[: len(judges)], found[len(judges) :]
+            model_runs.append((run(other, timed=True), None))
+    found = carry_out([*finer_runs, *own, *(one for one, _ in model_runs)], store, **how)
+    finer_outcomes, found = found[: len(finer_runs)], found[len(finer_runs) :]
     truths, halves, found = found[: len(each)], found[len(each) : len(own)], found[len(own) :]
     finer = 2 * max(divisions)
-    while finer <= fine and (unsolved := _unsolved(asked, found)):
+    while finer <= fine and (unsolved := _unsolved(model_runs, found)):
         more = [(of_lattice(each[n][0], name, each[n][1] / finer), n) for n, name in unsolved]
         found += carry_out([one for one, _ in more], store, **how)
-        asked += more
+        model_runs += more
         finer *= 2
     ordered = sorted(
-        zip(asked, found, strict=True), key=lambda both: _place(both[0][0], both[0][1], integrators)
+        zip(model_runs, found, strict=True), key=lambda both: _place(both[0][0], both[0][1], integrators)
     )
     reasons = (why for one, _ in each for why in one.reasons.items())
     return DynamicTradeoff(
@@ -124,11 +124,11 @@ def dynamic_tradeoff(
         duration,
         min(period for _, period in each),
         tuple(
-            measured_row(one, outcome, judged[0], None if n is None else truths[n])
+            measured_row(one, outcome, finer_outcomes[0], None if n is None else truths[n])
             for (one, n), outcome in ordered
         ),
-        measured_row(judges[0], judged[0], judged[0]),
-        _uncertainty(scene, judges, judged),
+        measured_row(finer_runs[0], finer_outcomes[0], finer_outcomes[0]),
+        _uncertainty(scene, finer_runs, finer_outcomes),
         tuple(dict.fromkeys(f"{name.removesuffix('_reason')}: {why}" for name, why in reasons)),
         tuple(f"lumped {one.springs.title}" for one, _ in each),
         max((_off(half, truth) for half, truth in zip(halves, truths, strict=True)), default=0.0),
@@ -174,12 +174,14 @@ def _off(one: Finished, other: Finished) -> float:
     return 0.0 if ours is None or theirs is None else largest(ours, theirs)
 
 
-def _unsolved(asked: Sequence[tuple[Run, int | None]], found: Sequence[Finished]) -> list[tuple[int, str]]:
+def _unsolved(
+    model_runs: Sequence[tuple[Run, int | None]], found: Sequence[Finished]
+) -> list[tuple[int, str]]:
     """Numbers of lattices and the implicit integrators that converged there with no step so far."""
     import lumped
 
     ended: dict[tuple[int, str], set[str]] = {}
-    for (one, number), outcome in zip(asked, found, strict=True):
+    for (one, number), outcome in zip(model_runs, found, strict=True):
         if number is not None:
             ended.setdefault((number, one.arguments["run"]["integrator"]), set()).add(outcome.status)
     return [

@@ -59,8 +59,8 @@ def _band(axis: Axes, uncertainty: float | None) -> None:
     bottom = axis.get_ylim()[0]
     if uncertainty:
         axis.axhspan(min(bottom, 50 * uncertainty), 100 * uncertainty, color=GREY, alpha=0.18, lw=0)
-        said: dict[str, Any] = {"xytext": (0, -2), "textcoords": "offset points", "ha": "right", "va": "top"}
+        note: dict[str, Any] = {"xytext": (0, -2), "textcoords": "offset points", "ha": "right", "va": "top"}
         of = axis.get_yaxis_transform()
         at = (0.99, 100 * uncertainty)
-        axis.annotate("uncertainty of the reference", at, xycoords=of, fontsize=6, color=GREY, **said)
+        axis.annotate("uncertainty of the reference", at, xycoords=of, fontsize=6, color=GREY, **note)
         axis.set_ylim(min(bottom, 50 * uncertainty))

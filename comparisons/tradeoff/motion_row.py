@@ -64,14 +64,14 @@ class MotionRow:
 
 def measured_row(run: Run, outcome: Finished, truth: Finished, own: Finished | None = None) -> MotionRow:
     """The row of a run: what was asked, cost, and errors; own: the same lattice in fine steps."""
-    settings, asked = run.arguments["settings"], run.arguments["run"]
+    settings, requested = run.arguments["settings"], run.arguments["run"]
     row, history, reference = outcome.row, history_of(outcome), history_of(truth)
     steps, duration = row.get("steps"), run.arguments["duration"]
     found = MotionRow(
         model=run.arguments["model"],
         size=counted(settings.get("grid") or settings.get("elements") or ""),
-        integrator=asked.get("integrator", ""),
-        step=asked.get("step") or (duration / steps if history is not None and steps else None),
+        integrator=requested.get("integrator", ""),
+        step=requested.get("step") or (duration / steps if history is not None and steps else None),
         status=outcome.status,
         message=outcome.message,
         steps=steps,

@@ -41,8 +41,8 @@ def cheapest(
         within = [row for row in known if row[0] <= tolerance]
         if within:
             error, time, name = min(within, key=lambda row: row[1])
-            said = f"{name}, {few(100.0 * error)} % off in {milliseconds(time)}{per}."
-            notes.setdefault(said, f"Cheapest within {few(100.0 * tolerance)} %: {said}")
+            note = f"{name}, {few(100.0 * error)} % off in {milliseconds(time)}{per}."
+            notes.setdefault(note, f"Cheapest within {few(100.0 * tolerance)} %: {note}")
     return list(notes.values())
 
 

@@ -80,7 +80,7 @@ def measured_row(
     """The row of a run, with its errors."""
     model, settings = shown_name(run.arguments["model"]), run.arguments["settings"]
     found = {key: value for key, value in outcome.row.items() if key not in ("field", "solve_seconds")}
-    told = {
+    if_known = {
         "model": model,
         "label": run.label,
         "settings": settings,
@@ -90,7 +90,7 @@ def measured_row(
         "solve_seconds": tuple(outcome.row.get("solve_seconds", {}).get("samples", ())),
     }
     return TradeoffRow(
-        **told,
+        **if_known,
         series=spec_of(run.arguments["model"], settings).series,
         cell_size=cell_size(scene, settings),
         started=outcome.started,

@@ -59,37 +59,41 @@ def tradeoff(
         resolve(scene, candidate, option=f"--{candidate.model}")
     fine = reference or _finest(candidates)
     resolve(scene, fine)
-    judges = [timing.run(scene, fine.but(count=n), timed=False) for n in coarser(fine.elements)]
-    asked = [timing.run(scene, candidate, repeats) for candidate in candidates]
-    outcomes = carry_out([*judges, *asked], store, **how)
-    count = len(judges)
-    return replace(assemble(scene, judges, outcomes[:count], asked, outcomes[count:]), reasons=reasons)
+    finer_runs = [timing.run(scene, fine.but(count=n), timed=False) for n in coarser(fine.elements)]
+    model_runs = [timing.run(scene, candidate, repeats) for candidate in candidates]
+    outcomes = carry_out([*finer_runs, *model_runs], store, **how)
+    count = len(finer_runs)
+    return replace(
+        assemble(scene, finer_runs, outcomes[:count], model_runs, outcomes[count:]), reasons=reasons
+    )
 
 
 def assemble(
     scene: Scene,
-    judges: Sequence[Run],
-    judged: Sequence[Finished],
-    asked: Sequence[Run],
+    finer_runs: Sequence[Run],
+    finer_outcomes: Sequence[Finished],
+    model_runs: Sequence[Run],
     outcomes: Sequence[Finished],
 ) -> Tradeoff:
     """The trade-off of finished runs: the reference on meshes from fine to coarse, and the rows."""
-    weights, truth = timing.field_points(scene)[1], judged[0]
+    weights, truth = timing.field_points(scene)[1], finer_outcomes[0]
     rows = tuple(
         measured_row(scene, run, outcome, *_errors(outcome, truth, weights))
-        for run, outcome in zip(asked, outcomes, strict=True)
+        for run, outcome in zip(model_runs, outcomes, strict=True)
     )
-    meshes = [run.arguments["settings"]["elements"] for run in judges]
+    meshes = [run.arguments["settings"]["elements"] for run in finer_runs]
     sizes = [mesh_size(scene, n if isinstance(n, int) else tuple(n)) for n in meshes]
-    return Tradeoff(scene, rows, measured_row(scene, judges[0], truth), *_bars(scene, judged, sizes, weights))
+    return Tradeoff(
+        scene, rows, measured_row(scene, finer_runs[0], truth), *_bars(scene, finer_outcomes, sizes, weights)
+    )
 
 
 def _bars(
-    scene: Scene, judged: Sequence[Finished], sizes: Sequence[float], weights: np.ndarray
+    scene: Scene, finer_outcomes: Sequence[Finished], sizes: Sequence[float], weights: np.ndarray
 ) -> tuple[float | None, float | None]:
     """Uncertainty of the finest of the reference's answers, at the probes and over the sheet."""
-    usable = [(o.row, size) for o, size in zip(judged, sizes, strict=True) if _comparable(o)]
-    if len({size for _, size in usable}) < 2 or not _comparable(judged[0]):
+    usable = [(o.row, size) for o, size in zip(finer_outcomes, sizes, strict=True) if _comparable(o)]
+    if len({size for _, size in usable}) < 2 or not _comparable(finer_outcomes[0]):
         return None, None
     used = [size for _, size in usable]
     layers = [missed_by(scene, row["settings"]) for row, _ in usable]

@@ -52,12 +52,12 @@ def measure(
     """
     if plugins.digest(model) != digest:
         raise RuntimeError(f"model = '{model}': the plug-in changed since this was asked")
-    asked = Scene.model_validate(scene)
+    requested = Scene.model_validate(scene)
     warm(model)
 
     def solved() -> Solution:
         with running(large=True):  # `tradeoff` has looked at the size
-            return solve(resolve(asked, spec_of(model, settings)))
+            return solve(resolve(requested, spec_of(model, settings)))
 
     solution = solved()
     memory, samples = None, list[float]()
@@ -71,7 +71,7 @@ def measure(
         samples.append(solved().solve_seconds)
     if not samples:
         samples = [solution.solve_seconds]
-    points = asked.probe_points()
+    points = requested.probe_points()
     probes = solution.displacement(points)
     return {
         "model": plugins.shown_name(model),
@@ -86,8 +86,8 @@ def measure(
         "setup_seconds": solution.setup_seconds,
         "peak_memory_bytes": memory,
         "bar": None if solution.bar is None else error(probes + solution.bar(points), probes),
-        "probes": dict(zip(asked.probes, probes, strict=True)),
-        "field": solution.displacement(field_points(asked)[0]),
+        "probes": dict(zip(requested.probes, probes, strict=True)),
+        "field": solution.displacement(field_points(requested)[0]),
         **load.conditions(),
     }
 

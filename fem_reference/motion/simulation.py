@@ -81,25 +81,25 @@ def simulate(
     for name, value in {"duration": duration, "step": step, "every": every, "error": error}.items():
         require_positive(name, value, "s")
     began = now()
-    asked = scene_of(scene)
+    requested = scene_of(scene)
     require_choice("integrator", integrator, INTEGRATORS)
-    if asked.material.law is not None and "law" in signature(MODELS[model]).parameters:
-        options.setdefault("law", asked.material.law)
-    moving = MODELS[model](asked, **options)
-    spacing = every or _lowest_period(asked) / SAMPLES_PER_PERIOD
+    if requested.material.law is not None and "law" in signature(MODELS[model]).parameters:
+        options.setdefault("law", requested.material.law)
+    moving = MODELS[model](requested, **options)
+    spacing = every or _lowest_period(requested) / SAMPLES_PER_PERIOD
     count = sample_count(duration, spacing, whole=every is not None)
     schedule = Schedule(count, duration / count, count)
     if integrator == "energy-momentum":
-        require_no_branches(asked.material, f"the integrator {integrator}")
+        require_no_branches(requested.material, f"the integrator {integrator}")
         if not moving.conservative:
             raise BadInput(f"integrator = '{integrator}': the strain law '{STRAIN_LAW}' alone is conserved")
-        longest = step or _lowest_period(asked) / STEPS_PER_PERIOD
+        longest = step or _lowest_period(requested) / STEPS_PER_PERIOD
         # energies are kept at the steps' ends
         step = schedule.every / float(np.ceil(schedule.every / longest - 1e-9))
     settings = {**moving.settings, "step": step or "adaptive", "error": error}
-    sampling, flat = Sampling(moving, asked), moving.displacement(np.zeros(moving.mass.shape[0]))
+    sampling, flat = Sampling(moving, requested), moving.displacement(np.zeros(moving.mass.shape[0]))
     run_of = {
-        "scene": asked.document(),
+        "scene": requested.document(),
         "model": model,
         "integrator": integrator,
         "settings": settings,
@@ -119,7 +119,14 @@ def simulate(
         ready = now()
         with one_blas_thread():
             run = Run(
-                moving, asked, schedule, method, sampling, kept, set(shown), progress or (lambda time: None)
+                moving,
+                requested,
+                schedule,
+                method,
+                sampling,
+                kept,
+                set(shown),
+                progress or (lambda time: None),
             )
             status, message = run.finish()
         done = now()

@@ -76,10 +76,10 @@ def solve(
     require_static(scene)
     along_x, along_y = divisions(scene.sheet, elements)
     mesh = plan_mesh(scene, (along_x, along_y), grading)
-    asked = {"elements": [along_x, along_y], "grading": grading}
+    requested = {"elements": [along_x, along_y], "grading": grading}
     layers = bricks_through(scene, layers)
     label = f"solid {along_x} × {along_y} × {layers}"
-    return _solved(mesh, scene, label, asked, layers, law, clamp, progress=progress)
+    return _solved(mesh, scene, label, requested, layers, law, clamp, progress=progress)
 
 
 def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
@@ -91,7 +91,7 @@ def _solved(
     mesh: MeshQuad,
     scene: Scene,
     label: str,
-    asked: dict[str, Any],
+    requested: dict[str, Any],
     layers: int = 1,
     law: str = STRAIN_LAW,
     clamp: str = "shell-like",
@@ -123,7 +123,7 @@ def _solved(
     return Solution(
         model="solid",
         label=label,
-        settings={**asked, "layers": layers, "law": law, "clamp": clamp},
+        settings={**requested, "layers": layers, "law": law, "clamp": clamp},
         status=status,
         unknowns=structure.unknowns,
         iterations=path.factorisations,

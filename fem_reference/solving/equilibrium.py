@@ -112,16 +112,16 @@ def trace(
                 )
             path.state, path.load_factor, path.factor, ended = reached, 1.0, None, None
         path.fault = ended
-        path.status, said = ended or stability(path)
+        path.status, note = ended or stability(path)
         if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
             try:
                 path.limit = path.factorisations + FACTORISATIONS
                 path.state, path.factor = settle(path, 1.0), None
                 path.notes.append("begun along the buckling mode of an unstable equilibrium")
-                path.status, said = stability(path)
+                path.status, note = stability(path)
             except StepFailed as failure:
-                said = f"{said}; beside it {failure}"
-        path.notes.extend([said] if said else [])
+                note = f"{note}; beside it {failure}"
+        path.notes.extend([note] if note else [])
         path.factor = None  # an answer is kept longer than that
         return path
 
@@ -202,11 +202,11 @@ def _at_limit_point(path: Path[State, Forces], failure: StepFailed) -> bool:
 
 def _doubt(path: Path[State, Forces]) -> list[str]:
     """A sentence where a path that is about to snap has not been stable until then."""
-    status, said = stability(path)
-    if not said:
+    status, note = stability(path)
+    if not note:
         return []
     begin = "" if status is Status.CONVERGED else "unstable "
-    return [f"{begin}before it snapped at load factor {path.load_factor:.4g}: {said}"]
+    return [f"{begin}before it snapped at load factor {path.load_factor:.4g}: {note}"]
 
 
 def _snap(
@@ -229,7 +229,7 @@ def _give_up(path: Path[State, Forces], failure: StepFailed, tried: str) -> Faul
     branched by then."""
     message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"
     if path.load_factor > 0.0:
-        status, said = stability(path)
+        status, note = stability(path)
         if status is not Status.CONVERGED:
-            message += f"; {said} there: the answer is not unique on this grid"
+            message += f"; {note} there: the answer is not unique on this grid"
     return Fault(failure.status, message)

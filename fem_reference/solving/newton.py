@@ -93,8 +93,8 @@ def newton(
         if len(lengths) > BACK and lengths[-1] >= lengths[-1 - BACK]:
             raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
         if path.factorisations >= path.limit:
-            said = f"{path.limit} factorisations were not enough"
-            raise StepFailed(Status.STEP_LIMIT, said, first.length)
+            reason = f"{path.limit} factorisations were not enough"
+            raise StepFailed(Status.STEP_LIMIT, reason, first.length)
         try:
             matrix, rows = structure.system(state, forces, target)
             factor = path.factored(matrix)

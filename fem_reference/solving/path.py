@@ -72,6 +72,6 @@ Settle = Callable[[Path[State, Forces], float], State]  # a stable state beyond 
 class StepFailed(ArithmeticError):
     """A load step found no equilibrium. status: how it ended; length: of its first linear step."""
 
-    def __init__(self, status: Status, said: str, length: float):
-        super().__init__(said)
+    def __init__(self, status: Status, reason: str, length: float):
+        super().__init__(reason)
         self.status, self.length = status, length

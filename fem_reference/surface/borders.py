@@ -8,7 +8,7 @@ import numpy as np
 
 from sheetbench.scenes import EdgeLoad, Scene
 from sheetbench.scenes.cells import Constants
-from sheetbench.scenes.shapes import APART, Shape
+from sheetbench.scenes.shapes import COINCIDENT, Shape
 from sheetbench.scenes.supports import place
 
 if TYPE_CHECKING:
@@ -41,8 +41,8 @@ class Borders(NamedTuple):
         found, (begin, end) = [], self._sides
         for axis, length in enumerate(lengths):
             at = np.unique(begin[begin[:, axis] == end[:, axis], axis])
-            at = at[(at > APART * length) & (at < (1.0 - APART) * length)]
-            found.append(at[np.diff(at, prepend=-length) > APART * length])
+            at = at[(at > COINCIDENT * length) & (at < (1.0 - COINCIDENT) * length)]
+            found.append(at[np.diff(at, prepend=-length) > COINCIDENT * length])
         return found[0], found[1]
 
 

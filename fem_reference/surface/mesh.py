@@ -21,7 +21,7 @@ from sheetbench.scenes import EDGES, EdgeLoad, FieldMesh, PiecewiseLinear, Scene
 from sheetbench.scenes.grid import MESH, elements_of
 from sheetbench.scenes.plan_mesh import divided
 from sheetbench.scenes.region import area_in, edge_length
-from sheetbench.scenes.shapes import APART, Shape
+from sheetbench.scenes.shapes import COINCIDENT, Shape
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -256,7 +256,9 @@ def facets_on(mesh: MeshQuad, load: EdgeLoad) -> np.ndarray:
     import shapely
 
     middles = shapely.points(mesh.p[:, mesh.facets[:, facets]].mean(axis=1).T)
-    return facets[shapely.distance(load.where.area, middles) < APART * np.ptp(mesh.p)]  # but for rounding
+    return facets[
+        shapely.distance(load.where.area, middles) < COINCIDENT * np.ptp(mesh.p)
+    ]  # but for rounding
 
 
 def require_upright(mesh: MeshQuad) -> None:

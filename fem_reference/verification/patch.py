@@ -46,8 +46,8 @@ def rows(case: str) -> Iterator[Row]:
     for name, mesh in (("distorted", distorted()), ("that follow a line", following())):
         for model, checks in states.items():
             for state, unbalanced in checks.items():
-                said = f"{model} {mesh.nelements} elements, {name}"
-                yield absolutely(case, f"unbalanced, {state}", said, 0.0, EXACT, unbalanced(mesh), ROUNDING)
+                label = f"{model} {mesh.nelements} elements, {name}"
+                yield absolutely(case, f"unbalanced, {state}", label, 0.0, EXACT, unbalanced(mesh), ROUNDING)
 
 
 def distorted() -> MeshQuad:

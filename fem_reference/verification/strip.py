@@ -10,14 +10,14 @@ from fem_reference import solve
 from sheetbench.scenes import Clamped, Material, Scene, Sheet, Status
 
 
-def strip(length: float, width: float, thickness: float, young: float, **asked: Any) -> Scene:
+def strip(length: float, width: float, thickness: float, young: float, **requested: Any) -> Scene:
     """Length, width and thickness [m], E [Pa], density 1000 kg/m³; loads or gravity as asked."""
     return Scene(
         name="strip",
         sheet=Sheet(length_x=length, length_y=width, thickness=thickness),
         material=Material(young=young, poisson=0.0, density=1000.0),
         supports=(Clamped(edge="x0"),),
-        **asked,
+        **requested,
     )
 
 

@@ -207,15 +207,15 @@ class Frames:
         touched[self._quantity, self._first] = touched[self._quantity, self._second] = True
         by_row = touched @ (self._map != 0.0)
         joints = by_row[self.constraints :].reshape(-1, 3, self.coordinates).any(axis=1)
-        together = np.eye(self.coordinates, dtype=bool)
+        appear_in_one = np.eye(self.coordinates, dtype=bool)
         for group in np.concatenate([by_row[: self.constraints], joints]):
-            together |= np.outer(group, group)
+            appear_in_one |= np.outer(group, group)
         for i in range(self.segments):
             body = [i, i + 1, self.points + i]
-            together[np.ix_(body, body)] = True
+            appear_in_one[np.ix_(body, body)] = True
         rows = self.coordinates + self.multiplier_rows
         whole = np.eye(rows, dtype=bool)
-        whole[: self.coordinates, : self.coordinates] = together
+        whole[: self.coordinates, : self.coordinates] = appear_in_one
         for c in range(self.constraints):
             row = self.coordinates + c // 3
             whole[row, : self.coordinates] |= by_row[c]

@@ -47,13 +47,13 @@ def central(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
     sheet is thick."""
     a, b, c, bent, stretched, cauchy = coefficients(material.poisson).tolist()
     spacing, layers = plan_spacing(sheet, grid), grid[2]
-    asked = moduli.of_sheet(sheet, material, spacing)
-    springs = _springs(asked, spacing, layers, (a, b))
-    wanted = c * asked.membrane[0, 0]
+    target = moduli.of_sheet(sheet, material, spacing)
+    springs = _springs(target, spacing, layers, (a, b))
+    wanted = c * target.membrane[0, 0]
     for _ in range(STEPS):
         got = moduli.of_springs(springs, (*spacing, springs.layer_distance), layers).membrane
         off = float(np.sqrt(got[0, 0] * got[1, 1])) / wanted
-        springs = _springs(asked, spacing, layers, (a, b), springs.layer_distance * np.sqrt(off))
+        springs = _springs(target, spacing, layers, (a, b), springs.layer_distance * np.sqrt(off))
     found = report("central", sheet, material, grid, springs)
     cost = (
         f"the moduli make the worst of the training scenes wrong by {bent:.1%} where they bend and by "
@@ -63,7 +63,7 @@ def central(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
 
 
 def _springs(
-    asked: moduli.Moduli,
+    target: moduli.Moduli,
     spacing: tuple[float, float],
     layers: int,
     share: tuple[float, float],
@@ -71,15 +71,15 @@ def _springs(
 ) -> SpringSet:
     """The links with D11 = a D, D12 = D66 = b D, S* at a layer distance [m], or at h/√3."""
     lx, ly = spacing
-    rigidity = float(asked.bending[0, 0])
-    lz2 = distance**2 if distance is not None else 4.0 * rigidity / float(asked.membrane[0, 0])
+    rigidity = float(target.bending[0, 0])
+    lz2 = distance**2 if distance is not None else 4.0 * rigidity / float(target.membrane[0, 0])
     heights = np.arange(layers) - (layers - 1) / 2
     sigma = float((heights**2).sum())
     sigma_gap = float((((heights[1:] + heights[:-1]) / 2) ** 2).sum())
     ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
     a, b = share
 
-    gap = asked.shear * np.array([lx**2, ly**2]) / moduli.shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
+    gap = target.shear * np.array([lx**2, ly**2]) / moduli.shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
     p = min(b / a * float(np.sqrt(gap[0] * gap[1])), *(gap / ratios))
     layer = (a * rigidity - sigma_gap * gap) / sigma  # C11 lz², C22 lz²
     twist = min((b * rigidity - sigma_gap * p) / sigma, *(layer / ratios))

@@ -62,7 +62,7 @@ FIRMER = 4.0  # columns of a lattice with `gradients`, at no cost to the explici
 
 
 def closed_form(
-    asked: Moduli,
+    target: Moduli,
     spacing: tuple[float, float],
     layers: int,
     layer_distance: float | None = None,
@@ -78,36 +78,36 @@ def closed_form(
     heights = np.arange(layers) - (layers - 1) / 2
     sigma = float((heights**2).sum())
     sigma_gap = float((((heights[1:] + heights[:-1]) / 2) ** 2).sum())
-    gap = asked.shear * np.array([lx**2, ly**2]) / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
+    gap = target.shear * np.array([lx**2, ly**2]) / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
     ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
-    bracket = 5.0 + 3.0 * asked.bending[0, 1] / asked.bending[0, 0]
-    upright = (FIRMER if gradients else 1.0) * vertical(asked, spacing, 1.0)  # kz lz² [N·m]
-    share = diagonals_for_waves(asked, lx * ly, bracket) if waves else 1.0 / 3.0
-    least = float(min(asked.bending[0, 0], asked.bending[1, 1]))
-    share *= min(1.0, 4.0 * float(asked.bending[2, 2]) / least)  # of sheets that are soft in shear less
+    bracket = 5.0 + 3.0 * target.bending[0, 1] / target.bending[0, 0]
+    upright = (FIRMER if gradients else 1.0) * vertical(target, spacing, 1.0)  # kz lz² [N·m]
+    share = diagonals_for_waves(target, lx * ly, bracket) if waves else 1.0 / 3.0
+    least = float(min(target.bending[0, 0], target.bending[1, 1]))
+    share *= min(1.0, 4.0 * float(target.bending[2, 2]) / least)  # of sheets that are soft in shear less
     p = share * float(min(gap.max(), *(1.5 * gap / ratios)))
     gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
 
     lz2 = 0.0 if layer_distance is None else layer_distance**2
-    relaxation = _relaxation(asked, gap, p, spacing, lz2, upright) if lz2 else np.zeros((3, 3))
+    relaxation = _relaxation(target, gap, p, spacing, lz2, upright) if lz2 else np.zeros((3, 3))
     for _ in range(50):  # δ is small and depends little on lz: a fixed point
         relaxed = gap_form - relaxation
-        layer = (asked.bending - sigma_gap * relaxed) / sigma
+        layer = (target.bending - sigma_gap * relaxed) / sigma
         lattice = layers * layer + (layers - 1) * relaxed
         by_diagonals = _by_diagonals(layer, ratios)
         axial = np.diag(layer)[:2] - layer[0, 1] + by_diagonals * layer[2, 2] * (1.0 - ratios)
-        if fibres := _has_fibres(asked, layer, axial):
+        if fibres := _has_fibres(target, layer, axial):
             by_diagonals, axial = 0.0, 1.0 / (3.0 * np.diag(np.linalg.inv(layer))[:2])
-            needed = float(eigvalsh(lattice, asked.membrane)[-1])
+            needed = float(eigvalsh(lattice, target.membrane)[-1])
         else:
             needed = max(
-                (lattice[0, 0] - lattice[0, 1]) / (asked.membrane[0, 0] - asked.membrane[0, 1]),
-                (lattice[1, 1] - lattice[0, 1]) / (asked.membrane[1, 1] - asked.membrane[0, 1]),
-                lattice[2, 2] / asked.membrane[2, 2],
+                (lattice[0, 0] - lattice[0, 1]) / (target.membrane[0, 0] - target.membrane[0, 1]),
+                (lattice[1, 1] - lattice[0, 1]) / (target.membrane[1, 1] - target.membrane[0, 1]),
+                lattice[2, 2] / target.membrane[2, 2],
             )
         if gradients:
             on_sides = layers * axial + (layers - 1) * (gap - p * ratios)
-            needed = max(needed, float((on_sides / _on_sides(asked.membrane)).max()))
+            needed = max(needed, float((on_sides / _on_sides(target.membrane)).max()))
         if layer_distance is not None:
             if needed > lz2 * (1.0 + 1e-9):
                 return None
@@ -115,13 +115,13 @@ def closed_form(
         if needed <= 0.0 or abs(needed - lz2) < 1e-15 * needed:
             break
         lz2 = needed
-        relaxation = _relaxation(asked, gap, p, spacing, lz2, upright)
+        relaxation = _relaxation(target, gap, p, spacing, lz2, upright)
     if lz2 <= 0.0 or layer[2, 2] <= 0.0:
         return None
     if min(axial) < 0.0 or (fibres and np.linalg.eigvalsh(layer)[0] <= 0.0):
         return None
     l1x, l1y, l2 = lx**2 + lz2, ly**2 + lz2, lx**2 + ly**2 + lz2
-    rest = asked.membrane * lz2 - lattice
+    rest = target.membrane * lz2 - lattice
     area, mid_area = layer[0, 1] - by_diagonals * layer[2, 2], rest[0, 1]
     more: dict[str, Any] = {}
     if fibres:
@@ -135,7 +135,7 @@ def closed_form(
                 f"{cells}coupling_y": form[1, 2] / lz2,
             }
     rest[:2, :2] -= mid_area
-    rest[np.abs(rest) < 1e-12 * asked.membrane[0, 0] * lz2] = 0.0
+    rest[np.abs(rest) < 1e-12 * target.membrane[0, 0] * lz2] = 0.0
     return SpringSet(
         axial=by_direction(axial[0] * ly / lx / lz2, axial[1] * lx / ly / lz2),
         diagonal=by_diagonals * layer[2, 2] * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
@@ -155,22 +155,22 @@ def closed_form(
     )
 
 
-def _has_fibres(asked: Moduli, layer: np.ndarray, axial: np.ndarray) -> bool:
+def _has_fibres(target: Moduli, layer: np.ndarray, axial: np.ndarray) -> bool:
     """Whether the layer's cells need couplings: at an angle to the fibres, and where area springs would leave
     the links along the sides, of a sheet that is not isotropic, less than the third of E h of `gradients`."""
-    stretching, shearing = asked.bending[0, 0] - asked.bending[0, 1], 2.0 * asked.bending[2, 2]
-    if asked.oblique:
+    stretching, shearing = target.bending[0, 0] - target.bending[0, 1], 2.0 * target.bending[2, 2]
+    if target.oblique:
         return True
     if math.isclose(stretching, shearing, rel_tol=1e-9) or np.linalg.eigvalsh(layer)[0] <= 0.0:
         return False
     return bool(np.any(axial < 1.0 / (3.0 * np.diag(np.linalg.inv(layer))[:2])))
 
 
-def diagonals_for_waves(asked: Moduli, area: float, bracket: float) -> float:
+def diagonals_for_waves(target: Moduli, area: float, bracket: float) -> float:
     """The diagonals' share d of the shear for waves, of cells of that area [m²]: the bracket, 5 + 3 ν here,
     is what is too small without diagonals."""
-    rigidity = asked.bending[0, 0]
-    stiffening = 12.0 * rigidity / (float(np.sqrt(asked.shear.prod())) * area)  # 1 + t
+    rigidity = target.bending[0, 0]
+    stiffening = 12.0 * rigidity / (float(np.sqrt(target.shear.prod())) * area)  # 1 + t
     linear = 12.0 * stiffening + 9.0
     product = 36.0 * bracket * stiffening
     return float(linear - math.sqrt(linear**2 - product)) / 18.0
@@ -179,8 +179,8 @@ def diagonals_for_waves(asked: Moduli, area: float, bracket: float) -> float:
 def _by_diagonals(layer: np.ndarray, ratios: np.ndarray) -> float:
     """f, the share of a layer's C66 that its diagonals have: half of what axial links leave room for."""
     room = 0.5 * np.maximum(np.diag(layer)[:2] - layer[0, 1], 0.0)
-    asked = layer[2, 2] * (ratios - 1.0)
-    return float(min(1.0, *np.divide(room, asked, out=np.ones(2), where=asked > room)))
+    target = layer[2, 2] * (ratios - 1.0)
+    return float(min(1.0, *np.divide(room, target, out=np.ones(2), where=target > room)))
 
 
 def _on_sides(form: np.ndarray) -> np.ndarray:
@@ -189,14 +189,14 @@ def _on_sides(form: np.ndarray) -> np.ndarray:
     return sides
 
 
-def vertical(asked: Moduli, spacing: tuple[float, float], lz2: float) -> float:
+def vertical(target: Moduli, spacing: tuple[float, float], lz2: float) -> float:
     """kz [N/m]: 8 D/lz² per square of the shorter spacing, over the cell; D² = D11 D22."""
     lx, ly = spacing
-    return 8.0 * math.sqrt(asked.bending[0, 0] * asked.bending[1, 1]) / lz2 * lx * ly / min(lx, ly) ** 2
+    return 8.0 * math.sqrt(target.bending[0, 0] * target.bending[1, 1]) / lz2 * lx * ly / min(lx, ly) ** 2
 
 
 def _relaxation(
-    asked: Moduli, gap: np.ndarray, p: float, spacing: tuple[float, float], lz2: float, upright: float
+    target: Moduli, gap: np.ndarray, p: float, spacing: tuple[float, float], lz2: float, upright: float
 ) -> np.ndarray:
     """δ lz² (3, 3): what a gap's thickness, free to change, takes off its in-plane form; upright: kz lz²."""
     lx, ly = spacing

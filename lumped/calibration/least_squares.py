@@ -23,7 +23,7 @@ STRETCHING = 0.3  # weight of A; those of D and S are 1
 PAIRS = ("axial", "cross", "mid_stretch")
 STRAINS = ("mid_stretch_x", "mid_stretch_y", "shear", "mid_shear")
 FREE = ("area", "mid_area")
-MET = 1e-6  # weighted miss that counts as none
+MATCHED = 1e-6  # weighted miss that counts as none
 WEAK = 1e-4  # weight of the strain springs themselves, where they are needed
 UNKNOWNS = (
     *(f"{name}_{direction}" for name in PAIRS for direction in "xy"),
@@ -47,13 +47,13 @@ def fit_moduli(
 
     spacing = plan_spacing(sheet, grid)
     layers = grid[2]
-    asked = moduli.of_sheet(sheet, material, spacing)
+    target = moduli.of_sheet(sheet, material, spacing)
     heights = np.arange(layers) - (layers - 1) / 2
     first_distance = layer_distance or sheet.thickness / (layers - 1)
 
     def springs_of(unknowns: np.ndarray) -> SpringSet:
         distance = layer_distance or first_distance * float(np.exp(unknowns[-1]))
-        stiffness = asked.bending[0, 0] / ((heights**2).sum() * distance**2)
+        stiffness = target.bending[0, 0] / ((heights**2).sum() * distance**2)
         values: dict[str, Any] = {
             name: float(stiffness * value) for name, value in zip(UNKNOWNS, unknowns, strict=False)
         }
@@ -66,10 +66,10 @@ def fit_moduli(
     def misses(unknowns: np.ndarray) -> np.ndarray:
         springs = springs_of(unknowns)
         got = moduli.of_springs(springs, (*spacing, springs.layer_distance), layers)
-        rows = [(got.shear - asked.shear) / asked.shear]
+        rows = [(got.shear - target.shear) / target.shear]
         for mine, theirs, weight in (
-            (got.bending, asked.bending, 1.0),
-            (got.membrane, asked.membrane, STRETCHING),
+            (got.bending, target.bending, 1.0),
+            (got.membrane, target.membrane, STRETCHING),
         ):
             in_plane = (mine - theirs)[:2, :2][upper] / theirs[0, 0]
             twist = (mine[2, 2] - theirs[2, 2]) / theirs[2, 2]
@@ -109,6 +109,6 @@ def fit_moduli(
             **exact,
         ).x
     )
-    if np.abs(misses(found)).max() > MET:
+    if np.abs(misses(found)).max() > MATCHED:
         found = least_squares(weak_strains, start, bounds=(low, high), **exact).x
     return report("moduli", sheet, material, grid, springs_of(found))

@@ -34,8 +34,8 @@ class Method(choices.Method):
 def described(makers: Mapping[str, Callable[..., Calibration]]) -> dict[str, Method]:
     """These makers as methods by name, in the order of `sheetbench.choices`."""
     return {
-        name: Method(**vars(said), make=makers[name])
-        for name, said in choices.CALIBRATIONS.items()
+        name: Method(**vars(choice), make=makers[name])
+        for name, choice in choices.CALIBRATIONS.items()
         if name in makers
     }
 
@@ -70,9 +70,9 @@ def given(
     if scene.springs is None:
         raise Impossible(f"scene '{scene.name}' has no [springs] table")
     table = SpringTable.model_validate(scene.springs)
-    asked = grid_of(scene.sheet, grid if grid is not None else table.grid or MASSES)
-    if table.grid not in (None, asked):
-        own, other = ("x".join(map(str, numbers)) for numbers in (table.grid, asked))
+    requested = grid_of(scene.sheet, grid if grid is not None else table.grid or MASSES)
+    if table.grid not in (None, requested):
+        own, other = ("x".join(map(str, numbers)) for numbers in (table.grid, requested))
         raise Impossible(
             f"scene '{scene.name}': springs.grid = {own}: these springs are not those of {other} masses; "
             f"solve on {own}, or find others: sheetbench calibrate --grid {other} --toml"
@@ -89,9 +89,9 @@ def given(
             f"scene '{scene.name}': springs.grading = {table.graded:g}: unequal cells have springs of their "
             f"own, and these are the same for all: sheetbench calibrate --grading {table.graded:g} --toml"
         )
-    constants.require_cells(springs, asked, f"scene '{scene.name}': ")
-    cells = sections_of(scene, asked, table.graded)
-    found = report("scene", scene.sheet, scene.material, asked, springs, table.graded, cells)
+    constants.require_cells(springs, requested, f"scene '{scene.name}': ")
+    cells = sections_of(scene, requested, table.graded)
+    found = report("scene", scene.sheet, scene.material, requested, springs, table.graded, cells)
     return replace(found, masses=table.masses)
 
 

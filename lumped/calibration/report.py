@@ -59,8 +59,8 @@ def report(
     if off and not np.any(springs.area) and not np.any(springs.shear):
         missed.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
     rows = tuple(worst.values())
-    said = (*missed, *_admissible(springs))
-    return Calibration(method, grid, springs, rows, said, grading=grading, cells=cells)
+    notes = (*missed, *_admissible(springs))
+    return Calibration(method, grid, springs, rows, notes, grading=grading, cells=cells)
 
 
 def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
@@ -85,11 +85,11 @@ def _kinds(
     return list(found.values())
 
 
-def _rows(asked: dict[str, float], got: dict[str, float]) -> list[dict[str, Any]]:
+def _rows(target: dict[str, float], got: dict[str, float]) -> list[dict[str, Any]]:
     """Each modulus with its miss, relative to what is asked or, where that is zero, to its like along x."""
     rows = []
-    for name, value in asked.items():
-        scale = value or abs(asked[_like(name)])
+    for name, value in target.items():
+        scale = value or abs(target[_like(name)])
         miss = float((got[name] - value) / scale)
         rows.append({"name": name, "asked": float(value), "got": float(got[name]), "miss": miss})
     return rows

@@ -62,20 +62,20 @@ def hyperelastic(
 
     def of_cell(sides: Sides, section: Section, distance: float | None = layer_distance) -> SpringSet:
         lx, ly = sides
-        asked = moduli.of_section(section, sides)
-        membrane = 0.5 * (asked.membrane[0, 0] + asked.membrane[1, 1])
-        poisson = float(asked.membrane[0, 1] / membrane)
+        target = moduli.of_section(section, sides)
+        membrane = 0.5 * (target.membrane[0, 0] + target.membrane[1, 1])
+        poisson = float(target.membrane[0, 1] / membrane)
         # that of a layer whose law is the material's, with the cell's G h
         thickness = float(0.5 * (1.0 - poisson) * membrane) / (energy.shear * layers)
         side = 2.0 * (1.0 + poisson) * energy.shear * thickness / 3.0
         square = sheet.thickness**2 / (layers**2 - 1) if distance is None else distance**2
-        gap, squares = asked.shear / moduli.shear_gaps(layers), np.array([lx * lx, ly * ly])
-        share = diagonals_for_waves(asked, lx * ly, 7.0 + poisson**2)
+        gap, squares = target.shear / moduli.shear_gaps(layers), np.array([lx * lx, ly * ly])
+        share = diagonals_for_waves(target, lx * ly, 7.0 + poisson**2)
         diagonal = share * float((gap / squares).min() * squares.sum() / 2.0)
         return SpringSet(
             axial=by_direction(side * ly / lx, side * lx / ly),
             diagonal=0.0,
-            vertical=vertical(asked, sides, square),
+            vertical=vertical(target, sides, square),
             cross=0.0,
             cross_diagonal=0.0,
             neo_hookean_shear=2.0 * energy.c10 * thickness,

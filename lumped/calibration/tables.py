@@ -53,8 +53,8 @@ def springs(calibration: dict[str, Any]) -> Table:
         Column("what it is", prose=True),
         *(Column(heading, "N/m", "N/m", 1.0, "#.6g") for heading in headings),
     )
-    said = f"layer distance {1e3 * calibration['layer_distance']:.6g} mm"
-    return Table("Spring constants", columns, tuple(rows), "springs", text=said)
+    note = f"layer distance {1e3 * calibration['layer_distance']:.6g} mm"
+    return Table("Spring constants", columns, tuple(rows), "springs", text=note)
 
 
 def moduli(calibration: dict[str, Any]) -> Table:
@@ -65,10 +65,10 @@ def moduli(calibration: dict[str, Any]) -> Table:
     """
     rows = []
     for row in calibration["moduli"]:
-        asked, got = row["asked"], row["got"]
-        off = (got - asked) / asked if asked else None
-        sheet = row.get("kappa_G_h", asked)
-        rows.append((row["name"], _UNITS.get(row["name"][:1], ""), sheet, asked, got, off))
+        target, got = row["asked"], row["got"]
+        off = (got - target) / target if target else None
+        sheet = row.get("kappa_G_h", target)
+        rows.append((row["name"], _UNITS.get(row["name"][:1], ""), sheet, target, got, off))
     columns = (
         Column("modulus"),
         Column("unit"),
@@ -77,7 +77,7 @@ def moduli(calibration: dict[str, Any]) -> Table:
         Column("lattice", form="#.6g"),
         Column("off target by", "", "%", 100.0, "z.2f"),
     )
-    said = (
+    note = (
         "S: the target is S*, 1/S* = 1/κGh + l²/12D11, below the sheet's κGh to cancel the shear error of "
         "cells of length l"
     )
@@ -86,7 +86,7 @@ def moduli(calibration: dict[str, Any]) -> Table:
         columns,
         tuple(rows),
         "moduli",
-        text=said + _edges(calibration),
+        text=note + _edges(calibration),
     )
 
 

@@ -88,9 +88,9 @@ def cauchy(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
     lx, ly = plan_spacing(sheet, grid)
     if abs(lx - ly) > 1e-9 * lx:
         raise BadInput("calibration 'cauchy' is for square cells only")
-    asked = moduli.of_sheet(sheet, material, (lx, ly))
+    target = moduli.of_sheet(sheet, material, (lx, ly))
     third = np.array([[1.0, CAUCHY_POISSON, 0.0], [CAUCHY_POISSON, 1.0, 0.0], [0.0, 0.0, CAUCHY_POISSON]])
-    isotropic = moduli.Moduli(asked.membrane[0, 0] * third, asked.bending[0, 0] * third, asked.shear)
+    isotropic = moduli.Moduli(target.membrane[0, 0] * third, target.bending[0, 0] * third, target.shear)
     springs = closed_form(isotropic, (lx, ly), grid[2])
     if springs is None:
         raise BadInput(f"calibration 'cauchy': {grid[2]} layers need cells as small as the sheet is thick")
@@ -111,17 +111,17 @@ def _layered(
     layers = grid[2]
     heights = np.arange(layers) - (layers - 1) / 2.0
     distance = layer_distance or sheet.thickness * math.sqrt(layers / (12.0 * float((heights**2).sum())))
-    asked = moduli.of_sheet(sheet, material, (lx, ly))
+    target = moduli.of_sheet(sheet, material, (lx, ly))
     area = lx * ly
     cross_x, cross_y, diagonals = moduli.gap_shear_per_stiffness((lx, ly, distance))
-    gap = asked.shear / moduli.shear_gaps(layers)
+    gap = target.shear / moduli.shear_gaps(layers)
     # one third of the shear by the furthest diagonals, two thirds by the cross links, as in the closed form
     cross_diagonal = float(np.min(gap / 3.0 / diagonals))
     rest = gap - cross_diagonal * diagonals
     springs = SpringSet(
         axial=by_direction(in_layer[0], in_layer[1]),
         diagonal=in_layer[2],
-        vertical=8.0 * float(asked.bending[0, 0]) / distance**2 * area / min(lx, ly) ** 2,
+        vertical=8.0 * float(target.bending[0, 0]) / distance**2 * area / min(lx, ly) ** 2,
         cross=by_direction(float(rest[0]) / cross_x, float(rest[1]) / cross_y),
         cross_diagonal=cross_diagonal,
         layer_distance=distance,

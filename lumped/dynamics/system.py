@@ -79,7 +79,7 @@ class System:
         self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
         if self.maxwell is not None and self.assembly.precision == "single":
             raise BadInput("precision = 'single': takes no Maxwell branches; leave it out")
-        self._apart = self.maxwell is not None or self.assembly.precision == "single"
+        self._elastic_separate = self.maxwell is not None or self.assembly.precision == "single"
         # integrators ask for the same two moments several times a step
         self.place, self.place_rate = lru_cache(4)(self._place), lru_cache(4)(self._place_rate)
         self.motions = self._support_motions()
@@ -147,12 +147,12 @@ class System:
     def internal(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, float, np.ndarray]:
         """Elastic energy, power taken by the dampers, and both their forces, actuators with their multipliers
         included."""
-        energy, force = self.elastic(u, time) if self._apart else (0.0, np.zeros_like(u))
+        energy, force = self.elastic(u, time) if self._elastic_separate else (0.0, np.zeros_like(u))
         stored, power = add_forces(
-            u, v, not self._apart, self.packing.damped, self.packing, self.scratch, force
+            u, v, not self._elastic_separate, self.packing.damped, self.packing, self.scratch, force
         )
         power += self.damping.add_other_forces(u, v, force)
-        if self.coupling is not None and not self._apart:
+        if self.coupling is not None and not self._elastic_separate:
             energy += self.coupling.add_force(u, self.drive(time), force)
         return energy + stored, power, force
 
@@ -169,7 +169,7 @@ class System:
         force = np.zeros_like(u)
         if self.maxwell is not None:
             energy = self.maxwell.add_force(u, force)
-        elif self._apart:
+        elif self._elastic_separate:
             energy, force = self.assembly.force(u)
         else:
             energy, _ = add_forces(u, u, True, False, self.packing, self.scratch, force)

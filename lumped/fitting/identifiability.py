@@ -66,7 +66,7 @@ def identifiability(names: list[str], jacobian: np.ndarray, residuals: np.ndarra
                 continue
             correlation = covariance[i, j] / (deviation[i] * deviation[j])
             if abs(correlation) > CORRELATED:
-                said = f"{correlation:+.3f}".replace("-", "−")
-                warnings.append(f"the data cannot tell {names[j]} from {names[i]} (correlation {said})")
+                shown = f"{correlation:+.3f}".replace("-", "−")
+                warnings.append(f"the data cannot tell {names[j]} from {names[i]} (correlation {shown})")
     widths = np.where(unseen, np.inf, quantile * deviation)
     return Identifiability(singular, dict(zip(names, widths.tolist(), strict=True)), tuple(warnings))

@@ -49,9 +49,9 @@ def calibrate(
     """
     require_choice("calibration", method, CALIBRATIONS)
     chosen = CALIBRATIONS[method]
-    asked: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "targets": tuple(targets) or None}
-    asked |= {"grading": grading or None, "cells": cells}
-    options = {name: value for name, value in asked.items() if value is not None}
+    requested: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "targets": tuple(targets) or None}
+    requested |= {"grading": grading or None, "cells": cells}
+    options = {name: value for name, value in requested.items() if value is not None}
     for name, value in options.items():
         if name not in chosen.takes:
             others = " and ".join(f"'{other}'" for other, one in CALIBRATIONS.items() if name in one.takes)

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lumped.lattice import Lattice
-from lumped.pattern import ASKED, SHARED_UP_TO
+from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO
 from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
 from lumped.springs.families import Cells, DirectionalLinks, Family, Links
 from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
@@ -183,7 +183,7 @@ def _topology_of(grid: Grid, nodes: Sequence[np.ndarray]) -> Topology:
         return _topology(grid, nodes)
     key = grid, *((part.shape, part.tobytes()) for part in nodes)  # as `Pattern.among` keeps its own
     if key not in _topologies:
-        if len(_topologies) == ASKED:
+        if len(_topologies) == PATTERN_CACHE:
             _topologies.clear()
         _topologies[key] = _topology(grid, nodes)
     return _topologies[key]

@@ -35,12 +35,12 @@ def solution(
     problem: Problem,
     outcome: Outcome,
     seconds: tuple[float, float],
-    asked: dict[str, Any],
+    requested: dict[str, Any],
 ) -> Solution:
     """The answer of an outcome; asked: the options that are not their defaults."""
     state, lattice = outcome.state, problem.assembly.lattice
     assembly, u = problem.assembly, state.u  # they outlive the solve
-    linear = asked.get("linear", False)
+    linear = requested.get("linear", False)
     exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, outcome)
     reactions, on_masses = problem.constraints.reactions(exerted)
     coupling = problem.assembly.coupling
@@ -53,7 +53,7 @@ def solution(
     return Solution(
         model="lumped",
         label=f"lumped {calibration.title}" + (", linear" if linear else ""),
-        settings=settings | asked,
+        settings=settings | requested,
         status=outcome.status,
         unknowns=problem.system.unknowns,
         iterations=problem.factorisations,

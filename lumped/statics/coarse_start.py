@@ -41,9 +41,9 @@ def refined(coarse: Lattice, u: np.ndarray, fine: Lattice) -> np.ndarray:
     """Displacement (n, 3) [m] of the fine lattice's masses from that of the coarse one's: the mid-surface,
     and the layers' distances from it in proportion."""
     columns = u[: coarse.mass_count].reshape(coarse.grid[1], coarse.grid[0], 2, 3)
-    apart = fine.layer_distance / coarse.layer_distance
+    ratio = fine.layer_distance / coarse.layer_distance
     middle = _splined(coarse, columns.mean(axis=2), fine)
-    half = _splined(coarse, 0.5 * apart * (columns[:, :, 1] - columns[:, :, 0]), fine)
+    half = _splined(coarse, 0.5 * ratio * (columns[:, :, 1] - columns[:, :, 0]), fine)
     return np.stack([middle - half, middle + half], axis=2).reshape(-1, 3)
 
 

@@ -35,14 +35,14 @@ def solve_many(
 
     Raises BadInput for sequences of unequal lengths, and what `solve` raises for a scene or an option.
     """
-    asked = [scenes] if isinstance(scenes, Scene | str | Path) else list(scenes)
+    requested = [scenes] if isinstance(scenes, Scene | str | Path) else list(scenes)
     given = [calibrations] if isinstance(calibrations, Calibration | None) else list(calibrations)
-    count = max(len(asked), len(given)) if asked and given else 0
-    if {len(asked), len(given)} - {1, count}:
-        raise BadInput(f"{len(asked)} scenes and {len(given)} calibrations: give one, or as many")
+    count = max(len(requested), len(given)) if requested and given else 0
+    if {len(requested), len(given)} - {1, count}:
+        raise BadInput(f"{len(requested)} scenes and {len(given)} calibrations: give one, or as many")
     if not count:
         return []
-    several = [scene_of(scene) for scene in asked] * (count // len(asked))
+    several = [scene_of(scene) for scene in requested] * (count // len(requested))
     springs = given * (count // len(given))
     compile_kernels()
     with one_blas_thread(), ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:

@@ -22,7 +22,7 @@ from collections.abc import Sequence
 from sheetbench.scenes import EDGES, Chain, Scene
 from sheetbench.scenes.summary import few
 
-SAID = 0.01  # share of the bending from which on it is said
+REPORTED = 0.01  # share of the bending from which on it is said
 SEGMENTS, CELLS, CHAIN, SHEET, RESISTANCE = -1.84, 1.28, 0.12, 3.4, 0.21
 
 
@@ -52,10 +52,10 @@ def polygons(scene: Scene, grid: Sequence[int]) -> str:
     """A sentence about chains whose segments keep a noticeable part of the bending back, else nothing."""
     if not scene.actuators:
         return ""
-    said = [
+    notes = [
         f"the chain on {edge} bends it some {few(100.0 * share)} % less than an elastic rod would: each "
         "rigid segment holds several cells straight; take one segment a cell"
         for edge, share in sorted(lost_bending(scene, grid).items())
-        if share > SAID
+        if share > REPORTED
     ]
-    return "; ".join(said)
+    return "; ".join(notes)

@@ -38,8 +38,8 @@ class Schedule:
         """Samples to keep whole: `frames` evenly over the run as it began, and on at that distance."""
         if frames < 2:
             return list(range(frames))
-        apart = self.first / (frames - 1)
-        return sorted({round(i * apart) for i in range(int(self.samples / apart + 1e-9) + 1)})
+        frame_spacing = self.first / (frames - 1)
+        return sorted({round(i * frame_spacing) for i in range(int(self.samples / frame_spacing + 1e-9) + 1)})
 
 
 def sample_count(duration: float, spacing: float, whole: bool) -> int:

@@ -55,7 +55,7 @@ class Balance:
         """Whether no more is left than allowed."""
         return self.left <= self.allowed
 
-    def said(self) -> str:
+    def in_words(self) -> str:
         """What is left over, in a clause."""
         force, moment = (float(np.linalg.norm(part)) for part in (self.force, self.moment))
         share = f"{self.relative:.1g} of all"

@@ -77,10 +77,10 @@ def places_with_lines(places: Sequence[float], length: float, count: int) -> lis
     """Return those of the places [m], rising, on a side of this length that have one of its `count` lines:
     those no closer to the one before and to the ends than THINNEST of a mean cell; none if lines are too few.
     """
-    apart = THINNEST * length / (count - 1) * (1.0 - ROUNDING)
+    least_spacing = THINNEST * length / (count - 1) * (1.0 - ROUNDING)
     kept = [0.0]
     for place in places:
-        if place - kept[-1] >= apart and length - place >= apart:
+        if place - kept[-1] >= least_spacing and length - place >= least_spacing:
             kept.append(place)
     return kept[1:] if len(kept) < count else []
 

@@ -35,8 +35,8 @@ def compose(
                 points = measured[name]
                 axis.plot(points.time, 1e3 * points.displacement[:, i], "o", color=colour, markersize=2.5)
         off = measured[name].error(history.time, u) if name in measured else None
-        said = "" if off is None else f"   (points measured; off by {100 * off:.1f} %)"
-        axis.set_title(f"{plain(name, longest=60)}{said}", loc="left", fontsize=7.5, fontweight="bold")
+        text = "" if off is None else f"   (points measured; off by {100 * off:.1f} %)"
+        axis.set_title(f"{plain(name, longest=60)}{text}", loc="left", fontsize=7.5, fontweight="bold")
         axis.set_ylabel("displacement [mm]")
     panels[0].legend(ncols=3, **ABOVE)
     for name in ("kinetic", "elastic", "potential", "dissipated"):
@@ -48,9 +48,9 @@ def compose(
     for axis in panels:
         axis.margins(x=0)
     left = f"; {count} of {len(history.probes)} probes" if count < len(history.probes) else ""
-    said = f"{plain(title, width=95)}\n{history.label}, {history.integrator}{left}"
+    text = f"{plain(title, width=95)}\n{history.label}, {history.integrator}{left}"
     if style.titled:
-        figure.suptitle(said, fontsize=8)
+        figure.suptitle(text, fontsize=8)
     return figure
 
 

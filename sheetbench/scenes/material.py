@@ -82,7 +82,7 @@ CONSTANTS = (*STRESSES, "limit")
 LARGEST_LOSS = 2.0  # of a loss factor: rubber in its transition
 
 
-def _asked(schema: dict[str, Any]) -> None:
+def _constants_in_schema(schema: dict[str, Any]) -> None:
     """Write into a JSON Schema which keys a material needs: of fibres, of a law with constants, of others."""
     needed: dict[str, Any] = {"required": ["young", "poisson"]}
     for law, words in WORDS.items():
@@ -101,7 +101,7 @@ class Material(Fibres):
     c = damping_time · k; damping_rate [1/s] gives every mass a damping force rate · m · velocity.
     """
 
-    model_config = ConfigDict(json_schema_extra=_asked)
+    model_config = ConfigDict(json_schema_extra=_constants_in_schema)
 
     young: Annotated[Positive, Unit("Pa")]
     """Young's modulus E: 1 MPa is 1.0e6; needed, but of fibres and of a law with constants, from which it

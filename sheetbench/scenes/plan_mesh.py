@@ -103,12 +103,12 @@ def _cells(path: Path) -> tuple[np.ndarray, dict[str, list[np.ndarray]]]:
         raise ValueError("no such file")
     if path.stat().st_size > LARGEST:
         raise ValueError(f"larger than {LARGEST // 2**20} MB, which no such file is")
-    said = StringIO()
+    printed = StringIO()
     try:
-        with redirect_stdout(said), redirect_stderr(said):  # it prints, and ends the process
+        with redirect_stdout(printed), redirect_stderr(printed):  # it prints, and ends the process
             read = meshio.read(path)
     except (Exception, SystemExit) as error:
-        why = " ".join((str(error) if isinstance(error, Exception) else said.getvalue()).split())
+        why = " ".join((str(error) if isinstance(error, Exception) else printed.getvalue()).split())
         raise ValueError(f"meshio cannot read it: {why or type(error).__name__}") from None
     found: dict[str, list[np.ndarray]] = {TRIANGLE: [], QUADRILATERAL: []}
     for block in read.cells:

@@ -19,7 +19,7 @@ from sheetbench.scenes.limits import wish
 from sheetbench.scenes.schema import branches, json_schema, kind
 from sheetbench.scenes.units import quantity
 
-TOLD = 3  # faults
+SHOWN = 3  # faults
 LONGEST = 60  # characters of a key or a value
 MANY_DIGITS = 30
 
@@ -27,9 +27,9 @@ MANY_DIGITS = 30
 def in_one_line(error: ValidationError, model: type[BaseModel]) -> str:
     """The faults of data for `model`, separated by semicolons."""
     faults = [fault for fault in error.errors(include_url=False) if not _follows(fault)]
-    faults_in_words = [_sentence(fault, json_schema(model)) for fault in faults[:TOLD]]
-    if len(faults) > TOLD:
-        faults_in_words.append(f"and {len(faults) - TOLD} more")
+    faults_in_words = [_sentence(fault, json_schema(model)) for fault in faults[:SHOWN]]
+    if len(faults) > SHOWN:
+        faults_in_words.append(f"and {len(faults) - SHOWN} more")
     return "; ".join(faults_in_words)
 
 

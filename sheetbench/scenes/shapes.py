@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from shapely import Polygon as Area
 
 CIRCLE_SIDES = 256
-APART = 1e-9  # of the sheet, within which two places are one
+COINCIDENT = 1e-9  # of the sheet, within which two places are one
 Span = Annotated[tuple[Number, Number], Unit("m")]
 
 

@@ -13,7 +13,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from sheetbench.scenes.plan_mesh import PlanMesh, read_mesh
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Positive, Unit, Vector3
-from sheetbench.scenes.shapes import APART, crossing
+from sheetbench.scenes.shapes import COINCIDENT, crossing
 from sheetbench.scenes.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
@@ -91,7 +91,7 @@ class Sheet(Frozen):
             if corners is None:
                 continue
             for name, length, places in zip("xy", self.lengths, zip(*corners, strict=True), strict=True):
-                if max(abs(min(places)), abs(max(places) - length)) > APART * length:
+                if max(abs(min(places)), abs(max(places) - length)) > COINCIDENT * length:
                     raise ValueError(
                         f"{key}: its corners are at {min(places):g} ≤ {name} ≤ {max(places):g} m; they "
                         f"have to reach from 0 to length_{name} = {length:g} m"

@@ -195,7 +195,7 @@ class Solution(Answer):
     def __post_init__(self) -> None:
         if self.status in _EQUILIBRIA and self.balance is not None and not self.balance.holds:
             object.__setattr__(self, "status", Status.DIVERGED)
-            object.__setattr__(self, "remarks", (self.balance.said(), *self.remarks))
+            object.__setattr__(self, "remarks", (self.balance.in_words(), *self.remarks))
 
     @property
     def message(self) -> str:

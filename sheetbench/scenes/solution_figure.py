@@ -23,17 +23,17 @@ def compose(solution: Solution, style: FigureStyle = PLAIN) -> Figure:
         raise NoPicture("a displacement is not a finite number")
     figure = Figure(figsize=(style.width / 2, style.width / 2), layout="constrained")
     axis = figure.add_subplot()
-    look: dict[str, Any] = {"cmap": "viridis", "shading": "gouraud", "rasterized": True}
+    drawn_as: dict[str, Any] = {"cmap": "viridis", "shading": "gouraud", "rasterized": True}
     quads = [cell[:, :4] for kind, cell in solution.mesh.cells if kind.startswith("quad")]
     if quads and _holes(points, faces := np.vstack(quads)):
         x, y = 1e3 * points[:, :2].T
         triangles = np.vstack([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
-        drawn: Any = axis.tripcolor(Triangulation(x, y, triangles), heights, **look)
+        drawn: Any = axis.tripcolor(Triangulation(x, y, triangles), heights, **drawn_as)
     else:
         x, y = (np.linspace(float(side.min()), float(side.max()), CELLS + 1) for side in points[:, :2].T)
         plan = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
         heights = 1e3 * solution.displacement(plan)[:, 2].reshape(len(y), len(x))
-        drawn = axis.pcolormesh(1e3 * x, 1e3 * y, heights, **look)
+        drawn = axis.pcolormesh(1e3 * x, 1e3 * y, heights, **drawn_as)
     for name, at in solution.points.items():
         axis.plot(1e3 * at[0], 1e3 * at[1], "o", markersize=3, markerfacecolor="white", markeredgecolor=DARK)
         axis.annotate(plain(name, longest=14), (1e3 * at[0], 1e3 * at[1]), (3, 3), textcoords="offset points")

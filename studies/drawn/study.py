@@ -27,7 +27,7 @@ from studies.drawn.scenes import OBLIQUE
 
 GRIDS = (9, 17, 33)
 ELEMENTS = 32
-JUDGED = 17  # masses along the shorter side
+MASSES = 17  # masses along the shorter side
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Row:
     @property
     def misses(self) -> str:
         """What is not as asked, "" where all is."""
-        near, steep = self.errors[JUDGED] <= self.allowed, self.overall_order >= self.least_order
+        near, steep = self.errors[MASSES] <= self.allowed, self.overall_order >= self.least_order
         return ", ".join(name for name, holds in (("error", near), ("order", steep)) if not holds)
 
 

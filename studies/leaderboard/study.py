@@ -22,7 +22,7 @@ from sheetbench.answers.files import plain, to_json, write_text
 from sheetbench.errors import BadInput, require_choice
 
 REPEATS = 3
-STANDING = (
+MODELS = (
     *(Lattice(n, "consistent") for n in (5, 9, 17)),
     *(Lattice(9, c) for c in ("consistent-membrane", "central", "uniform")),
     Elements("plate", 16),
@@ -54,13 +54,13 @@ def row(case: Reference, candidate: Spec) -> dict[str, Any]:
 def measure(names: Sequence[str], say: Callable[[str], None], suite: str = "statics") -> None:
     """Measure models by name on a suite, and put the rows into the set's file; those of other suites stay.
     Raises BadInput for an unknown model."""
-    known = {str(candidate): candidate for candidate in (*STANDING, *SLOW)}
+    known = {str(candidate): candidate for candidate in (*MODELS, *SLOW)}
     for name in names:
         require_choice("model", name, known)
     rows: dict[str, list[dict[str, Any]]] = {}
     for kept in document()["standing"]:
         rows.setdefault(str(spec_of(kept["model"], kept["settings"])), []).append(kept)
-    for name in names or map(str, STANDING):
+    for name in names or map(str, MODELS):
         try:
             cases = references(suite)
             others = [kept for kept in rows.get(name, []) if kept["case"] not in cases]
@@ -68,6 +68,6 @@ def measure(names: Sequence[str], say: Callable[[str], None], suite: str = "stat
         except BadInput as missing:
             say(f"{name}: {missing}")
             continue
-        standing = [kept for name in known for kept in rows.get(name, [])]
-        write_text(FILE, to_json(plain({**document(), "standing": standing})))
+        leaderboard = [kept for name in known for kept in rows.get(name, [])]
+        write_text(FILE, to_json(plain({**document(), "standing": leaderboard})))
         say(name)

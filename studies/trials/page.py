@@ -168,7 +168,7 @@ def _errors(document: dict[str, Any], recipe: str, suite: str = "statics") -> di
 
 def _finding(document: dict[str, Any]) -> str:
     """A code with our numbers beside the best of those in use, over the scenes that both answer; and why."""
-    ours, said = _errors(document, OURS), []
+    ours, sentences = _errors(document, OURS), []
     in_use = {row["recipe"] for row in document["rows"] if not row["recipe"].startswith(OURS)}
     pairs: list[tuple[str, float, float]] = []  # scene, the best of those in use, ours
     for scene, error in ours.items():
@@ -178,17 +178,17 @@ def _finding(document: dict[str, Any]) -> str:
     for scene, best, error in pairs:
         if scene in SCENES:
             nearer = f"{best / error:.1f} times as near" if error < best else "further off"
-            said.append(
+            sentences.append(
                 f"*{scene}*: {_percent(best)} with the best numbers in use, {_percent(error)} with ours, "
                 f"{nearer}."
             )
     if pairs:
         means = [geometric_mean(errors) for errors in list(zip(*pairs, strict=True))[1:]]
-        said.append(f"Over {len(pairs)} statics, geometric mean: {' and '.join(map(_percent, means))}.")
+        sentences.append(f"Over {len(pairs)} statics, geometric mean: {' and '.join(map(_percent, means))}.")
     if curves := [error for error in _errors(document, OURS, "curves").values() if error is not None]:
-        said.append(f"{len(curves)} curves with ours: {_percent(geometric_mean(curves))}.")
-    said += WHY.get(document["code"], ())
-    return f"- **{document['title']}** (`{document['command']}`): {' '.join(said) or _means(document)}"
+        sentences.append(f"{len(curves)} curves with ours: {_percent(geometric_mean(curves))}.")
+    sentences += WHY.get(document["code"], ())
+    return f"- **{document['title']}** (`{document['command']}`): {' '.join(sentences) or _means(document)}"
 
 
 def _means(document: dict[str, Any]) -> str:

@@ -106,7 +106,7 @@ def simulate(
     masses = system.assembly.lattice.mass_count
     axes = system.coupling.axes() if system.coupling is not None else {}
     drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])
-    asked = {
+    requested = {
         "scene": scene.document(),
         "springs": calibration.document()["springs"],
         "integrator": integrator,
@@ -121,7 +121,7 @@ def simulate(
     with ExitStack() as open_store:
         kept: FolderStore | MemoryStore = MemoryStore(sampling.width, len(drawn))
         if store is not None:
-            kept = open_store.enter_context(FolderStore(store, sampling.width, len(drawn), asked))
+            kept = open_store.enter_context(FolderStore(store, sampling.width, len(drawn), requested))
             if kept.plan is not None:
                 plan = Plan(**kept.plan).longer(duration)
             kept.begin(asdict(plan))

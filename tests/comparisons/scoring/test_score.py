@@ -51,7 +51,7 @@ def test_right_answers_are_not_distinguishable_and_lead_the_front(write):
     found = score(write(seconds=1e-3))
     assert not found.faults and not any(row.distinguishable for row in found.rows)
     assert len(found.rows) == 80
-    assert found.standing[0].model == "answers" and found.front == ["answers"]
+    assert found.leaderboard[0].model == "answers" and found.front == ["answers"]
     bars = [case.bar for case in references("statics").values()]
     assert found.score == pytest.approx(np.exp(np.mean(np.log(bars))))
 
@@ -61,18 +61,18 @@ def test_an_error_is_that_of_the_design(write):
     assert [row.error for row in found.rows if row.case == "thick"][-1] == pytest.approx(0.02)
     assert found.score == pytest.approx(0.02)
     assert not found.faults
-    models = [one.model for one in found.standing]
+    models = [one.model for one in found.leaderboard]
     between = models.index("answers")
-    assert all(one.score <= 0.02 for one in found.standing[:between])
-    assert all(one.score >= 0.02 for one in found.standing[between + 1 :])
+    assert all(one.score <= 0.02 for one in found.leaderboard[:between])
+    assert all(one.score >= 0.02 for one in found.leaderboard[between + 1 :])
     assert "lumped:grid=9,calibration=consistent" in models[:between]
     assert "lumped:grid=9,calibration=uniform" in models[between:]
-    whose = {one.model.partition(":")[0]: one.whose for one in found.standing}
+    whose = {one.model.partition(":")[0]: one.whose for one in found.leaderboard}
     ours = {"lumped": "ours", "plate": "ours", "shell": "ours"}
     others = dict.fromkeys(["mujoco", "kratos", "calculix"], "other program")
     assert whose == {"answers": "yours", **ours, **others}
-    assert found.standing[between].seconds is None and "answers" not in found.front
-    others = [one for one in found.standing if one.model != "answers"]
+    assert found.leaderboard[between].seconds is None and "answers" not in found.front
+    others = [one for one in found.leaderboard if one.model != "answers"]
     near = min(others, key=lambda one: abs(np.log(one.score / 0.02)))
     place = f"you rank {between + 1} of {len(models)}"
     said = f"{place}; nearest neighbour {near.model}, {100 * near.score:.3g} %"
@@ -130,7 +130,7 @@ def test_other_suites(write, suite, change, said):
     assert any(said in fault for fault in wrong.faults)
     off = score(write(suite, lambda case, u: 1.05 * u), suite)
     assert off.score == pytest.approx(0.05, rel=0.2) and not off.faults
-    last = len(off.standing)
+    last = len(off.leaderboard)
     assert off.notes()[-1].startswith(f"you rank {last} of {last}; nearest neighbour ") and last > 1
 
 
@@ -230,7 +230,7 @@ def test_a_form_is_filled_in_in_stages(write, tmp_path, capsys):
 
 def test_answers_that_a_slip_has_spoilt_are_not_on_the_front(write):
     quick = score(write(change=lambda case, u: -u, seconds=1e-6))
-    assert quick.standing[-1].model == "answers" and "answers" not in quick.front
+    assert quick.leaderboard[-1].model == "answers" and "answers" not in quick.front
     assert (
         "answers" in score(write(change=lambda case, u: 1.3 * u, seconds=1e-6)).front
     )  # quick, and right in kind

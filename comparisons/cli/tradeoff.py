@@ -91,7 +91,7 @@ def command(
     """
     from comparisons.comparison.comparison import load_static
     from comparisons.models.spec import items
-    from comparisons.tradeoff.asked import of_motion, of_statics
+    from comparisons.tradeoff.choices import of_motion, of_statics
     from sheetbench.errors import BadInput
     from sheetbench.scenes import load
 

@@ -117,8 +117,8 @@ def solve(
     done = now()
     usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
     options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
-    asked = {name: value for name, value in options.items() if value != usual[name]}
-    return solution(scene, calibration, problem, outcome, (ready - began, done - ready), asked)
+    requested = {name: value for name, value in options.items() if value != usual[name]}
+    return solution(scene, calibration, problem, outcome, (ready - began, done - ready), requested)
 
 
 @cache

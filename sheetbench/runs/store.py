@@ -178,8 +178,8 @@ class FolderStore:
             with self._opened(name, os.O_WRONLY | os.O_CREAT) as file:
                 os.ftruncate(file.fileno(), size)
 
-    def _damaged(self, path: Path, said: str) -> BadInput:
-        return BadInput(f"{path}: {said}; remove the folder {self.folder} to start the run over")
+    def _damaged(self, path: Path, fault: str) -> BadInput:
+        return BadInput(f"{path}: {fault}; remove the folder {self.folder} to start the run over")
 
     def _file(self, name: str) -> Path:
         return self.folder / f"{name}.bin"

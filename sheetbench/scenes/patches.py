@@ -20,7 +20,7 @@ from sheetbench.scenes.material import Material
 from sheetbench.scenes.orthotropy import in_own_axes
 from sheetbench.scenes.quantities import Finite, Frozen, Number, Positive, Unit
 from sheetbench.scenes.region import area_in, require_rectangle
-from sheetbench.scenes.shapes import APART, Shape, straight_sides
+from sheetbench.scenes.shapes import COINCIDENT, Shape, straight_sides
 from sheetbench.scenes.sheet import Sheet
 
 if TYPE_CHECKING:
@@ -189,8 +189,8 @@ def sides_of(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     found = []
     for axis, length in enumerate(scene.sheet.lengths):
         sides = np.unique([*straight_sides(*(patch.shape.area for patch in scene.patches))[axis]])
-        inside = sides[(sides > APART * length) & (sides < (1.0 - APART) * length)]
-        found.append(inside[np.diff(inside, prepend=-length) > APART * length])
+        inside = sides[(sides > COINCIDENT * length) & (sides < (1.0 - COINCIDENT) * length)]
+        found.append(inside[np.diff(inside, prepend=-length) > COINCIDENT * length])
     return found[0], found[1]
 
 

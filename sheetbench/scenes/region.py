@@ -13,7 +13,7 @@ from sheetbench.errors import Impossible
 from sheetbench.scenes.grading import Places
 from sheetbench.scenes.loads import AnyLoad, AreaLoad, EdgeLoad, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint
-from sheetbench.scenes.shapes import APART, Shape, straight_sides
+from sheetbench.scenes.shapes import COINCIDENT, Shape, straight_sides
 from sheetbench.scenes.sheet import EDGES, Sheet
 from sheetbench.scenes.supports import named, place
 
@@ -46,9 +46,9 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
     neck = NECK * min(sheet.lengths)
     for number, cutout in enumerate(cutouts, start=1):
         left = plan.difference(cutout.shape.area)
-        said = f"cutout {number}.shape: {cutout.shape.in_words()}"
-        if left.area >= plan.area * (1.0 - APART):
-            raise ValueError(f"{said}: no part of it is on what is left of the sheet")
+        name = f"cutout {number}.shape: {cutout.shape.in_words()}"
+        if left.area >= plan.area * (1.0 - COINCIDENT):
+            raise ValueError(f"{name}: no part of it is on what is left of the sheet")
         plan = left
     inner = plan.buffer(-0.5 * neck)
     if (count := 0 if inner.is_empty else shapely.get_num_geometries(inner)) != 1:
@@ -76,7 +76,7 @@ def edge_parts(scene: Scene, edge: str, where: Shape | None = None) -> list[tupl
     found = []
     for ring in (scene.region.exterior, *scene.region.interiors):
         corners = np.array(ring.coords)
-        there = np.abs(corners[:, normal] - at) < APART * max(scene.sheet.lengths)
+        there = np.abs(corners[:, normal] - at) < COINCIDENT * max(scene.sheet.lengths)
         sides = np.stack([corners[:-1, along], corners[1:, along]], axis=1)[there[:-1] & there[1:]]
         found += [(low, high) for low, high in np.sort(sides, axis=1).tolist()]
     if where is None:
@@ -99,7 +99,7 @@ def sides_of_shapes(scene: Scene) -> Places:
     for name, edge in EDGES.items() if scene.pierced else ():
         found[edge.along_axis].update(at for part in edge_parts(scene, name) for at in part)
     x, y = (
-        tuple(sorted(at for at in one if APART * length < at < (1.0 - APART) * length))
+        tuple(sorted(at for at in one if COINCIDENT * length < at < (1.0 - COINCIDENT) * length))
         for one, length in zip(found, scene.sheet.lengths, strict=True)
     )
     return x, y
@@ -152,7 +152,7 @@ def off_sheet(scene: Scene, point: PlanPoint) -> bool:
     """Whether there is no sheet at a plan point [m]."""
     from shapely import Point
 
-    return bool(scene.region.distance(Point(point)) > APART * max(scene.sheet.lengths))
+    return bool(scene.region.distance(Point(point)) > COINCIDENT * max(scene.sheet.lengths))
 
 
 def misplaced(scene: Scene) -> str:
@@ -180,12 +180,12 @@ def misplaced(scene: Scene) -> str:
             return f"{name}: the sheet touches that edge at points at most; say where by a shape"
     for number, actuator in enumerate(scene.actuators, start=1):
         whole = scene.sheet.lengths[EDGES[actuator.edge].along_axis]
-        if edge_length(scene, actuator.edge) < (1.0 - APART) * whole:
+        if edge_length(scene, actuator.edge) < (1.0 - COINCIDENT) * whole:
             return f"actuator {number}: the sheet does not reach all of edge {actuator.edge}, which it moves"
-    return _apart(scene)
+    return _disconnected(scene)
 
 
-def _apart(scene: Scene) -> str:
+def _disconnected(scene: Scene) -> str:
     """Why supports that hold the same part of the sheet cannot both be obeyed; "" where all can."""
     from shapely import LineString
 

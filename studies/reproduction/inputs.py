@@ -72,11 +72,11 @@ def checks() -> list[Check]:
 
 def _links() -> list[Check]:
     """Links of a mass in the interior, on an edge and at a corner, counted on a lattice of that grid."""
-    given, posed = seed_inputs(), scene(1)
+    given, scene_of_test = seed_inputs(), scene(1)
     side, layers = int(given["masses_per_side"]), int(given["layers"])
     grid = (side, side, layers)
-    springs = lumped.calibrate(posed.sheet, posed.material, grid=grid, method="uniform")
-    lattice = lumped.build_problem(posed, springs).assembly.lattice
+    springs = lumped.calibrate(scene_of_test.sheet, scene_of_test.material, grid=grid, method="uniform")
+    lattice = lumped.build_problem(scene_of_test, springs).assembly.lattice
     ends = np.concatenate([family.nodes.ravel() for family in lattice.links])
     counts = np.bincount(ends)
     middle = side // 2

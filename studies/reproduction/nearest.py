@@ -176,7 +176,7 @@ def scan(kind: str, tests: tuple[int, ...], sense: int) -> Scan:
     return Scan(kind, tests, sense, name, values, np.stack(displacements))
 
 
-def together(first: Scan, second: Scan) -> Scan:
+def combined(first: Scan, second: Scan) -> Scan:
     """Two tests of the same sheets as one."""
     moved = np.concatenate([first.displacement, second.displacement], axis=1)
     return Scan(second.kind, (*first.tests, *second.tests), second.sense, second.name, second.values, moved)
@@ -238,7 +238,7 @@ def scans(progress: Callable[[str], None] = lambda what: None) -> list[Scan]:
                 progress(f"scanning {kind}: test {tests[0]}")
                 alone[tests, sense] = scan(kind, tests, sense)
         every += [
-            alone[tests, sense] if len(tests) == 1 else together(alone[(1,), 0], alone[(2,), sense])
+            alone[tests, sense] if len(tests) == 1 else combined(alone[(1,), 0], alone[(2,), sense])
             for tests, sense in ASKED
         ]
     return every

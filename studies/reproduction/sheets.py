@@ -90,7 +90,7 @@ class Sheets:
 
     def solutions(self, many: Sequence[Values]) -> list[list[Solution]]:
         """The solutions for each set of values, one a test, in the frame that turns with the supports."""
-        scenes = [_posed(scene, values) for values in many for scene in self.scenes]
+        scenes = [_with_values(scene, values) for values in many for scene in self.scenes]
         own: list[dict[str, Any]] = [{"method": "consistent"} for _ in scenes]
         if self.kind == "lattice":
             published = {"method": "uniform", "k": seed_inputs()["k"]}
@@ -106,7 +106,7 @@ class Sheets:
         return [solutions[i : i + count] for i in range(0, len(solutions), count)]
 
 
-def _posed(scene: Scene, values: Values) -> Scene:
+def _with_values(scene: Scene, values: Values) -> Scene:
     """The scene with these values, in the frame that turns with the supports."""
     if "young" in values:
         scene = put(scene, "young", values["young"])

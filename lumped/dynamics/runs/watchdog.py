@@ -48,15 +48,15 @@ def energy_grows(system: System, state: State, gained: float, round_about: float
     if gained <= GROWN * round_about:
         return None
     where = fastest(system.assembly.lattice, state.v)
-    said = f"at {state.time:.6g} s the energy grows from nothing, fastest at {where}: use smaller steps"
-    return Fault(Status.DIVERGED, said)
+    note = f"at {state.time:.6g} s the energy grows from nothing, fastest at {where}: use smaller steps"
+    return Fault(Status.DIVERGED, note)
 
 
 def stagnates(state: State, taken: int) -> Fault | None:
     """Whether an adaptive integrator has taken too many steps since the last sample."""
     if taken < MOST_STEPS:
         return None
-    said = (
+    note = (
         f"at {state.time:.6g} s: {taken} steps without reaching the next sample: add damping or fix the step"
     )
-    return Fault(Status.STEP_LIMIT, said)
+    return Fault(Status.STEP_LIMIT, note)

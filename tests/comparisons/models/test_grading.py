@@ -129,8 +129,8 @@ def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatc
         seen.append((asked, settings))
         raise BadInput("enough")
 
-    monkeypatch.setattr("comparisons.tradeoff.asked.tradeoff", recorded)
-    monkeypatch.setattr("comparisons.tradeoff.asked.dynamic_tradeoff", recorded)
+    monkeypatch.setattr("comparisons.tradeoff.choices.tradeoff", recorded)
+    monkeypatch.setattr("comparisons.tradeoff.choices.dynamic_tradeoff", recorded)
     grids = ("--lumped", "3", "--calibration", "consistent,uniform", "--grading", "auto")
     assert run("tradeoff", "curved-edge", *grids) == 2
     assert run("tradeoff", "curved-edge", "--duration", "0.1", "--grading", "0.3") == 2

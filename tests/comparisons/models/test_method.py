@@ -9,7 +9,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models.method import FAR, MEMBRANE, method_for, resolve_calibration
 from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice
-from comparisons.tradeoff.asked import of_statics
+from comparisons.tradeoff.choices import of_statics
 from sheetbench.face import solve
 from sheetbench.scenes import Clamped, Scene, load
 from studies.transfer.scenes import transfer_scenes

@@ -1,7 +1,7 @@
 """Finite-element references of the sheet on scikit-fem, which the lumped model is held against.
 
 `solve(scene, model="shell", elements=16)` answers with a `scenes.Solution`; a model is a module with
-`solve(scene, elements=…, **options)`, loaded when it is first asked for.
+`solve(scene, elements=…, **options)`, loaded when it is first requested.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def solve(
 
     near: of the shell, the displacement (n, 3) [m] of what lies at (n, 3) [m] in the flat sheet, in an
     equilibrium to be sought from first. progress: called once an iteration; the plate, which is linear, has
-    none. The law of strain is the material's own, where it has one, unless `law` is asked for.
+    none. The law of strain is the material's own, where it has one, unless `law` is requested.
     Raises BadInput for an unknown model or option, scenes.SceneError for a scene that no support holds.
 
     >>> import fem_reference

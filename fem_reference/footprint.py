@@ -1,4 +1,4 @@
-"""How large a reference is to solve, told from its mesh alone.
+"""How large a reference is to solve, from its mesh alone.
 
 Elements are biquadratic in the plan, (2 nx + 1) (2 ny + 1) nodes; plate and shell have five unknowns a node,
 a solid of L layers of bricks 3 (2 L + 1). What is kept and done is proportional to the elements, but for the

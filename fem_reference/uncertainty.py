@@ -53,7 +53,7 @@ CAUTION = 3.0  # of e in the bar by two meshes
 LEAST_ORDER, OWN_ORDER, ASSUMED_ORDER = 0.5, 3.0, 2.0
 BY_LAYER = 2.0  # by which a layer missed altogether lowers the element's order
 TWIST = 0.3  # the most of η that counts
-MESHES = (1.0, 0.75, 0.5)  # elements, of those asked for
+MESHES = (1.0, 0.75, 0.5)  # elements, of those requested
 ROUNDING = 1e-9  # of the largest answer
 
 
@@ -85,7 +85,7 @@ class Uncertainty:
 
 
 def coarser(elements: Elements) -> list[Elements]:
-    """The meshes to solve on, the one asked for first: elements along the shorter side, or along x and y."""
+    """The meshes to solve on, the one requested first: elements along the shorter side, or along x and y."""
 
     def smaller(share: float) -> Elements:
         if isinstance(elements, int):

@@ -106,7 +106,7 @@ def modes(
     actuators, no follower loads).
 
     options: the model's own; of plate and shell `section`, as in their `solve`, and `graded`, whether they
-    are divided finer towards the edges (they are unless told otherwise).
+    are divided finer towards the edges (they are by default).
 
     Raises BadInput for an unknown model or a count that the mesh cannot give, NoEquilibrium where there is
     none to be about.

@@ -1,6 +1,6 @@
 """The spring lattice: topology, springs and cells, calibration, statics, vibration, dynamics.
 
-Motion is imported when it is first asked for: a tenth of a second that statics need not wait for.
+Motion is imported when it is first requested: a tenth of a second that statics need not wait for.
 """
 
 from importlib import import_module

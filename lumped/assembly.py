@@ -53,7 +53,7 @@ class Assembly:
             calibration.half,
             calibration.present,
         )
-        # the seed's lattice has equal masses; any other one is as inert at its edges as the sheet
+        # Habibi et al.'s lattice has equal masses; any other one is as inert at its edges as the sheet
         self.cells = calibration.cells
         self.inertia: Distribution = "tributary" if weights == "full" else "gregory"
         self.coupling = couple(self.lattice) if couple is not None else None

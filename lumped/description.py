@@ -112,7 +112,7 @@ class Description:
 def describe(scene: Scene, calibration: Calibration) -> Description:
     """The lattice of a scene in plain arrays.
 
-    Raises BadInput for actuators, whose chains are no springs between masses, and for the seed's
+    Raises BadInput for actuators, whose chains are no springs between masses, and for Habibi et al.'s
     per-direction springs, which have no energy.
     """
     if scene.actuators:

@@ -1,4 +1,4 @@
-"""How large a lattice is to solve, told from its grid alone.
+"""How large a lattice is to solve, from its grid alone.
 
 A column of L masses is joined to itself and eight others, every layer with the next ones: 9 (3 L − 2) blocks
 of the tangent. What is kept and done is proportional to the blocks, but for the factors of the tangent.

@@ -4,12 +4,12 @@ A grid (nx, ny, layers) has nx masses along x, ny along y, on lines evenly space
 (`lumped.grid_lines`), `layers` through the thickness, lz apart; the layers lie symmetrically about the
 mid-surface z = 0. Mass (i, j, k) has number
 (j nx + i) layers + k. Every mass is linked to every neighbour in its layer (8) and in each adjacent
-layer (9): 17 links inside a two-layer lattice, 11 on an edge, 7 in a corner. Five families (the seed's
+layer (9): 17 links inside a two-layer lattice, 11 on an edge, 7 in a corner. Five families (Habibi et al.'s
 symbols): axial ka, diagonal kd, vertical kz, cross kdT, cross_diagonal kddT; axial and cross links
 belong to the direction, x or y, in which they run. Area springs act on every cell of each layer and,
 with the layers averaged, on every cell of the mid-surface.
 
-Source: the seed's lattice (Habibi et al.), with the tributary weights and area springs of
+Source: the lattice of Habibi et al., with the tributary weights and area springs of
 docs/theory.md: a link between two cells has half of each one's stiffness, so that links lying in a boundary
 line of the sheet carry half; vertical links have a quarter of each of four cells; masses take the sheet
 around them (of equal cells ½ on edges, ¼ at corners). Cells beyond the outline of a sheet, or in its holes,
@@ -197,7 +197,7 @@ def build(
     present: np.ndarray | None = None,
 ) -> Lattice:
     """The lattice of a sheet. `weights="full"` gives every link its family's full stiffness and every
-    mass the same share, as the seed has them. grading, half: of the grid's lines (`lumped.grid_lines`).
+    mass the same share, as Habibi et al. have them. grading, half: of the grid's lines (`lumped.grid_lines`).
     present: of the cells, where some are not.
 
     Raises BadInput for fewer than two masses a side or two layers, a grading outside 0 to 1, and full weights

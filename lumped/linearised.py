@@ -57,7 +57,7 @@ from sheetbench.scenes import (
 )
 from sheetbench.scenes.supports import named
 
-MODES = 20  # of the state space unless asked for
+MODES = 20  # of the state space unless requested
 LAST = 1e9  # s: when every history has its last value, as in statics
 
 

@@ -120,7 +120,7 @@ class Loads:
         return tuple(self._parts.values())
 
     def _part(self, history: FactorTable | None) -> Part:
-        """The part with this history, made when it is first asked for."""
+        """The part with this history, made when it is first requested."""
         if history not in self._parts:
             course = None if history is None else PiecewiseLinear(history.time, history.factor)
             pressure = np.zeros(len(self._assembly.lattice.mid_cells))

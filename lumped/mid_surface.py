@@ -5,7 +5,7 @@ of them where there are fewer): a sheet of curvature κ lies up to κ l²/8 besi
 masses l apart, at 9 × 9 masses of a sagging sheet 1 to 3 % of its sag, and more where cells are graded.
 
 Near rims, where not all cells between those lines are there, it is the quadric nearest to the masses of the
-cell and of those that hang together with it, up to REACH cells on.
+cell and of those connected with it, up to REACH cells on.
 
 A linear map of the masses' displacement; its transpose shares a force at a point among the masses around it,
 as loads do it among the four next to it (order 1).

@@ -51,7 +51,7 @@ class Pattern:
 
     def among(self, nodes: np.ndarray) -> np.ndarray:
         """Block numbers of every pair within each row of masses (m, p): (m, p, p), not to be written to; a
-        small pattern keeps those that it was asked for, which lattices on one grid share."""
+        small pattern keeps those that were requested, which lattices on one grid share."""
         if self.size > SHARED_UP_TO:
             return self._among(nodes)
         key = nodes.shape, nodes.tobytes()

@@ -43,8 +43,8 @@ def number(table: SpringSet | DamperSet, family: str, direction: str) -> float |
 
 def along(table: SpringSet | DamperSet, family: str, direction: str) -> np.ndarray:
     """Stiffness [N/m] (or damping [N·s/m]) of the links of a family that run in a direction, by components x,
-    y, z, (3,): three equal ones but for the seed's per-direction law, where the scene gives x, y and z. Where
-    every cell has its own, (cells, 1)."""
+    y, z, (3,): three equal ones but for Habibi et al.'s per-direction law, where the scene gives x, y and z.
+    Where every cell has its own, (cells, 1)."""
     value: Any = getattr(table, family)
     if isinstance(value, PerDirection):
         if value.z is not None:

@@ -71,7 +71,7 @@ class Constraints:
         return splu(normal).solve
 
     def reduced(self, pattern: Pattern, symmetric: bool) -> ReducedSystem:
-        """The system of the free unknowns, without multipliers, over a pattern: the same one when asked for
+        """The system of the free unknowns, without multipliers, over a pattern: the same one when requested
         again."""
         found = self._reduced.get((pattern, symmetric))
         if found is None:

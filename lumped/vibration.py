@@ -118,7 +118,7 @@ def modes(
 
 
 def usual_masses(calibration: Calibration) -> Inertia:
-    """The distribution that springs vibrate with unless another is asked for."""
+    """The distribution that springs vibrate with unless another is requested."""
     if calibration.masses != "tributary":
         return calibration.masses
     return "higher-order" if calibration.cells is None else "gregory"

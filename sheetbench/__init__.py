@@ -6,7 +6,7 @@
     both.report().save("results")
 
 A function takes a scene, a name or a path, and is loaded when it is first used. What stands behind them:
-`sheetbench.scenes` (what is asked), `lumped` (the lattice), `fem_reference` (the references), `comparisons`.
+`sheetbench.scenes` (scenes), `lumped` (the lattice), `fem_reference` (the references), `comparisons`.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ class Method:
         return "targets" in self.takes
 
 
-CALIBRATION = "consistent"  # unless asked for another
+CALIBRATION = "consistent"  # unless requested another
 AUTO = "auto"  # a calibration or a grading by what the scene is
 GRADED: tuple[Option, ...] = ("layer_distance", "grading")
 CELL_BY_CELL: tuple[Option, ...] = (*GRADED, "cells")

@@ -1,6 +1,6 @@
 """What a user can get wrong: errors of their own, whose text names the option, the value and what is allowed.
 
-Every package raises BadInput for what it is asked and cannot do, and for nothing else: an exception of any
+Every package raises BadInput for requests that it cannot fulfil, and for nothing else: an exception of any
 other type, a ValueError too, is a fault of the program and shows where it came from.
 """
 

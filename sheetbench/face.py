@@ -165,7 +165,7 @@ def compare(
     companion, and symmetry, branch and linear of the lattice, as of
     `comparisons.comparison.comparison.compare`; in motion: every, frames, as of
     `comparisons.motion.comparison.compare_motion`. Raises SceneError for a scene without an answer, BadInput
-    for choices that do not exist or do not go together; a solve that fails is a status.
+    for choices that do not exist or contradict each other; a solve that fails is a status.
     """
     both: dict[str, Any] = {"elements": elements, "law": law, **keywords}
     if duration is not None:

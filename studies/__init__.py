@@ -5,7 +5,7 @@ as its parameters. Nothing here is installed; the packages import none of it but
 """
 
 STUDIES = {
-    "advisor": "the advisor on scenes drawn at random: is the tolerance met, is the choice the cheapest?",
+    "advisor": "the advisor on scenes drawn at random: is the tolerance kept, is the choice the cheapest?",
     "central": "the table of the calibration central, trained anew",
     "coverage": "how often the references' error bars hold the error, on drawn scenes",
     "drawn": "lattice against shell on sheets with outlines, holes, fibres: errors and orders",

@@ -67,7 +67,7 @@ def names_in(path):
             assert node.level == 0, f"{path}: relative import"
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
         elif isinstance(node, ast.Constant) and isinstance(node.value, str) and "." in node.value:
-            names.add(node.value)  # tables of modules that are loaded when asked for
+            names.add(node.value)  # tables of modules that are loaded when requested
     return names - {"sheetbench.models"}
 
 

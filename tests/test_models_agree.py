@@ -1,4 +1,5 @@
-"""The two solvers, which share nothing, against each other on the seed's curved edge and on softer sheets."""
+"""The two solvers, which share nothing, against each other on Habibi et al.'s curved edge and on softer
+sheets."""
 
 import numpy as np
 import pytest

@@ -7,7 +7,7 @@ are together within the tolerance; where the bar leaves that open the reference 
 alone is above the tolerance, the choice meets it against a converged shell only, and the advice says so.
 Predicted error: the distance; predicted time: as measured here.
 
-What is left out is said, and what the scene needs: "bending" always; "transverse shear" and "membrane
+What is left out is reported, and what the scene needs: "bending" always; "transverse shear" and "membrane
 stiffening" where they hold a share of the energy; "large displacements" where the linear answer is off; and
 "actuators" where there are some. A static question needs no dynamics.
 """
@@ -55,7 +55,7 @@ def advise(
     further lattices, a number or "auto" (`comparisons.models.grading`), which makes the calibration "auto"
     too. Models that take more memory than there is are left out unless `large`. progress: called with every
     solve. Raises SceneError for a scene without a static answer; BadInput where not even the coarsest
-    reference fits into memory, for a grid, and for springs and grading that do not go together.
+    reference fits into memory, for a grid, and for springs and grading that contradict each other.
     """
     scene = scene_of(scene)
     require_static(scene)
@@ -198,7 +198,7 @@ def _grading(probing: Probing, chosen: Trial | None) -> str:
 
 
 def _calibration(probing: Probing, chosen: Trial | None) -> str:
-    """Return what was made of the springs that were asked for."""
+    """Return what was made of the springs that were requested."""
     if not (probing.springs or probing.because):
         return ""
     settings = {} if chosen is None else chosen.candidate.settings

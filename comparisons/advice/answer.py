@@ -49,9 +49,9 @@ class Advice(Answer):
     model: what the reference leaves out on every mesh.
 
     choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading,
-    calibration: what was made of graded lattices and of other springs, where they were asked for. limit: from
+    calibration: what was made of graded lattices and of other springs, where they were requested. limit: from
     which stretch on lattices are no rubber, where the sheet is stretched farther. warnings: of times that
-    are doubtful, taken on a busy machine. called: how the scene was asked for, its name unless given.
+    are doubtful, taken on a busy machine. called: how the scene was requested, its name unless given.
     """
 
     file_name = "advice"

@@ -60,7 +60,7 @@ class Probing:
 
     def __init__(self, scene: Scene, lattice: Lattice = Lattice()) -> None:  # noqa: B008  # frozen
         """lattice: springs that lattices may have too, and by how much they may be graded too. Raises
-        BadInput for a grid, where springs and grading are none or do not go together, and where the first
+        BadInput for a grid, where springs and grading are none or contradict each other, and where the first
         references take too much memory; otherwise the larger models are left out."""
         if lattice.grid is not None:
             raise BadInput(f"grid = {counted(lattice.grid)}: is chosen here; leave it out")

@@ -31,7 +31,7 @@ class Key:
 @dataclass(frozen=True)
 class Code:
     """A code. hinge: the weight of its hinges; elements: "triangles", or "springs" alone; mesh: the one to
-    take; cannot: what its sheet cannot be; source: repository, file and what is said there; runs: whether it
+    take; cannot: what its sheet cannot be; source: repository, file and what stands there; runs: whether it
     was run here."""
 
     name: str

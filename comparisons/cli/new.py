@@ -125,7 +125,7 @@ def _quantity(key: str, usual: float) -> float:
 
 
 def _until_valid(ask: Callable[[], Answer]) -> Answer:
-    """Return what is answered, asked again as long as that is refused."""
+    """Return the answer, with the question repeated while it is refused."""
     from comparisons.cli import console
     from sheetbench.errors import BadInput
 

@@ -142,7 +142,7 @@ class LatticeGroup(Group):
 
     @property
     def spec(self) -> Lattice:
-        """The lattice that is asked for."""
+        """The lattice that is requested."""
         from comparisons.models.spec import Lattice  # help does not wait for models
 
         return Lattice(**vars(self))

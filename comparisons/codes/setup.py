@@ -184,7 +184,7 @@ def setup(
 
 
 def squares_of(grid: str | None) -> int:
-    """The squares of vertices asked for as a grid is, 9 for 8 squares. Raises BadInput for another form."""
+    """The squares of vertices requested as a grid is, 9 for 8 squares. Raises BadInput for another form."""
     if grid is None:
         return SQUARES
     if not grid.isdigit():

@@ -109,6 +109,6 @@ def layered_springs(
 
 
 def _share(form: np.ndarray, target: np.ndarray) -> float:
-    """The factor that brings a form nearest to one that is asked for, in Mandel's norm."""
+    """The factor that brings a form nearest to one that is requested, in Mandel's norm."""
     weighted = TURNED**2 * form
     return float(np.sum(weighted * target) / np.sum(weighted * form))

@@ -46,7 +46,7 @@ class Comparison(Answer):
     """Solutions of one scene: the chosen lattice first, the reference second, then what is shown alongside.
 
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
-    reference's mesh leaves uncertain, where that was asked for; laws: a sentence where lattice and reference
+    reference's mesh leaves uncertain, where that was requested; laws: a sentence where lattice and reference
     have laws of strain that differ by more. disagreement: a sentence where both are at rest and far apart.
     expected: the error to expect of the chosen lattice's grid, where an estimate holds. several: whether more
     than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:

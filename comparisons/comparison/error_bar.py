@@ -24,7 +24,7 @@ METHOD = (
     "grid convergence index (Roache) of all pairs of meshes at the field's order, and what they miss of the "
     "layer along edges: that and 0.35 of the field's, 3 times that on two meshes"
 )
-CHEAP = ("plate", "shell")  # references whose error bar is found unless told otherwise
+CHEAP = ("plate", "shell")  # references whose error bar is found by default
 
 
 @dataclass(frozen=True)

@@ -48,7 +48,7 @@ OTHER_WAY = [0, 3, 2, 1, 7, 6, 5, 4]
 
 @dataclass(frozen=True)
 class Bricks:
-    """plan: straight-sided or biquadratic; counts: elements along x and y that were asked for; z
+    """plan: straight-sided or biquadratic; counts: elements along x and y that were requested; z
     (2 layers + 1,): heights of a column's nodes [m]; taper (p,): by how much thicker the column over each
     plan node is."""
 

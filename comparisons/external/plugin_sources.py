@@ -46,7 +46,7 @@ def of_module(name: str) -> dict[str, Path]:
 
 
 def digest(files: Mapping[str, Path], *more: str) -> str:
-    """Return what follows from the files' names and contents, and from more that is said."""
+    """Return what follows from the files' names and contents, and from more texts."""
     lines = [f"{name} {sha256(path.read_bytes()).hexdigest()}" for name, path in sorted(files.items())]
     return sha256("\n".join([*more, *lines]).encode()).hexdigest()
 
@@ -55,7 +55,7 @@ def _imported(path: Path) -> Iterator[str]:
     """Return the first parts of the names that a file imports."""
     try:
         tree = ast.parse(path.read_bytes())
-    except (SyntaxError, ValueError):  # said when it is loaded
+    except (SyntaxError, ValueError):  # reported when it is loaded
         return
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):

@@ -1,7 +1,7 @@
 """Models from outside: any simulator that answers a static scene can stand in the tables and on the front.
 
-A plug-in is an object with a name, its default settings, and `solve(scene, settings)`. It is asked for as a
-file, `FILE.py:OBJECT`, where OBJECT is that object or a class of it, MODEL unless said; or by its name, which
+A plug-in is an object with a name, its default settings, and `solve(scene, settings)`. It is requested as a
+file, `FILE.py:OBJECT`, where OBJECT is that object or a class of it, MODEL by default; or by its name, which
 a package offers under the entry-point group `sheetbench.models`:
 
     [project.entry-points."sheetbench.models"]
@@ -38,7 +38,7 @@ OURS = {  # external codes that come with this package
     "kratos": "comparisons.external.kratos.model:MODEL",
     "mujoco": "comparisons.external.mujoco:MODEL",
 }
-OBJECT = "MODEL"  # what of a file is the model, unless said
+OBJECT = "MODEL"  # what of a file is the model, by default
 OWN = (
     "A model of your own is named as FILE.py:CLASS, see docs/plugin.py, as exec:PROGRAM, see docs/strip.sh, "
     "or installed with an entry point"
@@ -83,7 +83,7 @@ def plugin(name: str) -> Model:
     """
     try:
         model = _loaded(name)
-    except (Exception, SystemExit) as error:  # whatever it does on import, the user is told whose it is
+    except (Exception, SystemExit) as error:  # whatever it does on import, the user learns whose it is
         reason = str(error) or type(error).__name__
         raise BadInput(f"model = '{name}': the plug-in cannot be loaded: {reason}") from None
     if not isinstance(model, Model):
@@ -113,13 +113,13 @@ def is_program(name: str) -> bool:
 
 
 def is_outside(name: str) -> bool:
-    """Return whether a model is asked for as a file or a program, and not by the name that it is installed
+    """Return whether a model is requested as a file or a program, and not by the name that it is installed
     under."""
     return is_program(name) or from_file(name) is not None
 
 
 def shown_name(name: str) -> str:
-    """Return what tables call a model: its plug-in's own name where it was asked for as a file or a
+    """Return what tables call a model: its plug-in's own name where it was requested as a file or a
     program."""
     return plugin(name).name if is_outside(name) else name
 
@@ -177,7 +177,7 @@ def _module(file: Path) -> ModuleType:
 
 
 def settings_of(model: Model, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the model's defaults overridden by what is asked. Raises BadInput for a setting it does not
+    """Return the model's defaults overridden by the request. Raises BadInput for a setting it does not
     have."""
     unknown = [key for key in given if key not in model.settings]
     if unknown and not getattr(model, "takes_any", False):

@@ -112,8 +112,8 @@ def identify(
     large: even where a model takes more memory than there is.
     progress: called with every evaluation, and every solve of a reference.
 
-    Raises BadInput for names, models and data that do not go together, and NotReached where the model has no
-    stable answer with the scene's own values.
+    Raises BadInput for names, models and data that contradict each other, and NotReached where the model has
+    no stable answer with the scene's own values.
     """
     scene = scene_of(scene)
     require_static(scene)

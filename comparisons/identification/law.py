@@ -11,7 +11,7 @@ from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import Scene
 from sheetbench.scenes.summary import few
 
-NOTED = 0.01  # share of the force from which on it is said
+NOTED = 0.01  # share of the force from which on it is reported
 RUBBERS = "neo-hookean"
 
 

@@ -38,7 +38,7 @@ class Model:
 
 
 def lattice_model(scene: Scene, requested: Lattice) -> Model:
-    """Return the lattice asked for, what it leaves open chosen by the scene's own values."""
+    """Return the lattice requested, what it leaves open chosen by the scene's own values."""
     chosen = resolve(scene, requested, own=False)
     grading = fixed(chosen.spec.grading) or lines_on_shapes(scene, chosen.grid, chosen.spec)
     settings = {**chosen.settings, **as_settings(grading)}

@@ -83,7 +83,8 @@ def reference(model: Resolved[Elements]) -> Predictor:
 
 
 def motion(scene: Scene, run_of: Callable[[Scene, float], History], time: np.ndarray) -> Predictor:
-    """Motion from rest; row i of the points is asked at time[i] [s]; run_of: a scene's motion so long [s]."""
+    """Motion from rest; row i of the points is evaluated at time[i] [s]; run_of: a scene's motion so long
+    [s]."""
     from scipy.interpolate import CubicSpline
 
     def displacement(here: Scene, points: np.ndarray) -> np.ndarray:

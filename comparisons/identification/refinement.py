@@ -50,7 +50,7 @@ def refined(scene: Scene, lattice: Lattice, model: Model, fit: Fit, best: Neares
     """Return the fit on cells that are small enough where the grid is free, else on those given, with its
     step.
 
-    lattice: as it was asked for; model, fit, best: on the first grid.
+    lattice: as it was requested; model, fit, best: on the first grid.
     """
     names = [u.name for u in fit.unknowns]
     grids = [tuple(model.settings["grid"])]

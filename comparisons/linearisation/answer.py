@@ -56,7 +56,7 @@ class HeightRow(InputRow):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Linearisation(Answer):
-    """matrices: of all unknowns; modal: state space of the modes asked for; balanced: what it was reduced to,
+    """matrices: of all unknowns; modal: state space of the modes requested; balanced: what it was reduced to,
     if it was; label: of the lattice."""
 
     file_name = "linear"

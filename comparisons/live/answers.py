@@ -2,7 +2,7 @@
 
 The lattice is solved as `sheetbench compare` solves it, or from an equilibrium close by. The shell is sampled
 at the lattice's masses and on a regular grid for the picture; its error bar is not sought, so that it keeps
-up. The error is that of `comparisons.comparison`, at the scene's probes, of both asked the same question.
+up. The error is that of `comparisons.comparison`, at the scene's probes, of both for the same question.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class Answered:
 
     def document(self, known: np.ndarray | None) -> dict[str, Any]:
         """Return the message to the page; known: rest places of the masses that it has, of which only the
-        displacement is told."""
+        displacement is reported."""
         found = _document("lattice", self.question, self.scene, self.solution)
         mesh = self.solution.mesh
         found["displacement"] = packed(np.nan_to_num(self.displacement))
@@ -72,7 +72,7 @@ class Answered:
 
 def lattice(scene: Scene, question: Question, last: Answered | None = None) -> Answered:
     """Return the lattice's answer, sought from the last one's equilibrium where that is of the same grid: in
-    a third of the time. Raises BadInput for what does not go together."""
+    a third of the time. Raises BadInput for what is contradictory."""
     import lumped
 
     springs = resolve(scene, question.lattice).springs

@@ -133,7 +133,7 @@ class Panel:
         return Question(number, values, calibration, copy, self._lattice.layer_distance)
 
     def scene_of(self, question: Question) -> Scene:
-        """Return the scene of a question. Raises SceneError where the values do not go together."""
+        """Return the scene of a question. Raises SceneError where the values contradict each other."""
         scene = self.scene
         for name, value in question.values.items():
             if name not in SETTINGS and value != self.sliders[name].value:

@@ -1,7 +1,7 @@
 """The conversation with one open page: questions while sliders move, answers as fast as models solve.
 
 A question that waits is dropped for a newer one, for the lattice and for the shell apart; whatever arrives is
-in the order of its questions, and says by its number which one it answers. The shell is asked what the
+in the order of its questions, and says by its number which one it answers. The shell answers what the
 lattice has answered, so that the two can be compared.
 
 While one drags, the lattice's equilibrium is sought from the one before. When one rests it is found from flat
@@ -134,7 +134,7 @@ class Session:
         return await self._models.text(self._panel.scene_of(question), question)
 
     async def _of(self, question: Question, work: Awaitable[T]) -> T | None:
-        """Return what the work comes to; None where it is refused or fails, which the page is told in a
+        """Return what the work comes to; None where it is refused or fails, which the page reports in a
         line."""
         try:
             return await work

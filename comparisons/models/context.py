@@ -60,8 +60,8 @@ def large_in_context(function: Callable[Parameters, Result]) -> Callable[Paramet
 
 
 def _held(function: Callable[Parameters, Result], *names: str) -> Callable[Parameters, Result]:
-    """Return the function as said; its flat keywords stand in its signature, one by one, for help() to
-    show."""
+    """Return the function with these defaults; its flat keywords stand in its signature, one by one, for
+    help() to show."""
     own = signature(function)
     *fixed, last = own.parameters.values()
     flat = function.__globals__.get(str(last.annotation).removeprefix("Unpack[").removesuffix("]"))

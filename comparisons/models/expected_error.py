@@ -1,6 +1,6 @@
 """How far a lattice will be from a converged shell, estimated from the same lattice on a finer grid.
 
-With f the displacements at the scene's probes on the grid asked for and g those on a finer one, whose cells
+With f the displacements at the scene's probes on the grid requested and g those on a finer one, whose cells
 are 1/r as long, an error that falls with the square of the cells is
 
     e = max |f − g| / (1 − 1/r²) / max |g|
@@ -10,7 +10,7 @@ the finer answer known). The finer grid has half as many cells again, and FINEST
 shorter side, where the error is not yet second order on coarser ones.
 
 It is the grid's error and no more: what differs on every grid, as the laws of strain do, it does not see. So
-nothing is said
+no estimate is given
 
 - of calibrations whose answers do not tend to the sheet's, of a given k or layer distance, of linear answers;
 - where either answer is no stable equilibrium, or one snapped and the other not;
@@ -97,7 +97,7 @@ def resolves(scene: Scene, grid: Grid) -> bool:
 def expected_error(
     scene: Scene, lattice: Lattice, solution: Solution, solve: Callable[[Lattice], Solution | None]
 ) -> ExpectedError | None:
-    """Return the grid error to expect of a lattice's solution of a scene, None where nothing is said (see
+    """Return the grid error to expect of a lattice's solution of a scene, None where none is given (see
     above).
 
     lattice: what was solved, resolved; solve: answers the finer lattice, None where that takes too much

@@ -41,7 +41,7 @@ RESOLVED = 24.0
 
 
 def parse_grading(grading: GradingLike) -> Graded | str | None:
-    """Return a number or a grading towards some edges, or "auto", from what is asked, text too (0.5,
+    """Return a number or a grading towards some edges, or "auto", from a request, text too (0.5,
     0.5:x0,y0); None where nothing is. Raises BadInput."""
     if grading is None or grading == AUTO or isinstance(grading, Grading):
         return grading
@@ -59,7 +59,7 @@ def parse_grading(grading: GradingLike) -> Graded | str | None:
 
 
 def fixed(grading: GradingLike) -> Graded | None:
-    """Return the grading that is asked for; None for "auto" too. Raises BadInput."""
+    """Return the grading that is requested; None for "auto" too. Raises BadInput."""
     chosen = parse_grading(grading)
     return None if isinstance(chosen, str) else chosen
 
@@ -67,7 +67,7 @@ def fixed(grading: GradingLike) -> Graded | None:
 def grading_of(
     scene: Scene, grid: Sequence[int], lattice: Lattice | LatticePair
 ) -> tuple[Graded | None, str]:
-    """Return the grading, None where nothing is asked and no shapes are drawn whose sides lines can be moved
+    """Return the grading, None where none is requested and no shapes are drawn whose sides lines can be moved
     to, and the reason in a sentence where it is chosen. Raises BadInput for what is none."""
     chosen = parse_grading(lattice.grading)
     if isinstance(moved := lines_on_shapes(scene, grid, lattice), Grading):
@@ -78,7 +78,7 @@ def grading_of(
 
 
 def lines_on_shapes(scene: Scene, grid: Sequence[int], lattice: Lattice | LatticePair) -> Graded:
-    """Return equal cells but for lines on the sides of shapes, where no grading is asked."""
+    """Return equal cells but for lines on the sides of shapes, where no grading is requested."""
     requested = lattice.grading is not None or not scene.shaped_by or one_size(grid, lattice)
     return 0.0 if requested else through(sides_of_shapes(scene))
 

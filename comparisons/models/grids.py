@@ -1,6 +1,6 @@
 """Grids as the user writes them: `N` along the shorter side, `NxM` along x and y, `NxMxL` with layers.
 
-Masses of lattices, elements of references. What the numbers mean is said in `sheetbench.scenes.grid`.
+Masses of lattices, elements of references. What the numbers mean is explained in `sheetbench.scenes.grid`.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def parse_grid(sheet: Sheet, text: str) -> Grid:
 
 
 def scene_grid(scene: Scene, grid: GridLike = None) -> Grid:
-    """Return the grid asked for, as text or as numbers; else that of the scene's own [springs], if they name
+    """Return the grid requested, as text or as numbers; else that of the scene's own [springs], if they name
     one, or nine masses along the shorter side."""
     if isinstance(grid, str):
         return parse_grid(scene.sheet, grid)

@@ -35,8 +35,8 @@ STRETCHED = 0.1
 
 
 def resolve_calibration(scene: Scene, grid: Sequence[int], lattice: Lattice) -> tuple[str | None, str]:
-    """Return the calibration asked for, None where nothing is; and where it is "auto", or nothing but the
-    grading "auto" is asked, the one for this scene, and why."""
+    """Return the calibration requested, None where nothing is; and where it is "auto", or nothing but the
+    grading "auto" is requested, the one for this scene, and why."""
     left_open = lattice.calibration is lattice.k is lattice.layer_distance is None
     if scene.material.law is not None and lattice.k is None and lattice.calibration in (None, AUTO):
         return RUBBER, f"the material has the law {scene.material.law}"

@@ -131,7 +131,7 @@ def resolve(
     use: what for; its springs alone are not refused for the memory that solving takes. own: whether the
     scene's [springs], where it has them, are meant if no calibration, k or layer distance is given, on their
     own grid and grading. The grading "auto" chooses the calibration too where none is given. option: by which
-    its size is asked for, see `comparisons.models.sizes.require_room`.
+    its size is requested, see `comparisons.models.sizes.require_room`.
 
     Raises BadInput for a model that does not exist, settings that do not exist, go together or go with the
     scene or the use, and, unless the context is `large`, for one that takes more memory than there is.

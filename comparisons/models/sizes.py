@@ -20,7 +20,7 @@ from sheetbench.scenes.size import Size
 
 
 def size(scene: Scene, spec: Spec) -> Size | None:
-    """Of what is solved, a half or a quarter of the sheet where symmetry is asked for; of a pair the finer
+    """Of what is solved, a half or a quarter of the sheet where symmetry is requested; of a pair the finer
     lattice, for they are solved one after the other; None of a plug-in."""
     counts = spec.counts(scene)
     if spec.settings.get("symmetry"):
@@ -39,8 +39,8 @@ def has_room(scene: Scene, spec: Spec) -> bool:
 def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") -> None:
     """Raise BadInput where a model takes more memory than there is, naming a size that would fit.
 
-    option: by which the size is asked for, --lumped or --elements unless said; instead: what to do where
-    it is not asked for.
+    option: by which the size is requested, --lumped or --elements by default; instead: what to do where
+    it is not requested.
     """
     room, needed = memory.available(), size(scene, spec)
     if room is None or needed is None or needed.memory <= room:

@@ -21,12 +21,12 @@ from sheetbench.scenes import Material
 
 @dataclass(frozen=True)
 class ModeDamping:
-    """A mode's frequency [Hz] as it swings, damping ratio asked for (None: nothing) and got."""
+    """A mode's frequency [Hz] as it swings, damping ratio requested (None: nothing) and got."""
 
     number: Annotated[int, NUMBER("d", "mode")]
     frequency_hz: Annotated[float, HERTZ(".4g", "frequency")]
-    asked: Annotated[float | None, PERCENT(".2f", "ζ asked")]
-    got: Annotated[float, PERCENT(".2f", "ζ got")]
+    asked: Annotated[float | None, PERCENT(".2f", "ζ requested")]
+    got: Annotated[float, PERCENT(".2f", "ζ obtained")]
 
     @property
     def miss(self) -> Annotated[float | None, PERCENT("z.1f", "off by")]:

@@ -98,7 +98,7 @@ def expected_errors(coarse: Modes, fine: Modes, ratio: float) -> list[float | No
     """Return the relative error to expect of every frequency of a lattice, from those of the same lattice on
     a finer grid, with `ratio` times as many cells in plan; None without a counterpart.
 
-    With f on the grid asked for and g on the finer one, an error that falls with the square of the cells is
+    With f on the grid requested and g on the finer one, an error that falls with the square of the cells is
     (f/g − 1)/(1 − 1/ratio); which lattices have it: `comparisons.models.expected_error`.
     """
     (of, shapes), (against, others) = coarse, fine

@@ -1,6 +1,6 @@
 """The manifest of a folder as a page reads it: of the shape that verbs write it in, or refused.
 
-What a run was asked and found, under "settings" and "scene", may be anything: it is looked at where it is
+What a run was given and found, under "settings" and "scene", may be anything: it is looked at where it is
 shown.
 """
 
@@ -30,7 +30,7 @@ Name = Annotated[str, AfterValidator(_name)]
 
 
 class Words(TypedDict, total=False):
-    """What a run said of its answer (`sheetbench.answers.report.Report.words`)."""
+    """What a run reported of its answer (`sheetbench.answers.report.Report.words`)."""
 
     title: str
     subtitle: str | None

@@ -41,7 +41,7 @@ class Study:
 
     @cached_property
     def words(self) -> Mapping[str, Any]:
-        """What the run said of its answer; nothing of a run that has not ended."""
+        """What the run reported of its answer; nothing of a run that has not ended."""
         return self.run.get("words") or {}
 
     @cached_property
@@ -54,7 +54,7 @@ class Study:
 
     @cached_property
     def scene(self) -> Scene | None:
-        """The scene that was asked about, where there is one that can be read."""
+        """The scene of the study, where there is one that can be read."""
         data = self.run.get("scene") or self.document.get("scene")
         if not isinstance(data, dict):
             return None
@@ -103,7 +103,7 @@ class Study:
         return list(dict.fromkeys(complaints))
 
     def path(self, name: str) -> Path | None:
-        """Return a file of the study; None, with a sentence said, where it is missing, outside or too
+        """Return a file of the study; None, with a sentence, where it is missing, outside or too
         large."""
         found = self.folder / name
         if not found.resolve().is_relative_to(self.folder.resolve()):
@@ -117,7 +117,7 @@ class Study:
         return None
 
     def read(self, name: str, reader: Callable[[Path], Any]) -> Any:
-        """Return what a reader makes of a file; None, with a sentence said, where it makes nothing of it."""
+        """Return what a reader makes of a file; None, with a sentence, where it makes nothing of it."""
         path = self.path(name)
         if path is None:
             return None
@@ -131,7 +131,7 @@ class Study:
         return None
 
     def attempt(self, what: str, made: Callable[[], Any]) -> Any:
-        """Return what is made of words that may be damaged; None, with a sentence said, where nothing can
+        """Return what is made of words that may be damaged; None, with a sentence, where nothing can
         be."""
         try:
             return made()

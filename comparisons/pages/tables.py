@@ -21,7 +21,7 @@ MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folde
 
 @dataclass(frozen=True, repr=False)
 class PageTable(Table):
-    """A table for a page. note: what is left out; aside: shown when asked for only."""
+    """A table for a page. note: what is left out; aside: shown when requested only."""
 
     note: str = ""
     aside: bool = False

@@ -5,7 +5,7 @@ motion   case,probe,time,ux,uy,uz[,seconds]: a sample at every time of the refer
          interpolated; those at other times are passed over
 modes    case,mode,frequency[,seconds]: modes count from 1, lowest first
 
-The header tells the suite, and the first case statics from curves. Where one case is asked for the column
+The header tells the suite, and the first case statics from curves. Where one case is requested the column
 `case` may be left out, as in the history that a run writes. A form may be filled in stages: a row whose
 numbers are all empty is open, and so is its case.
 """

@@ -49,7 +49,7 @@ class Row:
 @dataclass(frozen=True)
 class CaseRow:
     """A case: its largest error and their root mean square, the reference's bar, whether that is less, and
-    the time [s] where it was told."""
+    the time [s] where it was given."""
 
     case: str
     error: Annotated[float, PERCENT(".3g")]
@@ -61,7 +61,7 @@ class CaseRow:
 
 @dataclass(frozen=True)
 class Place:
-    """A model's score and the geometric mean of its times [s], None where they are not told; whose: one of
+    """A model's score and the geometric mean of its times [s], None where they are not given; whose: one of
     `WHOSE`; worst: its case of the largest error, if there is one; refused: cases that it has no answer to;
     on_the_front: whether none is both quicker and better.
     """
@@ -83,7 +83,7 @@ class Place:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Score(ShownAnswer):
-    """Answers to a suite with what they get wrong; unanswered: cases that were asked for and are open."""
+    """Answers to a suite with what they get wrong; unanswered: cases that were requested and are open."""
 
     file_name = "score"
     suite: str

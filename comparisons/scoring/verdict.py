@@ -2,9 +2,9 @@
 met.
 
 The ratio of an answer to the reference is r = (u · u_ref) / (u_ref · u_ref). Under a given load a
-displacement goes as 1/E, a frequency as √E: the stiffness is off by 1/r − 1, or r² − 1. It is said where all
-but a fifth of the cases are off to the same side by more than the reference's bar (a case whose displacements
-are prescribed knows nothing of E).
+displacement goes as 1/E, a frequency as √E: the stiffness is off by 1/r − 1, or r² − 1. It is reported where
+all but a fifth of the cases are off to the same side by more than the reference's bar (a case whose
+displacements are prescribed knows nothing of E).
 """
 
 from __future__ import annotations

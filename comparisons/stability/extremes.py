@@ -85,8 +85,8 @@ def stability(
     """Vary a scene's sheet and solve it by every model, through a campaign's store.
 
     varied: some of `VARIED`. lattice: with what is not varied. elements: of the references, along the shorter
-    side. Raises BadInput for what cannot be varied, for settings that do not go together, and unless `large`
-    for models that take more memory than there is.
+    side. Raises BadInput for what cannot be varied, for settings that contradict each other, and unless
+    `large` for models that take more memory than there is.
     """
     for name in varied:
         require_choice("vary", name, VARIED)

@@ -55,7 +55,7 @@ def _points(rows: list[MotionRow]) -> tuple[list[float], list[float]]:
 
 
 def _band(axis: Axes, uncertainty: float | None) -> None:
-    """The reference's uncertainty, below which errors cannot be told apart."""
+    """The reference's uncertainty, below which errors cannot be distinguished."""
     bottom = axis.get_ylim()[0]
     if uncertainty:
         axis.axhspan(min(bottom, 50 * uncertainty), 100 * uncertainty, color=GREY, alpha=0.18, lw=0)

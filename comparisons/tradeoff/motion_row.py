@@ -63,7 +63,7 @@ class MotionRow:
 
 
 def measured_row(run: Run, outcome: Finished, truth: Finished, own: Finished | None = None) -> MotionRow:
-    """The row of a run: what was asked, cost, and errors; own: the same lattice in fine steps."""
+    """The row of a run: its settings, cost, and errors; own: the same lattice in fine steps."""
     settings, requested = run.arguments["settings"], run.arguments["run"]
     row, history, reference = outcome.row, history_of(outcome), history_of(truth)
     steps, duration = row.get("steps"), run.arguments["duration"]

@@ -1,7 +1,7 @@
 """Which rows are worth having, and how fast a family of rows converges.
 
 A row is on the Pareto front if no other row is as accurate in less time or more accurate in as much. Errors
-below the reference's uncertainty cannot be told apart and count as that.
+below the reference's uncertainty cannot be distinguished and count as that.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 
 from sheetbench.scenes.summary import few, milliseconds
 
-TOLERANCES = (0.05, 0.01, 0.001)  # that are asked most
+TOLERANCES = (0.05, 0.01, 0.001)  # that are requested most
 FLOOR_FACTOR = 3.0  # errors closer to the reference's uncertainty than this say nothing about an order
 
 

@@ -27,7 +27,7 @@ _OF_AN_ANSWER = (
 class TradeoffRow:
     """What `timing.measure` found of a solve, and its errors, None where there is nothing to measure.
 
-    A run that ended without an answer has what was asked and its status. series: the family whose order is
+    A run that ended without an answer has its settings and its status. series: the family whose order is
     looked for; cell_size [m]: where the settings tell; solve_seconds: every sample; error, field_error:
     fractions; bar: by which the model says that it may be off, likewise; started, finished: UTC.
     """
@@ -63,7 +63,7 @@ class TradeoffRow:
 
     @property
     def size(self) -> str:
-        """The grid, or both of a pair, or the elements, as asked for; nothing where there are none."""
+        """The grid, or both of a pair, or the elements, as requested; nothing where there are none."""
         sizes = (self.settings.get(name) for name in ("coarser", "grid", "elements"))
         return ":".join(counted(size) for size in sizes if size is not None)
 

@@ -47,11 +47,12 @@ def measure(
 ) -> dict[str, Any]:
     """The row of a run, as plain data in SI units: see the module and `comparisons.tradeoff.statics`.
 
-    repeats: timed solves at least, after two that are not; with 0 there is one solve, and no memory is told.
-    digest: of a plug-in, under which the row is kept; one that has changed since raises RuntimeError.
+    repeats: timed solves at least, after two that are not; with 0 there is one solve, and no memory is
+    measured. digest: of a plug-in, under which the row is kept; one that has changed since raises
+    RuntimeError.
     """
     if plugins.digest(model) != digest:
-        raise RuntimeError(f"model = '{model}': the plug-in changed since this was asked")
+        raise RuntimeError(f"model = '{model}': the plug-in changed since this run was requested")
     requested = Scene.model_validate(scene)
     warm(model)
 

@@ -19,7 +19,7 @@ Strained = tuple[np.ndarray, np.ndarray]  # strains and their elastic stresses, 
 
 
 class Memory:
-    """What is remembered at the start of a step, `since`; `now` [s]: the time that is asked about."""
+    """What is remembered at the start of a step, `since`; `now` [s]: the time in question."""
 
     def __init__(self, branches: Branches):
         self._stiffness, self._times = (np.array(part)[:, None] for part in branches)

@@ -8,9 +8,9 @@ buckled   the in-plane forces N, which the plate's bending does not know of, tak
 
               K φ = −λ K_N φ,      φ·K_N φ = ∫ ∇w·N ∇w dA
 
-          (e.g. Bathe, Finite Element Procedures, 6.8). Asked where N presses somewhere and a² |N|/D > 1, a
+          (e.g. Bathe, Finite Element Procedures, 6.8). Checked where N presses somewhere and a² |N|/D > 1, a
           the longer side: a square sheet held along one edge buckles at π²/4. Beside chains, whose own forces
-          take part, it is not asked.
+          take part, it is not checked.
 
 The answer is linear in the load, so all of them tell the share of the load at which the theory ends.
 """

@@ -156,7 +156,7 @@ def _run(
 
 
 def trace_on(scene: Scene, structure: ShellStructure) -> tuple[State, Status, list[str]]:
-    """The equilibrium of a structure under the full load, how the path to it ended and what is to be said."""
+    """The equilibrium of a structure under the full load, how the path to it ended and the notes."""
     solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
     path = trace(structure, solver, inspector(scene, structure, False), relax)
     return path.state, *judge(scene, structure, path, membrane_strain(structure, path.state))

@@ -11,7 +11,7 @@ stretched  In an element of sides b ≥ l the membrane shear's assumed strains d
 
            elements may lose stability, not the sheet. One-edge-clamped sheets of h/a from 0.01 to 0.1 on
            graded meshes with b/l from 10 to 20 lose it from 19 on, none below; with the twist projected like
-           the membrane shear, which leaves ψ as free as v, from 9 on. From 5 on the tangent is asked. Only
+           the membrane shear, which leaves ψ as free as v, from 9 on. From 5 on the tangent decides. Only
            where it has lost stability is the sheet divided evenly, b/l = 1, which stands any strain of the
            model.
 """

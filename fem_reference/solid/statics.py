@@ -181,7 +181,7 @@ def _require_meshable(scene: Scene, law: str) -> None:
 
 
 def bricks_through(scene: Scene, layers: int) -> int:
-    """Return how many bricks there are through the thickness: as many as asked for, of a laminate at least so
+    """Return how many bricks there are through the thickness: as many as requested, of a laminate at least so
     many, with faces between all plies. Raises BadInput where those are too many."""
     if not scene.layers:
         return layers

@@ -182,7 +182,7 @@ def filling(region: BaseGeometry, borders: Sequence[LineString], sides: Sides, s
 
 
 def _quadtree(bounds: tuple[float, float, float, float], size: Size) -> np.ndarray:
-    """Corners (n, 2) of cells as small as asked for."""
+    """Corners (n, 2) of cells as small as requested."""
     low, lengths = np.array(bounds[:2]), np.array(bounds[2:]) - bounds[:2]
     counts = np.maximum(np.rint(lengths), 1.0).astype(int)
     side, corners = lengths / counts, []

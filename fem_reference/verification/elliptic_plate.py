@@ -2,7 +2,7 @@
 
 A quarter of the plate between the ellipses with half axes 2 and 1 m and 3.25 and 2.75 m, 0.6 m thick,
 E 210 GPa, ν 0.3, 1 MPa on the upper face. Held: the outer face in the plane, its mid-line in z too, and the
-sides by symmetry. Asked: σ_yy at D, the inner ellipse's long end, on the upper face: −5.38 MPa.
+sides by symmetry. Quantity: σ_yy at D, the inner ellipse's long end, on the upper face: −5.38 MPa.
 
 The displacement gradient at the node gives the stress, so the mesh shrinks towards the inner ellipse.
 Plain 27-node bricks on meshes graded to D give −5.41 to −5.42 MPa, 0.6 % from the target, with σ_xx and

@@ -1,6 +1,6 @@
 """Patch tests: under a constant stress the inner nodes of distorted meshes are in balance.
 
-Each model's nodes are put where a state of constant strain has them; what is asked is the largest unbalanced
+Each model's nodes are put where a state of constant strain has them; the result is the largest unbalanced
 force inside over the largest on the rim: zero but for rounding. Plate: constant stretch and curvature,
 linear. Shell: a finite stretch and rotation, and a small constant curvature (with a finite one the positions
 are not biquadratic). Solid: a finite deformation gradient.

@@ -8,9 +8,9 @@
 The constants are those of w = w′ = 0 at b and of no moment and no effective shear force at a. The order is
 that of a thicker disc on meshes whose elements are cut in four: curvatures of biquadratic tilts have errors
 of order 2, deflections twice that (Aubin and Nitsche), and so have sides through three points of a circle;
-orders are whole numbers, half of one tells them apart. In thin discs the shear strain of elements of length l
-that are no parallelograms adds an error like l⁶/h², which hides that one. The stress at the rim of a hole
-goes along it, σ = E ε, and ε is that of the rim's side: the stretch of a mid-node.
+orders are whole numbers, half of one distinguishes them. In thin discs the shear strain of elements of
+length l that are no parallelograms adds an error like l⁶/h², which hides that one. The stress at the rim of
+a hole goes along it, σ = E ε, and ε is that of the rim's side: the stretch of a mid-node.
 Sources: Timoshenko & Woinowsky-Krieger, Theory of Plates and Shells (1959), art. 17; Leissa, Vibration of
 Plates, NASA SP-160 (1969), ch. 2; Howland, Phil. Trans. R. Soc. A 229 (1930) 49–86, of a strip with a hole.
 """

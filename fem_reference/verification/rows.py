@@ -51,7 +51,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Case:
-    """A benchmark: what it is, and its rows, computed when they are asked for.
+    """A benchmark: what it is, and its rows, computed when they are requested.
 
     quick: seconds, not tens of seconds.
     """

@@ -11,7 +11,7 @@ from sheetbench.scenes import Clamped, Material, Scene, Sheet, Status
 
 
 def strip(length: float, width: float, thickness: float, young: float, **requested: Any) -> Scene:
-    """Length, width and thickness [m], E [Pa], density 1000 kg/m³; loads or gravity as asked."""
+    """Length, width and thickness [m], E [Pa], density 1000 kg/m³; loads or gravity as given."""
     return Scene(
         name="strip",
         sheet=Sheet(length_x=length, length_y=width, thickness=thickness),

@@ -1,4 +1,5 @@
-"""The seed's actuator: a chain of rigid segments with mass and rotary inertia, torsional springs and dampers.
+"""Habibi et al.'s actuator: a chain of rigid segments with mass and rotary inertia, torsional springs and
+dampers.
 
 Lagrangian of the rows y (see `lumped.actuators.frames`), with multipliers λ [m] and the scale σ [N/m]:
 

@@ -8,7 +8,7 @@ second follow them. Which is first makes no difference to what they exert or to 
 point and director where it stands, so at a corner it holds the other chain's end too, as a clamp would. Left
 to the sheet: corners that another support or a motion takes.
 
-What two chains both hold must not be asked twice, or the equations are singular. Scenes refuse what holds a
+What two chains both hold must be one equation, or the equations are singular. Scenes refuse what holds a
 chain along itself twice (`sheetbench.scenes.corners`). Across the sheet, with n the director's small tilt
 (n_x, n_y), a chain along x has one n_y throughout, for it is untwisted, and, "inplane", one n_x too:
 

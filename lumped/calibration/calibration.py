@@ -23,7 +23,7 @@ class Calibration(Answer):
     """Springs of a lattice: method, grid (nx, ny, layers), spring constants [N/m] and layer distance [m].
 
     moduli: one row per plate modulus with what the sheet asks and what the lattice's interior gives
-    (A, S [N/m], D [N·m]; S is asked as MacNeal's S* of the grid), of unequal cells that of the one that
+    (A, S [N/m], D [N·m]; the target of S is MacNeal's S* of the grid), of unequal cells that of the one that
     misses it most; remarks: what the method could not meet; masses: how the sheet's mass is shared out
     (`lumped.masses`) when it vibrates or moves; grading: of the grid's lines (`lumped.grid_lines`); half:
     the axes along which they end at a plane of symmetry; cells: their sections, where they differ or

@@ -23,7 +23,7 @@ from sheetbench.scenes.grid import Grid
 Sides = tuple[float, float]
 # of a cell of these sides and this section, and its layer distance if that is given
 OfCell = Callable[[Sides, Section, float | None], SpringSet]
-DIGITS = 12  # to which cells are told apart
+DIGITS = 12  # to which cells are distinguished
 
 
 class Kinds(NamedTuple):

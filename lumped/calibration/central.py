@@ -1,6 +1,6 @@
 """The best of links alone, for simulators without area springs: a sheet of Cauchy's moduli near this one.
 
-Central springs give a layer C12 = C66, so that D12 and D66 cannot both be met unless ν = 1/3. Asked for is
+Central springs give a layer C12 = C66, so that D12 and D66 cannot both be matched unless ν = 1/3. Required is
 
     D11 = a D,  D12 = D66 = b D,  A11 = c A,  A12 = A66 = (b/a) c A,  S = S*,
 
@@ -11,7 +11,7 @@ with σ = Σ z_k²/lz² of layers, σ' of gaps, G11 lz² = S*x lx²/s, G12 lz² 
     C66 lz² = (b D − σ' p)/σ,   C11 lz² = (a D − σ' G11 lz²)/σ,   p = (b/a) G11 lz²,
 
 diagonals have C66, axial links what is left of C11, C11 − r² C66, cross-layer links along the cell G11 − r²
-G12, and lz is such that A11 is met. Cells of r² > a/b would ask for negative axial links: there diagonals
+G12, and lz is such that A11 is matched. Cells of r² > a/b would ask for negative axial links: there diagonals
 carry what leaves these at zero, and D66 is missed.
 """
 

@@ -1,4 +1,4 @@
-"""Springs that meet D, A and the shear stiffness S* of the grid all together, in closed form.
+"""Springs that meet D, A and the shear stiffness S* of the grid all at once, in closed form.
 
 Square cells of side l, two layers at distance lz (docs/theory.md, section 3; S* is MacNeal's):
 
@@ -8,7 +8,7 @@ Square cells of side l, two layers at distance lz (docs/theory.md, section 3; S*
 
 Here for cells of sides lx, ly (r = lx/ly) and L layers. The cross-layer links between two layers have the in-
 plane form G11 = S*x lx²/(s lz²), G22 = S*y ly²/(s lz²), G12 = G66 = P whatever their split, s the shear gaps
-of `lumped.moduli`, and a share d of it at most goes to the furthest diagonals, d = ⅓ unless said. With σ = Σ
+of `lumped.moduli`, and a share d of it at most goes to the furthest diagonals, d = ⅓ by default. With σ = Σ
 z_k²/lz² and σ' = Σ z_g²/lz² of layers and gaps, a layer's form is
 
     C = (D − σ' lz² (G − δ))/(σ lz²),
@@ -69,7 +69,7 @@ def closed_form(
     gradients: bool = False,
     waves: bool = False,
 ) -> SpringSet | None:
-    """The springs that have the moduli asked; None where a link would be negative (many layers on coarse
+    """The springs that have the requested moduli; None where a link would be negative (many layers on coarse
     grids: there the cross-layer links alone bend too stiffly), and where a layer distance [m] that is given
     is less than the cell needs. gradients: whether layers are so far apart that strains in the plane that
     vary across a cell cost what they cost the sheet; waves: whether oblique waves of bending are right in l²,

@@ -1,5 +1,5 @@
-"""Every modulus met: the closed form where its links are nonnegative, bounded least squares elsewhere; and
-along free, hinged and held edges the twist that a plate lets go there (`lumped.calibration.edge_twist`).
+"""Every modulus matched: the closed form where its links are nonnegative, bounded least squares elsewhere;
+and along free, hinged and held edges the twist that a plate lets go there (`lumped.calibration.edge_twist`).
 
 Of a graded grid every cell has its closed form (`lumped.calibration.cell_by_cell`).
 """

@@ -1,4 +1,4 @@
-"""Which moduli of the sheet a lattice meets, cell by cell, and what is said of those that it misses."""
+"""Which moduli of the sheet a lattice meets, cell by cell, and notes on those that it misses."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def _kinds(
 
 
 def _rows(target: dict[str, float], got: dict[str, float]) -> list[dict[str, Any]]:
-    """Each modulus with its miss, relative to what is asked or, where that is zero, to its like along x."""
+    """Each modulus with its miss, relative to the target or, where that is zero, to its like along x."""
     rows = []
     for name, value in target.items():
         scale = value or abs(target[_like(name)])

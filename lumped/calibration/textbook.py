@@ -11,7 +11,7 @@ van-gelder  Van Gelder (1998): k = E2 Σ area/|edge|², E2 = E h/L, over the tri
 lloyd       Lloyd, Székely and Harders (2007): k = −n·K_ij n with the stiffness K of a bilinear element at
             ν = 1/3 (where the match is possible): 5/16 and 7/16 E2 per cell on squares.
 cauchy      the central-force lattice that is isotropic: ka = 2 kd, no area springs, so ν = 1/3 whatever the
-            sheet's; D11 and A11 met but for the thickness relaxation δ. Square cells only.
+            sheet's; D11 and A11 matched but for the thickness relaxation δ. Square cells only.
 
 Where a construction says nothing of it (van-gelder, lloyd), the layers lie at ± h/√12, which gives the
 bending stiffness of their in-plane stiffness, and the cross-layer links have the shear stiffness S* of

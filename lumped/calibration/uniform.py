@@ -1,4 +1,4 @@
-"""One stiffness k for all five families, as the seed has it; no area springs.
+"""One stiffness k for all five families, as Habibi et al. have it; no area springs.
 
 Its bending stiffness is D11 = k Σ z_k² (lx/ly + …): on square cells and two layers k lz². Where k is not
 given it is matched to the sheet's D11 = E h³/12(1 − ν²). Poisson's ratio and the twisting stiffness are

@@ -71,7 +71,7 @@ class Integrator(ABC):
 
     @classmethod
     def default_step(cls, period: Callable[[], float], limit: StepLimit | None) -> float:
-        """The step [s] where none is asked for, an adaptive one's first: from the limit of stability where
+        """The step [s] where none is requested, an adaptive one's first: from the limit of stability where
         there is one, else from the lowest period [s]; infinite where it finds its first step itself."""
         return limit.advised if limit is not None else period() / STEPS_PER_PERIOD
 

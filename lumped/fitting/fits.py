@@ -99,7 +99,7 @@ class FittedCalibration(Calibration):
         return (*super().tables(), Table.of(FitRow, rows, caption, "fit"))
 
     def notes(self) -> tuple[str, ...]:
-        return (f"the targets are met within {few(100 * self.residual)} %", *super().notes())
+        return (f"the targets are matched within {few(100 * self.residual)} %", *super().notes())
 
 
 def fit_static(

@@ -17,7 +17,7 @@ import numpy as np
 from sheetbench.errors import BadInput
 
 THRESHOLD = 1e-3  # of the largest singular value: below it a combination counts as not seen
-CORRELATED = 0.98  # |correlation| of two parameters from which on the data cannot tell them apart
+CORRELATED = 0.98  # |correlation| of two parameters from which on the data cannot distinguish them
 CONFIDENCE = 0.95
 
 
@@ -57,7 +57,7 @@ def identifiability(names: list[str], jacobian: np.ndarray, residuals: np.ndarra
         names_in = ", ".join(name for name, member in zip(names, members, strict=True) if member)
         warnings.append(
             f"the data do not see a combination of {names_in}: changed together they leave what was measured "
-            "as it is; seek fewer, or measure what tells them apart"
+            "as it is; seek fewer, or measure what distinguishes them"
         )
     deviation = np.sqrt(np.diag(covariance))
     for i in range(n):

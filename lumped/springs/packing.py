@@ -144,7 +144,7 @@ def _in_blocks(count: int) -> int:
 
 
 def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
-    """Set where the shapes of each run (r, 8) are kept, all in one place where none are asked for again, or
+    """Set where the shapes of each run (r, 8) are kept, all in one place where none are requested again, or
     there are too many; whether each has its own, and a tile's length."""
     rows = np.where(runs[:, 0] >= CELLS, CELL_SHAPE, LINK_SHAPE)
     before = np.append(0, np.cumsum(rows)).astype(int)

@@ -37,7 +37,7 @@ def solution(
     seconds: tuple[float, float],
     requested: dict[str, Any],
 ) -> Solution:
-    """The answer of an outcome; asked: the options that are not their defaults."""
+    """The answer of an outcome; requested: the options that are not their defaults."""
     state, lattice = outcome.state, problem.assembly.lattice
     assembly, u = problem.assembly, state.u  # they outlive the solve
     linear = requested.get("linear", False)

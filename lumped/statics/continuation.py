@@ -30,7 +30,7 @@ class Path:
     """A load–displacement path of n points.
 
     load_factors: (n,); displacements: probe → (n, 3) [m]; negative: (n,) eigenvalues of the tangent below
-    zero (0: stable, −1: not known); status: CONVERGED when the asked end was reached; message: why not.
+    zero (0: stable, −1: not known); status: CONVERGED when the requested end was reached; message: why not.
     """
 
     load_factors: np.ndarray
@@ -62,7 +62,7 @@ def trace(
     """The equilibrium path of a scene, past limit points.
 
     Without `vary` the scene's own loads, curved supports and tilted clamps grow from zero. With it the scene
-    is first solved (on the `branch` asked), then these loads are added and scaled. The path ends when |λ|
+    is first solved (on the requested `branch`), then these loads are added and scaled. The path ends when |λ|
     reaches load_limit, when until(λ, probe displacements [m]) holds, or after `points` points. step: longest
     arc [m] of the largest mass displacement; default a fiftieth of the longer side.
 

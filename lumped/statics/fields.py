@@ -23,7 +23,7 @@ SMALL = 1e-12  # of a displacement: what is left that is not linear in it
 
 
 class LatticeMesh(FieldMesh):
-    """A mesh with its fields that is made when it is first looked at: most answers are asked for a few points
+    """A mesh with its fields that is made when it is first looked at: most answers are requested a few points
     and forces only."""
 
     def __init__(self, make: Callable[[], FieldMesh]):

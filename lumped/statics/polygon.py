@@ -11,7 +11,8 @@ The form is of its causes: harmonics of the parabolas between the joints as r ce
 sheet's own resistance beside the chain's. Its five numbers were fitted to 85 chains, n = 2 to 16, r = 2 to 8,
 z = 0.015 to 6, sheets of ½ to 2 L across the edge, commands of 0.1 to 12 1/m, against the same grid with a
 segment a cell: they are within a factor of 1.51 of all that lose more than 0.5 % (test_polygon.py). How
-much less the probes move is not told so well: it depends on where they are, and on what else moves the sheet.
+much less the probes move is not detected so well: it depends on where they are, and on what else moves the
+sheet.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from collections.abc import Sequence
 from sheetbench.scenes import EDGES, Chain, Scene
 from sheetbench.scenes.summary import few
 
-REPORTED = 0.01  # share of the bending from which on it is said
+REPORTED = 0.01  # share of the bending from which on it is reported
 SEGMENTS, CELLS, CHAIN, SHEET, RESISTANCE = -1.84, 1.28, 0.12, 3.4, 0.21
 
 

@@ -83,11 +83,11 @@ def solve(
     [springs], or else `consistent` on nine masses along the shorter side.
     branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
     along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
-    boundary links and masses full shares, as the seed has them. linear: the answer for small displacements,
-    one step with the flat sheet's tangent. precision: of the internal force (`lumped.assembly`). near: the
-    masses' displacement (n, 3) [m] in an equilibrium of a scene much like this one on this grid, to be sought
-    from first; where that leads to no stable one, and with actuators, from flat. progress: called once an
-    iteration.
+    boundary links and masses full shares, as Habibi et al. have them. linear: the answer for small
+    displacements, one step with the flat sheet's tangent. precision: of the internal force
+    (`lumped.assembly`). near: the masses' displacement (n, 3) [m] in an equilibrium of a scene much like
+    this one on this grid, to be sought from first; where that leads to no stable one, and with actuators,
+    from flat. progress: called once an iteration.
 
     Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators and for
     `near` of another grid. Every other outcome is a status; where the full load was not reached, the last

@@ -13,9 +13,9 @@ layers     A thin sheet that curves by κ both ways keeps its stretching within 
            A grid of cells longer than 2 δ makes it stretch over whole cells instead: what it then finds is
            an equilibrium of this grid, too stiff, and not the sheet's. κ is √|κ₁κ₂|, and a sheet that
            bends one way only has next to no energy in the layers' mean stretch. In the studies of
-           docs/stability.md all that are off by more than 5 % for this reason are told, and a few others.
+           docs/stability.md all that are off by more than 5 % for this reason are reported, and a few others.
 
-Each is said with the place on the sheet where it is worst and what to change.
+Each is reported with the place on the sheet where it is worst and what to change.
 """
 
 from __future__ import annotations

@@ -41,7 +41,7 @@ class Answer(ABC):
         return self.tables()
 
     def figures(self) -> Sequence[Picture]:
-        """Return the figures, drawn when they are asked for."""
+        """Return the figures, drawn when they are requested."""
         return ()
 
     def notes(self) -> Sequence[str]:

@@ -1,4 +1,4 @@
-"""Text that is not ours made harmless where it is shown: on a terminal, in Markdown and HTML, CSV.
+"""Text that is not ours escaped where it is shown: on a terminal, in Markdown and HTML, CSV.
 
 A scene's name, its title and its probes' names may hold anything: escape sequences for a terminal, markup for
 a browser, formulas for a spreadsheet. Every way to show text goes through one of these functions, once.

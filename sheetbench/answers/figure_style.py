@@ -1,4 +1,4 @@
-"""How a picture is dressed: to be read beside its tables, or for a column of a paper.
+"""The style of a picture: to be read beside its tables, or for a column of a paper.
 
 A paper's picture has the width of one column (89 mm) or of both (183 mm), as most journals have them, and no
 title over it: that is the caption's. What cannot be read without it, as how much displacements are enlarged,

@@ -17,7 +17,7 @@ DPI = 300  # of pictures as PNG, and of what is rendered inside those as PDF or 
 PIXELS = 1080  # across a sheet that is rendered: half as many again as a third of the page has at DPI
 MOST = 12  # probes with a panel or a line of their own
 DARK, GREY = "#222222", "#8a8a8a"
-# Okabe and Ito's colours, which everyone tells apart.
+# Okabe and Ito's colours, which everyone can distinguish.
 SERIES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999933", "#882255")
 COMPONENTS = dict(zip(("ux", "uy", "uz"), (SERIES[0], SERIES[2], SERIES[5]), strict=True))
 STYLE: Any = {

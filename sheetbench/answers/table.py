@@ -150,7 +150,7 @@ class Table:
     """A caption, columns, and rows of as many values [SI] as there are columns.
 
     name: of its CSV file. grouped: rows that share the first value stand together under it on a terminal.
-    text: what is said of it, in Markdown.
+    text: notes on it, in Markdown.
     """
 
     caption: str

@@ -1,7 +1,7 @@
 """MKL's PARDISO for large lattices, where the extra `mkl` is installed: L D Lᵀ with Bunch–Kaufman pivots.
 
 It has the face of rslab: an analysis of a pattern, factors of matrices that have it, their inertia. PARDISO
-keeps one set of factors a handle, and its memory until it is told to let go: factors that are still in use
+keeps one set of factors a handle, and its memory until it is released: factors that are still in use
 keep their handle, and the next ones get one of their own.
 """
 

@@ -1,6 +1,6 @@
 """Where a run's samples go: to memory, or to a folder that grows while the run goes on and can be resumed.
 
-A folder holds `run.json` (what was asked, and how it is sampled), `samples.bin` (rows of float64, one a
+A folder holds `run.json` (its settings, and how it is sampled), `samples.bin` (rows of float64, one a
 sample), `frames.bin` (displacements (rows, 3) float64, one a frame) and `checkpoint.npz`. Those that are not
 appended to are replaced as a whole. The checkpoint counts the bytes of the others and holds their CRC-32.
 Rows after it are dropped on resuming and computed again, so that a resumed run gives the same file to the
@@ -94,7 +94,7 @@ class FolderStore:
         self._held.close()
 
     def begin(self, plan: dict[str, Any]) -> None:
-        """Note what is asked and how it is to be sampled."""
+        """Note the run's settings and how it is to be sampled."""
         if plan != self.plan:
             with whole(self.folder / "run.json") as partial:
                 text = json.dumps({"asked": self._asked, "plan": plan}, sort_keys=True)

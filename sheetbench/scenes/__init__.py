@@ -1,4 +1,4 @@
-"""What is asked: sheet, material, supports, loads, probes, the catalogue, published figures; no solver."""
+"""The problem: sheet, material, supports, loads, probes, the catalogue, published figures; no solver."""
 
 from sheetbench.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMotion

@@ -3,7 +3,7 @@
     Σ reactions + Σ loads = 0,    Σ moments = 0 about the origin of the flat sheet's frame
 
 Reactions are those that the answer lists: what it leaves out is missing here. The force of the dead loads is
-the scene's own, from density, sides and what is asked, and not what a model has made of it; followers'
+the scene's own, from density, sides and loads, and not what a model has made of it; followers'
 forces, and all moments, depend on the shape and are those on the sheet as it lies (a linear model's on the
 flat one). What is left over is compared with what the model's own tolerance and rounding may leave.
 """

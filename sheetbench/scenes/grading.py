@@ -115,7 +115,7 @@ def as_settings(grading: Graded) -> dict[str, Any]:
 
 
 def of_settings(settings: Mapping[str, Any]) -> Graded:
-    """What `as_settings` has written; 0 where nothing is said."""
+    """What `as_settings` has written; 0 where none is given."""
     if x_and_y := settings.get("lines_at"):
         return through((tuple(x_and_y[0]), tuple(x_and_y[1])))
     return towards(settings.get("grading") or 0.0, settings.get("graded_edges"))

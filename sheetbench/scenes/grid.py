@@ -1,4 +1,4 @@
-"""Grids of a sheet: how many masses lie along x and y and through the thickness, however they are asked for.
+"""Grids of a sheet: how many masses lie along x and y and through the thickness, however they are requested.
 
 A grid is (nx, ny, layers), counted in masses: 9 × 9 masses have 8 × 8 cells. One number is the count along
 the shorter side, and the cells are then as square as that allows; two are the counts along x and y; a third
@@ -17,7 +17,7 @@ from sheetbench.scenes.sheet import Sheet
 Grid = tuple[int, int, int]
 LAYERS = 2
 MESH = 16  # the usual number of elements (`sheetbench.choices`), which stands for a sheet's own mesh
-MASSES = 9  # along the shorter side, unless something else is asked for
+MASSES = 9  # along the shorter side, unless something else is requested
 
 
 def near_square(sheet: Sheet, cells: int) -> tuple[int, int]:
@@ -36,7 +36,7 @@ def elements_of(sheet: Sheet, elements: int) -> tuple[int, int]:
 
 
 def grid_of(sheet: Sheet, masses: int | Sequence[int] = MASSES) -> Grid:
-    """The grid that is asked for by a number, or by two or three.
+    """The grid that is requested by a number, or by two or three.
 
     Raises BadInput below two masses a side or two layers, and for anything else than such numbers.
     """

@@ -1,6 +1,6 @@
 """Slips that no rule forbids: numbers that are fine in SI units and hardly meant, nearly always a unit.
 
-Each is said in a sentence that names the key, the value, the unit and how the likely quantity is written.
+Each is reported in a sentence that names the key, the value, the unit and how the likely quantity is written.
 Hardly meant are E below 1 kPa or above 10 GPa, a density outside 100 to 20 000 kg/m³, sides above 10 m, a
 thickness over a quarter of the shorter side, a gravity other than the Earth's, and layers of springs much
 nearer to or farther from each other than the sheet is thick; then a weight or loads that would tear the

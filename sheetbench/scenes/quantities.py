@@ -121,7 +121,7 @@ class Frozen(BaseModel, frozen=True):
             raise SceneError(f"{type(self).__name__}: {in_one_line(error, type(self))}") from None
 
     # what is read from a file or lies within another object is built without the above, so that the whole
-    # scene's faults are told together
+    # scene's faults are reported together
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
     @classmethod

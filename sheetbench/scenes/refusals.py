@@ -2,7 +2,7 @@
 
     load 2.pressure = 200.0: unknown key; known here are history, kind, value
 
-Lists count from 1. Of many faults the first three are told, and how many more there are.
+Lists count from 1. Of many faults the first three are named, and how many more there are.
 """
 
 from __future__ import annotations

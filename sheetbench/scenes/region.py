@@ -1,6 +1,6 @@
 """The part of the plan in which there is a sheet: its outline without its cutouts; and where it is held.
 
-What lies on a shape's boundary belongs to it. A region is one piece that hangs together by more than points.
+What lies on a shape's boundary belongs to it. A region is one piece that is connected by more than points.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from sheetbench.scenes.scene import Scene
 
-NECK = 1e-6  # of the shorter side, that holds a sheet together: less is a point
+NECK = 1e-6  # of the shorter side, that connects a sheet: less is a point
 
 
 class Cutout(Frozen):
@@ -54,7 +54,7 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
     if (count := 0 if inner.is_empty else shapely.get_num_geometries(inner)) != 1:
         drawn = "sheet.mesh: it covers" if sheet.mesh is not None else "sheet.outline: it encloses"
         what = "cutout: they leave" if cutouts else drawn
-        parts = f"{count} parts that hang together at points at most" if count else "no part"
+        parts = f"{count} parts that are connected at points at most" if count else "no part"
         raise ValueError(f"{what} {parts}; a sheet is one piece")
     if plan.geom_type != "Polygon":  # slivers beside it
         plan = max(plan.geoms, key=lambda part: part.area)

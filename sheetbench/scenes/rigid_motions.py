@@ -35,7 +35,7 @@ def free_rigid_motions(scene: Scene) -> list[str]:
 
 @lru_cache(maxsize=64)
 def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutout, ...]) -> tuple[str, ...]:
-    """Names of the rigid motions that supports leave free: asked again at every solve of a scene."""
+    """Names of the rigid motions that supports leave free: computed at every solve of a scene."""
     centre = np.array([sheet.length_x / 2, sheet.length_y / 2, 0.0])
     scale = max(sheet.lengths)
     rows = [np.zeros(6)]

@@ -13,7 +13,7 @@ _SI = {"mm": 1e-3, "GPa": 1e9, "percent": 1e-2}
 PROBES = ("P1", "P2", "P3", "P4")
 
 KNOWN_FAULTS = (
-    "The two bodies of the displacement tables stand swapped in the text; here symmetry tells them apart.",
+    "The two bodies of the displacement tables stand swapped in the text; here symmetry distinguishes them.",
     "The unit is mm, although one header says m.",
     "Experimental uy(P4) of test 1 is printed −1.86; the symmetry of the test asks +1.86.",
     "In test 1 the published y axis points the other way than in a scene with edges x0 and y0 clamped: "

@@ -1,4 +1,4 @@
-"""What a solve takes, told before anything is built: unknowns, memory and time.
+"""The size of a solve, known before anything is built: unknowns, memory and time.
 
 The factors of a matrix whose graph is a grid of N nodes with d unknowns each, s of them along the shorter
 side, ordered by nested dissection:

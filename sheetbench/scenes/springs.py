@@ -1,7 +1,7 @@
 """Spring constants of a lattice, as data: the optional [springs] and [dampers] tables of a scene.
 
 Only the lumped model reads them. Axial, diagonal, vertical, cross and cross_diagonal are link
-stiffnesses [N/m] (the seed's ka, kd, kz, kdT, kddT); area and mid_area are area-spring stiffnesses
+stiffnesses [N/m] (Habibi et al.'s ka, kd, kz, kdT, kddT); area and mid_area are area-spring stiffnesses
 [N/m], energy ½ k (a/a0 − 1)² a0 per cell of a layer and of the mid-surface. Strain springs [N/m], energy
 ½ k ε² a0 of a cell's mean strain, make up what those cannot: shear and mid_shear against the in-plane shear
 of a layer's and of the mid-surface's cells, stretch and mid_stretch against their stretching along x, y.
@@ -163,7 +163,7 @@ class SpringTable(SpringSet):
 
     grid: tuple[Masses, Masses, Masses] | None = None
     """Masses along x and y, and layers, of the lattice that these springs belong to: what is solved unless a
-    grid is asked for; another grid is refused."""
+    grid is requested; another grid is refused."""
     grading: Annotated[Finite, Field(ge=0, le=1)] = 0.0
     """How much smaller that lattice's cells are at the edges: 0, all alike, to 1; another one is refused."""
     graded_edges: tuple[EdgeName, ...] | None = None

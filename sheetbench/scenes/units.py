@@ -1,7 +1,7 @@
 """Quantities as people write them, `2 mm`, `0.6 MPa`, `1.2 g/cm³`, `5 ms`, as numbers in SI units.
 
 A unit is a product of powers of the units in `UNITS`, some of which take an SI prefix; `*`, `·` or a space
-multiply and `/` divides. What stands for another dimension than the one asked for is refused by name.
+multiply and `/` divides. What stands for another dimension than the one requested is refused by name.
 """
 
 from __future__ import annotations

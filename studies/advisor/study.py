@@ -161,7 +161,7 @@ class Study(Answer):
             rows.append(
                 Kept(tolerance, len(off), part.met, max(off), float(np.median(off)), part.within, typical)
             )
-        return (Table.of(Kept, rows, "Tolerances asked and kept", "advisor"),)
+        return (Table.of(Kept, rows, "Tolerances requested and met", "advisor"),)
 
 
 def study(

@@ -69,7 +69,8 @@ class Trained:
 
 
 def bent_scenes() -> dict[str, Scene]:
-    """The seed's sheet under a thousandth of its weight, held seven ways, and a force at its free corner."""
+    """Habibi et al.'s sheet under a thousandth of its weight, held seven ways, and a force at its free
+    corner."""
     feather = Gravity(acceleration=(0.0, 0.0, -9.81e-3))
     bent = {name: _scene(held, feather) for name, held in HELD.items()}
     force = PointLoad(at=(SIDE, SIDE), force=(0.0, 0.0, 1e-4))

@@ -1,8 +1,8 @@
 """Lattice against shell on drawn sheets: errors at the probes as the grid is refined, and how fast they fall.
 
-Asked of 17 masses along the shorter side: 2 % of the largest displacement where rims lie along the axes, 4 %
-where they are oblique or round; that the error falls with order 1.5 and 1 from 9 to 33 masses. The shell is
-taken as exact: `bar` is what its mesh leaves uncertain (`fem_reference.uncertainty`).
+Required of 17 masses along the shorter side: 2 % of the largest displacement where rims lie along the axes,
+4 % where they are oblique or round; that the error falls with order 1.5 and 1 from 9 to 33 masses. The shell
+is taken as exact: `bar` is what its mesh leaves uncertain (`fem_reference.uncertainty`).
 
 At a re-entrant corner of 270° with free sides a plate's moments go like r^(a − 1), sin(3πa/2) =
 a (1 − ν)/(3 + ν), a = 0.65 at ν = 0.45 (Williams, J. Appl. Mech. 19 (1952) 526–528): on evenly refined grids
@@ -59,7 +59,7 @@ class Row:
 
     @property
     def misses(self) -> str:
-        """What is not as asked, "" where all is."""
+        """Which requirement is missed, "" where none is."""
         near, steep = self.errors[MASSES] <= self.allowed, self.overall_order >= self.least_order
         return ", ".join(name for name, holds in (("error", near), ("order", steep)) if not holds)
 

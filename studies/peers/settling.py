@@ -1,4 +1,4 @@
-"""The seed's settling run, two seconds of a 9 × 9 × 2 lattice: our integrators beside SciPy's BDF.
+"""Habibi et al.'s settling run, two seconds of a 9 × 9 × 2 lattice: our integrators beside SciPy's BDF.
 
 SciPy is given what we have: the compiled right-hand side and the sparse Jacobian of the same lattice,
 
@@ -89,7 +89,7 @@ class Equations:
 
 
 def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
-    """A row per integrator and tolerance; say: told of each."""
+    """A row per integrator and tolerance; say: called with each."""
     scene = load(SCENE)
     equations = Equations(scene)
     say("SciPy's BDF, the reference")

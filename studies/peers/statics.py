@@ -1,4 +1,4 @@
-"""The seed's sheet at rest: lattice, shell and solid beside CalculiX, Kratos, FElupe and MuJoCo.
+"""Habibi et al.'s sheet at rest: lattice, shell and solid beside CalculiX, Kratos, FElupe and MuJoCo.
 
 Error: the largest component of u − u_ref over the probes, of the largest of u_ref, a shell of `TRUTH`
 elements along a side. Time: the solve alone, as every code tells it, warm; CalculiX, which is a program, with
@@ -45,7 +45,7 @@ LADDERS = (
 
 
 def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
-    """A row per model and size; say: told of each."""
+    """A row per model and size; say: called with each."""
     scene, codes = load(SCENE), known_codes()
     points = scene.probe_points()
     say(f"shell {TRUTH}, the reference")

@@ -72,7 +72,7 @@ def regenerate(say: Callable[[str], None] = print, suite: str | None = None) -> 
 
 
 def statics(case: Case) -> dict[str, Any]:
-    """Displacements [m] of the probes with their bars, and which codes were asked."""
+    """Displacements [m] of the probes with their bars, and which codes were used."""
     elements = CURVES if case.suite == "curves" else _elements(case.scene)
     points = case.scene.probe_points()
     solution, bar = solve_with_bar(case.scene, points, "shell", elements)

@@ -27,7 +27,7 @@ from sheetbench.scenes.seed import seed_inputs
 from studies.reproduction.sheets import KINDS, RODS, Sheets
 
 FIRST = {"sheet": "young", "lattice": "layer_distance"}
-SOURCE = {"sheet": "experiment", "lattice": "model"}  # which published table a kind is asked for
+SOURCE = {"sheet": "experiment", "lattice": "model"}  # which published table a kind is requested
 SOUGHT: dict[str, tuple[tuple[str, ...], ...]] = {
     "sheet": (("young",), ("young", "tilt")),
     "lattice": (("layer_distance",), ("layer_distance", "k"), ("layer_distance", "k", "tilt")),

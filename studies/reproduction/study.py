@@ -53,7 +53,7 @@ TEXTS = {
 
 @dataclass(frozen=True, repr=False)
 class Forensics(Answer):
-    """What each part found; empty where a part was not asked for. models: what our models answer."""
+    """What each part found; empty where a part was not requested. models: what our models answer."""
 
     file_name = Reproduction.file_name
     parts: tuple[str, ...]

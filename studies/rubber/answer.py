@@ -16,7 +16,7 @@ from studies.rubber.study import Constant, Square, Strip, blown, constants, curv
 
 @dataclass(frozen=True, repr=False)
 class Rubber(Answer):
-    """Rows by part; block: None where it was not asked for."""
+    """Rows by part; block: None where it was not requested."""
 
     file_name = "rubber"
 

@@ -105,5 +105,5 @@ def text(study: Study, rows: list[Row]) -> str:
 
 
 def _reason(row: Row) -> str:
-    sentence = f"{row.get('mechanism', 'unknown')}: {row.get('evidence', 'no test told')}"
+    sentence = f"{row.get('mechanism', 'unknown')}: {row.get('evidence', 'no test showed one')}"
     return f"{sentence}; it says: {row['message']}" if row["message"] else sentence

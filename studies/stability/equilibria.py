@@ -47,7 +47,7 @@ def sheet(
     poisson: float = POISSON,
     **more: Any,
 ) -> Scene:
-    """A square sheet clamped at `edges` under its own weight: thickness/side and ρ g h a³/D as asked."""
+    """A square sheet clamped at `edges` under its own weight: thickness/side and ρ g h a³/D as given."""
     thickness = slenderness * SIDE
     rigidity = young * thickness**3 / 12.0 / (1.0 - poisson**2)
     density = abs(load_number) * rigidity / (GRAVITY * thickness * SIDE**3)

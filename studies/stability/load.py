@@ -4,7 +4,7 @@ weight       Habibi et al.'s sheet, one edge clamped, from 1e-6 g to 1e3 g; ρ g
 reversed     the same weight up and down: mirror images, to rounding
 compression  the clamped-free strip pressed along x up to ten times its Euler load π² E h³/48a² (per width),
              with a slight weight that chooses the side: both models bend to it
-buckled      the same, the lattice asked for a stable equilibrium: the same one
+buckled      the same, the lattice requested a stable equilibrium: the same one
 pull         the free edge pulled in its plane until the sheet doubles in length: a linear strip would at
              N = E h; strains beyond one half are outside of the model. Before, the two models differ by their
              laws: springs are linear in the change of length, the shell in Green's strain

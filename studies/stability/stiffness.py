@@ -4,7 +4,7 @@ scaled    E with the density that keeps the load number: nothing but the units c
 fixed     Habibi et al.'s density and E such that ρ g h a³/D runs from 1e-6 to 1e4; beyond ρ g a/E = 0.05,
           that is L = 0.6 (1 − ν²) (a/h)², strains are outside of the model
 contrast  one family of springs made stiffer or softer: another sheet, so errors are the wrong limit's;
-          what is asked is an answer or a status
+          the result is an answer or a status
 """
 
 from __future__ import annotations

@@ -66,7 +66,7 @@ class Transfer(Answer):
     failed: list[str] = field(default_factory=list)
 
     def heading(self) -> tuple[str, str, str]:
-        return "transfer", "calibrations judged on scenes that they were not made on", ""
+        return "transfer", "calibrations tested on scenes that they were not made on", ""
 
     def document(self) -> dict[str, Any]:
         return dict(vars(self))  # errors and misses are fractions
@@ -169,7 +169,7 @@ class Transfer(Answer):
             errors = {"error": row["error"], **{f"frequency {i}": miss for i, miss in enumerate(misses, 1)}}
             lines.append(Line({"method": row["method"], "left out": row["left_out"]}, errors))
         n = self.grids[0]
-        caption = f"Fitted to the other scenes of four, judged on the one left out, {n} × {n} × 2"
+        caption = f"Fitted to the other scenes of four, tested on the one left out, {n} × {n} × 2"
         return Table.of(Line, lines, caption, "left-out", grouped=True)
 
     def notes(self) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""`sheetbench study transfer`: calibrations judged on scenes that they were not made on."""
+"""`sheetbench study transfer`: calibrations tested on scenes that they were not made on."""
 
 from __future__ import annotations
 

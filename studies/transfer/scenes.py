@@ -1,7 +1,7 @@
-"""The scenes of the transfer study: the two that springs are fitted to, and those that only judge them.
+"""The scenes of the transfer study: the two that springs are fitted to, and those that only test them.
 
-All are the seed's sheet or a change of it. The linear pair is the training pair under a thousandth of its
-weight: there the wrong limit of a calibration is one of bending alone.
+All are Habibi et al.'s sheet or a change of it. The linear pair is the training pair under a thousandth of
+its weight: there the wrong limit of a calibration is one of bending alone.
 """
 
 from __future__ import annotations

@@ -60,7 +60,7 @@ def transfer(
     large: bool = False,
     **how: Unpack[CampaignKeywords],
 ) -> Transfer:
-    """Carry out the parts asked for, through a campaign's store, and put their rows together.
+    """Carry out the parts requested, through a campaign's store, and put their rows together.
 
     methods: names of calibrations; grids: masses a side, 4 n + 1, coarsest first; grading: in the part
     "static", of the methods that take one, a number or "auto"; scenes: names of `transfer_scenes`, all of

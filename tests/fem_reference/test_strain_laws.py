@@ -100,7 +100,7 @@ def test_rubbers_stretch_to_twice_their_length_as_closed_forms_say():
 @pytest.mark.parametrize("model", ["shell", "solid"])
 @pytest.mark.parametrize("rubber", RUBBERS, ids=lambda rubber: rubber.law)
 def test_a_scenes_rubber_is_pulled_to_twice_its_length(rubber, model):
-    """The material's law without being asked for, and no word of strains outside the model."""
+    """The material's law without being requested, and no word of strains outside the model."""
     pull = stress(rubber.law, "one way", 1.0, rubber) * rubber.young * 0.01
     scene = pulled((pull, 0.0), material=rubber)
     found = fem_reference.solve(scene, model, elements=(2, 1))

@@ -1,4 +1,4 @@
-"""Answers asked for more than once."""
+"""Answers requested more than once."""
 
 from collections.abc import Callable
 from typing import Any

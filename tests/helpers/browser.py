@@ -30,7 +30,7 @@ def browser() -> Iterator[Any]:
 
 
 class Watch:
-    """What a page did that it should not: errors and warnings of its console, and what it asked for."""
+    """What a page did that it should not: errors and warnings of its console, and what it requested."""
 
     def __init__(self, page: Any) -> None:
         self.said: list[str] = []

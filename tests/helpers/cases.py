@@ -1,4 +1,5 @@
-"""Sheets, materials and shorthands that the tests share; the first sheet is that of the seed's scenes."""
+"""Sheets, materials and shorthands that the tests share; the first sheet is that of Habibi et al.'s
+scenes."""
 
 import numpy as np
 

@@ -20,7 +20,7 @@ from sheetbench.scenes.grading import Grading, as_settings
 from studies.transfer.scenes import transfer_scenes
 
 GRADINGS = (0.5, 0.8, Grading(0.6, ("x0",)))
-CENTRE, CORNER = -3.7224e-3, -19.835e-3  # of the seed's linear sheet: `test_edge_twist`
+CENTRE, CORNER = -3.7224e-3, -19.835e-3  # of Habibi et al.'s linear sheet: `test_edge_twist`
 
 
 def assembly_of(grading, grid=(6, 5), method="consistent"):
@@ -237,7 +237,7 @@ def test_points_between_masses_are_as_near_as_masses(grading, held):
 
 @pytest.mark.parametrize("grading, share", [(0.5, 0.67), (1.0, 0.33)])
 def test_an_explicit_step_shrinks_nearly_as_the_smallest_cell(grading, share):
-    """9 × 9 of the seed's sheet: its smallest cells are 0.65 and 0.30 times as wide as even ones."""
+    """9 × 9 of Habibi et al.'s sheet: its smallest cells are 0.65 and 0.30 times as wide as even ones."""
     scene = load("two-edges-clamped")
     steps, widths = [], []
     for graded in (0.0, grading):
@@ -252,7 +252,8 @@ def test_an_explicit_step_shrinks_nearly_as_the_smallest_cell(grading, share):
 def test_two_free_edges_leave_their_corner_its_twisting_stiffness(monkeypatch):
     """Cells much narrower than the layer in which a free edge lets its twist go keep little of their twisting
     stiffness; what two edges take from their corner's cell adds, and with less than nothing left there the
-    sheet has an unstable equilibrium. Here h/10: 33 × 33 of the seed's sheet at grading 1, and even grids."""
+    sheet has an unstable equilibrium. Here h/10: 33 × 33 of Habibi et al.'s sheet at grading 1, and even
+    grids."""
     sheet = Sheet(length_x=0.02, length_y=0.02, thickness=0.01)
     scene = load("two-edges-clamped").replace(sheet=sheet.model_dump(), probes={})
 

@@ -39,7 +39,8 @@ def test_a_file_of_the_answer_has_the_lines_places(tmp_path):
 
 
 def test_frequencies():
-    """The first of the seed's sheet, 5.1650 Hz by the plate (`test_masses`), and three near the even ones."""
+    """The first of Habibi et al.'s sheet, 5.1650 Hz by the plate (`test_masses`), and three near the even
+    ones."""
     graded, even = (lumped.modes(SCENE, springs_of(SCENE, 5, g), 3).frequencies for g in (GRADING, 0.0))
     assert graded[0] == pytest.approx(5.1650, rel=0.01)
     assert graded == pytest.approx(even, rel=0.05)

@@ -15,9 +15,9 @@ SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.002)
 SCENE = Scene(name="free", sheet=SHEET, material=Material(young=1e6, poisson=0.3, density=1000.0))
 EVERY = frozenset({"x0", "x1", "y0", "y1"})
 
-# The first six [Hz] of the seed's sheet on the supports of the transfer study, by a Mindlin plate of 32 × 32
-# graded elements (fem_reference.modes, model="plate"; 24 × 24 are within 0.01 %, 48 × 48 lower by 0.003 % at
-# most with opposite edges clamped).
+# The first six [Hz] of Habibi et al.'s sheet on the supports of the transfer study, by a Mindlin plate of 32
+# × 32 graded elements (fem_reference.modes, model="plate"; 24 × 24 are within 0.01 %, 48 × 48 lower by 0.003
+# % at most with opposite edges clamped).
 PLATE = {
     "one-edge-clamped": (2.7101, 6.0649, 15.8612, 21.0554, 22.5878, 39.8155),
     "two-edges-clamped": (5.1650, 17.5025, 20.8228, 35.7308, 47.4661, 51.5748),

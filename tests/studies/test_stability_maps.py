@@ -99,7 +99,7 @@ def test_texts_list_what_is_off_with_its_mechanism_and_what_did_not_converge():
     said = text(fake([]), rows)
     assert "4 cells: 3 converged, 1 diverged." in said
     assert "- x lost: diverged, too far" in said
-    assert "- x off: 30 %, unknown: no test told" in said
+    assert "- x off: 30 %, unknown: no test showed one" in said
     assert "- x told: 20 %, resolution: halved" in said
     assert "fine" not in said
 
@@ -229,7 +229,7 @@ def test_mechanisms():
 def test_a_curved_clamp_snaps_and_says_where(monkeypatch):
     monkeypatch.setattr(curved_edge, "GRID", (9, 9))
     monkeypatch.setattr(curved_edge, "ELEMENTS", 4)
-    monkeypatch.setattr(equilibria, "LARGE", np.inf)  # why it is off on this grid is not asked for
+    monkeypatch.setattr(equilibria, "LARGE", np.inf)  # why it is off on this grid is not requested
     row = curved_edge.measure(turn=-0.25, load_number=10.0)
     assert row["status"] == "converged" and len(row["snaps"]) > 0
     assert all(0.0 < load_factor < 1.0 for load_factor in row["snaps"])

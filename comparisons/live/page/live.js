@@ -13,7 +13,7 @@
   const sliders = new Map();
   const shown = {}; // the last answer of each model
   const given = {}; // its sheet, as the viewer takes it
-  const begun = new Map(); // when the question of a number was asked for, by the event's own clock
+  const begun = new Map(); // when the question of a number was requested, by the event's own clock
   const latencies = []; // ms from the event to the lattice drawn
   let panel, calibration, viewer;
   let number = 0;
@@ -49,7 +49,7 @@
     return null;
   }
 
-  // ---- what is asked
+  // ---- the question
 
   class Slider {
     constructor(given, parent) {
@@ -77,7 +77,7 @@
       });
     }
 
-    // The value that a text says, in SI units; null, with a sentence said, for one that is none or beyond the bounds.
+    // The value that a text says, in SI units; null, with a sentence, for one that is none or beyond the bounds.
     read(text) {
       const said = text.trim();
       const [, digits, unit] = said.replace("−", "-").replace(",", ".").match(/^([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(.*)$/i) ?? [];

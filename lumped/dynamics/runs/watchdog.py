@@ -2,8 +2,8 @@
 
 Looked at in every sample. The balance of energies, kinetic + elastic + potential + dissipated − work, is
 constant in an exact run; a growth of it by as much as the energy that goes round is a divergence. Less than
-that is an error of the steps, which the energies of the answer tell, and no fault. What is wrong is said with
-the time, the place on the sheet and what to change.
+that is an error of the steps, which the energies of the answer tell, and no fault. What is wrong is reported
+with the time, the place on the sheet and what to change.
 """
 
 from __future__ import annotations

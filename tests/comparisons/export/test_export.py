@@ -73,7 +73,7 @@ def table(path):
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """The seed's test 1 on 4 × 4 × 2 masses, edge twist and all."""
+    """Habibi et al.'s test 1 on 4 × 4 × 2 masses, edge twist and all."""
     made = tmp_path_factory.mktemp("lattice")
     scene = scenes.load("two-edges-clamped")
     export(made, scene, spring_set(scene, 4, method="consistent"))

@@ -52,7 +52,7 @@ def test_the_example_of_the_docs_answers_like_a_beam(capsys):
     tip = -material.density * sheet.thickness * 9.81 * sheet.length_x**4 / (8 * rigidity)
     assert (solution.model, solution.status) == ("strip", Status.CONVERGED)
     assert solution.displacement(SCENE.probe_points())[3] == pytest.approx([0.0, 0.0, tip])
-    assert np.isnan(solution.displacement([[0.01, 0.01]])).all()  # it is asked for the probes alone
+    assert np.isnan(solution.displacement([[0.01, 0.01]])).all()  # it is requested the probes alone
     asked = ["two-edges-clamped", "--lumped", "3", "--elements", "2", "--model", f"exec:{STRIP}"]
     assert run("compare", *asked) == 2
     assert "strip: knows a sheet clamped at x0" in capsys.readouterr().err

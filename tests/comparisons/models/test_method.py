@@ -20,7 +20,7 @@ RUBBER = SCENES["two-edges-clamped"]
 
 
 def held(*edges, poisson=0.3, softer=1.0):
-    """The seed's sheet of another material, clamped along these edges."""
+    """Habibi et al.'s sheet of another material, clamped along these edges."""
     material = RUBBER.material.replace(poisson=poisson, young=RUBBER.material.young / softer)
     return RUBBER.replace(supports=tuple(Clamped(edge=edge) for edge in edges), material=material)
 

@@ -50,7 +50,7 @@ def test_the_unloaded_sheet_is_flat():
 
 
 def test_lattice_and_shell_agree_about_the_sagging_sheet():
-    """The seed's sheet sags by four thicknesses: its first frequency rises, in both models alike."""
+    """Habibi et al.'s sheet sags by four thicknesses: its first frequency rises, in both models alike."""
     found = spectra("two-edges-clamped", count=3, grid=17, elements=8, about="deformed")
     flat = spectra("two-edges-clamped", count=3, grid=17, elements=8)
     stiffened = [a.frequencies[0] / b.frequencies[0] for a, b in zip(found, flat, strict=True)]

@@ -138,7 +138,7 @@ def test_the_command_writes_maps_and_resumes(tmp_path, capsys, monkeypatch):
 
 
 def test_grids_are_held_against_the_finest_mesh(store, monkeypatch):
-    """Also where fewer elements are asked for with what else is varied: then a finer one erred."""
+    """Also where fewer elements are requested with what else is varied: then a finer one erred."""
     monkeypatch.setattr(extremes, "CELLS", {"lumped": (2, 8), "references": (2, 6)})
     rows = {(row["cell"]["model"], row["cell"]["cells"]): row for row in varied(store, "grid").rows}
     assert set(rows) == {

@@ -63,7 +63,7 @@ def scene():
 
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
-    """The folder of a small trade-off, killed once in the middle, resumed, and asked for once more."""
+    """The folder of a small trade-off, killed once in the middle, resumed, and requested once more."""
     folder = tmp_path_factory.mktemp("tradeoff")
     command = [sys.executable, "-c", "from comparisons.cli import main; main()"]
     arguments = [*SMALL, "--out", str(folder)]
@@ -83,7 +83,7 @@ def test_front_holds_what_nothing_beats():
     errors = [0.1, 0.05, 0.2, None, 0.01, float("nan"), 0.04]
     seconds = [1.0, 2.0, 3.0, 0.1, 4.0, 0.1, 2.0]
     assert front(errors, seconds) == [0, 6, 4]
-    assert front(errors, seconds, floor=0.04) == [0, 6]  # below the floor nothing can be told apart
+    assert front(errors, seconds, floor=0.04) == [0, 6]  # below the floor nothing can be distinguished
     assert front([None], [1.0]) == []
 
 

@@ -1,4 +1,5 @@
-"""The shell on the seed's sheet: converged values, convergence, symmetry, balance, statuses, sampling."""
+"""The shell on Habibi et al.'s sheet: converged values, convergence, symmetry, balance, statuses,
+sampling."""
 
 import numpy as np
 import pytest

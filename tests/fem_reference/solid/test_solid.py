@@ -1,4 +1,5 @@
-"""The solid on scenes: the seed's, agreement with the shell and closed forms, convergence, no locking."""
+"""The solid on scenes: Habibi et al.'s, agreement with the shell and closed forms, convergence, no
+locking."""
 
 import numpy as np
 import pytest
@@ -66,7 +67,7 @@ def test_no_volumetric_locking_of_a_full_clamp():
 
 @pytest.mark.slow
 def test_one_layer_is_enough():
-    """A second layer of bricks moves the seed's probes by less than 0.1 %."""
+    """A second layer of bricks moves Habibi et al.'s probes by less than 0.1 %."""
     scene = scenes.load("two-edges-clamped")
     points = scene.probe_points()
     one, two = (solid.solve(scene, 16, layers=layers).displacement(points) for layers in (1, 2))

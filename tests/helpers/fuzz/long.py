@@ -36,7 +36,7 @@ FAULT = "fault"
 
 @dataclass(frozen=True)
 class Kind:
-    """What is thrown, how it is judged, how many are asked for, in batches of what size, and which count."""
+    """What is thrown, how it is judged, how many are requested, in batches of what size, and which count."""
 
     title: str
     drawn: st.SearchStrategy[Any]
@@ -113,7 +113,7 @@ def batch(name: str, number: int, base: int, faults: Path) -> dict[str, Any]:
 
 def table(done: list[dict[str, Any]], base: int) -> str:
     """Counts of every kind, in Markdown, with the machine and the date."""
-    lines = ["| thrown | asked | obeyed | refused | not converged | faults |", "|---|---|---|---|---|---|"]
+    lines = ["| thrown | required | obeyed | refused | not converged | faults |", "|---|---|---|---|---|---|"]
     for name, kind in KINDS.items():
         words = sum((Counter(line["words"]) for line in done if line["kind"] == name), Counter[str]())
         counts = (words.total(), *(words[word] for word in ("done", "refused", "not converged", FAULT)))

@@ -1,4 +1,4 @@
-"""What long runs have in common: what they are asked for, and the lines that one keeps for the next."""
+"""What long runs have in common: what they are requested, and the lines that one keeps for the next."""
 
 import argparse
 import json

@@ -83,7 +83,7 @@ def solves_shapes(folder: Path, data: dict[str, Any]) -> str:
 
 
 def obeys(folder: Path, asked: Sequence[str]) -> str:
-    """A command line is obeyed or refused, and leaves no file that was not asked for."""
+    """A command line is obeyed or refused, and leaves no file that was not requested."""
     found = outcome(asked, folder)
     held(found, asked)
     if "--json" in asked and found.status != BAD_INPUT and "--help" not in asked:

@@ -9,8 +9,8 @@ from lumped.calibration.edge_twist import edge_factor, layer_width
 from sheetbench.scenes import Clamped, Material, PointLoad, Scene, Sheet, load
 
 SEED = load("two-edges-clamped")
-# uz [m] at P1 to P4 of the seed's sheet by a linear Mindlin plate of 80 elements a side, graded to its edges
-# (fem_reference, model="plate"; 64 are within 8 nm of it).
+# uz [m] at P1 to P4 of Habibi et al.'s sheet by a linear Mindlin plate of 80 elements a side, graded to its
+# edges (fem_reference, model="plate"; 64 are within 8 nm of it).
 LINEAR = np.array([-3.72242, -8.72478, -8.72478, -19.83504]) * 1e-3
 # u [m] there by the nonlinear shell of 48 elements a side, 32 within 0.1 µm of it: 0.0007 %.
 NONLINEAR = np.array(

@@ -10,8 +10,8 @@ from lumped.assembly import Assembly
 from sheetbench.scenes import Clamped, load
 
 SEED = load("two-edges-clamped")
-# uz [m] at the centre of the seed's sheet with four edges clamped, linear, by a Mindlin plate of 48 graded
-# elements (fem_reference, model="plate"; 36 are within 0.0003 %).
+# uz [m] at the centre of Habibi et al.'s sheet with four edges clamped, linear, by a Mindlin plate of 48
+# graded elements (fem_reference, model="plate"; 36 are within 0.0003 %).
 CENTRE = -0.00049324826
 
 
@@ -67,7 +67,7 @@ def test_error_of_an_oblique_wave(thickness, poisson):
 
 
 def clamped_all_round(method, grids):
-    """By how much the seed's sheet with four edges clamped sags too much at its centre, linear."""
+    """By how much Habibi et al.'s sheet with four edges clamped sags too much at its centre, linear."""
     scene = SEED.replace(supports=tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1")))
     calibrations = (lumped.calibrate(scene.sheet, scene.material, n, method) for n in grids)
     found = (lumped.solve(scene, springs, linear=True) for springs in calibrations)

@@ -1,4 +1,4 @@
-"""Statics of the lattice on the seed's scenes: accuracy, factorisations, balance, symmetry, statuses."""
+"""Statics of the lattice on Habibi et al.'s scenes: accuracy, factorisations, balance, symmetry, statuses."""
 
 import numpy as np
 import pytest

@@ -72,7 +72,7 @@ WRONG = {
     "lines": (GRID, {"line": np.array([[0, 1]])}, "no triangles and no quadrilaterals; its cells: line"),
     "off the plane": (*frame(high=0.01), "a point lies 0.01 m off the plane z = 0"),
     "two pieces": ([*square(), *square(0.2, 0.2)], QUAD, "sheet.mesh: it covers 2 parts"),
-    "at a point": ([*square(), *square(0.1, 0.1)], QUAD, "sheet.mesh: it covers 2 parts that hang together"),
+    "at a point": ([*square(), *square(0.1, 0.1)], QUAD, "sheet.mesh: it covers 2 parts that are connected"),
     "crossing": (square(), {"quad": np.array([[0, 2, 1, 3]])}, "crosses itself, or is not convex"),
     "over each other": ([*square(), *square(0.05)], QUAD, "elements lie over each other"),
     "unmerged": (GRID, QUAD, "touch without sharing corners"),

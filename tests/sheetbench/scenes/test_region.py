@@ -111,7 +111,7 @@ def test_a_file_says_what_an_object_does(tmp_path):
         (
             {"cutout": [{"shape": {"polygon": [(0.1, 0.0), (0.1, 0.05), (0.15, 0.0)]}},
                         {"shape": {"polygon": [(0.1, 0.1), (0.1, 0.05), (0.05, 0.1)]}}]},
-            "cutout: they leave 2 parts that hang together at points",
+            "cutout: they leave 2 parts that are connected at points",
         ),
         ({"cutout": [{"shape": {"rectangle": {"x": (0, 0.2), "y": (0, 0.1)}}}]}, "they leave no part"),
         ({"support": [{**ROOT, "where": CORNER}]}, "support 1.where: rectangle .* no part of it"),

@@ -26,11 +26,10 @@ from comparisons.models.solve import simulate
 from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unlike
 from comparisons.motion.comparison_answer import MotionComparison
 from comparisons.motion.measures import largest
-from comparisons.motion.run import require_motion
+from comparisons.motion.run import refusal, require_motion
 from comparisons.report import amounts
 from comparisons.report.work import Pace, Progress, Work, silent
 from sheetbench.choices import REFERENCE
-from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, History, Scene, scene_of
 
 ELEMENTS = 8  # of a moving reference along the shorter side
@@ -64,23 +63,19 @@ def compare_motion(
     elements: 8 along the shorter side unless given. uncertainty: move the reference twice more, on elements
     twice as large and with steps twice as long. others: models that move it too, external codes and plug-ins
     among them; leave_out: without those that refuse the scene, which the answer names. every [s]: distance of
-    samples, 1/100 of the lowest period unless given. frames: whole displacements to keep. store: a folder
-    in which every run of ours has one to stream to; runs that were
-    stopped go on from there. progress: called with what is being done, its size and how long it may take.
+    samples, 1/100 of the lowest period unless given. frames: whole displacements to keep. store: a folder in
+    which every run of ours has one to stream to; runs that were stopped go on from there. progress: called
+    with what is being done, its size and how long it may take.
     Raises BadInput as `compare` and `simulate` do, and for a model that does not move the scene.
     """
     scene = scene_of(scene)
     finest = Elements.given(reference, {"elements": elements, "law": law})
     finest = finest.but(count=ELEMENTS) if finest.count is None else finest
     beside = [parse(one) if isinstance(one, str) else one for one in others]
-    left_out: dict[str, str] = {}
+    left_out = {one.model: why for one in beside if leave_out and (why := refusal(scene, one))}
+    beside = [one for one in beside if one.model not in left_out]
     for one in (finest, *beside):
-        try:
-            require_motion(scene, one)
-        except BadInput as refusal:
-            if one is finest or not leave_out:
-                raise
-            left_out[one.model] = str(refusal)
+        require_motion(scene, one)
     model = resolve(scene, Lattice.given(lattice, keywords), "motion")
 
     def moved(of: Resolved[Any], doing: str, spacing: float | None, **settings: Any) -> History:
@@ -105,14 +100,9 @@ def compare_motion(
 
     own = moved(model, "simulating the lattice", every, frames=frames)
     histories, spacing = {model.spec.model: own}, own.settings["every"]
-    for one in (one for one in beside if one.model not in left_out):
+    for one in beside:
         name = unlike(plugins.shown_name(one.model), (*histories, finest.kind))
-        try:
-            histories[name] = moved(resolve(scene, one, "motion"), f"simulating the {name}", spacing)
-        except BadInput as refusal:
-            if not leave_out:
-                raise
-            left_out[one.model] = str(refusal)
+        histories[name] = moved(resolve(scene, one, "motion"), f"simulating the {name}", spacing)
     named = f"simulating the {finest.kind}"
     truth = moved(resolve(scene, finest), named, spacing, frames=frames)
     bars: dict[str, float | None] = {}

@@ -105,6 +105,7 @@ class MotionComparison(Answer):
                 },
                 "differences": self.differences,
                 "uncertainty": self.uncertainty,
+                "left_out": self.left_out,
             },
             "solutions": [
                 {

@@ -20,6 +20,7 @@ from comparisons.runs import load
 from comparisons.runs.campaign import Run
 from comparisons.runs.peak_memory import with_peak_memory
 from comparisons.runs.store import Finished
+from sheetbench.errors import BadInput
 from sheetbench.scenes import History, Scene, Status
 
 
@@ -48,7 +49,16 @@ def require_motion(scene: Scene, spec: Spec) -> None:
     if isinstance(spec, Elements):
         fem_reference.require_moving(scene, spec.kind)
     elif isinstance(spec, External):
-        plugins.moving(spec.model)
+        plugins.require_moving(spec.model, scene, spec.settings)
+
+
+def refusal(scene: Scene, spec: Spec) -> str:
+    """Return why a model does not move a scene, "" if it does."""
+    try:
+        require_motion(scene, spec)
+    except BadInput as why:
+        return str(why)
+    return ""
 
 
 def measure(

@@ -92,6 +92,11 @@ class CalculiX:
         seconds = (ready - began, perf_counter() - ready)
         return solution(self, settings, bricks, displacement, status, load_factor, note, iterations, seconds)
 
+    def refusal_of_motion(self, scene: Scene, settings: Mapping[str, Any]) -> str:
+        """Return why it does not move a scene, "" if it does."""
+        of_statics = "linear = true: is for statics" if settings["linear"] else ""
+        return _refusal(scene, settings["linear"]) or of_statics or refusal_of_motion(scene)
+
     def simulate(
         self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
     ) -> History:
@@ -100,10 +105,7 @@ class CalculiX:
         Raises BadInput without the program, and for scenes and settings that it does not take.
         """
         require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
-        note = _refusal(scene, settings["linear"])
-        if settings["linear"]:
-            note = note or "linear = true: is for statics"
-        if note := note or refusal_of_motion(scene):
+        if note := self.refusal_of_motion(scene, settings):
             raise BadInput(f"calculix: {note}")
         program = shutil.which(PROGRAM)
         if program is None:

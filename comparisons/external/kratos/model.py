@@ -88,6 +88,10 @@ class Kratos:
             self, settings, mesh, displacement, status, load_factor, note, iterations, spent, unknowns
         )
 
+    def refusal_of_motion(self, scene: Scene, settings: Mapping[str, Any]) -> str:
+        """Return why it does not move a scene, "" if it does."""
+        return refusal(scene, CHAINS, MOMENTS) or refusal_of_motion(scene)
+
     def simulate(
         self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
     ) -> History:
@@ -95,7 +99,7 @@ class Kratos:
 
         Raises BadInput without Kratos, and for scenes and settings that it does not take.
         """
-        if note := refusal(scene, CHAINS, MOMENTS) or refusal_of_motion(scene):
+        if note := self.refusal_of_motion(scene, settings):
             raise BadInput(f"kratos: {note}")
         mesh = self._mesh(scene, settings["elements"])
         began, count = perf_counter(), max(1, round(duration / every))

@@ -153,12 +153,12 @@ def stamp(path: Path) -> str:
 
 def made_of(path: Path) -> set[Path]:
     """A file, the files with kernels that it imports, and so on."""
-    found, ahead = {path}, [path]
+    files, ahead = {path}, [path]
     while ahead:
-        fresh = _imported(ahead.pop()) - found
-        found |= fresh
+        fresh = _imported(ahead.pop()) - files
+        files |= fresh
         ahead.extend(fresh)
-    return found
+    return files
 
 
 @cache

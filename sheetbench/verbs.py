@@ -46,8 +46,8 @@ def export(
     from comparisons.export.export import export as write
 
     scene = scene_of(scene)
-    found = springs or resolve(scene, Lattice.given(lattice, keywords), "springs").springs
-    write(folder, scene, found, ["sheetbench.export"], overwrite, simulators)
+    calibration = springs or resolve(scene, Lattice.given(lattice, keywords), "springs").springs
+    write(folder, scene, calibration, ["sheetbench.export"], overwrite, simulators)
     return Path(folder)
 
 

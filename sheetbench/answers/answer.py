@@ -88,19 +88,19 @@ class Answer(ABC):
     def to_pandas(self, table: str = "") -> pandas.DataFrame:
         """Return the first table, or that of a name, as a data frame in SI units. Raises BadInput where there
         is no such table, or pandas is not installed."""
-        found = {one.name or one.caption: one for one in self.tables()}
-        if not found or (table and table not in found):
-            raise BadInput(f"to_pandas('{table}'): tables are {', '.join(found) or 'none'}")
-        return (found[table] if table else next(iter(found.values()))).to_pandas()
+        by_name = {one.name or one.caption: one for one in self.tables()}
+        if not by_name or (table and table not in by_name):
+            raise BadInput(f"to_pandas('{table}'): tables are {', '.join(by_name) or 'none'}")
+        return (by_name[table] if table else next(iter(by_name.values()))).to_pandas()
 
     def plot(self, figure: str = "") -> Figure:
         """Return the first figure, or that of a name, for matplotlib. Raises BadInput where there is none, or
         it cannot be drawn here."""
-        found = {one.name: one for one in self.figures()}
-        if not found or (figure and figure not in found):
-            raise BadInput(f"plot('{figure}'): figures are {', '.join(found) or 'none'}")
+        by_name = {one.name: one for one in self.figures()}
+        if not by_name or (figure and figure not in by_name):
+            raise BadInput(f"plot('{figure}'): figures are {', '.join(by_name) or 'none'}")
         try:
-            return (found[figure] if figure else next(iter(found.values()))).figure()
+            return (by_name[figure] if figure else next(iter(by_name.values()))).figure()
         except NoPicture as why:
             raise BadInput(f"plot('{figure}'): {why}") from None
 

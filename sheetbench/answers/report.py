@@ -97,8 +97,8 @@ class Film(Picture):
 
 def _function(name: str) -> Callable[..., Any]:
     module, _, function = name.partition(":")
-    found: Callable[..., Any] = getattr(import_module(module), function)
-    return found
+    compose: Callable[..., Any] = getattr(import_module(module), function)
+    return compose
 
 
 @dataclass(frozen=True, repr=False)

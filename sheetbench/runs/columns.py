@@ -16,10 +16,10 @@ def width(columns: Sequence[Part]) -> int:
 
 def split(columns: Sequence[Part], rows: np.ndarray) -> dict[str, dict[str, np.ndarray]]:
     """Rows (n, width) as kind → name → (n, …)."""
-    found: dict[str, dict[str, np.ndarray]] = {kind: {} for kind, _, _ in columns}
+    parts: dict[str, dict[str, np.ndarray]] = {kind: {} for kind, _, _ in columns}
     first = 0
     for kind, name, shape in columns:
         numbers = int(np.prod(shape))
-        found[kind][name] = rows[:, first : first + numbers].reshape(len(rows), *shape)
+        parts[kind][name] = rows[:, first : first + numbers].reshape(len(rows), *shape)
         first += numbers
-    return found
+    return parts

@@ -26,6 +26,7 @@ from sheetbench.scenes.quantities import (
     A_TABLE,
     FORM,
     Frozen,
+    Length,
     NonNegative,
     Number,
     Positive,
@@ -64,7 +65,7 @@ class Chain(Frozen):
     """EI of the chain; a joint's stiffness is EI divided by a segment's length."""
     line_density: Annotated[Positive, Unit("kg/m")]
     """Mass per length of the chain."""
-    radius: Annotated[Positive, Unit("m")]
+    radius: Length
     """Of its round cross-section, for the rotary inertia and, on a face, the distance of its axis."""
     face: Literal["mid", "top", "bottom"] = "mid"
     """Where its axis lies: in the mid-surface, or thickness/2 + radius above (top) or below (bottom) it."""

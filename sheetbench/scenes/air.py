@@ -15,9 +15,8 @@ Source: Hoerner, Fluid-Dynamic Drag (1965), 3-16; Keulegan and Carpenter (1958) 
 from __future__ import annotations
 
 from math import pi
-from typing import Annotated
 
-from sheetbench.scenes.quantities import Frozen, Positive, Unit
+from sheetbench.scenes.quantities import Density, Frozen, Positive
 from sheetbench.scenes.sheet import Sheet
 
 
@@ -27,7 +26,7 @@ class Air(Frozen):
     drag: Positive
     """Coefficient c_d: a force ½ · density · drag · v² per area against the velocity v along the current
     normal; about 1.2 for a square sheet, 2 for a long strip."""
-    density: Annotated[Positive, Unit("kg/m³")] = 1.2
+    density: Density = 1.2
     """Of air at 20 °C unless given."""
 
     @property

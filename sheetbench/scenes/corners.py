@@ -110,15 +110,15 @@ def _at_corner(one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet)
     axes, turns = ([*(a & b)] for a, b in zip(_held(one), _held(other), strict=True))
     samples = sorted({time for table in tables for time in table.time}) or [0.0]
     between = [a + share * (b - a) for (a, b), share in product(pairwise(samples), BETWEEN)]
-    apart, moved, turned = 0.0, "", ""
+    largest, moved, turned = 0.0, "", ""
     for time in sorted([*samples, *between]):
         when = f" at t = {time:.3g} s" if tables else ""
         (u, director), (v, normal) = (_pose(each, corner, driven, sheet, time) for each in (one, other))
         for axis in axes:
-            if (gap := abs(u[axis] - v[axis])) > max(apart, EXACT * max(sheet.lengths)):
+            if (gap := abs(u[axis] - v[axis])) > max(largest, EXACT * max(sheet.lengths)):
                 mover, held = (one, other) if abs(u[axis]) >= abs(v[axis]) else (other, one)
                 by = f"{'xyz'[axis]} by {gap:.3g} m{when}"
-                apart, moved = gap, f"{_named(mover)} moves the corner that {_named(held)} holds: {by}"
+                largest, moved = gap, f"{_named(mover)} moves the corner that {_named(held)} holds: {by}"
         if np.abs(director - normal)[turns].max(initial=0.0) > EXACT:
             turner, held = (one, other) if director[2] <= normal[2] else (other, one)
             where = f"the corner where {_named(held)} holds it otherwise"

@@ -6,15 +6,21 @@ Classical lamination, symmetric about the mid-surface, so that stretching and be
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from sheetbench.scenes import orthotropy
 from sheetbench.scenes.material import Material
-from sheetbench.scenes.orthotropy import Fibres, Modulus, Ply, in_own_axes
-from sheetbench.scenes.quantities import Finite, Number, Positive, Unit
+from sheetbench.scenes.orthotropy import Fibres, Ply, in_own_axes
+from sheetbench.scenes.quantities import (
+    Angle,
+    Density,
+    Length,
+    Modulus,
+    PoissonRatio,
+)
 from sheetbench.scenes.sheet import Sheet
 
 ROUNDING = 1e-9  # of the thickness
@@ -23,15 +29,15 @@ ROUNDING = 1e-9  # of the thickness
 class Layer(Fibres):
     """A ply: thickness, the angle of its fibres, and constants that are not the material's."""
 
-    thickness: Annotated[Positive, Unit("m")]
+    thickness: Length
     """All of them add up to the sheet's."""
-    angle: Annotated[Number, Unit("rad")] | None = Field(default=None, kw_only=True)
+    angle: Angle | None = Field(default=None, kw_only=True)
     """Of its axis 1 from x towards y; the material's unless given."""
     young: Modulus | None = Field(default=None, kw_only=True)
     """Young's modulus of an isotropic layer, with poisson."""
-    poisson: Annotated[Finite, Field(gt=-1.0, lt=0.5)] | None = Field(default=None, kw_only=True)
+    poisson: PoissonRatio | None = Field(default=None, kw_only=True)
     """Poisson's ratio of an isotropic layer."""
-    density: Annotated[Positive, Unit("kg/m³")] | None = Field(default=None, kw_only=True)
+    density: Density | None = Field(default=None, kw_only=True)
     """The material's unless given."""
 
     @model_validator(mode="after")

@@ -32,8 +32,18 @@ from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes import orthotropy
-from sheetbench.scenes.orthotropy import Fibres, Modulus
-from sheetbench.scenes.quantities import Finite, NonNegative, Number, Positive, Unit
+from sheetbench.scenes.orthotropy import Fibres
+from sheetbench.scenes.quantities import (
+    Angle,
+    Density,
+    Finite,
+    Modulus,
+    NonNegative,
+    Number,
+    PoissonRatio,
+    Positive,
+    Unit,
+)
 from sheetbench.scenes.relaxation import Branches, Relaxation, constant_loss
 from sheetbench.scenes.units import numbers
 
@@ -103,12 +113,12 @@ class Material(Fibres):
 
     model_config = ConfigDict(json_schema_extra=_constants_in_schema)
 
-    young: Annotated[Positive, Unit("Pa")]
+    young: Modulus
     """Young's modulus E: 1 MPa is 1.0e6; needed, but of fibres and of a law with constants, from which it
     follows. Of a material that relaxes, the long-time modulus."""
-    poisson: Annotated[Finite, Field(gt=-1, lt=0.5)]
+    poisson: PoissonRatio
     """Poisson's ratio ν, below 0.5: rubber and silicone are about 0.48 to 0.499; needed, but of fibres."""
-    density: Annotated[Positive, Unit("kg/m³")]
+    density: Density
     """Density ρ: water's is 1000."""
     damping_time: Annotated[NonNegative, Unit("s")] = 0.0
     """Stiffness-proportional damping: every spring has a damper of damping_time times its stiffness."""
@@ -123,7 +133,7 @@ class Material(Fibres):
     """Of I2 - 3: mooney-rivlin; of (I1 - 3)²: yeoh."""
     c3: Annotated[Number, Unit("Pa")] | None = Field(default=None, kw_only=True)
     """Of (I1 - 3)³: yeoh."""
-    shear: Annotated[Positive, Unit("Pa")] | None = Field(default=None, kw_only=True)
+    shear: Modulus | None = Field(default=None, kw_only=True)
     """Shear modulus at small strains: gent."""
     limit: Positive | None = Field(default=None, kw_only=True)
     """I1 - 3 that no load reaches: gent."""
@@ -137,7 +147,7 @@ class Material(Fibres):
     given."""
     poisson_23: Number | None = Field(default=None, kw_only=True)
     """The same where it is pulled along 2; poisson_12 unless given."""
-    angle: Annotated[Number, Unit("rad")] | None = Field(default=None, kw_only=True)
+    angle: Angle | None = Field(default=None, kw_only=True)
     """Of axis 1 from x towards y: 30 degrees are 0.5236 or "30 deg"; 0 unless given."""
 
     loss_factor: Annotated[Finite, Field(gt=0, le=LARGEST_LOSS)] | None = Field(default=None, kw_only=True)

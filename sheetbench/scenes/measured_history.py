@@ -18,8 +18,8 @@ class Measured:
 
     def within(self, start: float, end: float) -> np.ndarray:
         """Which times (n,) lie between two [s]."""
-        found: np.ndarray = (self.time >= start) & (self.time <= end)
-        return found
+        within: np.ndarray = (self.time >= start) & (self.time <= end)
+        return within
 
     def error(self, time: np.ndarray, displacement: np.ndarray) -> float | None:
         """The error of a simulated history, times (m,) [s] and displacements (m, 3) [m], linear between them:

@@ -13,12 +13,12 @@ Source: R. M. Jones, Mechanics of Composite Materials (1999), 2.3 and 2.4.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from pydantic import Field
 
-from sheetbench.scenes.quantities import Frozen, Number, Positive, Unit
+from sheetbench.scenes.quantities import Frozen, Modulus, Number
 from sheetbench.scenes.units import numbers
 
 if TYPE_CHECKING:
@@ -30,7 +30,6 @@ KEYS = (*NEEDED, "shear_13", "shear_23", "young_3", "poisson_13", "poisson_23", 
 KIND = "kind = 'orthotropic'"
 FIBRES = f"material.{KIND}"
 LARGEST_POISSON = 0.49  # of the isotropic material that stands for one with fibres
-Modulus = Annotated[Positive, Unit("Pa")]
 
 
 class Fibres(Frozen):
@@ -78,20 +77,20 @@ class Ply(NamedTuple):
 def in_own_axes(own: Mapping[str, Any]) -> dict[str, Any]:
     """Return the constants of a ply that keys of a material, patch or layer mean: what is left out of an
     orthotropic material's is that of another axis, and E and ν are an isotropic one's."""
-    found = {key: value for key, value in own.items() if key in Ply._fields and value is not None}
-    if "young_1" in found:
+    constants = {key: value for key, value in own.items() if key in Ply._fields and value is not None}
+    if "young_1" in constants:
         for key, like in (("shear_13", "shear_12"), ("shear_23", "shear_12"), ("young_3", "young_2")):
-            found.setdefault(key, found[like])
+            constants.setdefault(key, constants[like])
         for key in ("poisson_13", "poisson_23"):
-            found.setdefault(key, found["poisson_12"])
-        found.setdefault("angle", 0.0)
+            constants.setdefault(key, constants["poisson_12"])
+        constants.setdefault("angle", 0.0)
     elif own.get("young") is not None:
         young, poisson = own["young"], own["poisson"]
-        found |= dict.fromkeys(("young_1", "young_2", "young_3"), young)
-        found |= dict.fromkeys(("poisson_12", "poisson_13", "poisson_23"), poisson)
-        found |= dict.fromkeys(("shear_12", "shear_13", "shear_23"), young / (2.0 * (1.0 + poisson)))
-        found.setdefault("angle", 0.0)
-    return found
+        constants |= dict.fromkeys(("young_1", "young_2", "young_3"), young)
+        constants |= dict.fromkeys(("poisson_12", "poisson_13", "poisson_23"), poisson)
+        constants |= dict.fromkeys(("shear_12", "shear_13", "shear_23"), young / (2.0 * (1.0 + poisson)))
+        constants.setdefault("angle", 0.0)
+    return constants
 
 
 def like_isotropic(given: Mapping[str, float]) -> tuple[float, float]:

@@ -8,7 +8,7 @@ outside patches with a thickness of their own. A plain sheet is the same all ove
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -18,7 +18,7 @@ from sheetbench.scenes.cells import NUMBERS, Constants
 from sheetbench.scenes.layers import plies
 from sheetbench.scenes.material import Material
 from sheetbench.scenes.orthotropy import in_own_axes
-from sheetbench.scenes.quantities import Finite, Frozen, Number, Positive, Unit
+from sheetbench.scenes.quantities import Angle, Density, Frozen, Length, Modulus, PoissonRatio
 from sheetbench.scenes.region import area_in, require_rectangle
 from sheetbench.scenes.shapes import COINCIDENT, Shape, straight_sides
 from sheetbench.scenes.sheet import Sheet
@@ -38,15 +38,15 @@ class Patch(Frozen):
 
     shape: Shape
     """Where: a rectangle, a circle or a polygon."""
-    thickness: Annotated[Positive, Unit("m")] | None = None
+    thickness: Length | None = None
     """Half of it above and half below the mid-surface; the sheet's unless given."""
-    young: Annotated[Positive, Unit("Pa")] | None = None
+    young: Modulus | None = None
     """Young's modulus; the material's unless given."""
-    poisson: Annotated[Finite, Field(gt=-1.0, lt=0.5)] | None = None
+    poisson: PoissonRatio | None = None
     """Poisson's ratio; the material's unless given."""
-    density: Annotated[Positive, Unit("kg/m³")] | None = None
+    density: Density | None = None
     """The material's unless given."""
-    angle: Annotated[Number, Unit("rad")] | None = Field(default=None, kw_only=True)
+    angle: Angle | None = Field(default=None, kw_only=True)
     """Of an orthotropic material's axis 1 from x towards y; the material's unless given."""
 
     @model_validator(mode="after")
@@ -72,8 +72,8 @@ class Part(NamedTuple):
 
 def of_sheet(scene: Scene) -> Constants:
     """Return the constants of a scene's sheet and its layers, without tapers and patches."""
-    found = Constants.of(scene.sheet, scene.material)
-    return found.replace(plies=plies(scene.layers, scene.material)) if scene.layers else found
+    constants = Constants.of(scene.sheet, scene.material)
+    return constants.replace(plies=plies(scene.layers, scene.material)) if scene.layers else constants
 
 
 def constants_at(scene: Scene, points: np.ndarray) -> Constants:
@@ -82,11 +82,11 @@ def constants_at(scene: Scene, points: np.ndarray) -> Constants:
     sheet = of_sheet(scene)
     if scene.homogeneous:
         return sheet
-    found = sheet.arrays(points.shape[:-1])
-    found.thickness[...] = scene.sheet.thickness_at(points[..., 0], points[..., 1])
+    constants = sheet.arrays(points.shape[:-1])
+    constants.thickness[...] = scene.sheet.thickness_at(points[..., 0], points[..., 1])
     for patch in scene.patches:
-        _put(found, patch.own, patch.shape.contains(points))
-    return found
+        _put(constants, patch.own, patch.shape.contains(points))
+    return constants
 
 
 def composition_at(scene: Scene, points: np.ndarray) -> dict[str, np.ndarray]:
@@ -95,8 +95,8 @@ def composition_at(scene: Scene, points: np.ndarray) -> dict[str, np.ndarray]:
     patch = np.zeros(points.shape[:-1])
     for number, each in enumerate(scene.patches, start=1):
         patch[each.shape.contains(points)] = number
-    found = constants_at(scene, points).arrays(points.shape[:-1]).by_name()
-    return {"patch": patch, **found} if scene.patches else found
+    constants = constants_at(scene, points).arrays(points.shape[:-1]).by_name()
+    return {"patch": patch, **constants} if scene.patches else constants
 
 
 def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
@@ -186,12 +186,12 @@ def mass_of(scene: Scene) -> float:
 
 def sides_of(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     """x and y [m], rising, of the patches' sides along the axes, of those within the sheet's edges."""
-    found = []
+    places = []
     for axis, length in enumerate(scene.sheet.lengths):
         sides = np.unique([*straight_sides(*(patch.shape.area for patch in scene.patches))[axis]])
         inside = sides[(sides > COINCIDENT * length) & (sides < (1.0 - COINCIDENT) * length)]
-        found.append(inside[np.diff(inside, prepend=-length) > COINCIDENT * length])
-    return found[0], found[1]
+        places.append(inside[np.diff(inside, prepend=-length) > COINCIDENT * length])
+    return places[0], places[1]
 
 
 def misplaced(patches: tuple[Patch, ...], sheet: Sheet) -> str:

@@ -110,15 +110,15 @@ def _cells(path: Path) -> tuple[np.ndarray, dict[str, list[np.ndarray]]]:
     except (Exception, SystemExit) as error:
         why = " ".join((str(error) if isinstance(error, Exception) else printed.getvalue()).split())
         raise ValueError(f"meshio cannot read it: {why or type(error).__name__}") from None
-    found: dict[str, list[np.ndarray]] = {TRIANGLE: [], QUADRILATERAL: []}
+    cells: dict[str, list[np.ndarray]] = {TRIANGLE: [], QUADRILATERAL: []}
     for block in read.cells:
         for kind, corners in ((TRIANGLE, 3), (QUADRILATERAL, 4)):
             if block.type.rstrip("0123456789") == kind and len(block.data):
-                found[kind].append(np.asarray(block.data)[:, :corners])
-    if not any(found.values()):
+                cells[kind].append(np.asarray(block.data)[:, :corners])
+    if not any(cells.values()):
         kinds = ", ".join(list(dict.fromkeys(block.type for block in read.cells))[:SHOWN]) or "none"
         raise ValueError(f"no triangles and no quadrilaterals; its cells: {kinds}")
-    return np.asarray(read.points, dtype=float), found
+    return np.asarray(read.points, dtype=float), cells
 
 
 def _mesh_of(points: np.ndarray, cells: dict[str, list[np.ndarray]]) -> PlanMesh:

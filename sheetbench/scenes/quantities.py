@@ -95,6 +95,13 @@ class Unit:
         return {**handler(core), "unit": self.symbol}
 
 
+Length = Annotated[Positive, Unit("m")]
+Angle = Annotated[Number, Unit("rad")]
+Modulus = Annotated[Positive, Unit("Pa")]
+Density = Annotated[Positive, Unit("kg/m³")]
+PoissonRatio = Annotated[Finite, Field(gt=-1, lt=0.5)]  # of what is isotropic
+
+
 @dataclass_transform(frozen_default=True, field_specifiers=(Field,))
 class Frozen(BaseModel, frozen=True):
     """Base of the scene objects: immutable, and unknown keys are refused.

@@ -73,17 +73,17 @@ def edge_parts(scene: Scene, edge: str, where: Shape | None = None) -> list[tupl
     """From where to where along an edge [m] the sheet reaches it: the sides of the plan on that line, or the
     part of them in a shape."""
     (normal, along, _), at = EDGES[edge], scene.sheet.edge_at(edge)
-    found = []
+    spans = []
     for ring in (scene.region.exterior, *scene.region.interiors):
         corners = np.array(ring.coords)
         there = np.abs(corners[:, normal] - at) < COINCIDENT * max(scene.sheet.lengths)
         sides = np.stack([corners[:-1, along], corners[1:, along]], axis=1)[there[:-1] & there[1:]]
-        found += [(low, high) for low, high in np.sort(sides, axis=1).tolist()]
+        spans += [(low, high) for low, high in np.sort(sides, axis=1).tolist()]
     if where is None:
-        return found
+        return spans
     from shapely import LineString
 
-    lines = [LineString([(c, at) if along == 0 else (at, c) for c in ends]) for ends in found]
+    lines = [LineString([(c, at) if along == 0 else (at, c) for c in ends]) for ends in spans]
     cut: list[Any] = [line.intersection(where.area) for line in lines]
     bounds = [part.bounds for each in cut for part in getattr(each, "geoms", [each]) if part.length > 0.0]
     return [(each[along], each[along + 2]) for each in bounds]
@@ -95,12 +95,12 @@ def sides_of_shapes(scene: Scene) -> Places:
     shapes = [place(support) for support in scene.supports]
     shapes += [getattr(load, "where", None) for load in scene.loads]
     rims = [scene.region] if scene.pierced else []
-    found = straight_sides(*rims, *(shape.area for shape in shapes if shape is not None))
+    sides = straight_sides(*rims, *(shape.area for shape in shapes if shape is not None))
     for name, edge in EDGES.items() if scene.pierced else ():
-        found[edge.along_axis].update(at for part in edge_parts(scene, name) for at in part)
+        sides[edge.along_axis].update(at for part in edge_parts(scene, name) for at in part)
     x, y = (
         tuple(sorted(at for at in one if COINCIDENT * length < at < (1.0 - COINCIDENT) * length))
-        for one, length in zip(found, scene.sheet.lengths, strict=True)
+        for one, length in zip(sides, scene.sheet.lengths, strict=True)
     )
     return x, y
 

@@ -1,4 +1,4 @@
-"""A scene: what is asked of a model, in raw physics (E, ν, ρ, geometry, supports, loads, probes; SI).
+"""A scene: the question to a model, in raw physics (E, ν, ρ, geometry, supports, loads, probes; SI).
 
 A scene knows no solver. It is read from TOML (`sheetbench.scenes.files`) or built as `Scene(…)`, validated
 once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads` for what the words mean.

@@ -100,8 +100,8 @@ class Shape(Frozen):
             return np.hypot(x - centre[0], y - centre[1]) <= self.circle.radius
         import shapely
 
-        found: np.ndarray = shapely.intersects_xy(self.area, x, y)
-        return found
+        inside: np.ndarray = shapely.intersects_xy(self.area, x, y)
+        return inside
 
     def in_words(self) -> str:
         """Kind and place, in millimetres."""
@@ -127,14 +127,14 @@ def crossing(corners: tuple[PlanPoint, ...]) -> str:
 
 def straight_sides(*areas: Area) -> tuple[set[float], set[float]]:
     """Return x and y [m] of the sides along the axes of areas and of their holes."""
-    found: tuple[set[float], set[float]] = (set(), set())
+    sides: tuple[set[float], set[float]] = (set(), set())
     if not areas:
-        return found
+        return sides
     import shapely
 
     for ring in shapely.get_rings(areas):
         for first, second in pairwise(ring.coords):
             for axis in (0, 1):
                 if first[axis] == second[axis]:
-                    found[axis].add(first[axis])
-    return found
+                    sides[axis].add(first[axis])
+    return sides

@@ -12,12 +12,11 @@ import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
 from sheetbench.scenes.plan_mesh import PlanMesh, read_mesh
-from sheetbench.scenes.quantities import Frozen, PlanPoint, Positive, Unit, Vector3
+from sheetbench.scenes.quantities import Frozen, Length, PlanPoint, Positive, Unit, Vector3
 from sheetbench.scenes.shapes import COINCIDENT, crossing
 from sheetbench.scenes.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
-Length = Annotated[Positive, Unit("m")]
 MeshLike = Annotated[PlanMesh, BeforeValidator(read_mesh, json_schema_input_type=str | PlanMesh)]
 Taper = Annotated[tuple[Positive, Positive], Unit("m")]
 

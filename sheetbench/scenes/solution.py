@@ -284,8 +284,8 @@ class Solution(Answer):
         return {f"{self.model}.vtu": self.mesh.save}
 
     def notes(self) -> list[str]:
-        found = ", ".join(f"{name} {value:.4g} J" for name, value in self.energies.items())
-        return [text for text in (f"energies: {found}" if found else "", self.message) if text]
+        energies = ", ".join(f"{name} {value:.4g} J" for name, value in self.energies.items())
+        return [text for text in (f"energies: {energies}" if energies else "", self.message) if text]
 
     def complaints(self) -> list[str]:
         return [] if self.succeeded else [f"{self.status_text}: {self.status.advice}"]

@@ -18,7 +18,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import ConfigDict, Field, field_validator, model_validator
 
-from sheetbench.scenes.quantities import Frozen, Number, Unit, Vector3
+from sheetbench.scenes.quantities import Angle, Frozen, Number, Unit, Vector3
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.sheet import EDGES, EdgeName
 from sheetbench.scenes.tables import OverTime
@@ -66,7 +66,7 @@ class Clamped(_Support):
     """Mid-surface and its normal held."""
 
     kind: Literal["clamped"] = Field(default="clamped", kw_only=True)
-    tilt: Annotated[Number, Unit("rad")] = 0.0
+    tilt: Angle = 0.0
     """The clamp turned about the edge, at most π/2 either way; > 0 lets the sheet start off downwards."""
 
     @field_validator("tilt")

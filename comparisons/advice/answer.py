@@ -95,7 +95,6 @@ class Advice(Answer):
         return accurate and (self.budget is None or self.seconds <= self.budget)
 
     def document(self) -> dict[str, Any]:
-        """Return the JSON document of `sheetbench advise`."""
         choice = None
         if self.choice is not None:
             choice = {"model": self.choice.model, "settings": self.choice.settings}

@@ -58,7 +58,7 @@ def command(
     from comparisons.models.context import running
     from comparisons.models.grids import parse_elements
     from comparisons.models.resolve import resolve
-    from comparisons.report.vtk import write_solution
+    from comparisons.report.vtk import write_mesh
     from sheetbench import scenes
     from sheetbench.errors import BadInput
 
@@ -100,7 +100,7 @@ def command(
     with output.open(scene=loaded, variant=models) as out:
 
         def keep(solution: scenes.Solution) -> None:
-            out.keep(f"{solution.model}.vtu", lambda path: write_solution(path, solution))
+            out.keep(f"{solution.model}.vtu", lambda path: write_mesh(path, solution.mesh))
 
         with running(solved=keep):
             comparison = compare(

@@ -45,7 +45,6 @@ def command(
     from comparisons.models.solve import simulate
     from comparisons.motion.answer import Simulation
     from comparisons.motion.history import read_measured, require_within
-    from comparisons.report import amounts
     from comparisons.report.work import Pace, Work
     from sheetbench import scenes
 
@@ -62,9 +61,8 @@ def command(
         pace = Pace(duration)
 
         def reached(time: float) -> None:
-            left = pace.left(time)
-            soon = "" if left is None else f", {amounts.duration(left)} left"
-            out.progress(f"simulated {time:.3g} of {duration:g} s ({100 * time / duration:.0f} %{soon})")
+            share = 100 * time / duration
+            out.progress(f"simulated {time:.3g} of {duration:g} s ({share:.0f} %{pace.remaining(time)})")
 
         out.progress(Work("setting up", model.size))
         history = simulate(

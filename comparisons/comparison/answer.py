@@ -26,7 +26,7 @@ from comparisons.comparison.rows import CostRow, Difference, ProbeRow, ReactionR
 from comparisons.models.expected_error import ExpectedError
 from comparisons.models.grading import choice_notes
 from comparisons.report.plan import plan_mesh
-from comparisons.report.vtk import write_mesh, write_solution
+from comparisons.report.vtk import write_mesh
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import Table
@@ -246,7 +246,7 @@ class Comparison(Answer):
     def files(self) -> dict[str, Write]:
         """Return the solutions as VTU, each on its own mesh and all on one."""
         own: dict[str, Write] = {
-            f"{s.model}.vtu": partial(write_solution, solution=s) for s in self.solutions
+            f"{s.model}.vtu": partial(write_mesh, mesh=s.mesh) for s in self.solutions
         }
         return {**own, "comparison.vtu": self.write_plan}
 

@@ -7,7 +7,7 @@ types, that numbers are finite and within their slider's bounds. The bounds are 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from math import isfinite, pi
 from typing import Any, NoReturn
@@ -25,7 +25,7 @@ from sheetbench.scenes.parameters import parameter, put
 MASSES_CAP, ELEMENTS_CAP = 33, 16  # along the side of a square sheet, and as many in all on any other
 ELEMENTS = 8  # unless given: a shell of 8 × 8 elements answers in a tenth of a second
 OWN = "scene"  # the calibration's name where the scene brings its own [springs]
-FORCES = ("force", "force_per_length", "force_per_area")
+FORCES = ("force", "force_per_length", "force_per_area", "acceleration")
 SETTINGS = ("grid", "grading", "elements", "k")  # sliders of the models, not of the scene
 
 
@@ -136,8 +136,16 @@ class Panel:
         """Return the scene of a question. Raises SceneError where the values contradict each other."""
         scene = self.scene
         for name, value in question.values.items():
-            if name not in SETTINGS and value != self.sliders[name].value:
-                scene = _CHANGES.get(name, put)(scene, name, value)
+            if name in SETTINGS or value == self.sliders[name].value:
+                continue
+            if name == "gravity":
+                scene = scene.replace(gravity=_times(scene.gravity, value))
+            elif name == "loads":
+                scene = scene.replace(loads=tuple(_times(load, value) for load in scene.loads))
+            elif name == "pressure":  # the only load
+                scene = scene.replace(loads=(scene.loads[0].replace(value=value),))
+            else:
+                scene = put(scene, name, value)
         return scene
 
     def _within(self, slider: Slider, value: Any) -> float:
@@ -238,31 +246,10 @@ def _calibrations(scene: Scene) -> dict[str, dict[str, Any]]:
     return {OWN: {"said": "the scene's own [springs], on their grid", "graded": False, "k": False}, **usual}
 
 
-def _gravity(scene: Scene, name: str, factor: float) -> Scene:
-    assert scene.gravity is not None
-    weight = tuple(factor * g for g in scene.gravity.acceleration)
-    return scene.replace(gravity=scene.gravity.replace(acceleration=weight))
-
-
-def _pressure(scene: Scene, name: str, value: float) -> Scene:
-    return scene.replace(loads=tuple(load.replace(value=value) for load in scene.loads))
-
-
-def _loads(scene: Scene, name: str, factor: float) -> Scene:
-    return scene.replace(loads=tuple(_times(load, factor) for load in scene.loads))
-
-
 def _times(load: Any, factor: float) -> Any:
-    """Return a load with all its forces, moments or pressures times a factor."""
+    """Return a load, or gravity, with all its forces, moments or pressures times a factor."""
     given = {name: getattr(load, name) for name in FORCES if hasattr(load, name)}
     vectors = {name: tuple(factor * f for f in force) for name, force in given.items()}
     numbers = ("moment_per_length", "value")
     scalars = {name: factor * getattr(load, name) for name in numbers if hasattr(load, name)}
     return load.replace(**vectors, **scalars)
-
-
-_CHANGES: dict[str, Callable[[Scene, str, float], Scene]] = {
-    "gravity": _gravity,
-    "pressure": _pressure,
-    "loads": _loads,
-}

@@ -141,7 +141,6 @@ class Spectra(Answer, Sequence[Spectrum]):
         return tuple(pair for pair in self.pairs if pair.against == model)
 
     def document(self) -> dict[str, Any]:
-        """Return the JSON document of `sheetbench modes`."""
         damping = {
             spectrum.model: [asdict(mode) for mode in modes]
             for spectrum, modes in zip(self, self.damping, strict=False)
@@ -156,7 +155,6 @@ class Spectra(Answer, Sequence[Spectrum]):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        """Return a row per mode of the lattice."""
         references, rows = [(spectrum, self.against(spectrum.model)) for spectrum in self[1:]], []
         for i, kind in enumerate(self.kinds):
             hertz: dict[Column, float | None] = {HERTZ(".4g", self[0].model): self.frequencies[i]}
@@ -185,11 +183,9 @@ class Spectra(Answer, Sequence[Spectrum]):
         )
 
     def figures(self) -> tuple[Picture, ...]:
-        """Shapes on the plan."""
         return (Picture("modes", "comparisons.modes.figure:compose", (self,), formats=RASTER),)
 
     def files(self) -> dict[str, Write]:
-        """Return the shapes as VTU."""
         return {"modes.vtu": self.write_shapes}
 
     def write_shapes(self, path: Path) -> None:
@@ -205,7 +201,6 @@ class Spectra(Answer, Sequence[Spectrum]):
         write_mesh(path, plan)
 
     def choices(self) -> dict[str, Any]:
-        """Return the settings of every model."""
         return {spectrum.model: spectrum.settings for spectrum in self}
 
     def complaints(self) -> list[str]:

@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from math import prod
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack, cast, get_args
 
 import numpy as np
@@ -28,7 +27,7 @@ from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice
-from sheetbench.scenes import About, Scene, free_rigid_motions, load
+from sheetbench.scenes import About, AnyScene, Scene, free_rigid_motions, scene_of
 from sheetbench.scenes.grading import as_settings
 
 if TYPE_CHECKING:
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
 
 @in_context
 def spectra(
-    scene: Scene | str | Path,
+    scene: AnyScene,
     lattice: Lattice | None = None,
     *,
     count: int = 10,
@@ -57,7 +56,7 @@ def spectra(
     """
     require_choice("--about", about, get_args(About))
     around = cast(About, about)
-    scene = scene if isinstance(scene, Scene) else load(scene)
+    scene = scene_of(scene)
     if count < 1:
         raise BadInput(f"--count = {count}: at least 1")
     own = resolve(scene, Lattice.given(lattice, keywords), "modes")

@@ -27,7 +27,6 @@ from comparisons.models.spec import Elements, External, Lattice, Spec, parse, un
 from comparisons.motion.comparison_answer import MotionComparison
 from comparisons.motion.measures import largest
 from comparisons.motion.run import refusal, require_motion
-from comparisons.report import amounts
 from comparisons.report.work import Pace, Progress, Work, silent
 from sheetbench.choices import REFERENCE
 from sheetbench.scenes import AnyScene, History, Scene, scene_of
@@ -87,8 +86,7 @@ def compare_motion(
         context().progress(Work(doing, size))
 
         def reached(time: float) -> None:
-            left = pace.left(time) if time >= EVEN * duration else None
-            soon = "" if left is None else f", {amounts.duration(left)} left"
+            soon = pace.remaining(time) if time >= EVEN * duration else ""
             context().progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
 
         if not isinstance(spec, External):

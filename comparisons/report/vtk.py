@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from sheetbench.files import whole
-from sheetbench.scenes import FieldMesh, Solution
+from sheetbench.scenes import FieldMesh
 
 
 def write_mesh(path: Path, mesh: FieldMesh) -> None:
@@ -18,8 +18,3 @@ def write_mesh(path: Path, mesh: FieldMesh) -> None:
     file = meshio.Mesh(mesh.points, mesh.cells, mesh.point_data, mesh.cell_data)
     with whole(path) as partial:
         meshio.write(partial, file, file_format="vtu")
-
-
-def write_solution(path: Path, solution: Solution) -> None:
-    """Write a solution on its own mesh."""
-    write_mesh(path, solution.mesh)

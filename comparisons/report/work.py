@@ -50,6 +50,11 @@ class Pace:
         self._end = end
         self._first: tuple[float, float] | None = None
 
+    def remaining(self, reached: float) -> str:
+        """Return how long it still takes, in words behind a comma; nothing as long as that is unknown."""
+        left = self.left(reached)
+        return "" if left is None else f", {duration(left)} left"
+
     def left(self, reached: float) -> float | None:
         """Seconds, None as long as nothing has gone on."""
         now = perf_counter()

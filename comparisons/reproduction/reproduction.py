@@ -18,7 +18,7 @@ import numpy as np
 
 from comparisons.models.grids import Elements
 from comparisons.motion.frames import write_frames
-from comparisons.report.vtk import write_solution
+from comparisons.report.vtk import write_mesh
 from comparisons.report.work import Work, silent
 from comparisons.reproduction import findings
 from comparisons.reproduction.answers import SETS, ReproducedTest, answer
@@ -71,10 +71,6 @@ class RunRow:
     rest: Annotated[float | None, MILLIMETRES("z.2f")] = None
 
 
-def length(name: str, form: str = "z.2f", detail: bool = False) -> Column:
-    return Column(name, "m", "mm", 1e3, form, detail=detail)
-
-
 @dataclass(frozen=True, repr=False)
 class Reproduction(Answer):
     """What each part found; empty, or None, where a part was not asked for."""
@@ -98,7 +94,6 @@ class Reproduction(Answer):
         return [f"settling-{model}/" for model in (self.settling.runs if self.settling is not None else ())]
 
     def document(self) -> dict[str, Any]:
-        """Return the JSON document of `sheetbench reproduce`: SI units, errors as fractions."""
         document: dict[str, Any] = {
             "parts": list(self.parts),
             "inputs": seed_inputs(),
@@ -156,7 +151,7 @@ class Reproduction(Answer):
         for one in self.answers:
             files[f"{one.name}.vtu"] = one.comparison.write_plan
             for solution in one.comparison.solutions:
-                files[f"{one.name}-{solution.model}.vtu"] = partial(write_solution, solution=solution)
+                files[f"{one.name}-{solution.model}.vtu"] = partial(write_mesh, mesh=solution.mesh)
         for model, run in self.settling.runs.items() if self.settling is not None else ():
             files[f"settling-{model}.csv"] = partial(write_text, text=run.series().to_csv())
             files[f"settling-{model}.pvd"] = partial(write_frames, history=run)
@@ -194,8 +189,8 @@ def displacements(one: ReproducedTest) -> Table:
     moved = {s.model: np.array(list(comparison.probes(s).values())) for s in ordered}
     bars = comparison.bar.uncertainty.bar if comparison.bar is not None else np.full((len(PROBES), 3), np.nan)
     truth, names = tables["published model"], ("ux", "uy", "uz")
-    moves = [length(name) for name in names]
-    spans = [length(f"± {name}", ".1g", detail=name != "uz") for name in names]
+    moves = [MILLIMETRES("z.2f", name) for name in names]
+    spans = [MILLIMETRES(".1g", f"± {name}", detail=name != "uz") for name in names]
     rows = []
     for i, probe in enumerate(PROBES):
         for name, table in (tables | moved).items():

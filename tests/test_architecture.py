@@ -141,22 +141,16 @@ def without_types(path):
     return [node for node in nodes_of(path) if node not in left_out]
 
 
-def counted(path, package):
-    """Whether imports for types count: not of the face, the command line and studies."""
-    solver = package in ("lumped", "fem_reference")
-    return solver or (package == "comparisons" and "cli" not in path.parts)
-
-
 @pytest.mark.parametrize("package", PACKAGES)
 def test_no_file_imports_itself_by_way_of_others(package):
-    """Imports within functions count, and most for types too (`counted`); a folder stands for the files that
-    it re-exports. A question computes its answer; the answer makes its tables and names its figures."""
+    """Imports within functions count, and those for types too, but of the face; a folder stands for the files
+    that it re-exports. A question computes its answer; the answer makes its tables and names its figures."""
     files = {module_of(path): path for path in (ROOT / package).rglob("*.py")}
     exported: dict[str, set[str]] = {}
 
     def modules(path):
         found = set()
-        for node in nodes_of(path) if counted(path, package) else without_types(path):
+        for node in without_types(path) if package == "sheetbench" else nodes_of(path):
             if isinstance(node, ast.ImportFrom):
                 for name in (alias.name for alias in node.names):
                     inner, folder = f"{node.module}.{name}", f"{node.module}.__init__"

@@ -28,7 +28,8 @@ def command(
     """
     from comparisons.cli.console import note
     from comparisons.comparison.comparison import load_static
-    from comparisons.live import redirection, server
+    from comparisons.live import server
+    from comparisons.live.guard import redirection
     from comparisons.live.panel import Panel
     from comparisons.models.resolve import resolve
     from sheetbench.errors import BadInput
@@ -39,7 +40,7 @@ def command(
     meant = resolve(loaded, lattice.spec).spec
     panel = Panel(loaded, elements, meant.but(grid=lattice.grid))
 
-    with redirection.kept() as leads_to:
+    with redirection() as leads_to:
 
         def opened(address: str) -> None:
             note(f"{address}\nCtrl-C ends it.")

@@ -4,17 +4,33 @@ The server listens on the loopback alone, and yet every page open in the browser
 So a request needs the random token in its path; its Host must be the loopback's, else a foreign name that was
 made to lead here (DNS rebinding) would do; an Origin that it brings must be the page's own, and opening the
 web socket, which browsers let any page try, needs one. The token is compared in constant time.
+
+A browser gets what it is to open on its command line, which every user of the machine can read. So that is
+the address of a file that its user alone can read; the page's is in it, and it is gone when the page ends.
 """
 
 from __future__ import annotations
 
+import os
 import secrets
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from html import escape
 from http import HTTPStatus
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from websockets.datastructures import Headers
 
 LOOPBACK = "127.0.0.1"
 NAMES = (LOOPBACK, "localhost")
+REDIRECTION = """<!doctype html>
+<meta charset="utf-8">
+<meta name="referrer" content="no-referrer">
+<meta http-equiv="refresh" content="0;url={address}">
+<title>sheetbench live</title>
+<a href="{address}">sheetbench live</a>
+"""
 
 
 class Guard:
@@ -59,6 +75,21 @@ class Guard:
             "Cross-Origin-Opener-Policy": "same-origin",
             "Cache-Control": "no-store",
         }
+
+
+@contextmanager
+def redirection() -> Iterator[Callable[[str], str]]:
+    """What writes a file that leads to an address and returns the file's own, as file://…; at the end it is
+    removed."""
+    with TemporaryDirectory(prefix="sheetbench-live-") as folder:  # of mode 700
+
+        def leads_to(address: str) -> str:
+            file = Path(folder) / "live.html"
+            with os.fdopen(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as stream:
+                stream.write(REDIRECTION.format(address=escape(address)))
+            return file.as_uri()
+
+        yield leads_to
 
 
 def _plain(path: str) -> str:

@@ -11,14 +11,15 @@ import hashlib
 from base64 import b64encode
 from collections.abc import Mapping
 from importlib import resources
+from io import BytesIO
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
+from PIL import Image
 
 from comparisons.browser import viewer
-from comparisons.pages.pictures import pictures
-from comparisons.pages.question import question
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import FolderContents, Study
 from comparisons.pages.tables import tables
@@ -26,10 +27,18 @@ from comparisons.report.amounts import memory
 from comparisons.runs.manifest import made_with
 from sheetbench.answers.escape import terminal
 from sheetbench.answers.files import plain
+from sheetbench.answers.table import number, quantity
+from sheetbench.errors import BadInput
+from sheetbench.scenes.words import in_words
 
 PACKAGE = "comparisons.pages"
 AS_THEY_ARE = ("title", "verb", "place", "command", "date", "notes", "complaints")  # of a study
 MANY, OTHERS = 4, 30  # studies from which on each is folded; other files that are named
+TIMES = ("duration", "step", "largest_step", "every")
+UNITS = {"layer_distance": "m", "k": "N/m", **dict.fromkeys(TIMES, "s")}  # of settings
+WIDEST = 1600  # pixels of a picture
+MOVING_OR_LINES = {".gif": "gif", ".svg": "svg+xml"}  # shown as they are; no script runs in a picture
+LARGEST = 80_000_000  # pixels of a picture that is opened
 
 
 def page(found: FolderContents, title: str) -> str:
@@ -122,3 +131,62 @@ def _made(record: Mapping[str, Any], run: Mapping[str, Any]) -> list[tuple[str, 
 
 def _size(path: Path) -> str:
     return memory_of(path.stat().st_size) if path.is_file() else ""
+
+
+def question(study: Study) -> list[tuple[str, str]]:
+    """Pairs of a part's name and what it says: of the scene, then of the settings."""
+    scene = study.scene
+    parts = study.attempt("scene", lambda: in_words(scene)) if scene is not None else []
+    settings = study.run.get("settings")
+    chosen = _settings(settings) if isinstance(settings, dict) else []
+    return [*(parts or []), *chosen]
+
+
+def _settings(settings: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Return a line a model, and one for what belongs to none; reasons of choices are among the notes."""
+    nested = {k: v for k, v in settings.items() if isinstance(v, dict)}
+    flat = {k: v for k, v in settings.items() if k not in nested}
+    lines = [(name, _line(values)) for name, values in nested.items() if values]
+    return [*lines, ("settings", _line(flat))] if _line(flat) else lines
+
+
+def _line(values: Mapping[str, Any]) -> str:
+    shown = ((key.replace("_", " "), _short(key, value)) for key, value in values.items())
+    return ", ".join(f"{key} {value}" for key, value in shown if value and not key.endswith(" reason"))
+
+
+def _short(key: str, value: Any) -> str:
+    """Return a setting in a few characters; nothing of one that is long, which the document has."""
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if isinstance(value, int | float) and key in UNITS:
+        return quantity(value, UNITS[key])
+    if isinstance(value, float):
+        return number(value, ".4g")
+    if isinstance(value, list) and key == "grids":  # several, and not the sides of one
+        return ", ".join(map(str, value))
+    if isinstance(value, list) and all(isinstance(one, int) for one in value) and len(value) <= 3:
+        return " × ".join(map(str, value))
+    return str(value) if isinstance(value, str | int) and len(str(value)) <= 60 else ""
+
+
+def pictures(study: Study) -> list[tuple[str, str]]:
+    """Names and data addresses of a study's pictures; of one in several formats the first."""
+    names = {Path(name).stem: name for name in reversed(study.ending(".png", ".svg", ".gif"))}
+    found = ((name, study.read(name, _small)) for name in reversed(names.values()))
+    return [(name, address) for name, address in found if address]
+
+
+def _small(path: Path) -> str:
+    if path.suffix.lower() == ".svg":
+        ElementTree.parse(path)  # a damaged one is no picture
+    if kind := MOVING_OR_LINES.get(path.suffix.lower()):
+        return f"data:image/{kind};base64,{b64encode(path.read_bytes()).decode('ascii')}"
+    with Image.open(path) as picture:
+        if picture.width * picture.height > LARGEST:
+            raise BadInput("too many pixels for a page")
+        shown = picture.convert("RGB")
+    shown.thumbnail((WIDEST, 4 * WIDEST))
+    written = BytesIO()
+    shown.save(written, "WEBP", quality=88, method=4)
+    return f"data:image/webp;base64,{b64encode(written.getvalue()).decode('ascii')}"

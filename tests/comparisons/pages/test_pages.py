@@ -14,9 +14,7 @@ from commands import run
 from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
 from comparisons.pages import studies as pages
-from comparisons.pages.page import page
-from comparisons.pages.pictures import pictures
-from comparisons.pages.question import question
+from comparisons.pages.page import page, pictures, question
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
 from comparisons.runs.folder import Folder

@@ -68,6 +68,8 @@ export class Sheet {
       this.group.add(this.surface);
     }
     this.inked = [];
+    const ends = [given.lines, given.faint, given.strong].flatMap((pairs) => Array.from(indices(pairs)));
+    this.linked = new Set(given.style === "lattice" ? ends : Array(this.count).keys()); // masses in holes have no link
     for (const [pairs, ink, opacity] of [
       [indices(given.lines), given.style === "lattice" ? "link" : "line", given.style === "lattice" ? 0.8 : 0.4],
       [indices(given.faint), "link", 0.25],
@@ -115,8 +117,8 @@ export class Sheet {
 
   // Every point as it is drawn, and the ends of its arrows.
   drawn() {
-    const at = (_, i) => new Vector3().fromBufferAttribute(this.positions, i);
-    return [...Array.from({ length: this.count }, at), ...this.arrows.flatMap((arrow) => arrow.ends())];
+    const at = (i) => new Vector3().fromBufferAttribute(this.positions, i);
+    return [...Array.from(this.linked, at), ...this.arrows.flatMap((arrow) => arrow.ends())];
   }
 
   // The longest side of the box around the points, as they are at rest.
@@ -142,7 +144,9 @@ export class Sheet {
     if (this.masses) {
       const matrix = new Matrix4();
       for (let i = 0; i < this.count; i++) {
-        this.masses.setMatrixAt(i, matrix.makeTranslation(to[3 * i], to[3 * i + 1], to[3 * i + 2]));
+        if (this.linked.has(i)) matrix.makeTranslation(to[3 * i], to[3 * i + 1], to[3 * i + 2]);
+        else matrix.makeScale(0, 0, 0);
+        this.masses.setMatrixAt(i, matrix);
       }
       this.masses.instanceMatrix.needsUpdate = true;
       this.masses.computeBoundingSphere();

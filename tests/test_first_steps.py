@@ -174,4 +174,4 @@ def test_words_say_which_way_things_act():
     )
     assert said["load 2"].startswith("pressure of 5 Pa against the normal, at first −z; 0.3 N")
     assert said["load 3"] == "(0, 1, −2) N at (300, 200) mm, the corner of x1 and y1"
-    assert said["at rest"] == "held: no rigid motion is free"
+    assert said["at rest"] == "held: no rigid-body motion is free"

@@ -124,7 +124,7 @@ class Advice(Answer):
     def tables(self) -> tuple[Table, ...]:
         """Return a row per probing solve, the quickest first; the choice is marked."""
         rows = sorted(self.tried, key=lambda one: one.solve_seconds)
-        caption = "Quick solves; errors are distances from the finest one"
+        caption = "Quick solves; error: difference from the finest one"
         fields = ("model", "size", "solve_seconds", "error", "choice", "status")
         return (Table.of(Tried, rows, caption, "tried", fields=fields),)
 

@@ -48,7 +48,7 @@ class UnknownRow:
     low: Annotated[float | None, NUMBER(".6g", "from")]
     high: Annotated[float | None, NUMBER(".6g", "to")]
     refined: Annotated[float | None, NUMBER(".6g", "on finer cells")]
-    start: Annotated[float, NUMBER(".6g", "started at")]
+    start: Annotated[float, NUMBER(".6g", "start")]
 
 
 @dataclass(frozen=True)

@@ -36,8 +36,8 @@ def _tables(answers: Sequence[ReproducedTest]) -> Iterator[tuple[str, str]]:
         if off is not None and comparison.bar is not None:
             yield (
                 one.title,
-                f"Our lattice with consistent springs is {percent(off)} from our shell, whose own mesh "
-                f"leaves {percent(comparison.bar.error)} open.",
+                f"Our lattice with consistent springs is {percent(off)} from our shell, whose mesh error is "
+                f"± {percent(comparison.bar.error)}.",
             )
         moved, wanted = _moved(one, comparison.reference.model), published(one.test, "experiment")
         pairs = ", ".join(
@@ -56,9 +56,8 @@ def _tables(answers: Sequence[ReproducedTest]) -> Iterator[tuple[str, str]]:
             layers = quantity(solution.settings["layer_distance"], "m", ".3g")
             yield (
                 one.title,
-                f"A lattice of the published k with layers {layers} "
-                f"apart{how} is off the published model by up to {percent(float(distance), '.0f')} of its "
-                "largest displacement.",
+                f"With the published k and layers {layers} apart{how} the lattice differs from the published "
+                f"model by up to {percent(float(distance), '.0f')} of its largest displacement.",
             )
 
 

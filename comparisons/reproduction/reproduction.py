@@ -39,9 +39,10 @@ SEED = (
     "continuum surfaces"
 )
 DISPLACEMENTS = (
-    "In the axes of our scene: of test 1 the published y is turned round; a dash where a printed value must "
-    "be a misprint. lumped: consistent springs. k…-lz…: the published k everywhere, equal masses, layers "
-    "so many mm apart. ±: mesh error of the shell. off: |u − u_model|/|u_model|, of the published model."
+    "In the axes of our scene: the published y of test 1 is reversed; a dash where a printed value must be "
+    "a misprint. lumped: consistent springs. k…-lz…: the published k everywhere, equal masses, layers "
+    "at this distance in mm. ±: mesh error of the shell. off: |u − u_model|/|u_model|, against the published "
+    "model."
 )
 POINTS = "P1 is the centre, P2 and P3 the middles of two free sides, P4 the corner farthest from the support."
 
@@ -216,7 +217,7 @@ def runs(settling: Settling) -> Table:
     text = (
         f"Test 1 from rest, gravity on at t = 0, dampers of our scene {settling.scene.name} (none are "
         f"published); uz of {PROBE}. time: a run on warm code, set-up included. swing: its largest value "
-        f"over its static one. settled: from when on it is within {percent(SETTLED)} of that. The published "
-        "figure has no numbers to compare with."
+        f"over its static one. settled: time from which it stays within {percent(SETTLED)} of that. "
+        "The published curve is a picture without values."
     )
     return Table.of(RunRow, rows, "The settling run", "settling", text=text)

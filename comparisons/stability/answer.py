@@ -141,7 +141,7 @@ def limits(maps: Stability) -> Table:
     rows = [
         StepRow(
             who(row),
-            "the scene's" if place(row) is None else f"{number(place(row), 'g')} of critical",
+            "the scene's" if place(row) is None else f"ratio {number(place(row), 'g')}",
             row["computed"],
             row.get("measured"),
             row["advised"],

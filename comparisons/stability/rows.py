@@ -12,7 +12,7 @@ VARIED = {
     "slenderness": "thickness, times the scene's",
     "young": "E, times the scene's",
     "grid": "cells along the shorter side",
-    "damping": "damping of the lowest mode, of critical",
+    "damping": "damping ratio of the lowest mode",
     "time-step": "time step [ms]",
 }
 KEYS = {"grid": "cells", "damping": "damping_ratio", "time-step": "step"}  # else factor

@@ -119,8 +119,8 @@ class Tradeoff(Answer):
             )
             for i, r in enumerate(self.rows)
         )  # fmt: skip
-        costs = "Cost and error; solve: median of the repeats; from, to: the quickest and the slowest"
-        orders = "Observed orders: errors in the size of a cell, time in the unknowns"
+        costs = "Cost and error; solve: median of the repeats"
+        orders = "Observed orders: of errors in the cell size, of time in the unknowns"
         return Table.of(CostRow, rows, costs, "tradeoff"), Table.of(Orders, self.orders, orders, "orders")
 
     def figures(self) -> tuple[Picture, ...]:

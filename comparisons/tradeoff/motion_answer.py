@@ -102,8 +102,8 @@ class DynamicTradeoff(Answer):
         front = self.front
         rows = [replace(row, front=i in front) for i, row in enumerate(self.rows)]
         caption = (
-            f"Over {self.duration:g} s. cost: per simulated second; of steps: what the lattice's steps miss; "
-            "period: off by; damping: of critical"
+            f"Motion over {self.duration:g} s. cost: solve time per simulated second; step error: the part by "
+            "the lattice's steps; period: its error; damping: damping ratio"
         )
         return (Table.of(MotionRow, rows, caption, "motion", fields=SHOWN),)
 
@@ -121,7 +121,7 @@ class DynamicTradeoff(Answer):
             *(f"{name}; lowest period {self.lowest_period:.4g} s" for name in self.lattices[:1]),
             *self.lattices[1:],
             *self.reasons,
-            *cheapest(names, [row.error for row in self.rows], seconds, " a simulated second"),
+            *cheapest(names, [row.error for row in self.rows], seconds, " per simulated second"),
             *self.warnings,
         ]
 

@@ -38,7 +38,7 @@ class MotionRow:
     seconds_per_second: Annotated[float | None, Unit("s/s", "s/s")(".3g", "cost")] = None
     peak_memory_bytes: Annotated[float | None, Unit("B", "MB", 1e-6)(".1f", "memory")] = None
     error: Annotated[float | None, PERCENT(".3g")] = None
-    step_error: Annotated[float | None, PERCENT(".2g", "of steps")] = None
+    step_error: Annotated[float | None, PERCENT(".2g", "step error")] = None
     period: float | None = None
     period_error: Annotated[float | None, PERCENT("z.2f", "period")] = None
     damping: Annotated[float | None, PERCENT("z.2f")] = None

@@ -34,7 +34,7 @@ class Row:
     quantity: Annotated[str, Column(prose=True)]
     mesh: str
     published: Annotated[float, NUMBER(".5g", "expected")]
-    source: Annotated[str, Column("whose", prose=True)]
+    source: Annotated[str, Column("source", prose=True)]
     computed: Annotated[float, NUMBER(".5g")]
     relative: Annotated[float | None, PERCENT(".2f", "off by")]
     tolerance: float

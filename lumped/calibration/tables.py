@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.answers.table import Column, Table
+from sheetbench.answers.table import Column, Table, number
 
 _UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
 _MEANINGS = {
@@ -98,6 +98,6 @@ def _edges(calibration: dict[str, Any]) -> str:
     square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * calibration["layer_distance"] ** 2
     (twisting,) = (row["got"] for row in calibration["moduli"] if row["name"] == "D66")
     cells = np.hstack([*shear.values()]) if isinstance(shear, dict) else shear
-    shares = sorted({f"{1.0 + k * square / twisting:.3f}" for k in (np.min(cells), np.max(cells))})
+    shares = sorted({number(1.0 + k * square / twisting, ".3f") for k in (np.min(cells), np.max(cells))})
     share = " to ".join(shares)
     return f". D66: times {share} in cells along free, hinged and held edges, to match the torsion of a strip"

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import xarray
 
 UNDAMPED = (
-    "nothing damps this sheet: it swings on and does not settle; to damp it, give [material] loss_factor, "
+    "this sheet has no damping and does not settle; to damp it, give [material] loss_factor, "
     "damping_time or damping_rate, or [air] its drag"
 )
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
@@ -110,7 +110,7 @@ class History(Answer):
             moved = dict(zip(COMPONENTS, u[-1], strict=True)) | {"largest": np.abs(u).max()}
             rows.append(ProbeRow(name, moved, off))
         end = self.time[-1] if len(self.time) else 0.0
-        caption = f"Displacement at {end:g} s, and largest component on the way"
+        caption = f"Displacement at {end:g} s, and its largest component during the motion"
         return (Table.of(ProbeRow, rows, caption, "probes", details=() if of else ("error",)),)
 
     def figures(self) -> tuple[Picture, ...]:

@@ -73,7 +73,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
     sentences.append(
         (
             "at rest",
-            f"not solved: nothing stops {', '.join(free)}" if free else "held: no rigid motion is free",
+            f"not solved: nothing stops {', '.join(free)}" if free else "held: no rigid-body motion is free",
         )
     )
     return sentences

@@ -102,7 +102,7 @@ class DynamicTradeoff(Answer):
         front = self.front
         rows = [replace(row, front=i in front) for i, row in enumerate(self.rows)]
         caption = (
-            f"Motion over {self.duration:g} s. cost: solve time per simulated second; step error: the part by "
+            f"Motion over {self.duration:g} s. cost: time per simulated second; step error: the part by "
             "the lattice's steps; period: its error; damping: damping ratio"
         )
         return (Table.of(MotionRow, rows, caption, "motion", fields=SHOWN),)

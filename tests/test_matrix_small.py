@@ -56,16 +56,14 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         OUTPUTS[:3],
     ],
     "tradeoff --repeats 1 --elements 3 --plate 2 --workers 1": [
-        (("one-edge-clamped",), ("{pressed}",), ("{weightless}",)),
-        (("--lumped", "3"), ("--lumped", "3x4,4"), ("--lumped", ""), ("--lumped=", "--lumped-pair", "3:4")),
+        (("{pressed}",), ("{weightless}",)),
+        (("--lumped", "3x4,4"), ("--lumped", ""), ("--lumped=", "--lumped-pair", "3:4")),
         (("--calibration", "hyperelastic"), ("--calibration", "auto"), ("--grading", "auto")),
         (("--shell", "2", "--solid", ""), ("--shell", "", "--solid", "2")),
         OUTPUTS[:3],
     ],
-    "tradeoff two-edges-settling --duration 0.004 --repeats 1 --workers 1": [
-        (("--lumped", "3"), ("--lumped", "3x4"), ("--k", "550")),
-        ((), ("--calibration", "hyperelastic")),
-        OUTPUTS[:3],
+    "tradeoff two-edges-settling --duration 0.004 --plate 1 --shell 1 --elements 2 --solid= --workers 1": [
+        (("--lumped", "3x4", "--calibration", "hyperelastic", "--json"), ("--k", "550", "--out", "{folder}")),
     ],
     "crosscheck --plate 2,3 --shell 2,3 --judges= --workers 1": [
         (("one-edge-clamped",), ("{pressed}",)),

@@ -28,7 +28,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         (("--count", "2"), ("--count", "12")),
     ],
     "linearise": [
-        SPRINGS[::2],
+        SPRINGS[1::2],
         EVERY_SCENE,
         (("--modes", "3"), ("--modes", "0"), ("--modes", "4", "--reduce", "balanced:2")),
         ((), ("--about", "flat")),
@@ -52,7 +52,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     ],
     "advise": [
         (("one-edge-clamped",), ("{weightless}",)),
-        (("--tolerance", "0.9"), ("--budget", "0.5"), ("--budget", "5ms")),
+        (("--tolerance", "0.9"), ("--budget", "5ms")),
         (("--json",), ()),
     ],
     "check": [EVERY_SCENE, LITTLE],

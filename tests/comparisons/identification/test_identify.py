@@ -168,19 +168,19 @@ def test_the_shell_finds_the_tilt_that_the_shell_had():
 
 def test_what_the_data_cannot_tell_apart_is_said(truth):
     data = Displacements(POINTS, noisy(truth, np.random.default_rng(5)))
-    unseen = identify(SCENE, data, ["young", "density"])  # displacements depend on ρ/E only
+    unseen = identify(SCENE, data, ["young", "density"], grid=5)  # displacements depend on ρ/E only
     assert any("do not see a combination of young, density" in said for said in unseen.warnings)
     assert unseen.unknowns["young"].interval == (0.0, np.inf)
-    alike = identify(SCENE, data, ["young", "thickness"])
+    alike = identify(SCENE, data, ["young", "thickness"], grid=5)
     assert any("cannot tell young from thickness" in said for said in alike.warnings)
 
 
 def test_what_the_data_do_not_see_stays_where_the_scene_has_it():
     """Under its own weight a sheet shows ρ/E only: the search must not wander along what nothing holds."""
     measured = read(MEASURED / "seed-test-1-experiment.csv", SCENE)
-    found = identify(SCENE, measured, ["young", "density"])
+    found = identify(SCENE, measured, ["young", "density"], grid=5)
     values = {name: u.value for name, u in found.unknowns.items()}
-    alone = identify(SCENE, measured, ["young"], refine=False).unknowns["young"].value
+    alone = identify(SCENE, measured, ["young"], grid=5, refine=False).unknowns["young"].value
     ratio = alone / SCENE.material.density
     assert values["young"] / values["density"] == pytest.approx(ratio, rel=1e-4)
     assert 0.1 < values["density"] / SCENE.material.density < 10.0
@@ -211,8 +211,8 @@ def test_a_curvature_may_turn_the_deflection_over():
 def test_an_axis_turned_round_is_named_where_the_fit_is_poor():
     """A cantilever ten times softer swings 0.2 of its side towards its clamp; here it is entered as away."""
     soft = with_material(CANTILEVER, young=5.45e6)
-    values = lattice(soft).displacement(POINTS) * [-1.0, 1.0, 1.0]
-    found = identify(soft, Displacements(POINTS, values), ["young"], refine=False)
+    values = lattice(soft, (5, 5)).displacement(POINTS) * [-1.0, 1.0, 1.0]
+    found = identify(soft, Displacements(POINTS, values), ["young"], grid=5, refine=False)
     assert found.warnings[-1].endswith("the measured ux have the opposite sign of the model's")
 
 
@@ -272,7 +272,7 @@ def test_the_seeds_own_figures_do_not_fit_one_young():
                     assert np.isnan(value)  # printed with the wrong sign
                 else:
                     assert value == pytest.approx(expected[source, probe, component])
-        found = identify(SCENE, measured, ["young"])
+        found = identify(SCENE, measured, ["young"], grid=5)
         assert 0.3 < found.unknowns["young"].value / SCENE.material.young < 0.5
         assert found.relative > 0.15 and any("poor fit" in said for said in found.warnings)
 

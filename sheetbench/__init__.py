@@ -57,33 +57,26 @@ if _TYPE_CHECKING:
     )  # fmt: skip
     from sheetbench.verbs import crosscheck, export, report, schema, score, stability
 
-_ELSEWHERE = {  # name: module and what it is called there; all else is of sheetbench.scenes
-    "Cell": ("comparisons.cells.cell", "Cell"),
-    "Displacements": ("comparisons.identification.measurements", "Displacements"),
-    **{n: ("comparisons.models.spec", n) for n in ("Elements", "External", "Lattice", "LatticePair")},
-    "advise": ("comparisons.advice.advisor", "advise"),
-    "calibrate": ("sheetbench.face", "calibrate"),
-    "cell": ("comparisons.cells.meshes", "cell_of"),
-    "check": ("comparisons.check.check", "check"),
-    "compare": ("sheetbench.face", "compare"),
-    "crosscheck": ("sheetbench.verbs", "crosscheck"),
-    "error": ("comparisons.comparison.comparison", "error"),
-    "export": ("sheetbench.verbs", "export"),
-    "homogenise": ("comparisons.cells.answer", "homogenise"),
-    "identify": ("comparisons.identification.identification", "identify"),
-    "linearise": ("comparisons.linearisation.linearisation", "linearise"),
-    "modes": ("comparisons.modes.spectra", "spectra"),
-    "report": ("sheetbench.verbs", "report"),
-    "reproduce": ("comparisons.reproduction.reproduction", "reproduce"),
-    "schema": ("sheetbench.verbs", "schema"),
-    "score": ("sheetbench.verbs", "score"),
-    "simulate": ("sheetbench.face", "simulate"),
-    "solve": ("sheetbench.face", "solve"),
-    "stability": ("sheetbench.verbs", "stability"),
-    "suite": ("comparisons.scoring.suite", "suite"),
-    "tradeoff": ("sheetbench.face", "tradeoff"),
-    "verify": ("comparisons.verification.answer", "verify"),
+_MODULES = {  # all else is of sheetbench.scenes
+    "comparisons.advice.advisor": "advise",
+    "comparisons.cells.answer": "homogenise",
+    "comparisons.cells.cell": "Cell",
+    "comparisons.cells.meshes": "cell",
+    "comparisons.check.check": "check",
+    "comparisons.comparison.comparison": "error",
+    "comparisons.identification.identification": "identify",
+    "comparisons.identification.measurements": "Displacements",
+    "comparisons.linearisation.linearisation": "linearise",
+    "comparisons.models.spec": "Elements External Lattice LatticePair",
+    "comparisons.modes.spectra": "modes",
+    "comparisons.reproduction.reproduction": "reproduce",
+    "comparisons.scoring.suite": "suite",
+    "comparisons.verification.answer": "verify",
+    "sheetbench.face": "calibrate compare simulate solve tradeoff",
+    "sheetbench.verbs": "crosscheck export report schema score stability",
 }
+_MODULE_OF = {name: module for module, names in _MODULES.items() for name in names.split()}
+_NAME_THERE = {"cell": "cell_of", "modes": "spectra"}
 
 __all__ = [
     "BadInput", "Cell", "Chain", "Clamped", "Curved", "Displacements", "EdgeLoad", "EdgeMotion", "Elements",
@@ -104,8 +97,8 @@ def __getattr__(name: str) -> object:
         return _import_module("sheetbench.scenes")
     if name not in __all__:
         raise AttributeError(f"module 'sheetbench' has no attribute {name!r}")
-    module, function = _ELSEWHERE.get(name, ("sheetbench.scenes", name))
-    return getattr(_import_module(module), function)
+    module = _import_module(_MODULE_OF.get(name, "sheetbench.scenes"))
+    return getattr(module, _NAME_THERE.get(name, name))
 
 
 def __dir__() -> list[str]:

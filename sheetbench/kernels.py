@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept, when they are compiled anew, and that somebody hears of it.
+"""Numba's cache of compiled kernels: place, invalidation, a line of the log where something is compiled.
 
 They are kept in the user's cache, unless NUMBA_CACHE_DIR names another place: numba would keep them inside
 the installed package, where uninstalling leaves them behind. By itself numba compiles a kernel anew when its

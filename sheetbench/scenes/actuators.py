@@ -41,7 +41,7 @@ Base = Literal["free", "start", "middle", "end"]
 
 
 class CurvatureTable(OverTime):
-    """Intrinsic curvature over time: time (n,) [s], increasing; value (n,) [1/m], one for all joints."""
+    """Intrinsic curvature over time, one for all joints."""
 
     value: Annotated[tuple[Number, ...], Unit("1/m")]
     """Intrinsic curvature of all joints at each time; statics take the last one."""

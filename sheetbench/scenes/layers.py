@@ -14,13 +14,7 @@ from pydantic import Field, model_validator
 from sheetbench.scenes import orthotropy
 from sheetbench.scenes.material import Material
 from sheetbench.scenes.orthotropy import Fibres, Ply, in_own_axes
-from sheetbench.scenes.quantities import (
-    Angle,
-    Density,
-    Length,
-    Modulus,
-    PoissonRatio,
-)
+from sheetbench.scenes.quantities import Angle, Density, Length, Modulus, PoissonRatio
 from sheetbench.scenes.sheet import Sheet
 
 ROUNDING = 1e-9  # of the thickness

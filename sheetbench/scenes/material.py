@@ -105,11 +105,7 @@ def _constants_in_schema(schema: dict[str, Any]) -> None:
 
 class Material(Fibres):
     """Elasticity, density, viscous damping and relaxation; of rubber a law with its constants, of a sheet
-    with fibres those along and across them (`sheetbench.scenes.orthotropy`).
-
-    young [Pa], poisson [-], density [kg/m³]; damping_time [s] gives every spring a damper
-    c = damping_time · k; damping_rate [1/s] gives every mass a damping force rate · m · velocity.
-    """
+    with fibres those along and across them (`sheetbench.scenes.orthotropy`)."""
 
     model_config = ConfigDict(json_schema_extra=_constants_in_schema)
 

@@ -75,7 +75,7 @@ class Shape(Frozen):
 
     @cached_property
     def area(self) -> Area:
-        """As shapely has it."""
+        """Return its area as a polygon of shapely."""
         import shapely  # a fifth of a second that plain sheets need not wait for
 
         if self.rectangle is not None:

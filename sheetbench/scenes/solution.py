@@ -100,13 +100,13 @@ class FieldMesh:
     cell_data: dict[str, list[np.ndarray]] = field(default_factory=dict)
 
     def to_meshio(self) -> meshio.Mesh:
-        """The same as meshio has it."""
+        """Convert to `meshio.Mesh`."""
         import meshio
 
         return meshio.Mesh(self.points, self.cells, self.point_data, self.cell_data)
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
-        """The same as pyvista has it, undeformed, with `displacement` as the active vectors."""
+        """Convert to pyvista's grid, undeformed, with `displacement` as the active vectors."""
         import pyvista
 
         grid = pyvista.from_meshio(self.to_meshio())

@@ -28,10 +28,7 @@ LARGEST_TILT = pi / 2.0  # rad, of a clamp
 
 
 class Motion(OverTime):
-    """Prescribed displacement of a support over time, linear between samples; statics take the last.
-
-    time: (n,) [s], increasing; displacement: (n, 3) [m].
-    """
+    """Prescribed displacement of a support over time, linear between samples; statics take the last."""
 
     displacement: Annotated[tuple[Vector3, ...], Unit("m")]
     """[ux, uy, uz] of the whole edge at each time."""

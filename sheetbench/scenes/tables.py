@@ -1,8 +1,4 @@
-"""Values over time: samples at increasing times [s], linear between them, constant before and after.
-
-history   a factor [-] on a load or on gravity; without one it acts in full from t = 0 on. Statics take the
-          last factor.
-"""
+"""Values over time: samples at increasing times [s], linear between them, constant before and after."""
 
 from __future__ import annotations
 
@@ -63,7 +59,7 @@ class OverTime(Frozen):
 
 
 class FactorTable(OverTime):
-    """A factor over time: time (n,) [s], factor (n,) [-]."""
+    """A factor over time."""
 
     factor: tuple[Number, ...]
     """What the load is multiplied by at each time; statics take the last one."""

@@ -80,7 +80,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
 
 
 def _outline(scene: Scene) -> str:
-    """What of the rectangle there is."""
+    """Return a clause on the outline and the area of a sheet that is no whole rectangle, "" for one."""
     if not scene.pierced:
         return ""
     outline = scene.sheet.outline
@@ -91,7 +91,7 @@ def _outline(scene: Scene) -> str:
 
 
 def _tapers(sheet: Sheet) -> str:
-    """From how thick to how thick along which axis."""
+    """Return a clause on each taper."""
     tapers = {"x": sheet.taper_x, "y": sheet.taper_y}
     return "".join(
         f", from {_mm(ends[0])} to {_mm(ends[1])} mm along {axis}" for axis, ends in tapers.items() if ends
@@ -99,7 +99,7 @@ def _tapers(sheet: Sheet) -> str:
 
 
 def _elasticity(material: Material) -> str:
-    """E and ν, or those of fibres."""
+    """Return E and ν, or the constants of fibres."""
     if material.kind == "isotropic":
         return f"E = {_pascals(material.young)}, ν = {material.poisson:g}"
     ply = Ply.of(material)
@@ -111,14 +111,14 @@ def _elasticity(material: Material) -> str:
 
 
 def _layer(layer: Layer) -> str:
-    """How thick, at which angle, and what else is its own."""
+    """Return a layer's thickness, angle and other constants of its own."""
     own = ", ".join(f"{name} = {value:g}" for name, value in layer.own.items() if name != "angle")
     at = "" if layer.angle is None else f", fibres at {degrees(layer.angle):.4g}°"
     return f"{_mm(layer.thickness)} mm thick{at}{f', {own}' if own else ''}"
 
 
 def _patch(patch: Patch) -> str:
-    """Where it is, and what is its own."""
+    """Return a patch's place and its own constants."""
     words = {
         "thickness": lambda value: f"{_mm(value)} mm thick",
         "young": lambda value: f"E = {_pascals(value)}",
@@ -130,7 +130,7 @@ def _patch(patch: Patch) -> str:
 
 
 def _constants(material: Material) -> str:
-    """The constants of its law."""
+    """Return the constants of a rubber's law."""
     given = {key: value for key in CONSTANTS if (value := getattr(material, key)) is not None}
     texts = [f"{key} = {v:g}" if key == "limit" else f"{key} = {_pascals(v)}" for key, v in given.items()]
     return f" ({', '.join(texts)})" if texts else ""

@@ -27,8 +27,8 @@ DIGITS = 1e-5  # of the largest displacement
 
 @dataclass(frozen=True)
 class Convergence:
-    """A model on its meshes, coarsest first: `rows` as `comparisons.crosscheck.task.answer` has them, with a
-    status and a message where there is no more. uncertainty: of the finest answers, None below two of
+    """A model on its meshes, coarsest first: `rows` as `comparisons.crosscheck.crosscheck.answer` has them,
+    with a status and a message where there is no more. uncertainty: of the finest answers, None below two of
     them."""
 
     scene: str

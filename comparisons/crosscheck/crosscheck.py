@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Unpack
 
+import numpy as np
+
 from comparisons.crosscheck.answer import Crosscheck
 from comparisons.crosscheck.convergence import Convergence
 from comparisons.external import plugins
 from comparisons.external.installed import InstalledCode
-from comparisons.models.context import large_in_context
+from comparisons.models.context import large_in_context, running
 from comparisons.models.resolve import resolve
-from comparisons.models.spec import Spec, counted
+from comparisons.models.solve import solve
+from comparisons.models.spec import Spec, counted, spec_of
 from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from sheetbench.choices import REFERENCES
@@ -81,3 +84,22 @@ def _row(run: Run, outcome: Finished) -> dict[str, Any]:
         **outcome.row,
         **status,
     }
+
+
+def answer(
+    scene: dict[str, Any],
+    model: str,
+    settings: dict[str, Any],
+    version: str | None = None,
+    digest: str | None = None,
+) -> dict[str, Any]:
+    """A model's answer, as `compare` has it, and the mean size [m] of its cells.
+
+    version, digest: of an external code and of its plug-in, under which the row is kept.
+    """
+    parsed = Scene.model_validate(scene)
+    with running(large=True):  # `crosscheck` has looked at the size
+        solution = solve(resolve(parsed, spec_of(model, settings)))
+    counts = solution.settings.get("elements") or [n - 1 for n in solution.settings["grid"]]
+    size = float(np.sqrt(np.prod(parsed.sheet.lengths) / np.prod(counts[:2])))
+    return {**solution.document(parsed), "size": size}

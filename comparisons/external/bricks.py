@@ -22,7 +22,6 @@ from typing import Any, ClassVar
 import numpy as np
 from skfem import MeshQuad
 
-from comparisons.external.point_loads import point_loads
 from fem_reference.surface.biquadratic import GAUSS, areas
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.loads import orientation
@@ -36,7 +35,16 @@ from fem_reference.surface.mesh import (
     nodes_of,
     on_boundary,
 )
-from sheetbench.scenes import AreaLoad, EdgeLoad, Material, Scene, Symmetric, held_axes, holds_director
+from sheetbench.scenes import (
+    AreaLoad,
+    EdgeLoad,
+    Material,
+    PointLoad,
+    Scene,
+    Symmetric,
+    held_axes,
+    holds_director,
+)
 from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.supports import AnySupport, place
@@ -285,3 +293,13 @@ def serendipity(r: np.ndarray, s: np.ndarray) -> np.ndarray:
     corner = 0.25 * (1 + a * r) * (1 + b * s) * (a * r + b * s - 1)
     middle = 0.5 * np.where(a == 0, (1 - r**2) * (1 + b * s), (1 + a * r) * (1 - s**2))
     return np.where(a * b != 0, corner, middle)
+
+
+def point_loads(scene: Scene, mesh: Any) -> np.ndarray:
+    """Forces on the nodes (n, 3) [N] of a mesh with `positions` and `weights`, of bricks or not."""
+    out = np.zeros_like(mesh.positions)
+    for load in scene.loads:
+        if isinstance(load, PointLoad):
+            nodes, weights = mesh.weights(np.array([load.at]))
+            out[nodes[0]] += load.last_factor * np.outer(weights[0], load.force)
+    return out

@@ -16,17 +16,18 @@ that does not get there says so in its Solution's status. docs/plugin.py is a sh
 
 from __future__ import annotations
 
+import ast
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
+from hashlib import sha256
 from importlib.metadata import EntryPoint, entry_points
-from importlib.util import module_from_spec, spec_from_file_location
+from importlib.util import find_spec, module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Protocol, runtime_checkable
 
-from comparisons.external import plugin_sources
 from comparisons.external.program import PREFIX, Program
 from sheetbench.errors import BadInput
 from sheetbench.scenes import History, Scene, Solution
@@ -139,11 +140,11 @@ def digest(name: str) -> str | None:
     if is_program(name):
         return Program(name.removeprefix(PREFIX)).digest()
     if (file := from_file(name)) is not None:
-        return plugin_sources.digest(plugin_sources.of_file(file))
+        return _digest(_files_of(file))
     if (entry := _found().get(name)) is None:
         return None
     installed = [entry.dist.name, entry.dist.version] if entry.dist is not None else []
-    return plugin_sources.digest(plugin_sources.of_module(entry.module), *installed)
+    return _digest(_files_of_module(entry.module), *installed)
 
 
 def answer(model: Model, scene: Scene, settings: Mapping[str, Any]) -> Solution:
@@ -199,3 +200,55 @@ def settings_of(model: Model, given: Mapping[str, Any]) -> dict[str, Any]:
 def _found() -> dict[str, EntryPoint]:
     ours = {name: EntryPoint(name, value, GROUP) for name, value in OURS.items()}
     return {entry.name: entry for entry in entry_points(group=GROUP)} | ours
+
+
+def _files_of(file: Path) -> dict[str, Path]:
+    """Return a file and what it imports from its own folder, modules and packages, by their paths in
+    there."""
+    folder = file.resolve().parent
+    found: dict[str, Path] = {}
+    waiting = [file.resolve()]
+    while waiting:
+        path = waiting.pop()
+        name = path.relative_to(folder).as_posix()
+        if name in found:
+            continue
+        found[name] = path
+        for imported in _imported(path):
+            module, package = folder / f"{imported}.py", folder / imported
+            if module.is_file():
+                waiting.append(module)
+            elif (package / "__init__.py").is_file():
+                waiting.extend(package.rglob("*.py"))
+    return found
+
+
+def _files_of_module(name: str) -> dict[str, Path]:
+    """Return the package that an installed module is in, or the module alone, as `_files_of` does."""
+    spec = find_spec(name.partition(".")[0])
+    if spec is None or spec.origin is None:
+        return {}
+    places = spec.submodule_search_locations
+    if not places:
+        return _files_of(Path(spec.origin))
+    files = ((Path(place), path) for place in places for path in Path(place).rglob("*.py"))
+    return {path.relative_to(place).as_posix(): path for place, path in files}
+
+
+def _digest(files: Mapping[str, Path], *more: str) -> str:
+    """Return what follows from the files' names and contents, and from more texts."""
+    lines = [f"{name} {sha256(path.read_bytes()).hexdigest()}" for name, path in sorted(files.items())]
+    return sha256("\n".join([*more, *lines]).encode()).hexdigest()
+
+
+def _imported(path: Path) -> Iterator[str]:
+    """Return the first parts of the names that a file imports."""
+    try:
+        tree = ast.parse(path.read_bytes())
+    except (SyntaxError, ValueError):  # reported when it is loaded
+        return
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name.partition(".")[0] for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
+            yield node.module.partition(".")[0]

@@ -30,7 +30,6 @@ import numpy as np
 
 from comparisons.identification import remarks
 from comparisons.identification.answer import Estimate, Identification
-from comparisons.identification.law import law_note
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
 from comparisons.identification.misfit import require_same_way
 from comparisons.identification.model import Model, lattice_model, reference_model
@@ -176,7 +175,7 @@ def _answer(question: _Question, measured: Measured, find_outliers: bool = True)
     if question.reference is not None and not _moving(measured):
         last = set_in(question.scene, unknowns, best.x)
         solved = solve(resolve(last, question.reference))
-        warnings += law_note(last, question.reference.law, solved.stretch)
+        warnings += remarks.on_law(last, question.reference.law, solved.stretch)
     return Identification(
         scene=question.scene,
         measured=measured,

@@ -1,4 +1,4 @@
-"""Warnings about a fit: outliers, poor fits, bounds, and the error of the grid."""
+"""Warnings about a fit: outliers, poor fits, bounds, the law of strain, and the error of the grid."""
 
 from __future__ import annotations
 
@@ -11,8 +11,14 @@ from comparisons.identification.outliers import Outlier
 from comparisons.identification.residual_test import POOR, Runs, explained
 from comparisons.identification.search import Nearest
 from comparisons.identification.starts import Fit
+from fem_reference.pulled_strip import curving, laws_of
 from sheetbench.answers.table import quantity
+from sheetbench.choices import STRAIN_LAW
+from sheetbench.scenes import Scene
 from sheetbench.scenes.summary import few
+
+NOTED = 0.01  # share of the force from which on it is reported
+RUBBERS = "neo-hookean"
 
 
 def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Estimate]) -> list[str]:
@@ -69,6 +75,27 @@ def on_grid(found: Mapping[str, Estimate], model: str, looked: bool) -> list[str
         f"{name}{_finer(u)}: most of its interval is the {error} error; take more {more}"
         for name, u in found.items()
         if u.determined and _wide(u)
+    ]
+
+
+def on_law(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
+    """Return a sentence where laws of strain differ at the largest stretch of the sheet with the values
+    found."""
+    material = scene.material
+    own = law or material.law or STRAIN_LAW
+    differences = {name: abs(curving(own, material) - curving(name, material)) for name in laws_of(material)}
+    other = max(differences, key=lambda name: differences[name])
+    off = differences[other] * (stretch or 0.0)
+    if off <= NOTED:
+        return []
+    remedy = (
+        ""
+        if own in (RUBBERS, material.law)
+        else f"; of soft silicones, which are rubbers, take --law {RUBBERS}"
+    )
+    return [
+        f"values are those of the law {own}: at {few(100.0 * (stretch or 0.0))} % stretch, as here, the "
+        f"force of {other} is some {few(100.0 * off)} % another{remedy}"
     ]
 
 

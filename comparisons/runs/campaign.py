@@ -39,8 +39,8 @@ from sheetbench.files import only_writer
 TASKS = {
     "timing": "comparisons.tradeoff.timing:measure",
     "motion": "comparisons.motion.run:measure",
-    "stability.run": "comparisons.stability.tasks:run",
-    "crosscheck": "comparisons.crosscheck.task:answer",
+    "stability.run": "comparisons.stability.limit:run",
+    "crosscheck": "comparisons.crosscheck.crosscheck:answer",
 }
 GOING = "going on"
 POLL = 1.0  # s between looks at who carries out the runs

@@ -33,6 +33,7 @@ from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff.motion_answer import DynamicTradeoff
 from comparisons.tradeoff.motion_row import measured_row
+from comparisons.tradeoff.statics import finest_shell
 from fem_reference.uncertainty import coarser, estimate, mesh_size
 from sheetbench.choices import INTEGRATORS
 from sheetbench.errors import NoEquilibrium
@@ -78,7 +79,7 @@ def dynamic_tradeoff(
     require_positive("duration", duration, "s")
     for name in integrators:
         lumped.require_integrator(name)
-    finest = reference or _finest(others)
+    finest = reference or finest_shell(others, FINEST)
     for other in (*others, finest):
         require_motion(scene, other)
     meant = [resolve(scene, one, "motion") for one in lattices]
@@ -133,11 +134,6 @@ def dynamic_tradeoff(
         tuple(f"lumped {one.springs.title}" for one, _ in each),
         max((_off(half, truth) for half, truth in zip(halves, truths, strict=True)), default=0.0),
     )
-
-
-def _finest(others: Sequence[Spec]) -> Elements:
-    ours = [one for one in others if isinstance(one, Elements) and one.kind == "shell"]
-    return Elements("shell", max([FINEST, *(2 * int(np.min(one.elements)) for one in ours)]))
 
 
 def _place(run: Run, number: int | None, integrators: Sequence[str]) -> tuple[float, int]:

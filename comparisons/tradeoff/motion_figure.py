@@ -7,7 +7,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.tradeoff.axes import logarithmic
+from comparisons.tradeoff.figure import logarithmic
 from comparisons.tradeoff.motion_answer import DynamicTradeoff
 from comparisons.tradeoff.motion_row import MotionRow
 from sheetbench.answers.figure_style import PLAIN, FigureStyle

@@ -57,7 +57,7 @@ def tradeoff(
     require_static(scene)
     for candidate in candidates:
         resolve(scene, candidate, option=f"--{candidate.model}")
-    fine = reference or _finest(candidates)
+    fine = reference or finest_shell(candidates, REFERENCE_ELEMENTS)
     resolve(scene, fine)
     finer_runs = [timing.run(scene, fine.but(count=n), timed=False) for n in coarser(fine.elements)]
     model_runs = [timing.run(scene, candidate, repeats) for candidate in candidates]
@@ -103,9 +103,10 @@ def _bars(
     return at_probes.error, float(np.sqrt(bar / size)) if size > 0.0 else None
 
 
-def _finest(candidates: Sequence[Spec]) -> Elements:
+def finest_shell(candidates: Sequence[Spec], least: int) -> Elements:
+    """Return the shell with twice as many elements as the finest among the candidates, `least` at least."""
     shells = [np.min(c.elements) for c in candidates if isinstance(c, Elements) and c.kind == "shell"]
-    return Elements("shell", max([REFERENCE_ELEMENTS, *(2 * int(n) for n in shells)]))
+    return Elements("shell", max([least, *(2 * int(n) for n in shells)]))
 
 
 def _errors(outcome: Finished, truth: Finished, weights: np.ndarray) -> tuple[float | None, float | None]:

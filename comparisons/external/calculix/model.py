@@ -28,7 +28,6 @@ from comparisons.external.answer import (
     solution,
 )
 from comparisons.external.bricks import GRADINGS, Bricks
-from comparisons.external.calculix import results
 from comparisons.external.calculix.deck import INCOMPRESSIBLE, LAWS, Steps, deck
 from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
@@ -36,6 +35,7 @@ from sheetbench.scenes import History, Scene, Solution, Status
 from sheetbench.scenes.orthotropy import FIBRES, Ply, impossible_in_space
 from sheetbench.scenes.scene import SHAPED
 
+_HEADING = re.compile(r"^ *displacements .* and time +(\S+) *$", re.MULTILINE)
 PROGRAM, JOB = "ccx", "sheet"
 SAYS_ITS_VERSION = 201  # its exit status after `ccx -v`
 
@@ -136,7 +136,7 @@ class CalculiX:
 def _carried_out(
     program: str, deck: str, seconds: float, bricks: Bricks
 ) -> tuple[np.ndarray, np.ndarray, int, str]:
-    """Return times and displacements as `results.displacements` has them, none where the run failed before
+    """Return times and displacements as `displacements` has them, none where the run failed before
     any, its iterations, and why it failed, "" if it did not."""
     times, found, why = np.zeros(0), np.zeros((0, *bricks.positions.shape)), ""
     with TemporaryDirectory(prefix="sheetbench-ccx-") as kept:
@@ -144,10 +144,10 @@ def _carried_out(
         (folder / f"{JOB}.inp").write_text(deck, encoding="ascii")
         try:
             output_of([program, JOB], folder, seconds)
-            times, found = results.displacements(_read(folder, "dat"), len(bricks.positions))
+            times, found = displacements(_read(folder, "dat"), len(bricks.positions))
         except Failed as error:
             why = f"CalculiX: {error}"
-        return times, found, results.iterations(_read(folder, "sta")), why
+        return times, found, iterations(_read(folder, "sta")), why
 
 
 def _refusal(scene: Scene, linear: bool) -> str:
@@ -189,6 +189,34 @@ def _version(program: str | None) -> str | None:
         return None
     match = re.search(r"Version +(\S+)", printed, re.IGNORECASE)
     return match.group(1) if match else "of unknown version"
+
+
+def displacements(dat: str, nodes: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the times (s,) of the increments that were printed, of statics the load factors, and their
+    displacements (s, nodes, 3) [m], nan of nodes that were not.
+
+    Raises Failed for a file that does not have them.
+    """
+    headings = list(_HEADING.finditer(dat))
+    if not headings:
+        raise Failed("its .dat file has no displacements")
+    out = np.full((len(headings), nodes, 3), np.nan)
+    try:
+        for sample, heading in zip(out, headings, strict=True):
+            for line in dat[heading.end() :].split("\n\n", 2)[1].splitlines():
+                number, *components = line.split()
+                sample[int(number) - 1] = [float(c) for c in components]
+        times = [float(heading.group(1)) for heading in headings]
+    except (ValueError, IndexError):
+        raise Failed("its .dat file cannot be read") from None
+    return np.array(times), out
+
+
+def iterations(sta: str) -> int:
+    """Equilibrium iterations, each one factorisation; a linear step has one."""
+    rows = [line.split() for line in sta.splitlines()]
+    counts = [int(row[3]) for row in rows if len(row) >= 7 and all(part.isdigit() for part in row[:4])]
+    return max(sum(counts), 1)
 
 
 MODEL = CalculiX()

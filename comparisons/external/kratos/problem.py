@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from comparisons.external.point_loads import point_loads
+from comparisons.external.bricks import point_loads
 from sheetbench.scenes import (
     EDGES,
     EdgeLoad,

@@ -11,7 +11,7 @@ import fem_reference
 from comparisons.comparison.comparison import error
 from comparisons.external import installed
 from comparisons.external.answer import ExternalCode
-from comparisons.external.calculix import results
+from comparisons.external.calculix import model as results
 from comparisons.external.calculix.deck import LAWS as CALCULIX_LAWS
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.felupe import LAWS as FELUPE_LAWS

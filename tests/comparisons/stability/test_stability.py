@@ -13,7 +13,7 @@ from comparisons.models.spec import Lattice
 from comparisons.stability import extremes
 from comparisons.stability.answer import limits, summary
 from comparisons.stability.extremes import scaled, stability
-from comparisons.stability.tasks import rests_flat
+from comparisons.stability.limit import rests_flat
 from sheetbench.scenes import BadInput, Clamped, PointLoad, Pressure, load
 
 SEED, SETTLING = load("two-edges-clamped"), load("two-edges-settling")

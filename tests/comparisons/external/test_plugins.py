@@ -131,7 +131,7 @@ def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_p
     second = key()
     file.write_text(f"from constants import UNIT\n{example}\n")
     assert len({first, second, key()}) == 3
-    with pytest.raises(RuntimeError, match="changed since this was asked"):
+    with pytest.raises(RuntimeError, match="changed since this run was requested"):
         timing.measure(scene.document(), name, {}, 0, plugins.digest("lumped"))
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli import console
-from studies.trials.page import write_page
+from studies.trials.page import chosen, write_page
 from studies.trials.study import run_trials
 
 
@@ -26,4 +26,5 @@ def command(
     for text in code or ():
         name, _, python = text.partition("=")
         run_trials(name, python, seconds, budget, console.tell)
-    console.tell(str(write_page()))
+    for line in (*chosen().splitlines(), str(write_page())):
+        console.tell(line)

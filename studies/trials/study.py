@@ -126,8 +126,9 @@ def run_trials(code: str, python: str, seconds: float, budget: float, say: Calla
     """Run every recipe of a code in every scene, with a Python that has it, and write the file of results.
 
     seconds: of processor time, the limit of a run; budget: of the clock, after which no further run begins.
-    A row of the file that had the same inputs stays, but for one that a shorter limit ended. Rows that are
-    missing come first, ours before others, curves last.
+    A row of the file that had the same inputs stays, but for one that a shorter limit ended. SCENES come
+    first, then rows that are missing, ours before others, curves and fine meshes late, and last the scenes in
+    which a run has come to the limit.
     """
     require_choice("code", code, RECIPES)
     if which(python) is None:
@@ -135,10 +136,18 @@ def run_trials(code: str, python: str, seconds: float, budget: float, say: Calla
     path, ends = RESULTS / f"{code}.json", perf_counter() + budget
     old = read_results(path)["rows"] if path.exists() else []
     rows: dict[tuple[str, str], Trial] = {(row["scene"], row["recipe"]): Trial(**row) for row in old}
+    late = {row.scene for row in rows.values() if row.status == Status.STEP_LIMIT}
     order = [(name, recipe) for name in CASES for recipe in RECIPES[code]]
     first = sorted(
         order,
-        key=lambda one: (CASES[one[0]].suite == "curves", (one[0], one[1].name) in rows, one[1] is not BEST),
+        key=lambda one: (
+            one[0] not in SCENES,
+            one[0] in late,
+            (one[0], one[1].name) in rows,
+            CASES[one[0]].suite == "curves",
+            one[1] is not BEST,
+            one[1].squares,
+        ),
     )
     for number, (name, recipe) in enumerate(first):
         if perf_counter() > ends:

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -29,11 +30,12 @@ from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import AnyScene, Scene, SceneError, require_static, require_uniform, scene_of
+from sheetbench.scenes import EDGES, AnyScene, Scene, SceneError, require_static, require_uniform, scene_of
 from sheetbench.scenes.words import sheet_in_words
 
 SQUARES = 8  # along the shorter side
 LAYERED = "tetrahedra"
+PEAK = 2.0  # shear next to corners, over the mean along held edges
 NEAR = 0.02  # of a square's side, from a clamp to the row beyond it
 
 
@@ -106,7 +108,33 @@ class CodeSetup(Answer):
         notes.append(f"{self.code.title} ({self.code.licence}): tested {tested}.")
         if why := refusal(self.scene):
             notes.append(f"No files: {why}.")
+        elif coarse := self._too_coarse():
+            notes.append(coarse)
         return notes
+
+    def _too_coarse(self) -> str:
+        """Whether two layers of springs are too shallow for the load, in a sentence; "" where they are not.
+
+        A spring from layer to layer rises by the height H over a side l of a square. Where it rises by s
+        still its shear is k s (H² − s²)/(2 l²), at most k H³/(3 √3 l²). What hangs from one edge contracts
+        instead.
+        """
+        if self.code.mesh != LAYERED or len(self.scene.supports) < 2:
+            return ""
+        mesh, sides = self.mesh, self.scene.sheet.lengths
+        height, side = self.coefficients["layers"], min(sides) / self.squares
+        borne = self.coefficients["k"] * (height / side) ** 3 / 27.0**0.5
+        free = (mesh.masses[:, None] * mesh.gravity + mesh.forces)[~mesh.held].sum(axis=0)
+        held = sum(sides[1 - EDGES[support.edge].normal_axis] for support in self.scene.supports)
+        load = float(np.linalg.norm(free)) / held
+        if PEAK * load <= borne:
+            return ""
+        enough = 1 + ceil(self.squares * (PEAK * load / borne) ** (1.0 / 3.0))
+        return (
+            f"The mesh may be too coarse: springs between layers {1e3 * height:.2g} mm apart in squares of "
+            f"{1e3 * side:.3g} mm turn over at a shear of {borne:.2g} N/m, and held edges carry {load:.2g} "
+            f"N/m on average; the sheet then hangs too low. Take --grid {enough} or more."
+        )
 
     @property
     def elastic(self) -> bool:

@@ -29,7 +29,8 @@ there was no time for it yet.
 ## Cantilever and test 1: in use and ours
 
 {chosen}
-`sheetbench study trials` prints this table from the stored rows and writes the page; `make trials` fills them.
+`sheetbench study trials` prints this table from the stored rows and writes the page; `make trials` runs what
+is missing.
 
 ## Findings
 
@@ -86,12 +87,11 @@ WHY = {  # what the numbers do not say by themselves; each with the command that
         "`run_pybullet.py` of `sheetbench calibrate SCENE --for pybullet`.",
         "Every vertex has the same mass, so that free rims weigh too much; a hinged edge holds both layers "
         "and so is clamped (*hinged-round*); and there is no force on a single vertex (*corner-force*).",
-        "*thin* is 22 % off and *soft-two-edges* 41 % because layers H apart in squares of side l are "
-        "shallow trusses, inclined by H/l, that shear snaps through at about 0.19 k (H/l)³ [N/m]: in *thin* "
-        "39 % of them stand on their other side with 8 squares, 22 % with 16, 0.6 % with 24. The same "
-        "springs, brought to rest by minimising their energy, are then 0.5 % off. The mesh that bears the "
-        "load is named by `sheetbench calibrate thin.toml --for pybullet` (the scene: `sheetbench suite "
-        "--out suite`).",
+        "*thin* is 22 % off and *soft-two-edges* 41 % because 8 squares are too few: layers H apart in "
+        "squares of side l resist shear by springs inclined by H/l, and in *thin* the weight turns over 39 % "
+        "of them with 8 squares, 22 % with 16, 0.6 % with 24. The same springs, brought to rest by "
+        "minimising their energy, are 29 % off with 16 squares and 0.5 % with 24. `sheetbench calibrate "
+        "thin.toml --for pybullet` (the scene: `sheetbench suite --out suite`) says so and names the mesh to take.",
         "In *two-edges-clamped* two errors cancel: with the sheet's own masses the same springs are 15 % "
         "too stiff with 8 squares and 9 % with 16, and equal masses make the free rims heavy by as much.",
     ),

@@ -15,6 +15,7 @@ from comparisons.cells.homogenise import moduli_of
 from comparisons.codes.files import WRITERS
 from comparisons.codes.mesh import sheet_mesh
 from comparisons.codes.setup import setup
+from comparisons.scoring.reference import references
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, PointLoad
@@ -228,3 +229,10 @@ def test_what_a_code_does_not_have_is_said():
     assert not curved.files() and "No files" in " ".join(curved.notes())
     with pytest.raises(BadInput, match="--for"):
         setup(SCENE, "unity")
+
+
+@pytest.mark.parametrize(("squares", "grid"), [(8, 28), (40, None)])
+def test_layers_too_shallow_for_the_load_are_told_with_the_mesh_that_bears_it(squares, grid):
+    """Two layers of springs in a thin sheet: with 8 squares shear turns over 39 % of those between them."""
+    notes = setup(references("statics")["thin"].scene, "pybullet", squares, best=False).notes()
+    assert [f"--grid {grid} or more" in note for note in notes if "too coarse" in note] == [True] * bool(grid)

@@ -91,7 +91,7 @@ WHY = {  # what the numbers do not say by themselves; each with the command that
         "squares of side l resist shear by springs inclined by H/l, and in *thin* the weight turns over 39 % "
         "of them with 8 squares, 22 % with 16, 0.6 % with 24. The same springs, brought to rest by "
         "minimising their energy, are 29 % off with 16 squares and 0.5 % with 24. `sheetbench calibrate "
-        "thin.toml --for pybullet` (the scene: `sheetbench suite --out suite`) says so and names the mesh to take.",
+        "thin.toml --for pybullet` (the scene: `sheetbench suite --out suite`) names the mesh to take.",
         "In *two-edges-clamped* two errors cancel: with the sheet's own masses the same springs are 15 % "
         "too stiff with 8 squares and 9 % with 16, and equal masses make the free rims heavy by as much.",
     ),
@@ -213,7 +213,9 @@ def _finding(document: dict[str, Any]) -> str:
     if curves := [error for error in _errors(document, OURS, "curves").values() if error is not None]:
         sentences.append(f"{len(curves)} curves with ours: {_percent(geometric_mean(curves))}.")
     why = "".join(f"\n  - {one}" for one in WHY.get(document["code"], ()))
-    return f"- **{document['title']}** (`{document['command']}`): {' '.join(sentences) or _means(document)}{why}"
+    return (
+        f"- **{document['title']}** (`{document['command']}`): {' '.join(sentences) or _means(document)}{why}"
+    )
 
 
 def _means(document: dict[str, Any]) -> str:

@@ -35,9 +35,9 @@ def as_verb(name: str, command: Callable[..., None]) -> Callable[..., None]:
             parameters.append(parameter.replace(kind=Parameter.KEYWORD_ONLY))
     of_campaign = any(issubclass(kind, CampaignOptions) for kind in groups.values())
     draws = any(parameter.name == "no_pictures" for parameter in parameters)
-    for added, annotation in {"no_pictures": NoPicturesAnyway, "quiet": Quiet}.items():
-        if added != "no_pictures" or not draws:
-            parameters.append(Parameter(added, Parameter.KEYWORD_ONLY, default=False, annotation=annotation))
+    added = {"quiet": Quiet} if draws else {"no_pictures": NoPicturesAnyway, "quiet": Quiet}
+    for flag, annotation in added.items():
+        parameters.append(Parameter(flag, Parameter.KEYWORD_ONLY, default=False, annotation=annotation))
     for parameter in parameters:
         _name_flag(parameter)
 

@@ -40,18 +40,11 @@ class PoleRow:
 
 @dataclass(frozen=True)
 class InputRow:
-    """What an input moves the probes by at rest, by output."""
+    """What an input moves the probes by at rest, by output or by its column."""
 
     input: str
     unit: str
-    moved: Annotated[Mapping[str, float], MILLIMETRES("z.4g")]
-
-
-@dataclass(frozen=True)
-class HeightRow(InputRow):
-    """Static motion of the probes along z per unit of an input."""
-
-    moved: Annotated[Mapping[str, float], MILLIMETRES("z.3g")]
+    moved: Annotated[Mapping[Any, float], MILLIMETRES("z.4g")]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -167,8 +160,9 @@ class Linearisation(Answer):
             values = scale * np.where(np.abs(column) > ROUNDING * np.abs(column).max(), column, 0.0)
             if unit != "N":
                 moved = zip(self.matrices.outputs, values, strict=True)
-                rows.append(HeightRow(name, shown, {at: u for at, u in moved if at.endswith(" uz")}))
-        return Table.of(HeightRow, rows, "Static uz per unit of input")
+                heights = {MILLIMETRES("z.3g", at): u for at, u in moved if at.endswith(" uz")}
+                rows.append(InputRow(name, shown, heights))
+        return Table.of(InputRow, rows, "Static uz per unit of input")
 
     def figures(self) -> tuple[Picture, ...]:
         return (Picture("responses", "comparisons.linearisation.figure:compose", (self,)),)

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -28,7 +28,7 @@ import numpy as np
 from lumped.grid_lines import Lines, grid_lines
 from lumped.pattern import SHARED_UP_TO
 from sheetbench.errors import BadInput
-from sheetbench.numerics.kept import frozen
+from sheetbench.numerics.kept import frozen, kept
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
@@ -186,6 +186,7 @@ STEPS: tuple[tuple[str, str, tuple[int, int, int]], ...] = (
 )
 
 
+@kept(last=16, most=SHARED_UP_TO, size=lambda sheet, grid, *_, **__: math.prod(grid))
 def build(
     sheet: Sheet,
     grid: Grid,
@@ -204,24 +205,7 @@ def build(
     on a graded grid. A small lattice is the same object every time: its arrays are not to
     be written to, and read-only where no kernel takes them (numba has another type for those).
     """
-    small = math.prod(grid) <= SHARED_UP_TO
-    made = _kept_lattice if small else _build
-    key = None if present is None else present.tobytes()
-    return made(sheet, grid, layer_distance, weights, twisting, grading, half, key)
-
-
-def _build(
-    sheet: Sheet,
-    grid: Grid,
-    layer_distance: float,
-    weights: Weights,
-    twisting: frozenset[str],
-    grading: Graded,
-    half: tuple[bool, bool],
-    key: bytes | None,
-) -> Lattice:
     nx, ny, layers = grid
-    present = None if key is None else np.frombuffer(key, dtype=bool).reshape(ny - 1, nx - 1)
     if min(grid) < 2:
         raise BadInput(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
     if weights == "full" and grading:
@@ -232,7 +216,7 @@ def _build(
     positions = np.stack([across_x.at[i], across_y.at[j], heights], axis=1)
 
     families = []
-    for step in (_kept_steps if nx * ny * layers <= SHARED_UP_TO else _steps)(grid):
+    for step in _steps(grid):
         nodes, cells, shares, row, column = step.nodes, step.cells, step.shares, step.row, step.column
         if present is not None:
             shares = shares * present.ravel()[cells]
@@ -271,9 +255,6 @@ def _build(
     )
 
 
-_kept_lattice = lru_cache(maxsize=16)(_build)
-
-
 class _Step(NamedTuple):
     """The links of one row of STEPS on a grid: nodes, cells and shares as `LinkFamily`; row and column: of
     the cells whose widths they span, (m,)."""
@@ -296,6 +277,7 @@ def _indices(grid: Grid) -> tuple[np.ndarray, ...]:
     )
 
 
+@kept(last=16, most=SHARED_UP_TO, size=math.prod)
 def _steps(grid: Grid) -> tuple[_Step, ...]:
     """The links of a grid, whatever its sides."""
     nx, ny, layers = grid
@@ -310,10 +292,7 @@ def _steps(grid: Grid) -> tuple[_Step, ...]:
         column = np.minimum(i[first], i[second]).clip(max=nx - 2)
         nodes = np.stack([first, second], axis=1)
         found.append(_Step(name, direction, (di, dj, dk), nodes, cells, shares, row, column))
-    return frozen(tuple(found))
-
-
-_kept_steps = lru_cache(maxsize=16)(_steps)
+    return tuple(found)
 
 
 def _cells_of_links(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
+import math
+from functools import cached_property
 
 import numpy as np
 
 from sheetbench.numerics.fronts import Cells
+from sheetbench.numerics.kept import kept
 from sheetbench.scenes.grid import Grid
 
 SHARED_UP_TO = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
@@ -66,28 +68,20 @@ class Pattern:
         return self.slots(nodes[:, :, None], nodes[:, None, :])
 
 
+@kept(last=16, most=SHARED_UP_TO, size=lambda grid, present=None: math.prod(grid))
 def of_grid(grid: Grid, present: np.ndarray | None = None) -> Pattern:
     """The pattern of a lattice on a grid alone, without cells that are not `present`; that of a small one is
     the same object every time."""
     nx, ny, layers = grid
-    made = _kept if nx * ny * layers <= SHARED_UP_TO else _of_grid
-    return made(grid, None if present is None else present.tobytes())
-
-
-def _of_grid(grid: Grid, key: bytes | None) -> Pattern:
-    nx, ny, layers = grid
     columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
     masses = _of_cells(columns)
     number, rest = np.arange(len(masses)), np.empty(0, dtype=int)
-    if key is not None:
-        number = np.flatnonzero(np.frombuffer(key, dtype=bool))
+    if present is not None:
+        number = np.flatnonzero(present)
         rest, masses = np.setdiff1d(columns, masses[number]), masses[number]
     j, i = np.divmod(number, nx - 1)
     rows, others = (np.concatenate([part, rest]) for part in _pairs(masses))
     return Pattern(columns.size, rows, others, Cells(masses, np.stack([i, j], axis=1).astype(float)))
-
-
-_kept = lru_cache(maxsize=16)(_of_grid)
 
 
 def neighbours(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

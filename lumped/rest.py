@@ -5,13 +5,14 @@ A small lattice's are found once and kept: lattices on one grid differ in stiffn
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from lumped.lattice import Lattice, mean_sides
 from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO, Pattern
+from sheetbench.numerics.kept import kept
 
 
 class LinkRest(NamedTuple):
@@ -103,11 +104,7 @@ class Rest:
         return Faces(*(np.concatenate(part) for part in zip(*parts, strict=True)))
 
 
+@kept(last=16, most=SHARED_UP_TO, size=lambda lattice, pattern: lattice.mass_count)
 def rest_of(lattice: Lattice, pattern: Pattern) -> Rest:
     """The springs of a lattice at rest, their blocks of this pattern; of a small one the same every time."""
-    if lattice.mass_count > SHARED_UP_TO:
-        return Rest(lattice, pattern)
-    return _kept_rest(lattice, pattern)
-
-
-_kept_rest = lru_cache(maxsize=16)(Rest)
+    return Rest(lattice, pattern)

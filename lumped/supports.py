@@ -11,9 +11,10 @@ Where bent and tilted edges are at a load factor λ is the scene's to say (`shee
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -24,7 +25,7 @@ from lumped.actuators.corners import Tie
 from lumped.coverage import Reach, held_columns, reached_parts
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, Pattern
-from sheetbench.numerics.kept import frozen
+from sheetbench.numerics.kept import frozen, kept
 from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.numerics.reduced import ReducedSystem, reduced
 from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
@@ -115,11 +116,14 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     """The constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a linear
     map of the actuator's rows. Columns of edges moved rigidly are the motion's, not the supports'. Of the
     same supports without actuators on the same small lattice they are the same every time."""
-    small = coupling is None and lattice.mass_count <= SHARED_UP_TO
-    made = _kept if small else _constrain
-    return made(tuple(scene.supports), reached_parts(scene), scene.sheet, lattice, coupling)
+    return _constrain(tuple(scene.supports), reached_parts(scene), scene.sheet, lattice, coupling)
 
 
+@kept(
+    last=16,
+    most=SHARED_UP_TO,
+    size=lambda _supports, _reached, _sheet, lattice, coupling: math.inf if coupling else lattice.mass_count,
+)
 def _constrain(
     supports: tuple[Support, ...], reached: Reach, sheet: Sheet, lattice: Lattice, coupling: Coupling | None
 ) -> Constraints:
@@ -178,9 +182,6 @@ def _constrain(
             shift[masses, axis] = distance
     frozen(fixed)
     return Constraints(transform, turned, shift, holders, held, fixed, coupling)
-
-
-_kept = lru_cache(maxsize=16)(_constrain)
 
 
 def _selection(free: np.ndarray) -> sp.csr_array:

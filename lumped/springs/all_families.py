@@ -9,7 +9,7 @@ family's own; here they release the interpreter's lock. Springs without an energ
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cache, lru_cache
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,6 +26,7 @@ from lumped.springs.families import Cells, DirectionalLinks, Family, Links
 from lumped.springs.links import LinkArrays
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.errors import BadInput
+from sheetbench.numerics.kept import kept
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.springs import DamperSet
 
@@ -294,18 +295,12 @@ FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] 
 )
 
 
+@kept(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)
 def springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet, single: bool) -> AllFamilies:
     """The springs of a spring set on a lattice, the central links first; of a small one the same every
     time."""
-    return (_kept if lattice.mass_count <= SHARED_UP_TO else _springs_of)(lattice, pattern, springs, single)
-
-
-def _springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet, single: bool) -> AllFamilies:
     found = [family for make in FAMILIES for family in make(lattice, pattern, springs)]
     return AllFamilies(found, pattern, single)
-
-
-_kept = lru_cache(maxsize=16)(_springs_of)
 
 
 def table_dampers(lattice: Lattice, pattern: Pattern, table: DamperSet) -> Links:

@@ -9,8 +9,9 @@ on over springs without stiffness.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO
 from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
 from lumped.springs.families import Cells, DirectionalLinks, Family, Links
 from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
+from sheetbench.numerics.kept import kept
 from sheetbench.scenes.grid import Grid
 
 LINKS, DIRECTIONAL, CELLS, RUBBER_CELLS, FACES = range(5)
@@ -101,7 +103,7 @@ def pack(
             continue
         nodes = {id(family.nodes): family.nodes for family, _ in parts}
         mid = mid or any(part.ndim == 3 and part.shape[2] > 1 for part in nodes.values())
-        topology = _topology_of(lattice.grid, list(nodes.values()))
+        topology = _topology(lattice.grid, *nodes.values())
         ends = np.cumsum([len(part) for part in nodes.values()])
         number = dict(zip(nodes, np.split(topology.number, ends), strict=False))
         rows = np.zeros((ROWS[kind], len(topology.run)))
@@ -177,23 +179,10 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
     data[first : first + len(constants), at] += constants
 
 
-def _topology_of(grid: Grid, nodes: Sequence[np.ndarray]) -> Topology:
-    """The topology of springs (m, 2) or (m, 4, p) of one kind; a small lattice's is found once."""
-    if grid[0] * grid[1] * grid[2] > SHARED_UP_TO:
-        return _topology(grid, nodes)
-    key = grid, *((part.shape, part.tobytes()) for part in nodes)  # as `Pattern.among` keeps its own
-    if key not in _topologies:
-        if len(_topologies) == PATTERN_CACHE:
-            _topologies.clear()
-        _topologies[key] = _topology(grid, nodes)
-    return _topologies[key]
-
-
-_topologies: dict[tuple[Any, ...], Topology] = {}
-
-
-def _topology(grid: Grid, nodes: Sequence[np.ndarray]) -> Topology:
-    """Springs by the distances between their masses, then in order; cut into runs."""
+@kept(last=PATTERN_CACHE, most=SHARED_UP_TO, size=lambda grid, *_: math.prod(grid))
+def _topology(grid: Grid, *nodes: np.ndarray) -> Topology:
+    """The topology of springs (m, 2) or (m, 4, p) of one kind, by the distances between their masses, then in
+    order; cut into runs."""
     width, _, layers = grid
     plane = grid[0] * grid[1]
     every = []  # a mass n = c layers + k of column c is at place k plane + c, a column's mean behind them

@@ -24,9 +24,16 @@ def frozen(shared: Found) -> Found:
     return shared
 
 
-def kept(last: int, most: int) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
+def _bytes(*given: object, **_: object) -> float:
+    return sum(one.nbytes for one in given if isinstance(one, np.ndarray))
+
+
+def kept(
+    last: int, most: int, size: Callable[..., float] = _bytes
+) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
     """For a function of arrays and of what can be hashed: its last results, read-only, are given again where
-    all arguments are the same; of arguments beyond `most` bytes none is kept. `forget` drops them.
+    all arguments are the same; of arguments whose `size`, in bytes unless given, is beyond `most` none is
+    kept. `forget` drops them.
 
     >>> square = kept(last=2, most=100)(lambda a: a**2)
     >>> square(np.arange(3)) is square(np.arange(3))
@@ -38,15 +45,14 @@ def kept(last: int, most: int) -> Callable[[Callable[Given, Found]], Callable[Gi
 
         @wraps(function)
         def remembering(*given: Given.args, **named: Given.kwargs) -> Found:
-            if sum(one.nbytes for one in given if isinstance(one, np.ndarray)) > most:
+            if size(*given, **named) > most:
                 return frozen(function(*given, **named))
             key = (tuple(map(_content, given)), tuple((name, _content(one)) for name, one in named.items()))
-            out = found.pop(key, None)
+            out = found.get(key)
             if out is None:
-                out = frozen(function(*given, **named))
-            found[key] = out
-            while len(found) > last:
-                found.popitem(last=False)
+                out = found[key] = frozen(function(*given, **named))
+                while len(found) > last:
+                    found.popitem(last=False)
             return out
 
         remembering.forget = found.clear  # type: ignore[attr-defined]

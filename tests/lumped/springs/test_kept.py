@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import lumped
-from lumped import rest, supports
+from lumped import lattice, pattern, rest, supports
+from lumped.springs import all_families
 from sheetbench.scenes import Clamped, Pressure, load
 
 
@@ -23,16 +24,22 @@ def arrays(problem):
 
 
 @pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
-def test_what_is_kept_is_what_would_be_found(name, monkeypatch):
+def test_what_is_kept_is_what_would_be_found(name):
     """Springs with and without some of their families, by turns, on one lattice."""
     scene = load(name)
     full = lumped.calibrate(scene.sheet, scene.material, grid=(3, 4))
     several = [full, full.with_constant("vertical", 0.0), full.with_constant("edge_shear", 0.0), full]
     kept = [lumped.build_problem(scene, springs) for springs in several]
     assert kept[0].constraints is kept[3].constraints and kept[0].system is kept[3].system
-    monkeypatch.setattr(rest, "SHARED_UP_TO", 0)
-    monkeypatch.setattr(supports, "SHARED_UP_TO", 0)
     for problem, springs in zip(kept, several, strict=True):
+        for shared in (
+            lattice.build,
+            pattern.of_grid,
+            rest.rest_of,
+            supports._constrain,
+            all_families.springs_of,
+        ):
+            shared.forget()
         anew = lumped.build_problem(scene, springs)
         assert anew.constraints is not problem.constraints
         for found, expected in zip(arrays(problem), arrays(anew), strict=True):
@@ -51,10 +58,9 @@ def test_what_is_shared_between_solves_cannot_be_written_to():
     scene = load("one-edge-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(3, 4))
     problem = lumped.build_problem(scene, springs)
-    lattice = problem.assembly.lattice
-    loads = problem.loads
+    built, loads = problem.assembly.lattice, problem.loads
     flat = np.zeros_like(loads.dead)
-    shared = [lattice.positions, lattice.share, lattice.links[0].cells, problem.constraints.fixed]
+    shared = [built.positions, built.share, built.links[0].cells, problem.constraints.fixed]
     for array in [*shared, loads.dead, loads.force(flat)]:  # constant loads: the force is the dead one itself
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0

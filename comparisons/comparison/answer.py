@@ -245,9 +245,7 @@ class Comparison(Answer):
 
     def files(self) -> dict[str, Write]:
         """Return the solutions as VTU, each on its own mesh and all on one."""
-        own: dict[str, Write] = {
-            f"{s.model}.vtu": partial(write_mesh, mesh=s.mesh) for s in self.solutions
-        }
+        own: dict[str, Write] = {f"{s.model}.vtu": partial(write_mesh, mesh=s.mesh) for s in self.solutions}
         return {**own, "comparison.vtu": self.write_plan}
 
     def write_plan(self, path: Path) -> None:

@@ -18,27 +18,27 @@ from comparisons.models.grids import Elements
 from comparisons.report.work import Progress, Work, silent
 from comparisons.reproduction.published import scene
 from sheetbench.scenes import Solution
-from sheetbench.scenes.seed import seed_inputs
+from sheetbench.scenes.habibi import published_inputs
 
 SETS = ((1, 0), (2, 1), (2, -1))  # tests, and the sense of the rod
 
 
 def masses() -> tuple[int, int, int]:
     """Return the published grid."""
-    given = seed_inputs()
+    given = published_inputs()
     side = int(given["masses_per_side"])
     return side, side, int(given["layers"])
 
 
 def bending_stiffness() -> float:
     """D [N·m] of the published sheet."""
-    given = seed_inputs()
+    given = published_inputs()
     return float(given["young"] * given["thickness"] ** 3 / (12.0 * (1.0 - given["poisson"] ** 2)))
 
 
 def matched_layer_distance() -> float:
     """√(D/k) [m], with which a lattice of the published k bends like the published sheet."""
-    return sqrt(bending_stiffness() / seed_inputs()["k"])
+    return sqrt(bending_stiffness() / published_inputs()["k"])
 
 
 @dataclass(frozen=True)
@@ -66,22 +66,22 @@ def answer(test: int, sense: int, elements: Elements, progress: Progress = silen
     case = scene(test, sense or 1)
     comparison = compare(case, grid=masses(), calibration="consistent", elements=elements, progress=progress)
     of_seed = []
-    for distance in (seed_inputs()["thickness"], matched_layer_distance()):
-        name = seed_lattice(distance)
+    for distance in (published_inputs()["thickness"], matched_layer_distance()):
+        name = published_lattice(distance)
         progress(Work(f"solving {name}"))
-        springs = seed_springs(distance)
+        springs = published_springs(distance)
         of_seed.append(replace(lumped.solve(case, springs, weights="full"), model=name))
     return ReproducedTest(test, sense, replace(comparison, solutions=(*comparison.solutions, *of_seed)))
 
 
-def seed_lattice(distance: float) -> str:
+def published_lattice(distance: float) -> str:
     """Return what a lattice of the published k with a layer distance [m] is called."""
-    return f"k{seed_inputs()['k']:g}-lz{1e3 * distance:.3g}"
+    return f"k{published_inputs()['k']:g}-lz{1e3 * distance:.3g}"
 
 
-def seed_springs(distance: float) -> lumped.Calibration:
+def published_springs(distance: float) -> lumped.Calibration:
     """Return the published k for every spring, with a layer distance [m]."""
-    first, k = scene(1), seed_inputs()["k"]
+    first, k = scene(1), published_inputs()["k"]
     return lumped.calibrate(
         first.sheet, first.material, grid=masses(), method="uniform", k=k, layer_distance=distance
     )

@@ -12,7 +12,7 @@ from comparisons.reproduction.published import COMPONENTS, SOURCES, published
 from comparisons.reproduction.settling import PROBE, Settling
 from sheetbench.answers.figure_style import FigureStyle
 from sheetbench.answers.style import DARK, GREY, SERIES
-from sheetbench.scenes.seed import PROBES
+from sheetbench.scenes.habibi import PROBES
 
 PUBLISHED = {"published model": ("s", DARK), "published experiment": ("D", GREY)}
 OURS = tuple(zip("oXvP", (SERIES[0], SERIES[5], SERIES[1], SERIES[2]), strict=True))

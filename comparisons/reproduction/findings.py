@@ -13,7 +13,7 @@ from comparisons.reproduction.published import published
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling
 from sheetbench.answers.table import Column, number, percent, quantity
 from sheetbench.scenes import Status
-from sheetbench.scenes.seed import PROBES, seed_inputs
+from sheetbench.scenes.habibi import PROBES, published_inputs
 
 
 @dataclass(frozen=True)
@@ -76,6 +76,6 @@ def _settling(settling: Settling) -> Iterator[tuple[str, str]]:
             "settling",
             f"{lattice}: uz of {PROBE} swings to {settling.largest(model):.2f} times its static value "
             f"and {still}. The {run.time[-1]:g} s took {settling.seconds(model):.1f} s here, set-up "
-            f"included; {seed_inputs()['run_time']:g} s are published as the average of one simulation, "
+            f"included; {published_inputs()['run_time']:g} s are published as the average of one simulation, "
             "whose length and machine are not named.",
         )

@@ -12,8 +12,8 @@ from functools import cache
 import numpy as np
 
 from sheetbench.scenes import Scene, load
+from sheetbench.scenes.habibi import PROBES, published_displacements, published_inputs
 from sheetbench.scenes.parameters import put
-from sheetbench.scenes.seed import PROBES, seed_displacements, seed_inputs
 
 COMPONENTS = ("ux", "uy", "uz")
 SOURCES = ("model", "experiment")
@@ -26,13 +26,13 @@ def scene(test: int, sense: int = 1) -> Scene:
     """Return the scene of a test with the published inputs; sense: 1 where the rod of test 2 lifts its ends,
     or -1: only the size of its curvature is published."""
     loaded = load(SCENES[test])
-    return put(loaded, "curvature_x0", sense * seed_inputs()["curvature"]) if test == 2 else loaded
+    return put(loaded, "curvature_x0", sense * published_inputs()["curvature"]) if test == 2 else loaded
 
 
 @cache
 def printed(test: int, source: str) -> np.ndarray:
     """Displacements (4, 3) [m] of the probes as printed, in the published axes."""
-    given = seed_displacements()
+    given = published_displacements()
     return np.array([[given[test, source, component, probe] for component in COMPONENTS] for probe in PROBES])
 
 

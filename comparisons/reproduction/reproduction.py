@@ -30,7 +30,7 @@ from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Column, Table, percent
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Status
-from sheetbench.scenes.seed import KNOWN_FAULTS, PROBES, seed_inputs
+from sheetbench.scenes.habibi import KNOWN_FAULTS, PROBES, published_inputs
 from sheetbench.scenes.words import sheet_in_words
 
 PARTS = ("tables", "settling")
@@ -97,7 +97,7 @@ class Reproduction(Answer):
     def document(self) -> dict[str, Any]:
         document: dict[str, Any] = {
             "parts": list(self.parts),
-            "inputs": seed_inputs(),
+            "inputs": published_inputs(),
             "known_faults": list(KNOWN_FAULTS),
             "findings": [vars(one) for one in findings.all_of(self.answers, self.settling)],
         }
@@ -206,7 +206,7 @@ def displacements(one: ReproducedTest) -> Table:
 def runs(settling: Settling) -> Table:
     """Return a row per run: what it took beside what is published, how far it swings and when it is at
     rest."""
-    rows = [RunRow("published", "MATLAB R2016a", seed_inputs()["run_time"])]
+    rows = [RunRow("published", "MATLAB R2016a", published_inputs()["run_time"])]
     for model, run in settling.runs.items():
         rows.append(
             RunRow(

@@ -15,9 +15,14 @@ from typing import Any, Literal
 import numpy as np
 
 import lumped
-from comparisons.reproduction.answers import masses, matched_layer_distance, seed_lattice, seed_springs
+from comparisons.reproduction.answers import (
+    masses,
+    matched_layer_distance,
+    published_lattice,
+    published_springs,
+)
 from sheetbench.scenes import History, Scene, load
-from sheetbench.scenes.seed import seed_inputs
+from sheetbench.scenes.habibi import published_inputs
 
 SCENE, PROBE = "two-edges-settling", "P4"
 DURATION = 2.0  # s
@@ -54,13 +59,13 @@ class Settling:
 
     def faster(self, model: str) -> float:
         """Return how many times longer the published simulation took."""
-        return seed_inputs()["run_time"] / self.seconds(model)
+        return published_inputs()["run_time"] / self.seconds(model)
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON: seconds and metres."""
         return {
             "scene": self.scene.document(),
-            "published_seconds": seed_inputs()["run_time"],
+            "published_seconds": published_inputs()["run_time"],
             "runs": {
                 model: {
                     "label": run.label,
@@ -85,7 +90,7 @@ def settling(duration: float = DURATION, progress: Callable[[str], None] = lambd
     consistent = lumped.calibrate(scene.sheet, scene.material, grid=masses(), method="consistent")
     lattices: dict[str, tuple[lumped.Calibration, Literal["tributary", "full"]]] = {
         "lumped": (consistent, "tributary"),
-        seed_lattice(distance): (seed_springs(distance), "full"),
+        published_lattice(distance): (published_springs(distance), "full"),
     }
     runs, rest = {}, {}
     _warm(scene)

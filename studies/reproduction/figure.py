@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from comparisons.reproduction.figure import legend
 from sheetbench.answers.figure_style import FigureStyle
 from sheetbench.answers.style import GREY, SERIES
-from sheetbench.scenes.seed import seed_inputs
+from sheetbench.scenes.habibi import published_inputs
 from studies.reproduction.nearest import SOURCE, target
 from studies.reproduction.study import Forensics
 
@@ -46,7 +46,7 @@ def misfit(forensics: Forensics, style: FigureStyle) -> Figure:
         panel.grid(color=GREY, lw=0.3, alpha=0.4)
         title = f"{kind.capitalize()} and published {SOURCE[kind]}"
         panel.set_title(title, loc="left", fontsize=7.5, fontweight="bold")
-    given = seed_inputs()
+    given = published_inputs()
     panels["sheet"].set_xlabel("E [MPa]")
     panels["lattice"].set_xlabel(f"layer distance [mm], k = {given['k']:g} N/m")
     for kind, at, label in (

@@ -10,7 +10,7 @@ import numpy as np
 from comparisons.reproduction.findings import Finding
 from comparisons.reproduction.published import COMPONENTS, published
 from sheetbench.answers.table import number, percent, quantity
-from sheetbench.scenes.seed import PROBES, seed_inputs
+from sheetbench.scenes.habibi import PROBES, published_inputs
 from studies.reproduction.chords import Chord, nearer
 from studies.reproduction.inputs import Check
 from studies.reproduction.nearest import LAYERS, MOST, NEAR, SQUARES, YOUNG, Fit
@@ -34,7 +34,7 @@ def of_errors(cells: Sequence[Cell]) -> Iterator[Finding]:
     """What the printed errors are relative to."""
     if not cells:
         return
-    mean, quoted = means(list(cells)), seed_inputs()["mean_error"]
+    mean, quoted = means(list(cells)), published_inputs()["mean_error"]
     explained = [cell for cell in cells if cell.by_larger]
     cut = sum(cell.digits == "cut off" for cell in explained)
     changed = sum(cell.changes for cell in cells)
@@ -55,7 +55,7 @@ def of_inputs(checks: Sequence[Check]) -> Iterator[Finding]:
     """Which published inputs do not follow from the others."""
     if not checks:
         return
-    given = seed_inputs()
+    given = published_inputs()
     for check in checks:
         if check.what == "equations" and not check.agrees:
             yield Finding(
@@ -225,7 +225,7 @@ def _missed(fit: Fit) -> str:
 
 def _scanned(kind: str) -> str:
     """The sheets of a scan."""
-    given = seed_inputs()
+    given = published_inputs()
     if kind == "sheet":
         low, high = (quantity(given["young"] * factor, "Pa", ".3g") for factor in (YOUNG[0], YOUNG[-1]))
         return f"plates of {low} to {high}"

@@ -15,7 +15,7 @@ import lumped
 from comparisons.reproduction.answers import bending_stiffness, matched_layer_distance
 from comparisons.reproduction.published import scene
 from sheetbench.answers.table import NUMBER, PERCENT, Column, Unit, unit
-from sheetbench.scenes.seed import seed_inputs
+from sheetbench.scenes.habibi import published_inputs
 from studies.reproduction.printed_errors import cells, means
 
 SAME = 0.005  # of a printed figure: what its two digits leave open
@@ -46,7 +46,7 @@ class Check:
 
 def checks() -> list[Check]:
     """Every check."""
-    given = seed_inputs()
+    given = published_inputs()
     masses = given["masses_per_side"] ** 2 * given["layers"]
     weighs = given["density"] * given["side"] ** 2 * given["thickness"]
     spacing = given["side"] / (given["masses_per_side"] - 1.0)
@@ -72,7 +72,7 @@ def checks() -> list[Check]:
 
 def _links() -> list[Check]:
     """Links of a mass in the interior, on an edge and at a corner, counted on a lattice of that grid."""
-    given, scene_of_test = seed_inputs(), scene(1)
+    given, scene_of_test = published_inputs(), scene(1)
     side, layers = int(given["masses_per_side"]), int(given["layers"])
     grid = (side, side, layers)
     springs = lumped.calibrate(scene_of_test.sheet, scene_of_test.material, grid=grid, method="uniform")

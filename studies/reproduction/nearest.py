@@ -23,7 +23,7 @@ from comparisons.identification.prediction import NotReached
 from comparisons.identification.search import search
 from comparisons.reproduction.published import DIGIT, published, scene
 from sheetbench.answers.table import MEGAPASCALS, MILLIMETRES, PERCENT, Column, Unit
-from sheetbench.scenes.seed import seed_inputs
+from sheetbench.scenes.habibi import published_inputs
 from studies.reproduction.sheets import KINDS, RODS, Sheets
 
 FIRST = {"sheet": "young", "lattice": "layer_distance"}
@@ -170,7 +170,7 @@ def sheets_of(kind: str, tests: Sequence[int], sense: int) -> Sheets:
 
 def scan(kind: str, tests: tuple[int, ...], sense: int) -> Scan:
     """The sheets of a kind over the first of what may vary."""
-    given, name = seed_inputs(), FIRST[kind]
+    given, name = published_inputs(), FIRST[kind]
     values = given["young"] * YOUNG if kind == "sheet" else given["thickness"] * LAYERS
     displacements = sheets_of(kind, tests, sense).displacements([{name: float(value)} for value in values])
     return Scan(kind, tests, sense, name, values, np.stack(displacements))
@@ -190,7 +190,7 @@ def fits(scanned: Scan, wanted: np.ndarray, progress: Callable[[str], None] = la
     misfit = Misfit(Displacements(points, wanted), (np.empty(0), np.empty(0)))
     squares = np.nansum((scanned.displacement - wanted) ** 2, axis=(1, 2))
     squares[np.isnan(scanned.displacement).any(axis=(1, 2))] = np.inf
-    given = seed_inputs()
+    given = published_inputs()
     best = {
         scanned.name: float(scanned.values[int(np.argmin(squares))]),
         "k": given["k"],

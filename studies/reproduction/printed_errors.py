@@ -16,7 +16,7 @@ import numpy as np
 
 from comparisons.reproduction.published import COMPONENTS, printed
 from sheetbench.answers.table import PERCENT, Column
-from sheetbench.scenes.seed import PROBES, seed_errors
+from sheetbench.scenes.habibi import PROBES, published_errors
 
 PRINTED = 1e-3  # the last digit of a printed error, 0.1 %
 _SLACK = 1e-6  # of that digit, for what decimals leave
@@ -62,7 +62,7 @@ class Cell:
 
 def cells() -> list[Cell]:
     """Every printed error, in its order."""
-    return [_cell(*of, value) for of, value in seed_errors().items()]
+    return [_cell(*of, value) for of, value in published_errors().items()]
 
 
 def _cell(test: int, component: str, probe: str, value: float) -> Cell:

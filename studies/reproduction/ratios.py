@@ -17,7 +17,7 @@ import numpy as np
 
 from comparisons.reproduction.published import SOURCES, published, scene
 from sheetbench.answers.table import NUMBER, Column
-from sheetbench.scenes.seed import PROBES
+from sheetbench.scenes.habibi import PROBES
 from studies.reproduction.nearest import SOURCE, Scan
 from studies.reproduction.sheets import RODS
 

@@ -27,8 +27,8 @@ from comparisons.identification.prediction import NotReached, Prediction
 from comparisons.identification.unknowns import Unknown
 from comparisons.reproduction.answers import masses
 from sheetbench.scenes import EDGES, Gravity, Scene, Solution, Status
+from sheetbench.scenes.habibi import published_inputs
 from sheetbench.scenes.parameters import put
-from sheetbench.scenes.seed import seed_inputs
 
 STEP = 1e-4  # in x, for differences of solutions that are accurate to about 1e-9
 UNITS = {"young": "Pa", "k": "N/m", "layer_distance": "m", "tilt": "rad", "curvature": "1/m"}
@@ -93,7 +93,7 @@ class Sheets:
         scenes = [_with_values(scene, values) for values in many for scene in self.scenes]
         own: list[dict[str, Any]] = [{"method": "consistent"} for _ in scenes]
         if self.kind == "lattice":
-            published = {"method": "uniform", "k": seed_inputs()["k"]}
+            published = {"method": "uniform", "k": published_inputs()["k"]}
             given = [{key: v[key] for key in ("k", "layer_distance") if key in v} for v in many]
             own = [published | values for values in given for _ in self.scenes]
         springs = [

@@ -23,7 +23,7 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.table import Table, percent
 from sheetbench.choices import ELEMENTS
-from sheetbench.scenes.seed import seed_inputs
+from sheetbench.scenes.habibi import published_inputs
 from studies.reproduction import findings
 from studies.reproduction.chords import Chord, chords
 from studies.reproduction.inputs import Check, checks
@@ -88,7 +88,7 @@ class Forensics(Answer):
                 "checks": [{**vars(one), "agrees": one.agrees} for one in self.checks],
                 "errors": {
                     "cells": [{**vars(one), "changes": one.changes} for one in self.cells],
-                    "means": {**means(list(self.cells)), "quoted": seed_inputs()["mean_error"]},
+                    "means": {**means(list(self.cells)), "quoted": published_inputs()["mean_error"]},
                 },
             }
         if self.scans:

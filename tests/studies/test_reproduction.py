@@ -8,7 +8,7 @@ import pytest
 from commands import run
 
 from comparisons.reproduction.published import scene
-from sheetbench.scenes.seed import seed_inputs
+from sheetbench.scenes.habibi import published_inputs
 from studies.reproduction.chords import of_table
 from studies.reproduction.inputs import checks
 from studies.reproduction.nearest import ENOUGH, SQUARES, Scan, fits, matches
@@ -105,7 +105,7 @@ def test_a_sheet_is_found_from_its_own_table(kind, true, start, monkeypatch):
 
 def test_supports_turned_as_one_turn_a_stiff_sheet_rigidly():
     """E a million times as large: uz = −sin τ · distance from the turning axis, and nothing along it."""
-    tilt, side = 0.1, seed_inputs()["side"]
+    tilt, side = 0.1, published_inputs()["side"]
     sheets = Sheets("sheet", [scene(1)], SMALL)
     (moved,) = sheets.displacements([{"young": 54.5e12, "tilt": tilt}])
     away = scene(1).probe_points() @ np.array([1.0, 1.0]) / np.sqrt(2.0)

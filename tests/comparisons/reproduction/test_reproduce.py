@@ -11,7 +11,7 @@ from comparisons.reproduction.published import published, scene
 from comparisons.reproduction.reproduction import Reproduction
 from sheetbench.answers.report import Report
 from sheetbench.scenes import Status
-from sheetbench.scenes.seed import seed_inputs
+from sheetbench.scenes.habibi import published_inputs
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +20,7 @@ def test_1():
 
 
 def test_the_scenes_have_the_published_inputs():
-    given = seed_inputs()
+    given = published_inputs()
     for test, sense in ((1, 1), (2, 1), (2, -1)):
         asked = scene(test, sense)
         assert (*asked.sheet.lengths, asked.sheet.thickness) == (

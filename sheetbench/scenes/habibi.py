@@ -27,30 +27,28 @@ KNOWN_FAULTS = (
 )
 
 
-def seed_displacements() -> dict[tuple[int, str, str, str], float]:
+def published_displacements() -> dict[tuple[int, str, str, str], float]:
     """Return every published displacement as printed, in metres and in the published axes, by test (1 or 2),
     source (`model` or `experiment`), component (ux, uy or uz) and probe."""
     return {
         (int(row["test"]), row["source"], row["component"], probe): float(row[probe]) * _SI[row["unit"]]
-        for row in _rows("seed_displacements.csv")
+        for row in _rows("displacements.csv")
         for probe in PROBES
     }
 
 
-def seed_inputs() -> dict[str, float]:
+def published_inputs() -> dict[str, float]:
     """Return every published input and figure by name, in SI units, errors as fractions; the file says what
     each is."""
-    return {
-        row["quantity"]: float(row["value"]) * _SI.get(row["unit"], 1.0) for row in _rows("seed_inputs.csv")
-    }
+    return {row["quantity"]: float(row["value"]) * _SI.get(row["unit"], 1.0) for row in _rows("inputs.csv")}
 
 
-def seed_errors() -> dict[tuple[int, str, str], float]:
+def published_errors() -> dict[tuple[int, str, str], float]:
     """Return every printed error of the published model against its experiment, as a fraction, by test,
     component and probe."""
     return {
         (int(row["test"]), row["component"], probe): float(row[probe]) / 100
-        for row in _rows("seed_errors_printed.csv")
+        for row in _rows("errors_printed.csv")
         for probe in PROBES
     }
 

@@ -24,9 +24,9 @@ def first_collapsed(
     for k in range(len(states)):
         least, which = np.inf, 0
         for m in range(len(nodes)):
-            square = measure(states[k], nodes, offset, m)[1] / rest_length[m] ** 2
-            if square < least:
-                least, which = square, m
+            square, rest = measure(states[k], nodes, offset, m)[1], rest_length[m] ** 2
+            if square < least * rest:
+                least, which = square / rest, m
         if least < limit * limit:
             return k, which
     return len(states), 0
@@ -39,20 +39,21 @@ def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[
     columns: (ny, nx, layers) masses; positions (n, 3) [m] at rest; u (n, 3) [m].
     """
     ny, nx, layers = columns.shape
-    middle, director = np.zeros((ny, nx, 3)), np.empty((ny, nx, 3))
+    middle, director, share = np.zeros((ny, nx, 3)), np.empty((ny, nx, 3)), 1.0 / layers
     for j in range(ny):
         for i in range(nx):
             square = 0.0
             for q in range(3):
                 for k in range(layers):
                     mass = columns[j, i, k]
-                    middle[j, i, q] += (positions[mass, q] + u[mass, q]) / layers
+                    middle[j, i, q] += share * (positions[mass, q] + u[mass, q])
                 top, bottom = columns[j, i, layers - 1], columns[j, i, 0]
                 across = positions[top, q] + u[top, q] - positions[bottom, q] - u[bottom, q]
                 director[j, i, q] = across
                 square += across * across
+            scale = 1.0 / max(math.sqrt(square), TINY)
             for q in range(3):
-                director[j, i, q] /= max(math.sqrt(square), TINY)
+                director[j, i, q] *= scale
     return middle, director
 
 
@@ -79,7 +80,7 @@ def first_inverted(
                 for q in range(3):
                     r, s = (q + 1) % 3, (q + 2) % 3
                     facing += (first[r] * second[s] - first[s] * second[r]) * mean[q]
-                if areas[j, i] > 0.0 and facing / areas[j, i] < least:
+                if areas[j, i] > 0.0 and facing < least * areas[j, i]:
                     least, row, column = facing / areas[j, i], j, i
         if least <= 0.0:
             return k, row, column

@@ -133,7 +133,7 @@ class Run:
 
     def _sample(self, samples: Samples) -> Fault | None:
         reached, rows = self.reached, self._sampling.rows(samples)
-        largest = np.maximum.accumulate(np.append(reached.largest, np.abs(rows[:, 1:6]).max(axis=1)))[1:]
+        largest = np.maximum(reached.largest, np.maximum.accumulate(np.abs(rows[:, 1:6]).max(axis=1)))
         sound, fault = watchdog.check_samples(self._system, samples, rows, reached.origin, largest)
         kept = sound + (fault is not None and fault.status is not Status.NON_FINITE)
         self._keep(rows[:kept], samples.u[:sound], reached.samples + 1)

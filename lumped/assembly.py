@@ -17,7 +17,6 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
 from lumped.springs.all_families import springs_of
-from lumped.springs.families import Cells, Links
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.springs import Distribution
@@ -68,7 +67,8 @@ class Assembly:
         self.all_families = springs_of(self.lattice, self.pattern, calibration.springs, precision == "single")
         self.force, self.advance = self.all_families.force, self.all_families.advance
         self.tangent, self.springs = self.all_families.tangent, self.all_families.families
-        self.links = next(family for family in self.springs if isinstance(family, Links))
+        self.links, self.conservative = self.all_families.links, self.all_families.conservative
+        self.any_strain = self.all_families.any_strain
         self.precision = precision
 
     @cached_property
@@ -76,27 +76,10 @@ class Assembly:
         """Masses by plan position, positions at rest, and areas of the cells: made once for all samples."""
         return self.lattice.columns(), self.lattice.positions, self.lattice.cell_areas
 
-    @cached_property
-    def link_geometry(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Masses, rest vectors [m] and rest lengths [m] of the links of every family: a run looks at them at
-        each sample."""
-        links = (family for family in self.springs if isinstance(family, Links))
-        return [(each.nodes, each.offset, each.rest_length) for each in links]
-
     @property
     def rounding(self) -> float:
         """Relative spacing of the numbers that the internal force is computed with."""
         return float(np.finfo(np.float32 if self.precision == "single" else float).eps)
-
-    @property
-    def conservative(self) -> bool:
-        """Whether the springs have an energy (and so a symmetric tangent)."""
-        return all(family.conservative for family in self.springs)
-
-    @property
-    def any_strain(self) -> bool:
-        """Whether the law of the layers is one of large strains."""
-        return any(isinstance(family, Cells) and family.law.any_strain for family in self.springs)
 
     def require_energy(self) -> None:
         """Raise BadInput when the springs have no energy."""
@@ -104,12 +87,6 @@ class Assembly:
             raise BadInput(
                 "per-direction springs have no energy: descent and energy-based methods do not apply"
             )
-
-    @cached_property
-    def link_stiffness(self) -> np.ndarray:
-        """Stiffness of the central links at every row of the arrays, summed, (size,) [N/m]."""
-        both = np.repeat(self.links.stiffness, 2)
-        return np.bincount(self.links.nodes.ravel(), both, minlength=self.pattern.size)
 
     def average_force(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
         """Internal force (n, 3) [N] whose work from `start` to `end` is the elastic energy stored."""

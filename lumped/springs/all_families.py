@@ -9,7 +9,7 @@ family's own; here they release the interpreter's lock. Springs without an energ
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cache
+from functools import cache, cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -66,6 +66,17 @@ class AllFamilies:
         self._others = [family for place, family in found.items() if place < 0]
         rounded = [family.rounded() for family in families] if single else None
         self._rounded = None if rounded is None else AllFamilies(rounded, pattern)
+        along = [family for family in families if isinstance(family, Links)]
+        self.links = along[0]
+        self.link_geometry = [(each.nodes, each.offset, each.rest_length) for each in along]
+        self.conservative = all(family.conservative for family in families)
+        self.any_strain = any(isinstance(each, Cells) and each.law.any_strain for each in families)
+
+    @cached_property
+    def link_stiffness(self) -> np.ndarray:
+        """Stiffness of the central links at every row of the arrays, summed, (size,) [N/m]."""
+        both = np.repeat(self.links.stiffness, 2)
+        return np.bincount(self.links.nodes.ravel(), both, minlength=self._pattern.size)
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force, its gradient."""

@@ -130,6 +130,11 @@ class Links(Family):
         """Return the stresses of stretched links."""
         return np.maximum(self.stresses(u)[:, 0], 0.0)
 
+    @cached_property
+    def in_plane(self) -> np.ndarray:
+        """Numbers of the links that lie in a layer."""
+        return np.flatnonzero(self.offset[:, 2] == 0.0)
+
     def elongations(self, u: np.ndarray) -> np.ndarray:
         """Return the elongation of every link, (m,) [m]."""
         elongations: np.ndarray = links.elongations(u, self.arrays)

@@ -234,7 +234,7 @@ def rounding(problem: Problem, u: np.ndarray) -> float:
     """Norm of the forces [N] that rounding of the link forces leaves."""
     assembly = problem.assembly
     # relative displacements are differences of u: their rounding, times the stiffness
-    carried = assembly.link_stiffness * np.abs(u).max()
+    carried = assembly.all_families.link_stiffness * np.abs(u).max()
     if assembly.coupling is not None:
         carried += assembly.coupling.carried()
     return float(assembly.rounding * np.linalg.norm(carried))

@@ -33,7 +33,7 @@ def broken(assembly: Assembly, states: np.ndarray) -> tuple[int, Fault | None]:
         sound = int(np.argmin(finite.all(axis=(1, 2))))
         where = place(lattice, int(np.argmin(finite[sound].all(axis=1))))
         fault = Fault(Status.NON_FINITE, f"the mass at {where} has left the range of numbers")
-    for nodes, offset, rest_length in assembly.link_geometry:
+    for nodes, offset, rest_length in assembly.all_families.link_geometry:
         i, link = first_collapsed(states[:sound], nodes, offset, rest_length, COLLAPSED)
         if i < sound:
             where = place(lattice, int(nodes[link, 0]))

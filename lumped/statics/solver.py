@@ -331,5 +331,5 @@ def classify(
 
 def link_stretch(links: Links, elongations: np.ndarray) -> float:
     """Return the largest relative change of length of the in-plane links, from their elongations (m,) [m]."""
-    stretch = np.abs(elongations / links.rest_length)
-    return float(stretch.max(where=links.offset[:, 2] == 0.0, initial=0.0))
+    at = links.in_plane
+    return float(np.abs(elongations[at] / links.rest_length[at]).max(initial=0.0))

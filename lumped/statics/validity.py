@@ -107,10 +107,9 @@ def _stretch_share(assembly: Assembly, u: np.ndarray, elongations: np.ndarray, t
         energies = assembly.energies(mean)
         return (energies["axial"] + energies["rubber"]) / total
     links, layers_ = assembly.links, assembly.lattice.grid[2]
-    in_plane = np.flatnonzero(links.offset[:, 2] == 0.0)
+    in_plane = links.in_plane
     if total <= 0.0 or len(in_plane) == 0:
         return 0.0
     # links between the same columns follow each other, layer by layer, and are as stiff as each other
-    stiffness = links.stiffness[in_plane].reshape(-1, layers_)
-    mean = elongations[in_plane].reshape(-1, layers_).mean(axis=1)
-    return float(0.5 * (stiffness.sum(axis=1) @ mean**2) / total)
+    summed = elongations[in_plane].reshape(-1, layers_).sum(axis=1)
+    return float(0.5 * (links.stiffness[in_plane[::layers_]] @ summed**2) / (layers_ * total))

@@ -37,10 +37,10 @@ class MovingPlate(Moving):
         self.settings: dict[str, Any] = {"elements": list(counts), "graded": graded}
         self._plate = plate.Plate.on(mesh_of(scene, counts, graded))
         mesh, nodes, on = self._plate.basis.mesh, self._plate.nodes, self._plate.elements.nodes
-        sides, self.nodes = rod.sides(scene, mesh, on, nodes), len(nodes)
+        self.nodes = len(nodes)
 
         def bound(alone: Scene) -> BoundRods:
-            return on_surface(rod.of_scene(alone, nodes, sides), len(nodes))
+            return on_surface(rod.of_scene(alone, mesh, on, nodes), len(nodes))
 
         along = bound(self.still)
         rods = PlateRods.on(along, len(nodes))

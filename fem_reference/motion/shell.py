@@ -54,13 +54,13 @@ class MovingShell(MovingElements):
         self.mass = inertia.mass(structure, products)
         self._on_places = np.einsum("eij,ab->eiajb", by_place, np.eye(3)).reshape(-1, 27, 27)
         self.unknowns, self._basis = structure.unknowns, inertia.Basis(structure)
-        sides = rod.sides(scene, self._plan, self._on, self._nodes)
+        plan = self._plan, self._on, self._nodes
 
         def bound(alone: Scene) -> BoundRods:
-            return on_surface(rod.of_scene(alone, self._nodes, sides), self.nodes)
+            return on_surface(rod.of_scene(alone, *plan), self.nodes)
 
         self.carry(MovingRods(scene, bound, components_of, self._held.size))
-        self.load(scene, lambda alone: loads.of_scene(alone, self._plan, self._on, self._nodes))
+        self.load(scene, lambda alone: loads.of_scene(alone, *plan))
         moved = structure.supports.moved.values()
         self._edges = [(d.edge, d.nodes, d.points) for d in moved if isinstance(d.edge, MovedEdge)]
 

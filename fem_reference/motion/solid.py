@@ -68,10 +68,9 @@ class MovingSolid(MovingElements):
         self._basis = block_diag([of_columns, aside], format="csc")
         plan, levels = self._columns.plan, self._columns.levels
         of_plan = self._columns.plan_elements, self._columns.plan_nodes
-        sides = rod.sides(scene, plan.mesh, *of_plan)
 
         def bound(alone: Scene) -> BoundRods:
-            return on_columns(rod.of_scene(alone, self._columns.plan_nodes, sides), self._columns)
+            return on_columns(rod.of_scene(alone, plan.mesh, *of_plan), self._columns)
 
         middles = levels * np.arange(3) + self._columns.layers
         places = np.concatenate([middles, 3 * levels + np.arange(6)])

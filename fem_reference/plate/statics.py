@@ -136,8 +136,7 @@ def _solved(
     """own: whether the mesh has an outline of its own, in place of the scene's sheet."""
     begin = now()
     plate = Plate.on(mesh)
-    sides = rod.sides(scene, mesh, plate.elements.nodes, plate.nodes)
-    along = rod.of_scene(scene, plate.nodes, sides)
+    along = rod.of_scene(scene, mesh, plate.elements.nodes, plate.nodes)
     rods = PlateRods.on(on_surface(along, len(plate.nodes)), len(plate.nodes))
     supports, held, fields = constrain(scene, plate, hard_edges, along)
     free = np.flatnonzero(~np.concatenate([held.ravel(), rods.held]))

@@ -220,8 +220,7 @@ def discretise(
     element = _elements(nodes[element_nodes], scene, section, law)
     supports = surface_supports.of_scene(scene, mesh)
     dead, followers = loads.of_scene(scene, mesh, element_nodes, nodes)
-    sides = rod.sides(scene, mesh, element_nodes, nodes)
-    rods = rod.of_scene(scene, nodes, sides)
+    rods = rod.of_scene(scene, mesh, element_nodes, nodes)
     supports = rod.hold_bases(supports, rods)
     bound = on_surface(rods, len(nodes))
     return ShellStructure.build(element, element_nodes, supports, dead, followers, bound), nodes

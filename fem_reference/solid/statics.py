@@ -244,8 +244,7 @@ def discretise(
         LAWS[law],
         scene.material if scene.uniform else _constants_of_bricks(scene, middles, layers),
     )
-    sides = rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
-    rods = rod.of_scene(scene, columns.plan_nodes, sides)
+    rods = rod.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes)
     supports = column_supports.of_scene(scene, columns, clamp, rods)
     dead, followers = loads.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes)
     return SolidStructure(columns, bricks, supports, dead, followers, on_columns(rods, columns))

@@ -69,24 +69,18 @@ class Rod:
     offset: float
 
 
-def sides(
-    scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray
-) -> dict[str, np.ndarray]:
-    """Nodes (k, 3) of the sides along every edge with a chain; element_nodes: (m, 9); nodes: (n, 2) [m]."""
-    found = {}
-    for edge in scene.chains():
-        line = Line.along(mesh, mesh.boundaries[edge], nodes[element_nodes])
-        found[edge] = element_nodes[line.elements[:, None], line.sides]
-    return found
-
-
-def of_scene(scene: Scene, nodes: np.ndarray, sides: dict[str, np.ndarray]) -> list[Rod]:
+def of_scene(scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray) -> list[Rod]:
     """The rods of a scene's chains, one an edge.
 
-    nodes: plan positions (n, 2) [m] of the shell's nodes; sides: edge → its sides' nodes (k, 3). Raises
-    BadInput for an edge that is not straight or has no node where a base is held.
+    element_nodes: (m, 9); nodes: plan positions (n, 2) [m]. Raises BadInput for an edge that is not straight
+    or has no node where a base is held.
     """
-    return [_rod(scene, edge, here, nodes, sides[edge]) for edge, here in scene.chains().items()]
+    found = []
+    for edge, here in scene.chains().items():
+        line = Line.along(mesh, mesh.boundaries[edge], nodes[element_nodes])
+        sides = element_nodes[line.elements[:, None], line.sides]
+        found.append(_rod(scene, edge, here, nodes, sides))
+    return found
 
 
 def _rod(scene: Scene, edge_name: str, here: dict[str, Chain], nodes: np.ndarray, sides: np.ndarray) -> Rod:

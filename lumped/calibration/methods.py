@@ -13,8 +13,7 @@ from lumped.calibration.consistent import consistent
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
 from lumped.calibration.rubber import hyperelastic
-from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
-from lumped.calibration.uniform import uniform
+from lumped.calibration.textbook import axial, cauchy, lloyd, uniform, van_gelder
 from lumped.sections import sections_of
 from sheetbench import choices
 from sheetbench.errors import Impossible

@@ -1,4 +1,4 @@
-"""Constructions from the literature and from habit, for comparison: axial, van-gelder, lloyd, cauchy.
+"""Constructions from the literature and from habit: axial, van-gelder, lloyd, cauchy, uniform.
 
 They fix the springs of a layer; none knows of a bending sheet of two layers, so this module says how each is
 made into one. E is shared out by thickness: a layer stands for h/L of the sheet.
@@ -96,6 +96,24 @@ def cauchy(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
         raise BadInput(f"calibration 'cauchy': {grid[2]} layers need cells as small as the sheet is thick")
     springs = springs.model_copy(update={"area": 0.0, "mid_area": 0.0})
     return report("cauchy", sheet, material, grid, springs)
+
+
+def uniform(
+    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
+) -> Calibration:
+    """k [N/m] as given or from D11; layer_distance [m] as given or the sheet's thickness over the gaps."""
+    distance = layer_distance if layer_distance is not None else sheet.thickness / (grid[2] - 1)
+    lx, ly = plan_spacing(sheet, grid)
+    if k is None:
+        unit = moduli.of_springs(_all(1.0, distance), (lx, ly, distance), grid[2])
+        k = float(moduli.of_sheet(sheet, material, (lx, ly)).bending[0, 0] / unit.bending[0, 0])
+    return report("uniform", sheet, material, grid, _all(k, distance))
+
+
+def _all(k: float, layer_distance: float) -> SpringSet:
+    return SpringSet(
+        axial=k, diagonal=k, vertical=k, cross=k, cross_diagonal=k, layer_distance=layer_distance
+    )
 
 
 def _layered(

@@ -1,7 +1,7 @@
 """The published inputs held against one another: what follows from the others, and what does not.
 
 D = E h³/12(1 − ν²), I = l h³/12, l = a/(n − 1). A lattice of equal springs bends along its axes like a plate
-of k lz² (`lumped.calibration.uniform`), so that a layer distance √(D/k) is what the published k asks for.
+of k lz² (`lumped.calibration.textbook`), so that a layer distance √(D/k) is what the published k asks for.
 """
 
 from __future__ import annotations

@@ -186,7 +186,8 @@ class Score(ShownAnswer):
 
     def notes(self) -> list[str]:
         notes = [
-            "score: geometric mean of the cases' errors, none below the reference's bar, none above 100 %"
+            "error: largest difference over the reference's largest value; distinguishable: above its bar",
+            "score: geometric mean of the cases' errors, none below the reference's bar, none above 100 %",
         ]
         if self.unanswered:
             notes.append(f"not answered yet: {', '.join(self.unanswered)}")

@@ -182,6 +182,11 @@ def test_it_is_moved_from_outside(page):
     assert page.evaluate("view.picture().slice(0, 22)") == "data:image/png;base64,"
 
 
+def test_masses_without_links_are_not_drawn(page):
+    lattice = "{style: 'lattice', points: [0, 0, 0, 1, 0, 0, 2, 0, 0], lines: [0, 1]}"
+    assert page.evaluate(f"[...new (view.sheets.get('shell').constructor)({lattice}).linked]") == [0, 1]
+
+
 def test_a_motion_plays(page):
     page.get_by_label("Show", exact=True).select_option("motion")
     slider = page.get_by_label("Time")

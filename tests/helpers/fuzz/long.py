@@ -113,7 +113,7 @@ def batch(name: str, number: int, base: int, faults: Path) -> dict[str, Any]:
 
 def table(done: list[dict[str, Any]], base: int) -> str:
     """Counts of every kind, in Markdown, with the machine and the date."""
-    lines = ["| thrown | required | obeyed | refused | not converged | faults |", "|---|---|---|---|---|---|"]
+    lines = ["| input | tried | accepted | refused | not converged | faults |", "|---|---|---|---|---|---|"]
     for name, kind in KINDS.items():
         words = sum((Counter(line["words"]) for line in done if line["kind"] == name), Counter[str]())
         counts = (words.total(), *(words[word] for word in ("done", "refused", "not converged", FAULT)))

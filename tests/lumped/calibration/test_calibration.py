@@ -233,3 +233,9 @@ def test_a_bend_that_costs_nothing_is_refused():
     costless = SimpleNamespace(membrane=np.eye(3), bending=np.diag([1.0, 1.0, 0.0]))
     with pytest.raises(BadInput, match="the cell's energy is not positive"):
         _require_positive(springs, costless)
+
+
+def test_the_least_spring_of_a_sheet_with_holes_is_one_that_is_there():
+    """Cells in holes have springs of 0, of which the table says nothing."""
+    table = tables.springs({"springs": {"axial": np.array([0.0, 2.0, 3.0])}, "layer_distance": 1e-3})
+    assert table.rows[0][2:] == (2.0, 3.0)

@@ -7,7 +7,7 @@ from rich.cells import cell_len
 
 from sheetbench.answers import escape
 from sheetbench.answers.layout import blocks
-from sheetbench.answers.table import Column, Table
+from sheetbench.answers.table import Column, Table, number
 
 WIDE = Table(
     "Wide",
@@ -81,6 +81,21 @@ def test_rows_of_a_group_stand_under_its_name():
     table = Table("", (Column("probe"), Column("x", form="d")), (("P1", 1), ("P1", 2), ("P2", 3)), "", True)
     (block,) = blocks(table, None)
     assert [row.split() for row in block.rows] == [["P1", "1"], ["2"], [block.rule], ["P2", "3"]]
+
+
+def test_blocks_of_groups_name_group_and_row():
+    columns = (Column("code"), Column("key"), Column("value", form="d"), Column("meaning", prose=True))
+    rows = tuple(
+        ("a code with a long name", key, 1, "a meaning in a few words") for key in ("first", "second")
+    )
+    for block in blocks(Table("", columns, rows, "", True), 36):
+        assert block.rows[0] == "a code with a long name"
+        assert [row.split()[0] for row in block.rows[1:] if row[0] != " "] == ["first", "second"]
+
+
+@pytest.mark.parametrize(("value", "shown"), [(0.0, "0"), (-0.5, "−0.500000"), (2e7, "2.00000e+07")])
+def test_a_zero_has_no_zeros_behind_it(value, shown):
+    assert number(value, "#.6g") == shown
 
 
 def test_details_are_in_the_files_only():

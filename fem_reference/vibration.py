@@ -4,8 +4,8 @@
 
 K is the model's stiffness at rest and M its consistent mass, rotary inertia included. Loads, weight and
 damping have no part in it, nor have actuators; a curved support and a tilted clamp count as upright clamps.
-About the deformed sheet, which the shell alone knows, K is the tangent of its equilibrium under the full load
-(`fem_reference.shell.oscillation`).
+About the deformed sheet, which the shell alone knows, K is the tangent of its equilibrium under the full
+load.
 Lanczos iterations (ARPACK) on (K − σM)⁻¹ with the shift σ < 0 below the spectrum, so that a free sheet's
 singular K needs no special care.
 
@@ -31,17 +31,18 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem_reference.plate import statics as plate
+from fem_reference.shell import inertia
 from fem_reference.shell import statics as shell
-from fem_reference.shell.oscillation import about_equilibrium
 from fem_reference.solid import statics as solid
 from fem_reference.solid import supports as column_supports
+from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.clock import now
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of
+from sheetbench.scenes import About, AnyScene, Scene, Status, require_static, scene_of
 from sheetbench.scenes.modes import NaturalModes
 
 REACH = 0.375  # of the grading
@@ -203,8 +204,27 @@ def _shell_at_rest(
 def _shell_deformed(
     scene: Scene, elements: tuple[int, int], section: Section | None = None, graded: bool = True
 ) -> RestState:
-    """The shell about its equilibrium, on its free unknowns alone."""
-    stiffness, mass, sample = about_equilibrium(scene, elements, section, graded, REACH)
+    """The shell about its equilibrium, on its free unknowns alone: displacements u and rotations β of
+    directors, δd = T β, with K = ∂R/∂(u, β) at full load, geometric stiffness and dead loads' part included,
+    and M = ∫ ρh N_i N_j on u, ∫ ρh³/12 N_i N_j T_iᵀ T_j on β. Raises BadInput for loads that follow the
+    sheet, NoEquilibrium where there is no stable equilibrium under the full load."""
+    mesh = mesh_of(scene, elements, graded, REACH)
+    structure, _ = shell.discretise(mesh, scene, section)
+    if structure.followers:
+        raise BadInput("--about = deformed: pressure and edge moments follow the sheet: it has no modes then")
+    state, status, notes = shell.trace_on(scene, structure)
+    if status is not Status.CONVERGED:
+        raise NoEquilibrium(f"shell: {status}: {'; '.join([*notes, status.advice])}")
+    stiffness, _ = structure.system(state, structure.forces(state, 1.0), 1.0, mixed=False)
+    basis = inertia.Basis(structure).at(structure.frames(state))
+    whole = inertia.mass(structure, inertia.products(structure, scene))
+
+    def sample(shape: np.ndarray, points: np.ndarray) -> np.ndarray:
+        number = structure.number[:, :3]
+        moved = np.where(number >= 0, shape.ravel()[number], 0.0)
+        return interpolate(mesh, structure.element_nodes, moved, points)
+
+    mass = (basis.T @ whole @ basis).tocsr()
     return RestState(stiffness, mass, np.zeros((mass.shape[0], 1), bool), None, sample)
 
 

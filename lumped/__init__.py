@@ -11,15 +11,9 @@ from lumped.assembly import Assembly
 from lumped.calibration import Calibration, given, homogenised
 from lumped.calibration.cell_by_cell import with_shares
 from lumped.description import Description, describe
-from lumped.fitting import (
-    CALIBRATIONS,
-    FittedCalibration,
-    Identifiability,
-    ModalTarget,
-    StaticTarget,
-    calibrate,
-    identifiability,
-)
+from lumped.fitting.fits import FittedCalibration, ModalTarget, StaticTarget
+from lumped.fitting.identifiability import Identifiability, identifiability
+from lumped.fitting.methods import CALIBRATIONS, calibrate
 from lumped.footprint import footprint
 from lumped.lattice import Lattice
 from lumped.masses import Inertia

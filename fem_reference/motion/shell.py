@@ -11,9 +11,8 @@ from fem_reference.motion.loads import factor_at
 from fem_reference.motion.moving import MovingElements
 from fem_reference.motion.rods import MovingRods, components_of
 from fem_reference.shell import inertia
-from fem_reference.shell.directors import multiplier
+from fem_reference.shell.directors import multiplier, projected
 from fem_reference.shell.element import Element, add_tangents
-from fem_reference.shell.reduction import projected
 from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise, trace_on
 from fem_reference.shell.structure import UP

@@ -2,8 +2,13 @@
 
 The interpolated shape is some 1e-4 to 1e-3 of the sheet's size away from the equilibrium, but its membrane
 stresses are nothing but the error of the interpolation: the first tangent is formed with those of the coarse
-mesh (see `membrane_strains`), and neither with bending nor with shear. Three corrections lead from there to
-the end, where the path from the flat sheet takes five.
+mesh, and neither with bending nor with shear. Three corrections lead from there to the end, where the path
+from the flat sheet takes five.
+
+Between the two meshes stand Cartesian membrane strains at nodes, what the samples of the elements around
+extrapolate to on average. Samples are along an element's own coordinates ξ (see `element`): with J = ∂x/∂ξ
+
+    e_αβ = J_xα E_xy J_yβ.
 """
 
 from __future__ import annotations
@@ -11,14 +16,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from skfem import MeshQuad
+from skfem import ElementQuad2, MeshQuad
 
-from fem_reference.shell.element import MEMBRANE
-from fem_reference.shell.membrane_strains import at_nodes, sampled
+from fem_reference.shell.element import GRIDS, MEMBRANE
 from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.solving.newton import Start
 from fem_reference.solving.path import Path
+from fem_reference.surface.biquadratic import interpolation, jacobians, product_grid, shape
 from fem_reference.surface.location import interpolate
 from sheetbench.scenes import Scene, Status
 
@@ -27,6 +32,13 @@ Shape = Callable[[np.ndarray], np.ndarray]
 COARSER = 4  # times as many elements along a side
 FINE = 8  # elements along the shorter side, from which on a coarse one saves more than it takes
 ENOUGH = 10  # factorisations of a coarse path that leads straight; others are given up
+
+NODES = 2.0 * ElementQuad2.doflocs.T - 1.0
+ALONG = {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}  # e_αβ in the order of their samples
+_TO_NODES = {name: interpolation(*GRIDS[name], NODES) for name in ALONG}
+_AT_SAMPLES = {name: shape(*product_grid(*GRIDS[name])) for name in ALONG}
+_AT_NODES = shape(*NODES)[1]
+_ENDS = np.cumsum([len(points.T) for points in _TO_NODES.values()])
 
 
 def coarse(counts: tuple[int, int], scene: Scene) -> tuple[int, int] | None:
@@ -74,3 +86,24 @@ def shaped(shape: Shape, structure: ShellStructure, nodes: np.ndarray) -> Start[
     change = np.array([displacement, shape(over) - displacement])
     found = State(change, rest.aside, element.stress(no_stress), no_rods)
     return Start(found, 1.0, structure.length(rest, found), structure.potential(found, 1.0)[1])
+
+
+def at_nodes(nodes: np.ndarray, element_nodes: np.ndarray, strain: np.ndarray) -> np.ndarray:
+    """E (n, 2, 2) at the nodes of elements at (m, 9, 2) [m] with samples (m, 21); element_nodes: (m, 9)."""
+    along = zip(_TO_NODES.values(), np.split(strain, _ENDS[:-1], axis=1), strict=True)
+    rr, ss, rs = (samples @ to_nodes.T for to_nodes, samples in along)
+    tensor = np.moveaxis(np.array([[rr, rs], [rs, ss]]), (0, 1), (2, 3))
+    inverse = np.linalg.inv(jacobians(nodes, _AT_NODES))  # ∂ξ_a/∂x_b
+    sums = np.zeros((element_nodes.max() + 1, 2, 2))
+    np.add.at(sums, element_nodes, inverse.swapaxes(2, 3) @ tensor @ inverse)
+    return sums / np.bincount(element_nodes.ravel())[:, None, None]
+
+
+def sampled(nodes: np.ndarray, strain: np.ndarray) -> np.ndarray:
+    """Samples (m, 21) of elements at (m, 9, 2) [m] of E (m, 9, 2, 2) at their nodes."""
+    found = []
+    for (a, b), (value, slope) in zip(ALONG.values(), _AT_SAMPLES.values(), strict=True):
+        jacobian = jacobians(nodes, slope)
+        here = (value @ strain.reshape(-1, 9, 4)).reshape(-1, len(value), 2, 2)
+        found.append(np.einsum("epx,epxy,epy->ep", jacobian[..., a], here, jacobian[..., b]))
+    return np.concatenate(found, axis=1)

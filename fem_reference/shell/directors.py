@@ -33,3 +33,18 @@ def multiplier(directors: np.ndarray, couple: np.ndarray) -> np.ndarray:
     """−(R_d · d)/(d · d) (n,) of residuals R_d (n, 3): the curvature of the sphere, on both rotations."""
     square = np.einsum("nc,nc->n", directors, directors)
     return -np.einsum("nc,nc->n", couple, directors) / square
+
+
+def projected(tangent: np.ndarray, frames: np.ndarray) -> np.ndarray:
+    """Tangents of loads on elements, (m, 18, 3, 18, 3), in their unknowns, (m, 45, 45): displacements of nine
+    nodes, then two rotations β of nine directors, δd = T β; frames: T (m, 9, 3, 2)."""
+    m = len(tangent)
+    right = np.concatenate(
+        [
+            tangent[:, :, :, :9].reshape(m, 18, 3, 27),
+            np.einsum("eicjd,ejdb->eicjb", tangent[:, :, :, 9:], frames).reshape(m, 18, 3, 18),
+        ],
+        axis=3,
+    )
+    lower = np.einsum("eicb,eica->eiab", right[:, 9:], frames).reshape(m, 18, 45)
+    return np.concatenate([right[:, :9].reshape(m, 27, 45), lower], axis=1)

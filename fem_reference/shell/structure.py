@@ -24,9 +24,8 @@ from typing import Self
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
+from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents, forces_of, strain_of, weighed
-from fem_reference.shell.reduction import projected
 from fem_reference.shell.state import Forces, State
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
 from fem_reference.surface.loads import Follower

@@ -5,8 +5,8 @@ import pytest
 
 import fem_reference
 from fem_reference.shell import coarse_start
+from fem_reference.shell.coarse_start import at_nodes, sampled
 from fem_reference.shell.element import MEMBRANE
-from fem_reference.shell.membrane_strains import at_nodes, sampled
 from fem_reference.shell.statics import discretise
 from fem_reference.solving import equilibrium
 from fem_reference.surface.mesh import mesh_of

@@ -18,10 +18,10 @@ from sheetbench.choices import REFERENCE
 from sheetbench.scenes import Scene, Status
 
 EXPLANATION = (
-    "u: the component of the largest displacement at the probes, extrapolated from three meshes "
-    "(Richardson), ± its grid convergence index. off: how far a model's extrapolated displacements are from "
-    "the shell's, the largest component over the probes over the shell's largest; ± both bars there. Two "
-    "models are distinguishable where they differ by more than both bars at a probe; others may still differ."
+    "u: the largest component of the displacements at the probes, extrapolated from the meshes (Richardson); "
+    "± u: its grid convergence index. off: largest component of u − u_shell over the probes / largest "
+    "component of u_shell, both extrapolated; ± off: both bars there. differs from: models whose difference "
+    "at some probe exceeds both bars; the others may still differ."
 )
 
 

@@ -24,10 +24,8 @@ from sheetbench.scenes import Solution, Status
 from sheetbench.scenes.summary import few
 
 FAR, SURE = 0.2, 1.0  # errors from which on a reason is looked for, and is not in springs or laws
-NEARER, STAYS = (
-    0.6,
-    0.75,
-)  # of the error: what a finer grid leaves; what grids finer still would, to first order
+NEARER = 0.6  # of the error, that a finer grid leaves
+STAYS = 0.75  # of the error, that grids finer still would leave, to first order
 STRAIN_LAW = 2.3 * 2.0  # times the largest stretch: an error that laws of strain do not explain (model_error)
 MISSED = 0.1  # share of a modulus from which on it is a reason
 UNKNOWN = 0.5  # bar of the reference that tells nothing any more

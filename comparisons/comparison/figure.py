@@ -27,9 +27,7 @@ from sheetbench.scenes import Scene, Solution
 
 LINE = 105  # characters of a title in full size
 VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: what moves less than the first is drawn as the second
-FLAT = (
-    1e-3  # of the largest displacement: a sheet that moves less across its plane is shown by how it stretches
-)
+FLAT = 1e-3  # of the largest displacement: what moves less across its plane is shown by how it stretches
 HEIGHTS, DIFFERENCES = "viridis", "magma_r"
 MODEL_NAMES = {
     "lumped": "Lumped lattice",

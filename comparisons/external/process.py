@@ -107,9 +107,8 @@ def _hear(process: subprocess.Popen[bytes], until: float) -> tuple[bytes, bytes,
         waiting.register(process.stderr, selectors.EVENT_READ, complaint)
         stopped = ""
         while not stopped:
-            ended = (
-                process.poll() is not None
-            )  # before reading: what it has written by its end is in the pipes
+            # before reading: what it has written by its end is in the pipes
+            ended = process.poll() is not None
             if ended:
                 until = min(until, perf_counter() + DRAIN)
             left = max(0.0, until - perf_counter())

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Annotated, Any
 
-from comparisons.stability.rows import LARGE, VARIED, Row, place, verdict, who
+from comparisons.stability.rows import LARGE, VARIED, Row, broken, place, verdict, who
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, SECONDS, Column, Table, Unit, number
@@ -90,8 +90,7 @@ class Stability(Answer):
         return (f"holds: converged and {within}, in motion of a run with a fine step.",)
 
     def complaints(self) -> list[str]:
-        broken = (row for row in self.rows if row["status"] in ("failed", "lost"))
-        return [f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in broken]
+        return broken(self.rows)
 
     def choices(self) -> dict[str, Any]:
         return {"studies": list(dict.fromkeys(row["study"] for row in self.rows))}

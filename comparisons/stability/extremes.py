@@ -50,11 +50,8 @@ CELLS = {"lumped": (2, 4, 8, 16, 32), "references": (2, 4, 8)}  # along the shor
 DAMPING = (0.0, 0.01, 0.1, 1.0, 10.0, 100.0)  # of the lowest mode's critical one
 SHARES = (0.3, 0.9, 1.1)  # of the largest stable step
 DIVISIONS = (200, 50, 20, 8, 4, 2, 1)  # steps a period
-FINE, PERIODS, SAMPLES = (
-    400,
-    3.0,
-    40,
-)  # steps a period of the midpoint rule; length of a run; samples a period
+FINE, SAMPLES = 400, 40  # steps of the midpoint rule and samples, a period
+PERIODS = 3.0  # of a run
 PARTS = ("patches", "layers")
 VARIED = (*FACTORS, "grid", "damping", "time-step")
 

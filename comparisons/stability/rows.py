@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 Row = dict[str, Any]
@@ -38,6 +39,12 @@ def who(row: Row) -> str:
 def doubtful(row: Row) -> bool:
     """Return whether a row is converged and still off by more than LARGE."""
     return row["status"] == "converged" and row.get("error") is not None and row["error"] > LARGE
+
+
+def broken(rows: Iterable[Row]) -> list[str]:
+    """Return a sentence for every row without an answer."""
+    lost = (row for row in rows if row["status"] in ("failed", "lost"))
+    return [f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in lost]
 
 
 def percent(error: float | None) -> str:

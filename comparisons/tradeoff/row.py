@@ -13,14 +13,8 @@ from comparisons.runs.campaign import Run
 from comparisons.runs.store import Finished
 from sheetbench.scenes import Scene
 
-_OF_AN_ANSWER = (
-    "load_factor",
-    "load_average",
-    "probes",
-    "machine",
-    "versions",
-    "traceback",
-)  # told where they are known
+# in the JSON where they are known
+_OF_AN_ANSWER = ("load_factor", "load_average", "probes", "machine", "versions", "traceback")
 
 
 @dataclass(frozen=True)

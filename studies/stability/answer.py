@@ -10,7 +10,7 @@ from typing import Any
 import matplotlib
 from matplotlib.figure import Figure
 
-from comparisons.stability.rows import Row, doubtful, percent
+from comparisons.stability.rows import Row, broken, doubtful, percent
 from comparisons.stability.tiles import MAP_STYLE
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
@@ -54,8 +54,7 @@ class StabilityMaps(Answer):
         return [Picture(study.name, compose, (study, self._of(study))) for study in self.studies]
 
     def complaints(self) -> list[str]:
-        broken = (row for row in self.rows if row["status"] in ("failed", "lost"))
-        return [f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in broken]
+        return broken(self.rows)
 
     def choices(self) -> dict[str, Any]:
         return {"studies": [study.name for study in self.studies]}

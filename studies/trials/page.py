@@ -127,7 +127,7 @@ def write_page() -> Path:
         version=VERSION,
         tables="\n".join(map(_table, documents)),
         chosen=chosen(),
-        findings="\n".join(map(_finding, documents)) + "\n",
+        findings="\n".join(map(_finding, documents)).replace(" %", f"{NO_BREAK}%") + "\n",
         front="\n".join(front) + "\n",
         badge=f"{_percent(best[1]['error'])}, {best[0]}",
     )
@@ -144,7 +144,7 @@ def chosen() -> str:
         for scene, best, error in _pairs(document):
             if scene in SCENES:
                 cells = (document["title"], scene, _percent(best), _percent(error), f"{best / error:.1f}")
-                lines.append(f"| {' | '.join(cells)} |")
+                lines.append(f"| {' | '.join(cells)} |".replace(" %", f"{NO_BREAK}%"))
     return "\n".join(lines) + "\n"
 
 
@@ -209,7 +209,10 @@ def _finding(document: dict[str, Any]) -> str:
     sentences: list[str] = []
     if pairs := _pairs(document):
         means = [geometric_mean(errors) for errors in list(zip(*pairs, strict=True))[1:]]
-        sentences.append(f"Over {len(pairs)} statics, geometric mean: {' and '.join(map(_percent, means))}.")
+        in_use, ours = map(_percent, means)
+        sentences.append(
+            f"Geometric mean of {len(pairs)} statics: {in_use} with the best in use, {ours} with ours."
+        )
     if curves := [error for error in _errors(document, OURS, "curves").values() if error is not None]:
         sentences.append(f"{len(curves)} curves with ours: {_percent(geometric_mean(curves))}.")
     why = "".join(f"\n  - {one}" for one in WHY.get(document["code"], ()))

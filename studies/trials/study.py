@@ -127,8 +127,8 @@ def run_trials(code: str, python: str, seconds: float, budget: float, say: Calla
 
     seconds: of processor time, the limit of a run; budget: of the clock, after which no further run begins.
     A row of the file that had the same inputs stays, but for one that a shorter limit ended. SCENES come
-    first, then rows that are missing, ours before others, curves and fine meshes late, and last the scenes in
-    which a run has come to the limit.
+    first, then statics before curves, ours before others, rows that are missing before changed ones, coarse
+    meshes before fine ones, and last the scenes in which a run has come to the limit.
     """
     require_choice("code", code, RECIPES)
     if which(python) is None:
@@ -143,9 +143,9 @@ def run_trials(code: str, python: str, seconds: float, budget: float, say: Calla
         key=lambda one: (
             one[0] not in SCENES,
             one[0] in late,
-            (one[0], one[1].name) in rows,
             CASES[one[0]].suite == "curves",
             one[1] is not BEST,
+            (one[0], one[1].name) in rows,
             one[1].squares,
         ),
     )
@@ -189,7 +189,7 @@ def _final(row: Trial, seconds: float) -> bool:
 
 def _trial(made: CodeSetup, recipe: str, python: str, seconds: float, folder: Path, inputs: str) -> Trial:
     script = str(folder / f"run_{made.code.name}.py")
-    ended = run([python, script, str(seconds)], b"", 4.0 * seconds + 60.0, variables=ONE_THREAD)
+    ended = run([python, script, str(seconds)], b"", 10.0 * seconds, variables=ONE_THREAD)
     about = made.scene.name, recipe, made.cell.name
     lines = [line for line in ended.answer.decode().splitlines() if line.startswith("{")]
     if ended.fault or not lines:

@@ -71,7 +71,8 @@ def main(seconds=600.0):
     scene = gs.Scene(
         sim_options=gs.options.SimOptions(dt=step, gravity=tuple(sheet["gravity"])),
         pbd_options=gs.options.PBDOptions(
-            particle_size=APART * float(np.linalg.norm(np.diff(rest[edges], axis=1), axis=2).min()),
+            particle_size=(1.0 if as_given else APART)
+            * float(np.linalg.norm(np.diff(rest[edges], axis=1), axis=2).min()),
             max_stretch_solver_iterations=4 if as_given else 1,
             max_bending_solver_iterations=1,
             lower_bound=tuple(rest.min(axis=0) - size),  # a grid of cells that every step empties

@@ -21,7 +21,7 @@ TOLERANCE = 5e-9  # residual, relative to the forces that balance
 SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
 VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
 ITERATIONS = 24  # in one load step
-BACK = 4  # corrections that are no shorter than so many before are given up
+BACK, SHRINKING = 4, 0.5  # given up: no shorter than so many before, nor than this share of the last one
 FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
 FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 
@@ -90,7 +90,7 @@ def newton(
             return state, factor if alike else None
         if relative <= close:
             return state, None
-        if len(lengths) > BACK and lengths[-1] >= lengths[-1 - BACK]:
+        if len(lengths) > BACK and lengths[-1] >= max(lengths[-1 - BACK], SHRINKING * lengths[-2]):
             raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
         if path.factorisations >= path.limit:
             reason = f"{path.limit} factorisations were not enough"

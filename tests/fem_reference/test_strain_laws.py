@@ -215,17 +215,21 @@ def test_the_law_is_an_option_of_the_reference(capsys):
         fem_reference.solve(bent(), "shell", elements=2, section=section, law="biot")
 
 
-@pytest.mark.parametrize(("law", "found"), [("mooney-rivlin", 1.0), ("neo-hookean", 0.594)])
-def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law, found):
-    """Neo-Hooke's has a limit point of inflation, Mooney's with c2 = c1/4 none up to here."""
+@pytest.mark.parametrize(
+    ("law", "elements", "found"),
+    [("mooney-rivlin", 6, 1.0), ("neo-hookean", 6, 0.594), ("neo-hookean", 4, 0.599)],
+)
+def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law, elements, found):
+    """Neo-Hooke's has a limit point of inflation, Mooney's with c2 = c1/4 none up to here. On 4 elements the
+    first steps overshoot: corrections grow before they shrink."""
     rubber = next(rubber for rubber in RUBBERS if rubber.law == law)
     sheet = Sheet(length_x=0.1, length_y=0.1, thickness=0.001)
     edges = tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
     scene = Scene(name="blown", sheet=sheet, material=rubber, supports=edges, loads=(Pressure(value=20e3),))
-    solution = fem_reference.solve(scene, "shell", elements=6)
+    solution = fem_reference.solve(scene, "shell", elements=elements)
     assert solution.load_factor == pytest.approx(found, abs=0.01)
     assert solution.displacement([[0.05, 0.05]])[0, 2] > 0.25 * sheet.length_x
-    assert solution.comparable or f"beyond load factor {found:.2f}"[:-1] in solution.message
+    assert solution.comparable or f"beyond load factor {solution.load_factor:.4g}" in solution.message
 
 
 def test_gent_beyond_its_limit_is_told_with_the_limit():

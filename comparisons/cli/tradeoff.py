@@ -67,7 +67,9 @@ def command(
             "N",
         ),
     ] = None,
-    repeats: Annotated[int, option("Least number of timed solves of every row.", "N", min=1)] = 5,
+    repeats: Annotated[
+        int | None, option("Least number of timed solves of every row at rest.", "N", show_default="5", min=1)
+    ] = None,
     duration: Annotated[
         float | None,
         option(
@@ -78,8 +80,9 @@ def command(
         ),
     ] = None,
     integrator: Annotated[
-        str, option("With --duration: the integrators.", "NAMES", show_default=", ".join(sorted(INTEGRATORS)))
-    ] = ",".join(sorted(INTEGRATORS)),
+        str | None,
+        option("With --duration: the integrators.", "NAMES", show_default=", ".join(sorted(INTEGRATORS))),
+    ] = None,
     large: Large = False,
     *,
     campaign: ClusterOptions,
@@ -100,13 +103,16 @@ def command(
     given = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
     meshes |= {name: sizes for name, sizes in given.items() if sizes is not None}
     if duration is not None:
-        for option, value in {"--symmetry": symmetry, "--lumped-pair": lumped_pair}.items():
-            if value:
-                raise BadInput(f"{option}: is for statics; leave it out with --duration")
+        statics = {"--symmetry": symmetry, "--lumped-pair": lumped_pair, "--repeats": repeats}
+        for option in (option for option, value in statics.items() if value):
+            raise BadInput(f"{option}: is for statics; leave it out with --duration")
         loaded = load(scene)
+        integrators = integrator or ",".join(sorted(INTEGRATORS))
         measure = of_motion(
-            loaded, duration, grid, calibration, lattice.spec, integrator, meshes, model or (), elements
+            loaded, duration, grid, calibration, lattice.spec, integrators, meshes, model or (), elements
         )
+    elif integrator is not None:
+        raise BadInput("--integrator: is for motion; give --duration too")
     else:
         loaded = load_static(scene)
         calibration = calibration or (USUAL if lattice.k is None else "uniform")
@@ -123,7 +129,7 @@ def command(
             models=model or (),
             symmetry=symmetry,
             elements=elements,
-            repeats=repeats,
+            repeats=repeats or 5,
             of_two=lumped_pair,
         )
     with output.open(scene=loaded) as out:

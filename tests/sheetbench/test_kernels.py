@@ -18,7 +18,7 @@ from numba.core import event
 
 import lumped
 from lumped.dynamics.explicit.steps import march
-from sheetbench.kernels import MONTH, ROOT, SAID, X86_64_V3, Locator, _remove_old, made_of
+from sheetbench.kernels import MONTH, NOTICE, ROOT, X86_64_V3, Locator, _remove_old, made_of
 from sheetbench.numerics import maps
 from sheetbench.numerics.maps import csr_arrays
 
@@ -106,7 +106,7 @@ def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled_and_what_came_w
     copy, cache, empty = tmp_path / "copy", tmp_path / "cache", tmp_path / "empty"
     for package in ("sheetbench", "lumped"):
         shutil.copytree(ROOT / package, copy / package, ignore=unneeded)
-    assert [ask(ROOT, cache), ask(copy, cache)] == [SAID + "\n", ""]
+    assert [ask(ROOT, cache), ask(copy, cache)] == [NOTICE + "\n", ""]
     shutil.copytree(cache, copy / "sheetbench" / "compiled")
     assert ask(copy, empty) == "" and not list(empty.rglob("*.nbi"))
 

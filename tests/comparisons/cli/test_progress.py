@@ -69,7 +69,7 @@ def test_what_will_last_is_said_before_it_starts(said):
 
 def test_the_clock_is_looked_at_while_nothing_is_said(monkeypatch):
     monkeypatch.setattr(cli_lines, "QUIET", 0.0)
-    monkeypatch.setattr(cli_lines, "LOOK", 1e-3)
+    monkeypatch.setattr(cli_lines, "POLL", 1e-3)
     told: list[str] = []
     with Lines(told.append) as lines:
         lines.say("working …")

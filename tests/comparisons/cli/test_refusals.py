@@ -44,6 +44,8 @@ ROWS = {
     "compare no-such-scene": f"no-such-scene|{TWO}",
     f"compare {ONE} --elements many": "--elements = 'many'",
     f"compare {TWO} --duration 0.1 --symmetry": "--symmetry: is for statics",
+    f"tradeoff {TWO} --duration 0.1 --repeats 2": "--repeats: is for statics",
+    f"tradeoff {TWO} --integrator esdirk": "--integrator: is for motion; give --duration too",
     f"compare {TWO} --lumped 9y": "--lumped|9y",
     f"compare {TWO} --lumped {HUGE}": "grid",
     f"compare {TWO} --calibration guess": "guess|consistent|uniform",

@@ -28,7 +28,7 @@ def test_no_scheduler_is_said_in_a_line():
 def lonely(monkeypatch):
     """A cluster whose only worker is in this process; patience ends quickly."""
     monkeypatch.setattr(executors, "PATIENCE", 0.5)
-    monkeypatch.setattr(runs_campaign, "LOOK", 0.1)
+    monkeypatch.setattr(runs_campaign, "POLL", 0.1)
     with LocalCluster(
         n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None, protocol="tcp"
     ) as local:

@@ -37,8 +37,8 @@ from lumped.mid_surface import MidSurface
 from lumped.sensitivity import rates
 from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
-from lumped.statics.solver import build_problem, solve_path
-from sheetbench.errors import BadInput, NoEquilibrium
+from lumped.statics.solver import build_problem, stable_equilibrium
+from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
@@ -48,7 +48,6 @@ from sheetbench.scenes import (
     Chain,
     Curved,
     Scene,
-    Status,
     Symmetric,
     holds_director,
     require_no_branches,
@@ -133,11 +132,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
             raise BadInput("linearise: a flat sheet has no actuators; leave --about out")
         u = np.zeros_like(problem.loads.dead)
     else:
-        with one_blas_thread():
-            outcome = solve_path(scene, problem, "path")
-        if outcome.status is not Status.CONVERGED:
-            raise NoEquilibrium(f"lumped: {outcome.status}: {'; '.join(outcome.notes)}")
-        u = outcome.state.u
+        u = stable_equilibrium(scene, problem).u
     system = System(scene, problem)
     motions = _allowed(system, u)
     rest = np.zeros_like(u)

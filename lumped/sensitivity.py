@@ -30,11 +30,11 @@ from lumped.mid_surface import MidSurface
 from lumped.sections import sections_of
 from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
-from lumped.statics.solver import build_problem, solve_path
+from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import Factor
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Scene, Status, require_static
+from sheetbench.scenes import Scene, require_static
 from sheetbench.scenes.parameters import FIBRES, parameter, put
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
@@ -67,7 +67,7 @@ def sensitivity(
 
     calibrate: how springs of a changed scene are found; by the same method without options unless given.
 
-    Raises BadInput for an unknown parameter and where the scene has no stable equilibrium on these springs.
+    Raises BadInput for an unknown parameter, NoEquilibrium where there is no stable one on these springs.
     """
     with one_blas_thread():
         problem, state, factor = _equilibrium(scene, calibration)
@@ -85,7 +85,7 @@ def gradient(
 ) -> dict[str, float]:
     """d/d(parameter) of Σ weights · displacement at points (n, 2) [m], weights (n, 3): one adjoint solve.
 
-    Raises BadInput as `sensitivity`, and where the tangent is unsymmetric.
+    Raises what `sensitivity` does, and BadInput where the tangent is unsymmetric.
     """
     with one_blas_thread():
         problem, state, factor = _equilibrium(scene, calibration)
@@ -104,10 +104,7 @@ def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, State
     """The problem, its state, and the tangent factored there: what the last step was taken with is older."""
     require_static(scene)
     problem = build_problem(scene, calibration)
-    outcome = solve_path(scene, problem, "path")
-    if outcome.status is not Status.CONVERGED:
-        raise BadInput(f"scene '{scene.name}': no sensitivity of an answer that is {outcome.status}")
-    state = outcome.state
+    state = stable_equilibrium(scene, problem)
     return problem, state, problem.linearise(state.u, 1.0).factor
 
 

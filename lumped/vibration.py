@@ -18,8 +18,8 @@ from lumped.lattice import Lattice
 from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
 from lumped.statics.problem import Problem
-from lumped.statics.solver import build_problem, solve_path
-from sheetbench.errors import BadInput, NoEquilibrium
+from lumped.statics.solver import build_problem, stable_equilibrium
+from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
@@ -27,7 +27,6 @@ from sheetbench.scenes import (
     About,
     AnyScene,
     Scene,
-    Status,
     free_rigid_motions,
     require_static,
     scene_of,
@@ -133,11 +132,7 @@ def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, np.nd
             "--about = deformed: actuators are no part of modes, and pressure, edge moments and springs of a "
             "per-direction law have none"
         )
-    with one_blas_thread():
-        outcome = solve_path(scene, problem, "path")
-    if outcome.status is not Status.CONVERGED:
-        raise NoEquilibrium(f"lumped: {outcome.status}: {'; '.join([*outcome.notes, outcome.status.advice])}")
-    return problem, outcome.state.u
+    return problem, stable_equilibrium(scene, problem).u
 
 
 def frequency_slopes(

@@ -170,11 +170,11 @@ def _report_error(error: Exception) -> int:
         message = terminal(" ".join(error.format_message().split()).rstrip("."))
         print(f"sheetbench: {message}; see {of} --help", file=sys.stderr)
         return BAD_INPUT
-    from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
+    from sheetbench.errors import BadInput, NoEquilibrium  # with numpy and pydantic: help must not wait
 
-    if isinstance(error, BadInput):
+    if isinstance(error, (BadInput, NoEquilibrium)):
         print(f"sheetbench: {terminal(' '.join(str(error).split()))}", file=sys.stderr)
-        return BAD_INPUT
+        return BAD_INPUT if isinstance(error, BadInput) else NOT_CONVERGED
     traceback.print_exception(error)
     print(
         "sheetbench: this is a fault of the program, not of your input: please report it, with the lines "

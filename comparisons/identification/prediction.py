@@ -22,7 +22,8 @@ from comparisons.identification.unknowns import Unknown, put
 from comparisons.models.resolve import Resolved
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements
-from sheetbench.scenes import BadInput, History, Scene, Status
+from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.scenes import History, Scene, Status
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -62,7 +63,7 @@ def lattice(scene: Scene, springs_of: Callable[[Scene], Calibration]) -> Predict
         springs = springs_of(here)
         try:
             found = lumped.sensitivity(here, springs, [u.name for u in unknowns], points, springs_of)
-        except BadInput as error:
+        except (BadInput, NoEquilibrium) as error:
             raise NotReached(str(error)) from None
         slopes = [found.derivatives[u.name] * u.slope(at) for u, at in zip(unknowns, x, strict=True)]
         return Prediction(found.displacement, slopes)

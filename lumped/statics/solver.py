@@ -38,7 +38,7 @@ from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
 from sheetbench.clock import now
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
@@ -231,6 +231,15 @@ def solve_path(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
             notes.append(limit_note(scene.material))
         return Outcome(status, state, tuple(snaps), tuple(notes))
     return classify(scene, problem, state, snaps, notes)
+
+
+def stable_equilibrium(scene: Scene, problem: Problem) -> State:
+    """The stable equilibrium on the load path at full load. Raises NoEquilibrium where there is none."""
+    with one_blas_thread():
+        outcome = solve_path(scene, problem, "path")
+    if outcome.status is not Status.CONVERGED:
+        raise NoEquilibrium(f"lumped: {outcome.status}: {'; '.join([*outcome.notes, outcome.status.advice])}")
+    return outcome.state
 
 
 def worth(scene: Scene, problem: Problem, state: State) -> int:

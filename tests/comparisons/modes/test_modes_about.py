@@ -1,6 +1,7 @@
 """Modes about the equilibrium: the heavy string, lattice beside shell, and flat where nothing loads it."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ import fem_reference
 import lumped
 from comparisons.modes.spectra import spectra
 from sheetbench.errors import BadInput, NoEquilibrium
-from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, load
+from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, Status, load
 
 
 def hanging():
@@ -72,13 +73,24 @@ def test_what_has_no_modes_is_refused_in_a_line():
             ask()
 
 
-def test_no_equilibrium_no_modes():
+@pytest.mark.parametrize(
+    "answer",
+    [
+        lambda *sheet: lumped.modes(*sheet, 2, about="deformed"),
+        lumped.linearise,
+        lambda *sheet: lumped.sensitivity(*sheet, ["axial"]),
+        lambda *sheet: lumped.gradient(*sheet, ["axial"], np.zeros((1, 2)), np.zeros((1, 3))),
+    ],
+    ids=["modes", "linearise", "sensitivity", "gradient"],
+)
+def test_no_equilibrium_nothing_about_it(answer):
     """A sheet a thousand times too soft is stretched beyond the model."""
     scene = load("two-edges-clamped")
     soft = with_material(scene, young=1e4)
     springs = lumped.calibrate(soft.sheet, soft.material, (5, 5))
-    with pytest.raises(NoEquilibrium, match="strain-outside-model"):
-        lumped.modes(soft, springs, 2, about="deformed")
+    advice = re.escape(Status.STRAIN_OUTSIDE_MODEL.advice)
+    with pytest.raises(NoEquilibrium, match=f"lumped: strain-outside-model: .*{advice}"):
+        answer(soft, springs)
 
 
 def test_the_verb_warns_of_a_sheet_that_is_not_flat(capsys):

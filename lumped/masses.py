@@ -109,7 +109,7 @@ def mass_matrix(
 def _across(thickness: float, lattice: Lattice) -> np.ndarray:
     """What the layers share of a column's mass, (layers, layers)."""
     layers = lattice.grid[2]
-    heights = (np.arange(layers) - (layers - 1) / 2) * lattice.layer_distance
+    heights = lattice.positions[:layers, 2]
     square = float(heights @ heights)
     rotary = 1.0 / layers - thickness**2 / (12.0 * square)
     shares: np.ndarray = np.eye(layers) / layers - rotary * np.outer(heights, heights) / square

@@ -88,10 +88,13 @@ def gap_shear_per_stiffness(spacing: tuple[float, float, float]) -> tuple[float,
 
 
 def shear_gaps(layers: int) -> float:
-    """(Σ t_g)²/Σ t_g²: the sheet's shear stiffness in units of one gap's."""
-    heights = np.arange(layers) - (layers - 1) / 2
-    carried = np.cumsum(heights[::-1])[:-1]
-    return float(carried.sum() ** 2 / (carried**2).sum())
+    """(Σ t_g)²/Σ t_g², t_g = g (L − g)/2: the sheet's shear stiffness in units of one gap's."""
+    return 5 * layers * (layers**2 - 1) / (6 * (layers**2 + 1))
+
+
+def second_moment(layers: int) -> float:
+    """Σ z_k² of layers one apart, about their middle; of the gaps between L layers that of L − 1."""
+    return layers * (layers**2 - 1) / 12
 
 
 def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: int) -> Moduli:
@@ -116,12 +119,9 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     in_gap = gap[:3, :3].copy()
     if gap[3, 3] > 0.0:
         in_gap -= np.outer(gap[:3, 3], gap[:3, 3]) / gap[3, 3]
-    lz = spacing[2]
-    heights = (np.arange(layers) - (layers - 1) / 2) * lz
-    gap_heights = (heights[1:] + heights[:-1]) / 2
     return Moduli(
         membrane=layers * in_layer + (layers - 1) * in_gap + mid_surface,
-        bending=(heights**2).sum() * in_layer + (gap_heights**2).sum() * in_gap,
+        bending=(second_moment(layers) * in_layer + second_moment(layers - 1) * in_gap) * spacing[2] ** 2,
         shear=shear_gaps(layers) * (np.diag(gap)[4:] + sum(constants.of_faces(springs, spacing[:2]))),
     )
 

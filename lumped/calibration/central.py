@@ -73,9 +73,7 @@ def _springs(
     lx, ly = spacing
     rigidity = float(target.bending[0, 0])
     lz2 = distance**2 if distance is not None else 4.0 * rigidity / float(target.membrane[0, 0])
-    heights = np.arange(layers) - (layers - 1) / 2
-    sigma = float((heights**2).sum())
-    sigma_gap = float((((heights[1:] + heights[:-1]) / 2) ** 2).sum())
+    sigma, sigma_gap = moduli.second_moment(layers), moduli.second_moment(layers - 1)
     ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
     a, b = share
 

@@ -55,7 +55,7 @@ import numpy as np
 from scipy.linalg import eigvalsh
 
 from lumped.calibration.calibration import by_direction
-from lumped.moduli import Moduli, shear_gaps
+from lumped.moduli import Moduli, second_moment, shear_gaps
 from sheetbench.scenes import SpringSet
 
 FIRMER = 4.0  # columns of a lattice with `gradients`, at no cost to the explicit step of cells of 5 h or more
@@ -75,9 +75,7 @@ def closed_form(
     vary across a cell cost what they cost the sheet; waves: whether oblique waves of bending are right in l²,
     of oblong cells as if they were squares of the same area."""
     lx, ly = spacing
-    heights = np.arange(layers) - (layers - 1) / 2
-    sigma = float((heights**2).sum())
-    sigma_gap = float((((heights[1:] + heights[:-1]) / 2) ** 2).sum())
+    sigma, sigma_gap = second_moment(layers), second_moment(layers - 1)
     gap = target.shear * np.array([lx**2, ly**2]) / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
     ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
     bracket = 5.0 + 3.0 * target.bending[0, 1] / target.bending[0, 0]

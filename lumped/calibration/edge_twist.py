@@ -92,7 +92,7 @@ def _of_edges(
     """edge_shear and strip_shear of x0 and y0, or of x1 and y1 (`far`); adds to the notes. lost: λ of the
     cells (rows, columns, 2) [m]; differ: whether they have sections of their own, and each is taken as if all
     across the sheet were like it."""
-    square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * springs.layer_distance**2
+    square = moduli.second_moment(layers) * springs.layer_distance**2
     unequal = constants.varies(springs)
     found: dict[bool, list[Any]] = {False: [], True: []}
     for axis in range(2):

@@ -48,12 +48,11 @@ def fit_moduli(
     spacing = plan_spacing(sheet, grid)
     layers = grid[2]
     target = moduli.of_sheet(sheet, material, spacing)
-    heights = np.arange(layers) - (layers - 1) / 2
     first_distance = layer_distance or sheet.thickness / (layers - 1)
 
     def springs_of(unknowns: np.ndarray) -> SpringSet:
         distance = layer_distance or first_distance * float(np.exp(unknowns[-1]))
-        stiffness = target.bending[0, 0] / ((heights**2).sum() * distance**2)
+        stiffness = target.bending[0, 0] / (moduli.second_moment(layers) * distance**2)
         values: dict[str, Any] = {
             name: float(stiffness * value) for name, value in zip(UNKNOWNS, unknowns, strict=False)
         }

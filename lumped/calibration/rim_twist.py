@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from lumped import moduli
 from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration, either
 from lumped.calibration.cell_by_cell import kinds_of_cells
@@ -42,7 +43,7 @@ def with_rims(sheet: Sheet, material: Material, found: Calibration) -> tuple[Spr
     springs, grid, there = found.springs, found.grid, found.present
     kinds = kinds_of_cells(sheet, material, grid, found.grading, found.cells)
     layers, lost = grid[2], np.broadcast_to(found.cells.layer_width, (*there.shape, 2))
-    square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * springs.layer_distance**2
+    square = moduli.second_moment(layers) * springs.layer_distance**2
     first = {int(n): np.argwhere((kinds.which == n) & (kinds.factor == 1.0))[0] for n in range(len(kinds.of))}
     of_kind = [
         of_cell(constants.of_cell(springs, *first[n]), (*kinds.of[n][0], springs.layer_distance), layers)

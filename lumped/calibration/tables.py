@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from lumped.moduli import second_moment
 from sheetbench.answers.table import Column, Table, number
 
 _UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
@@ -95,7 +96,7 @@ def _edges(calibration: dict[str, Any]) -> str:
     shear, layers = calibration["springs"].get("edge_shear"), calibration["grid"][2]
     if not shear:
         return ""
-    square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * calibration["layer_distance"] ** 2
+    square = second_moment(layers) * calibration["layer_distance"] ** 2
     (twisting,) = (row["got"] for row in calibration["moduli"] if row["name"] == "D66")
     cells = np.hstack([*shear.values()]) if isinstance(shear, dict) else shear
     shares = sorted({number(1.0 + k * square / twisting, ".3f") for k in (np.min(cells), np.max(cells))})

@@ -127,8 +127,7 @@ def _layered(
     """Given in-plane springs, layers that bend as they stretch and cross-layer links that shear as S*."""
     lx, ly = plan_spacing(sheet, grid)
     layers = grid[2]
-    heights = np.arange(layers) - (layers - 1) / 2.0
-    distance = layer_distance or sheet.thickness * math.sqrt(layers / (12.0 * float((heights**2).sum())))
+    distance = layer_distance or sheet.thickness * math.sqrt(layers / (12.0 * moduli.second_moment(layers)))
     target = moduli.of_sheet(sheet, material, (lx, ly))
     area = lx * ly
     cross_x, cross_y, diagonals = moduli.gap_shear_per_stiffness((lx, ly, distance))

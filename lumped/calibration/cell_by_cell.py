@@ -27,24 +27,30 @@ DIGITS = 12  # to which cells are distinguished
 
 
 class Kinds(NamedTuple):
-    """of: sides [m] and section of every kind of cell; which: the number of every cell's kind, (rows,
-    columns); factor: how many times as stiff as that the cell is, at most 1, 0 where there is none."""
+    """cells: the sections of all, where they differ; of: sides [m] and section of every kind; which: the
+    number of every cell's kind, (rows, columns); factor: how many times as stiff as that the cell is, at most
+    1, 0 where there is none."""
 
+    grid: Grid
+    grading: Graded
+    cells: Section | None
     of: list[tuple[Sides, Section]]
     which: np.ndarray
     factor: np.ndarray
 
 
 def kinds_of_cells(
-    sheet: Sheet, material: Material, grid: Grid, grading: Graded, cells: Section | None
+    sheet: Sheet, material: Material, grid: Grid, grading: Graded = 0.0, cells: Section | None = None
 ) -> Kinds:
     """Return the kinds of cells. cells: the sections of all, where they differ; those that differ by a factor
-    alone are of one kind."""
-    across_x, across_y = (
-        [float(f"{width:.{DIGITS}g}") for width in lines.widths] for lines in grid_lines(sheet, grid, grading)
-    )
-    sides = np.stack(np.meshgrid(across_x, across_y), axis=-1)
-    plain, shape = Section.of(Constants.of(sheet, material)), sides.shape[:2]
+    alone are of one kind. Raises BadInput for a grading outside 0 to 1."""
+    lines, plain = grid_lines(sheet, grid, grading), Section.of(Constants.of(sheet, material))
+    shape = grid[1] - 1, grid[0] - 1
+    if not grading and cells is None:
+        only = [((lines[0].mean, lines[1].mean), plain)]
+        return Kinds(grid, grading, cells, only, np.zeros(shape, dtype=int), np.ones(shape))
+    widths = ([float(f"{width:.{DIGITS}g}") for width in across.widths] for across in lines)
+    sides = np.stack(np.meshgrid(*widths), axis=-1)
     every = plain.each(lambda part: np.broadcast_to(part, (*shape, *part.shape))) if cells is None else cells
     scale = every.bending[..., 0, 0]
     stiffness = [] if cells is None else [every.membrane, every.bending, every.shear]
@@ -63,23 +69,11 @@ def kinds_of_cells(
             x, y = sides[at]
             found.append(((float(x), float(y)), every.each(lambda part, at=at: part[at])))  # type: ignore[misc]
             stiffest.append(scale[at])
-    return Kinds(found, which, scale / np.array(stiffest)[which])
+    return Kinds(grid, grading, cells, found, which, scale / np.array(stiffest)[which])
 
 
-def cell_by_cell(
-    of_cell: OfCell,
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    grading: Graded,
-    cells: Section | None,
-    layer_distance: float | None = None,
-) -> SpringSet:
-    """The springs of a lattice whose cells have those that `of_cell` finds for each.
-
-    Raises BadInput for a grading outside 0 to 1, and what `of_cell` raises.
-    """
-    kinds = kinds_of_cells(sheet, material, grid, grading, cells)
+def cell_by_cell(of_cell: OfCell, kinds: Kinds, layer_distance: float | None = None) -> SpringSet:
+    """The springs of a lattice whose cells have those that `of_cell` finds for each."""
     if layer_distance is None:
         layer_distance = max(of_cell(*kind, None).layer_distance for kind in kinds.of)
     found = [of_cell(*kind, layer_distance) for kind in kinds.of]

@@ -23,6 +23,7 @@ import numpy as np
 
 from lumped import moduli
 from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
+from lumped.calibration.cell_by_cell import kinds_of_cells
 from lumped.calibration.central_table import ROWS
 from lumped.calibration.report import report
 from lumped.lattice import Grid
@@ -54,7 +55,7 @@ def central(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
         got = moduli.of_springs(springs, (*spacing, springs.layer_distance), layers).membrane
         off = float(np.sqrt(got[0, 0] * got[1, 1])) / wanted
         springs = _springs(target, spacing, layers, (a, b), springs.layer_distance * np.sqrt(off))
-    found = report("central", sheet, material, grid, springs)
+    found = report("central", kinds_of_cells(sheet, material, grid), springs)
     cost = (
         f"the moduli make the worst of the training scenes wrong by {bent:.1%} where they bend and by "
         f"{stretched:.1%} where they stretch; those of 'cauchy' by {cauchy:.1%} where they bend"

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from lumped import moduli, sections
 from lumped.calibration.calibration import Calibration, plan_spacing
-from lumped.calibration.cell_by_cell import Sides, cell_by_cell
+from lumped.calibration.cell_by_cell import Sides, cell_by_cell, kinds_of_cells
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
@@ -60,14 +60,15 @@ def consistent(
             )
         return springs
 
+    kinds = kinds_of_cells(sheet, material, grid, grading, cells)
     springs: SpringSet | None = None
     if grading or cells is not None:
-        springs = cell_by_cell(of_cell, sheet, material, grid, grading, cells, layer_distance)
+        springs = cell_by_cell(of_cell, kinds, layer_distance)
     elif layer_distance is None:
         spacing = plan_spacing(sheet, grid)
         springs = closed_form(moduli.of_sheet(sheet, material, spacing), spacing, grid[2], **special)
     if springs is None:
         springs = fit_moduli(sheet, material, grid, layer_distance).springs
-    found = report(method, sheet, material, grid, springs, grading, cells)
+    found = report(method, kinds, springs)
     found = replace(found, of_material=of_material)
-    return found if method == "consistent-interior" else with_twist(sheet, material, found)
+    return found if method == "consistent-interior" else with_twist(sheet, kinds, found)

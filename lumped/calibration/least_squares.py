@@ -15,6 +15,7 @@ import numpy as np
 
 from lumped import moduli
 from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
+from lumped.calibration.cell_by_cell import kinds_of_cells
 from lumped.calibration.report import report
 from lumped.lattice import Grid
 from sheetbench.scenes import Material, Sheet, SpringSet
@@ -110,4 +111,4 @@ def fit_moduli(
     )
     if np.abs(misses(found)).max() > MATCHED:
         found = least_squares(weak_strains, start, bounds=(low, high), **exact).x
-    return report("moduli", sheet, material, grid, springs_of(found))
+    return report("moduli", kinds_of_cells(sheet, material, grid), springs_of(found))

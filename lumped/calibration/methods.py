@@ -8,6 +8,7 @@ from functools import partial
 
 from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration
+from lumped.calibration.cell_by_cell import kinds_of_cells
 from lumped.calibration.central import central
 from lumped.calibration.consistent import consistent
 from lumped.calibration.least_squares import fit_moduli
@@ -90,8 +91,9 @@ def given(
         )
     constants.require_cells(springs, requested, f"scene '{scene.name}': ")
     cells = sections_of(scene, requested, table.graded)
-    found = report("scene", scene.sheet, scene.material, requested, springs, table.graded, cells)
-    return replace(found, masses=table.masses)
+    differing = cells if constants.varies(springs) else None
+    kinds = kinds_of_cells(scene.sheet, scene.material, requested, table.graded, differing)
+    return replace(report("scene", kinds, springs), masses=table.masses, cells=cells)
 
 
 def default(scene: Scene) -> Calibration:

@@ -9,38 +9,28 @@ import numpy as np
 from lumped import moduli
 from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration, shown
-from lumped.calibration.cell_by_cell import Sides, kinds_of_cells
+from lumped.calibration.cell_by_cell import Kinds, Sides
 from lumped.grid_lines import grid_lines
 from lumped.sections import Section
 from sheetbench.answers.table import number
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Constants, Material, Sheet, SpringSet
-from sheetbench.scenes.grading import Graded
+from sheetbench.scenes import Sheet, SpringSet
 from sheetbench.scenes.grid import Grid
 
 Cell = tuple[Sides, Section, SpringSet]
 ALIKE = 1e-9
 
 
-def report(
-    method: str,
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    springs: SpringSet,
-    grading: Graded = 0.0,
-    cells: Section | None = None,
-) -> Calibration:
+def report(method: str, kinds: Kinds, springs: SpringSet) -> Calibration:
     """The calibration with its moduli report, and notes on what it misses and why. Of unequal cells each
     modulus is reported of the cell that misses it most.
 
     Raises BadInput where area springs leave a cell without positive energy.
     """
-    kinds = _kinds(sheet, material, grid, springs, grading, cells)
-    square = all(abs(x - y) < 1e-9 * x for (x, y), _, _ in kinds)
+    square = all(abs(x - y) < 1e-9 * x for (x, y), _ in kinds.of)
     worst: dict[str, dict[str, Any]] = {}
-    for sides, section, own in kinds:
-        whole = moduli.of_springs(own, (*sides, own.layer_distance), grid[2])
+    for sides, section, own in _cells(kinds, springs):
+        whole = moduli.of_springs(own, (*sides, own.layer_distance), kinds.grid[2])
         for row in _rows(moduli.of_section(section, sides).named(square), whole.named(square)):
             if row["name"].startswith("S"):
                 row["kappa_G_h"] = float(section.shear[int(row["name"] == "Sy")])
@@ -60,7 +50,7 @@ def report(
         missed.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
     rows = tuple(worst.values())
     notes = (*missed, *_admissible(springs))
-    return Calibration(method, grid, springs, rows, notes, grading=grading, cells=cells)
+    return Calibration(method, kinds.grid, springs, rows, notes, grading=kinds.grading, cells=kinds.cells)
 
 
 def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
@@ -69,15 +59,10 @@ def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
     return moduli.of_springs(springs, (x.mean, y.mean, springs.layer_distance), grid[2])
 
 
-def _kinds(
-    sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, grading: Graded, cells: Section | None
-) -> list[Cell]:
-    """The kinds of cells: one where all are alike, else each that differs from the others by more than a
-    factor, of which the stiffest."""
-    if not grading and not constants.varies(springs):
-        x, y = grid_lines(sheet, grid)
-        return [((x.mean, y.mean), Section.of(Constants.of(sheet, material)), springs)]
-    kinds = kinds_of_cells(sheet, material, grid, grading, cells)
+def _cells(kinds: Kinds, springs: SpringSet) -> list[Cell]:
+    """Each cell that differs from the others by more than a factor, of which the stiffest."""
+    if not constants.varies(springs):
+        return [(*kind, springs) for kind in kinds.of]
     found: dict[Any, Cell] = {}
     for row, column in np.argwhere(kinds.factor > 1.0 - ALIKE).tolist():
         own, number = constants.of_cell(springs, row, column), kinds.which[row, column]

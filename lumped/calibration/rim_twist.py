@@ -20,29 +20,28 @@ import numpy as np
 from lumped import moduli
 from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration, either
-from lumped.calibration.cell_by_cell import kinds_of_cells
+from lumped.calibration.cell_by_cell import Kinds
 from lumped.calibration.edge_twist import AT_CORNERS, MOST, edge_factor, of_cell, with_edges
-from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Sheet, SpringSet
 
 ALIKE = 1e-9  # shares of cells that one straight line cuts
 
 
-def with_twist(sheet: Sheet, material: Material, found: Calibration) -> Calibration:
+def with_twist(sheet: Sheet, kinds: Kinds, found: Calibration) -> Calibration:
     """The calibration with the twist of its edges, and of its rims where cells are absent."""
     if found.present is None:
         springs, notes = with_edges(sheet, found.grid, found.springs, found.grading, found.cells)
     else:
-        springs, notes = with_rims(sheet, material, found)
+        springs, notes = with_rims(kinds, found)
     return replace(found, springs=springs, remarks=(*found.remarks, *notes))
 
 
-def with_rims(sheet: Sheet, material: Material, found: Calibration) -> tuple[SpringSet, list[str]]:
+def with_rims(kinds: Kinds, found: Calibration) -> tuple[SpringSet, list[str]]:
     """The springs of a calibration with absent cells and the twist of their rims, and a note for rims where
     no factor will do."""
     assert found.cells is not None and found.present is not None
-    springs, grid, there = found.springs, found.grid, found.present
-    kinds = kinds_of_cells(sheet, material, grid, found.grading, found.cells)
-    layers, lost = grid[2], np.broadcast_to(found.cells.layer_width, (*there.shape, 2))
+    springs, layers, there = found.springs, found.grid[2], found.present
+    lost = np.broadcast_to(found.cells.layer_width, (*there.shape, 2))
     square = moduli.second_moment(layers) * springs.layer_distance**2
     first = {int(n): np.argwhere((kinds.which == n) & (kinds.factor == 1.0))[0] for n in range(len(kinds.of))}
     of_kind = [

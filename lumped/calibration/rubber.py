@@ -25,15 +25,15 @@ import math
 import numpy as np
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
-from lumped.calibration.cell_by_cell import Sides, cell_by_cell
+from lumped.calibration.calibration import Calibration, by_direction
+from lumped.calibration.cell_by_cell import Sides, cell_by_cell, kinds_of_cells
 from lumped.calibration.closed_form import diagonals_for_waves, vertical
 from lumped.calibration.report import report
 from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
 from lumped.sections import Section
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Constants, Material, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.orthotropy import FIBRES
 
@@ -89,11 +89,12 @@ def hyperelastic(
             layer_distance=math.sqrt(square),
         )
 
+    kinds = kinds_of_cells(sheet, material, grid, grading, cells)
     if grading or cells is not None:
-        springs = cell_by_cell(of_cell, sheet, material, grid, grading, cells, layer_distance)
+        springs = cell_by_cell(of_cell, kinds, layer_distance)
     else:
-        springs = of_cell(plan_spacing(sheet, grid), Section.of(Constants.of(sheet, material)))
-    return with_twist(sheet, material, report(method, sheet, material, grid, springs, grading, cells))
+        springs = of_cell(*kinds.of[0])
+    return with_twist(sheet, kinds, report(method, kinds, springs))
 
 
 def _require_one_thickness(cells: Section | None) -> None:

@@ -26,6 +26,7 @@ import numpy as np
 
 from lumped import moduli
 from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
+from lumped.calibration.cell_by_cell import kinds_of_cells
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.report import report
 from lumped.lattice import Grid
@@ -49,7 +50,7 @@ def axial(sheet: Sheet, material: Material, grid: Grid, layer_distance: float | 
         cross_diagonal=strip * (lx * ly / diagonal) / math.hypot(diagonal, distance),
         layer_distance=distance,
     )
-    return report("axial", sheet, material, grid, springs)
+    return report("axial", kinds_of_cells(sheet, material, grid), springs)
 
 
 def van_gelder(
@@ -95,7 +96,7 @@ def cauchy(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
     if springs is None:
         raise BadInput(f"calibration 'cauchy': {grid[2]} layers need cells as small as the sheet is thick")
     springs = springs.model_copy(update={"area": 0.0, "mid_area": 0.0})
-    return report("cauchy", sheet, material, grid, springs)
+    return report("cauchy", kinds_of_cells(sheet, material, grid), springs)
 
 
 def uniform(
@@ -107,7 +108,7 @@ def uniform(
     if k is None:
         unit = moduli.of_springs(_all(1.0, distance), (lx, ly, distance), grid[2])
         k = float(moduli.of_sheet(sheet, material, (lx, ly)).bending[0, 0] / unit.bending[0, 0])
-    return report("uniform", sheet, material, grid, _all(k, distance))
+    return report("uniform", kinds_of_cells(sheet, material, grid), _all(k, distance))
 
 
 def _all(k: float, layer_distance: float) -> SpringSet:
@@ -143,4 +144,4 @@ def _layered(
         cross_diagonal=cross_diagonal,
         layer_distance=distance,
     )
-    return report(method, sheet, material, grid, springs)
+    return report(method, kinds_of_cells(sheet, material, grid), springs)

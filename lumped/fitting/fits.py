@@ -23,6 +23,7 @@ import numpy as np
 
 from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration
+from lumped.calibration.cell_by_cell import kinds_of_cells
 from lumped.calibration.consistent import consistent
 from lumped.calibration.report import report
 from lumped.fitting.identifiability import Identifiability, identifiability
@@ -191,7 +192,8 @@ def _fit(
 
     best = least_squares(residuals, np.zeros(len(names)), jac=slopes_of, xtol=1e-10, ftol=1e-10, max_nfev=60)
     misses, slopes = at(tuple(best.x))
-    plain = report(method, sheet, material, first.grid, fitted(best.x).springs, first.grading)
+    kinds = kinds_of_cells(sheet, material, first.grid, first.grading)
+    plain = report(method, kinds, fitted(best.x).springs)
     known = identifiability(names, slopes, misses) if len(misses) > len(names) else None
     return FittedCalibration(
         method,

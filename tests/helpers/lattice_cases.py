@@ -4,6 +4,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.assembly import Assembly
+from lumped.calibration.cell_by_cell import kinds_of_cells
 from lumped.calibration.report import report
 from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 
@@ -24,10 +25,8 @@ ALL = {
 
 
 def assembly_of(grid=(3, 4, 2), **springs):
-    calibration = report(
-        "test", SHEET, MATERIAL, grid, SpringSet(**{**NONE, **springs}, layer_distance=0.02 / (grid[2] - 1))
-    )
-    return Assembly(SHEET, calibration)
+    constants = SpringSet(**{**NONE, **springs}, layer_distance=0.02 / (grid[2] - 1))
+    return Assembly(SHEET, report("test", kinds_of_cells(SHEET, MATERIAL, grid), constants))
 
 
 def dense(assembly, blocks):

@@ -9,6 +9,7 @@ import lumped
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration import tables
+from lumped.calibration.cell_by_cell import kinds_of_cells
 from lumped.calibration.report import _admissible, _require_positive, report
 from sheetbench import scenes
 from sheetbench.scenes import BadInput, Material, PerDirection, Sheet, SpringSet
@@ -108,7 +109,7 @@ def test_homogenisation_agrees_with_imposed_strains(grid):
     springs = UNEQUAL.model_copy(
         update={"shear": 120.0, "mid_shear": 90.0, "mid_stretch": PerDirection(x=50.0, y=80.0)}
     )
-    assembly = small_assembly(report("test", SEED.sheet, SEED.material, grid, springs))
+    assembly = small_assembly(report("test", kinds_of_cells(SEED.sheet, SEED.material, grid), springs))
     spacing = (0.188 / (grid[0] - 1), 0.188 / (grid[1] - 1), 0.004)
     got = moduli.of_springs(springs, spacing, 2)
     zero = (0.0, 0.0, 0.0)
@@ -147,7 +148,7 @@ def test_without_strain_springs_long_cells_cannot_be_met():
     """Diagonals stiffen a cell along its length by (lx/ly)² C66: beyond √3 axial links would be negative."""
     calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 25))
     bare = calibration.springs.model_copy(update={"shear": 0.0, "mid_shear": 0.0, "mid_stretch": 0.0})
-    stripped = report("stripped", SEED.sheet, SEED.material, (9, 25, 2), bare)
+    stripped = report("stripped", kinds_of_cells(SEED.sheet, SEED.material, (9, 25, 2)), bare)
     assert any("miss" in note and "D66 by" in note for note in stripped.remarks)
 
 

@@ -9,6 +9,7 @@ import fem_reference
 import lumped
 from lumped import moduli
 from lumped.assembly import Assembly
+from lumped.calibration.cell_by_cell import kinds_of_cells
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.report import report
 from sheetbench.scenes import Material, Sheet
@@ -24,7 +25,8 @@ def one_cell(gradients, poisson, sides):
     asked = moduli.of_sheet(sheet, material, sides)
     springs = closed_form(asked, sides, 2, gradients=gradients)
     assert springs is not None
-    return Assembly(sheet, report("test", sheet, material, (2, 2, 2), springs)), asked, springs
+    calibration = report("test", kinds_of_cells(sheet, material, (2, 2, 2)), springs)
+    return Assembly(sheet, calibration), asked, springs
 
 
 def cost_of_bending_in_plane(gradients, poisson, axis, sides):

@@ -17,6 +17,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
 from PIL import Image
 
 from comparisons.browser import viewer
@@ -35,6 +36,7 @@ PACKAGE = "comparisons.pages"
 AS_THEY_ARE = ("title", "verb", "place", "command", "date", "notes", "complaints")  # of a study
 MANY, OTHERS = 4, 30  # studies from which on each is folded; other files that are named
 TIMES = ("duration", "step", "largest_step", "every")
+MACHINE = {"processor": "{}", "cpu_count": "{} processors", "system": "{}", "python": "Python {}"}
 UNITS = {"layer_distance": "m", "k": "N/m", **dict.fromkeys(TIMES, "s")}  # of settings
 WIDEST = 1600  # pixels of a picture
 MOVING_OR_LINES = {".gif": "gif", ".svg": "svg+xml"}  # shown as they are; no script runs in a picture
@@ -50,6 +52,7 @@ def page(found: FolderContents, title: str) -> str:
         loader=PackageLoader(PACKAGE, "."), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True, finalize=_visible,
     )  # fmt: skip
+    environment.filters["whole_words"] = whole_words
     environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
     return environment.get_template("page.html").render(
         title=title,
@@ -71,6 +74,13 @@ def policy(script: str, style: str) -> str:
         f"default-src 'none'; script-src '{_digest(script)}'; style-src '{_digest(style)}'; img-src data:; "
         "base-uri 'none'; form-action 'none'"
     )
+
+
+def whole_words(text: str) -> Markup:
+    """Return the text so that options and names with hyphens are not broken over lines at these."""
+    span = Markup('<span class="whole">{}</span>')
+    words = _visible(text).split(" ")
+    return Markup(" ").join(span.format(word) if "-" in word else word for word in words)
 
 
 def memory_of(size: int) -> str:
@@ -121,9 +131,7 @@ def _made(record: Mapping[str, Any], run: Mapping[str, Any]) -> list[tuple[str, 
         "date": run.get("date"),
         "sheetbench": record.get("sheetbench"),
         "source": record.get("source"),
-        "machine": ", ".join(
-            str(machine[key]) for key in ("processor", "cpu_count", "system", "python") if key in machine
-        ).replace(f", {machine.get('cpu_count')},", f", {machine.get('cpu_count')} processors,"),
+        "machine": ", ".join(text.format(machine[key]) for key, text in MACHINE.items() if key in machine),
         "packages": ", ".join(f"{name} {version}" for name, version in versions.items()),
     }
     return [(name, str(value)) for name, value in parts.items() if value]

@@ -15,11 +15,12 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.pages.manifests import LARGEST, manifest
+from comparisons.runs import store
 from comparisons.runs.folder import MANIFEST
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 
-OURS = ("report.html", MANIFEST)
+OURS = ("report.html", MANIFEST, store.FILE)
 
 
 @dataclass
@@ -86,7 +87,8 @@ class Study:
 
     @property
     def notes(self) -> list[str]:
-        """The notes of the run on one line each; one that ends in a colon with what follows it."""
+        """The notes of the run on one line each but its complaints; one that ends in a colon with what
+        follows it."""
         found: list[str] = []
         for note in self.words.get("notes") or texts(self.document.get("notes")):
             line = " ".join(note.split())
@@ -94,7 +96,7 @@ class Study:
                 found[-1] += f" {line}"
             else:
                 found.append(line)
-        return found
+        return [note for note in found if note not in self.complaints]
 
     @property
     def complaints(self) -> list[str]:

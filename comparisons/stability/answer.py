@@ -10,7 +10,7 @@ from typing import Annotated, Any
 from comparisons.stability.rows import LARGE, VARIED, Row, broken, place, verdict, who
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
-from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, SECONDS, Column, Table, Unit, number
+from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, Unit, number
 from sheetbench.scenes import Scene
 
 MICROSECONDS = Unit("s", "µs", 1e6)
@@ -49,7 +49,7 @@ class CellRow:
     status: str
     error: Annotated[float | None, PERCENT(".3g")]
     iterations: Annotated[int | None, NUMBER("d")]
-    seconds: Annotated[float, SECONDS(".2f")]
+    seconds: Annotated[float, MILLISECONDS(".3g", shown_name="time")]
     message: Annotated[str, Column(prose=True, detail=True)]
 
 
@@ -86,8 +86,8 @@ class Stability(Answer):
         return (Picture("stability", "comparisons.stability.figure:compose", (self,)),) if drawn else ()
 
     def notes(self) -> tuple[str, ...]:
-        within = f"within {100.0 * LARGE:g} % of the {self.reference} on the same sheet"
-        return (f"holds: converged and {within}, in motion of a run with a fine step.",)
+        within = f"holds: converged, and within {100.0 * LARGE:g} %"
+        return (f"{within} of the {self.reference} at rest, of a run with a fine step in motion.",)
 
     def complaints(self) -> list[str]:
         return broken(self.rows)

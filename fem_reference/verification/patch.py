@@ -43,7 +43,7 @@ def rows(case: str) -> Iterator[Row]:
         "shell": {"finite stretch": _shell_stretch, "constant curvature": _shell_curvature},
         "solid": {"finite deformation": _solid_deformation},
     }
-    for name, mesh in (("distorted", distorted()), ("that follow a line", following())):
+    for name, mesh in (("distorted", distorted()), ("along a line", following())):
         for model, checks in states.items():
             for state, unbalanced in checks.items():
                 label = f"{model} {mesh.nelements} elements, {name}"

@@ -74,7 +74,7 @@ def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal
     brief, width = table.brief(), width and max(width, LEAST)
     shown = [[say(text) for text in row] for row in brief.shown_rows()]
     strips = [
-        _Strip(column, say(column.name), say(column.bracketed_unit), [row[i] for row in shown])
+        _Strip(column, say(column.title), say(column.bracketed_unit), [row[i] for row in shown])
         for i, column in enumerate(brief.columns)
     ]
     firsts = strips[0].cells

@@ -35,9 +35,9 @@ class Unit(NamedTuple):
     shown: str
     scale: float = 1.0
 
-    def __call__(self, form: str, name: str = "", *, detail: bool = False) -> Column:
+    def __call__(self, form: str, name: str = "", **options: Any) -> Column:
         """Return a column of numbers in this unit; without a name it has that of its field."""
-        return Column(name, self.si, self.shown, self.scale, form, detail=detail)
+        return Column(name, self.si, self.shown, self.scale, form, **options)
 
 
 NUMBER, PERCENT = Unit("", ""), Unit("", "%", 100.0)
@@ -57,7 +57,7 @@ class Column:
     """A column's name, the SI unit of its values, and how to show them: unit, scale and format.
 
     Numbers have a format; prose may be broken over lines. A detail is left out on terminals and in LaTeX.
-    words: for true and false; none: for an empty list.
+    words: for true and false; none: for an empty list; shown_name: if not that of the CSV file.
     """
 
     name: str = ""
@@ -69,6 +69,7 @@ class Column:
     detail: bool = False
     words: tuple[str, str] = ("yes", "no")
     none: str = ""
+    shown_name: str = ""
 
     def of(self, value: Any) -> Any:
         """Return a value of a row as a cell: true and false in words, a grid as 9×9×2, texts with commas
@@ -88,7 +89,12 @@ class Column:
     def header(self, shown: bool) -> str:
         """Return the name with its unit in brackets."""
         unit = self.bracketed_unit if shown else f"[{self.unit}]" * bool(self.unit)
-        return f"{self.name} {unit}".rstrip()
+        return f"{self.title if shown else self.name} {unit}".rstrip()
+
+    @property
+    def title(self) -> str:
+        """The name that is shown."""
+        return self.shown_name or self.name
 
     @property
     def bracketed_unit(self) -> str:
@@ -129,8 +135,11 @@ def _column(name: str, hint: Any) -> Column:
 
 
 def number(value: float, form: str = "g") -> str:
-    """Return a number as people read it: with a minus sign, not a hyphen; a zero without zeros behind it."""
+    """Return a number as people read it: with a minus sign, not a hyphen; a zero without zeros behind it;
+    with the zeros of an exponent below 6."""
     shown = format(value, form if value else form.removeprefix("#"))
+    if form.endswith("g") and "e+0" in shown and abs(value) < 1e6:
+        shown = f"{float(shown):.0f}"
     return shown.removesuffix(".").replace("-", "−")
 
 

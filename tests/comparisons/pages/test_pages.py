@@ -14,7 +14,7 @@ from commands import run
 from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
 from comparisons.pages import studies as pages
-from comparisons.pages.page import page, pictures, question
+from comparisons.pages.page import page, pictures, question, whole_words
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
 from comparisons.runs.folder import Folder
@@ -136,6 +136,11 @@ def test_tables_are_shown_as_the_run_showed_them(studies):
         for row in table.shown_rows():
             assert f"| {' | '.join(row)} |" in text
     assert not comparison.troubles
+
+
+def test_options_and_names_stay_on_one_line():
+    shown = 'try <span class="whole">--about</span> <span class="whole">&lt;a-b&gt;</span>'
+    assert whole_words("try --about <a-b>") == shown
 
 
 @pytest.mark.parametrize("there", [True, False])

@@ -98,6 +98,14 @@ def test_a_zero_has_no_zeros_behind_it(value, shown):
     assert number(value, "#.6g") == shown
 
 
+@pytest.mark.parametrize(
+    ("value", "form", "shown"),
+    [(155.0, ".2g", "160"), (-12.0, ".1g", "−10"), (2e7, ".2g", "2e+07"), (155.0, ".1e", "1.6e+02")],
+)
+def test_an_exponent_is_for_large_numbers(value, form, shown):
+    assert number(value, form) == shown
+
+
 def test_details_are_in_the_files_only():
     table = Table("", (Column("a"), Column("b", detail=True)), (("x", "y"),))
     assert "b" not in " ".join(text_of(table, None)) and "y" not in table.to_latex()

@@ -8,12 +8,14 @@ from sheetbench.scenes.patches import constants_at
 
 FIBRES = {"kind": "orthotropic", "young_1": 5e7, "young_2": 5e6, "poisson_12": 0.3, "shear_12": 3e6}
 DISC = {"circle": {"centre": (0.05, 0.05), "radius": 0.02}}
+GRAVITY = {"acceleration": (0.0, 0.0, -9.81)}
 ROOT = {"rectangle": {"x": (0.0, 0.05), "y": (0.0, 0.1)}}
 
 
 def scene_of(*patches, **material):
     own = {**FIBRES, "density": 1e3, **material}
-    return Scene(name="fibres", sheet=Sheet(0.2, 0.1, 0.003), material=own, patches=patches)
+    sheet = Sheet(0.2, 0.1, 0.003)
+    return Scene(name="fibres", sheet=sheet, material=own, patches=patches, gravity=GRAVITY)
 
 
 @pytest.mark.parametrize(("material", "said"), [

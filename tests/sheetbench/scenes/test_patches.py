@@ -6,6 +6,7 @@ import pytest
 from sheetbench.scenes import Patch, Scene, SceneError, Sheet, load
 from sheetbench.scenes.patches import constants_at, mass_of, parts_between, sides_of
 
+GRAVITY = {"acceleration": (0.0, 0.0, -9.81)}
 ROOT = {"rectangle": {"x": (0.0, 0.05), "y": (0.0, 0.1)}}
 DISC = {"circle": {"centre": (0.05, 0.05), "radius": 0.02}}
 WEDGE = {"polygon": [(0.1, 0.0), (0.2, 0.0), (0.2, 0.1)]}
@@ -13,9 +14,8 @@ WEDGE = {"polygon": [(0.1, 0.0), (0.2, 0.0), (0.2, 0.1)]}
 
 def scene_of(*patches, **taper):
     sheet = Sheet(0.2, 0.1, 0.003, **taper)
-    return Scene(
-        name="drawn", sheet=sheet, material={"young": 5e6, "poisson": 0.4, "density": 1000.0}, patches=patches
-    )
+    material = {"young": 5e6, "poisson": 0.4, "density": 1000.0}
+    return Scene(name="drawn", sheet=sheet, material=material, patches=patches, gravity=GRAVITY)
 
 
 def test_later_patches_win_in_what_they_give():

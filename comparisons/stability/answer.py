@@ -86,8 +86,8 @@ class Stability(Answer):
         return (Picture("stability", "comparisons.stability.figure:compose", (self,)),) if drawn else ()
 
     def notes(self) -> tuple[str, ...]:
-        within = f"holds: converged, and within {100.0 * LARGE:g} %"
-        return (f"{within} of the {self.reference} at rest, of a run with a fine step in motion.",)
+        bound = f"holds: converged with an error of at most {100.0 * LARGE:g} %"
+        return (f"{bound}, at rest against the {self.reference}, in motion against a fine step.",)
 
     def complaints(self) -> list[str]:
         return broken(self.rows)

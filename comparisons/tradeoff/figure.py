@@ -183,18 +183,14 @@ def logarithmic(axis: Axes) -> None:
         side.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         side.set_minor_locator(LogLocator(subs=range(2, 10)))
         side.set_minor_formatter(NullFormatter())
-    axis.xaxis.set_minor_formatter(
-        FuncFormatter(lambda value, _: f"{value:g}" if _decades(axis) < 1.5 and _leads(value) else "")
-    )
+    labels = FuncFormatter(lambda value, _: f"{value:g}" if _labelled(axis, value) else "")
+    axis.xaxis.set_minor_formatter(labels)
     axis.tick_params(which="both", width=0.5, length=2.5)
     axis.tick_params(which="minor", length=1.5, labelsize=6.5)
 
 
-def _decades(axis: Axes) -> float:
+def _labelled(axis: Axes, value: float) -> bool:
+    """Whether a minor tick of x has a number: all over half a decade, 2 and 5 over one and a half."""
     low, high = axis.get_xlim()
-    return float(np.log10(high / low))
-
-
-def _leads(value: float) -> bool:
-    """Whether a number is 2 or 5 times a power of ten."""
-    return round(value / 10.0 ** np.floor(np.log10(value))) in (2, 5)
+    leading = round(value / 10.0 ** np.floor(np.log10(value)))
+    return high < 10**0.5 * low or (high < 10**1.5 * low and leading in (2, 5))

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from campaigns import Here, rows_in
 from commands import run
+from matplotlib.figure import Figure
 
 import lumped
 from comparisons.models.spec import Elements, External, Lattice, lattices, parse, references
@@ -21,7 +22,7 @@ from comparisons.runs.peak_memory import with_peak_memory
 from comparisons.runs.store import FILE
 from comparisons.tradeoff import timing
 from comparisons.tradeoff.answer import Tradeoff
-from comparisons.tradeoff.figure import compose
+from comparisons.tradeoff.figure import compose, logarithmic
 from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff, explicit_limit
 from comparisons.tradeoff.motion_answer import folded
 from comparisons.tradeoff.motion_row import MotionRow
@@ -289,3 +290,11 @@ def test_times_under_load_and_samples_that_scatter_are_told(monkeypatch):
     busy, wide = load.warnings([0.5, 20.0], [(1.0, 3.0), (1.0, 1.1)])
     assert busy.startswith("1 of 2 times were taken under a load of up to 20 on 2 processors")
     assert wide.startswith("1 of 2 timings vary by more than a factor of 2, by up to 3")
+
+
+@pytest.mark.parametrize(("most", "labels"), [(100, "50 60"), (1000, "50"), (3000, "")])
+def test_a_short_axis_has_numbers_between_powers_of_ten(most, labels):
+    axis = Figure().add_subplot(xlim=(45, most))
+    logarithmic(axis)
+    label = axis.xaxis.get_minor_formatter()
+    assert " ".join(filter(None, map(label, (50, 60)))) == labels

@@ -257,7 +257,7 @@ def _solid_at_rest(
     return RestState(
         stiffness=(basis.T @ stiffness @ basis).tocsr(),
         mass=(basis.T @ structure.mass() @ basis).tocsr(),
-        held=supports.held.reshape(len(columns.plan_nodes), -1),
+        held=supports.held.reshape(len(columns.plan.nodes), -1),
         rigid=np.array(rigid).T,
         sample=sample,
     )

@@ -36,14 +36,14 @@ class MovingPlate(Moving):
         self.label = f"plate {counts[0]} × {counts[1]}"
         self.settings: dict[str, Any] = {"elements": list(counts), "graded": graded}
         self._plate = plate.Plate.on(mesh_of(scene, counts, graded))
-        mesh, nodes, on = self._plate.basis.mesh, self._plate.nodes, self._plate.elements.nodes
-        self.nodes = len(nodes)
+        plan = self._plate.plan
+        self.nodes = len(plan.nodes)
 
         def bound(alone: Scene) -> BoundRods:
-            return on_surface(rod.of_scene(alone, mesh, on, nodes), len(nodes))
+            return on_surface(rod.of_scene(alone, plan), self.nodes)
 
         along = bound(self.still)
-        rods = PlateRods.on(along, len(nodes))
+        rods = PlateRods.on(along, self.nodes)
         self._supports, held, values = plate.constrain(self.still, self._plate, rods=along.rods)
         self._held = np.concatenate([held.ravel(), rods.held])
         self._values = np.concatenate([values.ravel(), np.zeros(len(rods.held))])
@@ -54,7 +54,7 @@ class MovingPlate(Moving):
         self._free = np.flatnonzero(~self._held)
         self.unknowns = len(self._free)
         self._basis = identity(size, format="csc")[:, self._free]
-        self.load(scene, lambda alone: loads.of_scene(alone, mesh, on, nodes))
+        self.load(scene, lambda alone: loads.of_scene(alone, plan))
 
     def start(self) -> np.ndarray:
         stiffness = self._whole(0.0, 0.0)

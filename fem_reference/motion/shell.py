@@ -20,7 +20,7 @@ from fem_reference.surface import loads, rod
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.location import interpolate
-from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of
+from fem_reference.surface.mesh import Elements, Plan, divisions, field_mesh, mesh_of
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import add_blocks
@@ -53,13 +53,13 @@ class MovingShell(MovingElements):
         self.mass = inertia.mass(structure, products)
         self._on_places = np.einsum("eij,ab->eiajb", by_place, np.eye(3)).reshape(-1, 27, 27)
         self.unknowns, self._basis = structure.unknowns, inertia.Basis(structure)
-        plan = self._plan, self._on, self._nodes
+        plan = Plan(self._plan, self._on, self._nodes)
 
         def bound(alone: Scene) -> BoundRods:
-            return on_surface(rod.of_scene(alone, *plan), self.nodes)
+            return on_surface(rod.of_scene(alone, plan), self.nodes)
 
         self.carry(MovingRods(scene, bound, components_of, self._held.size))
-        self.load(scene, lambda alone: loads.of_scene(alone, *plan))
+        self.load(scene, lambda alone: loads.of_scene(alone, plan))
         moved = structure.supports.moved.values()
         self._edges = [(d.edge, d.nodes, d.points) for d in moved if isinstance(d.edge, MovedEdge)]
 

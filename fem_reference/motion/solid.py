@@ -67,15 +67,14 @@ class MovingSolid(MovingElements):
         aside = identity(len(self._held_aside), format="csc")[:, ~self._held_aside]
         self._basis = block_diag([of_columns, aside], format="csc")
         plan, levels = self._columns.plan, self._columns.levels
-        of_plan = self._columns.plan_elements, self._columns.plan_nodes
 
         def bound(alone: Scene) -> BoundRods:
-            return on_columns(rod.of_scene(alone, plan.mesh, *of_plan), self._columns)
+            return on_columns(rod.of_scene(alone, plan), self._columns)
 
         middles = levels * np.arange(3) + self._columns.layers
         places = np.concatenate([middles, 3 * levels + np.arange(6)])
         self.carry(MovingRods(scene, bound, components_of, size, places))
-        self.load(scene, lambda alone: loads.of_scene(alone, plan.mesh, *of_plan))
+        self.load(scene, lambda alone: loads.of_scene(alone, plan))
 
     def start(self) -> np.ndarray:
         if not bent_or_tilted(self.still.supports, self.still.sheet):

@@ -71,7 +71,7 @@ def balance(
     """The balance of what is solved; reactions (3,) [N] by name; edges: what the rods exert there."""
     vectors = np.concatenate([surface.position, surface.director, rods.bound.own])
     on_vectors = np.where(rods.number >= 0, solved.held[rods.number], 0.0)
-    n, per_unknown = len(surface.plan), np.full(len(solved.u), 1.0 / surface.lever)  # of couples
+    n, per_unknown = len(surface.position), np.full(len(solved.u), 1.0 / surface.lever)  # of couples
     per_unknown[rods.number[:n]] = 1.0
     held = [(vectors[:n], on_vectors[:n]), (vectors[n:], on_vectors[n:])]
     return left_over(

@@ -39,7 +39,7 @@ from fem_reference.surface.biquadratic import GAUSS, integrated, shape
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, constants_of, section_at
-from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of, require_upright
+from fem_reference.surface.mesh import Elements, Plan, divisions, field_mesh, mesh_of, require_upright
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
 from sheetbench.clock import now
@@ -78,9 +78,8 @@ class Plate:
         return self.basis.doflocs.T
 
     @property
-    def corners(self) -> np.ndarray:
-        """Those of the elements' nodes (m, 9, 2) [m]."""
-        return self.nodes[self.elements.nodes]
+    def plan(self) -> Plan:
+        return Plan(self.basis.mesh, self.elements.nodes, self.nodes)
 
     def strains(self) -> dict[str, np.ndarray]:
         """Strain operators by part: membrane, bending (m, q, 3, 45) and shear (m, q, 2, 45)."""
@@ -89,7 +88,7 @@ class Plate:
 
     def sample(self, fields: np.ndarray, points: np.ndarray) -> np.ndarray:
         """Nodal fields (n, k) at plan points (p, 2) [m]: (p, k). Raises BadInput off the mesh."""
-        return interpolate(self.basis.mesh, self.elements.nodes, fields, points)
+        return interpolate(self.plan.mesh, self.plan.elements, fields, points)
 
 
 def solve(
@@ -136,7 +135,7 @@ def _solved(
     """own: whether the mesh has an outline of its own, in place of the scene's sheet."""
     begin = now()
     plate = Plate.on(mesh)
-    along = rod.of_scene(scene, mesh, plate.elements.nodes, plate.nodes)
+    along = rod.of_scene(scene, plate.plan)
     rods = PlateRods.on(on_surface(along, len(plate.nodes)), len(plate.nodes))
     supports, held, fields = constrain(scene, plate, hard_edges, along)
     free = np.flatnonzero(~np.concatenate([held.ravel(), rods.held]))
@@ -155,7 +154,7 @@ def _solved(
     done = now()
     solved = Solved(stiffness, force, u, free)
     if status is Status.CONVERGED:
-        of_plate = section or section_at(scene, plate.corners)
+        of_plate = section or section_at(scene, plate.plan.corners)
         status, notes = judge(scene, plate.elements, of_plate, u, stiffness, free)
 
     fields, nodal = u[: fields.size].reshape(-1, 5), solved.unbalanced[: fields.size].reshape(-1, 5)
@@ -165,7 +164,7 @@ def _solved(
     edges = on_edges(rods.bound, rods.strained(u).pull, holding, up)
     wrenches, line = exerted(scene, edges, supports.moved, holding)
     reactions = supports.reactions(nodal[:, :3])
-    surface = Surface(mesh, plate.elements.nodes, plate.nodes, flat, up, own)
+    surface = Surface(plate.plan, flat, up, own)
     director = up + np.pad(fields[:, 3:], ((0, 0), (0, 1)))
     of_rods = {"actuator_line_force": line} if scene.actuators else {}
     singular = status is Status.SINGULAR
@@ -193,7 +192,7 @@ def _solved(
 
 def section_stiffness(scene: Scene, plate: Plate, section: Section | None = None) -> dict[str, np.ndarray]:
     """Stiffness of the section by part, membrane, bending and shear, as `Section` has it."""
-    return dict(zip(PARTS, section or section_at(scene, plate.corners), strict=True))
+    return dict(zip(PARTS, section or section_at(scene, plate.plan.corners), strict=True))
 
 
 def stiffness_matrix(
@@ -212,7 +211,7 @@ def stiffness_matrix(
 
 def mass_matrix(scene: Scene, plate: Plate) -> csr_matrix:
     """Consistent mass with rotary inertia: ρh on the displacements, ρh³/12 on the tilts; (5 n, 5 n)."""
-    constants, (values, _) = constants_of(scene, plate.corners), shape(*GAUSS)
+    constants, (values, _) = constants_of(scene, plate.plan.corners), shape(*GAUSS)
     moved, turned = (plate.elements.areas * m for m in (constants.per_area, constants.rotary_per_area))
     products = np.einsum("imq,qa,qb->imab", np.array([moved] * 3 + [turned] * 2), values, values)
     return _assemble(plate, np.einsum("imab,ij->maibj", products, np.eye(5)))
@@ -256,9 +255,8 @@ def edge_nodes(plate: Plate, edge: str) -> np.ndarray:
 
 def nodal_forces(scene: Scene, plate: Plate) -> np.ndarray:
     """Work-equivalent nodal forces [N] and couples [N·m], (n, 5), with the last factor of every history."""
-    nodes, element_nodes = plate.nodes, plate.elements.nodes
-    dead, followers = loads.of_scene(scene, plate.basis.mesh, element_nodes, nodes)
-    return np.column_stack([dead, np.zeros((len(nodes), 2))]) + on_flat_sheet(plate, followers)
+    dead, followers = loads.of_scene(scene, plate.plan)
+    return np.column_stack([dead, np.zeros((len(dead), 2))]) + on_flat_sheet(plate, followers)
 
 
 def on_flat_sheet(plate: Plate, followers: Sequence[loads.Follower]) -> np.ndarray:
@@ -282,7 +280,7 @@ def tangent_on_flat_sheet(plate: Plate, load: loads.Follower, size: int) -> csr_
 def _flat(plate: Plate) -> np.ndarray:
     """Positions and directors (m, 18, 3) of the elements' nodes."""
     flat = np.zeros((len(plate.elements.nodes), 18, 3))
-    flat[:, :9, :2], flat[:, 9:, 2] = plate.nodes[plate.elements.nodes], 1.0
+    flat[:, :9, :2], flat[:, 9:, 2] = plate.plan.corners, 1.0
     return flat
 
 

@@ -36,7 +36,7 @@ from fem_reference.surface.borders import borders_of
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_at
-from fem_reference.surface.mesh import Elements, divisions, field_mesh, has_lines, mesh_of, nodes_of
+from fem_reference.surface.mesh import Elements, Plan, divisions, field_mesh, has_lines, mesh_of, nodes_of
 from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
@@ -185,7 +185,7 @@ def _solution(
     edges = on_edges(structure.rods, forces.rods.pull, held, director)
     wrenches, line_force = exerted(scene, edges, structure.supports.moved, held)
     fields = {"actuator_line_force": line_force} if scene.actuators else {}
-    surface = Surface(mesh, on, run.nodes, position, director, own)
+    surface = Surface(Plan(mesh, on, run.nodes), position, director, own)
     runs = [*reversed(spent), run]
     of_rods = {"rod": structure.rod_energy(path.state)} if scene.actuators else {}
     return Solution(
@@ -217,10 +217,11 @@ def discretise(
 ) -> tuple[ShellStructure, np.ndarray]:
     """The discrete shell of a scene on a mesh, and its nodes' plan positions (n, 2) [m]."""
     nodes, element_nodes = nodes_of(mesh)
-    element = _elements(nodes[element_nodes], scene, section, law)
+    plan = Plan(mesh, element_nodes, nodes)
+    element = _elements(plan.corners, scene, section, law)
     supports = surface_supports.of_scene(scene, mesh)
-    dead, followers = loads.of_scene(scene, mesh, element_nodes, nodes)
-    rods = rod.of_scene(scene, mesh, element_nodes, nodes)
+    dead, followers = loads.of_scene(scene, plan)
+    rods = rod.of_scene(scene, plan)
     supports = rod.hold_bases(supports, rods)
     bound = on_surface(rods, len(nodes))
     return ShellStructure.build(element, element_nodes, supports, dead, followers, bound), nodes

@@ -35,7 +35,7 @@ def balance(
     state, share = path.state, path.load_factor
     position = columns.positions + state.displacement
     mean, director = np.einsum("pl,nlc->pnc", columns.averages, position)
-    surface = Surface(columns.plan.mesh, columns.plan_elements, columns.plan_nodes, mean, director, own)
+    surface = Surface(columns.plan, mean, director, own)
     reactions = structure.supports.reactions(forces.residual, share)
     held = np.where(structure.free, 0.0, into_forces(forces.bases, forces.residual))
     at = [

@@ -18,7 +18,7 @@ import numpy as np
 from skfem import Basis, ElementHex2, ElementQuad2, MeshQuad
 
 from fem_reference.surface.location import interpolate
-from fem_reference.surface.mesh import quarters
+from fem_reference.surface.mesh import Plan, quarters
 from sheetbench.scenes import FieldMesh, Sheet
 
 
@@ -27,7 +27,7 @@ class Columns:
     """n plan nodes on a plan basis of `ElementQuad2`, extruded to a thickness [m] in layers; taper: by how
     much thicker each column is than that, (n,), or 1."""
 
-    plan: Basis
+    basis: Basis
     thickness: float
     layers: int
     taper: np.ndarray
@@ -35,24 +35,18 @@ class Columns:
     @classmethod
     def on(cls, mesh: MeshQuad, sheet: Sheet, layers: int) -> Columns:
         """The columns over any flat mesh of straight-sided quadrilaterals, of a sheet's thickness."""
-        plan, taper = Basis(mesh, ElementQuad2()), np.ones(())
+        basis, taper = Basis(mesh, ElementQuad2()), np.ones(())
         if sheet.taper_x or sheet.taper_y:
-            taper = sheet.thickness_at(*plan.doflocs) / sheet.thickness
-        return cls(plan, sheet.thickness, layers, taper)
+            taper = sheet.thickness_at(*basis.doflocs) / sheet.thickness
+        return cls(basis, sheet.thickness, layers, taper)
 
     @property
     def levels(self) -> int:
         return 2 * self.layers + 1
 
-    @property
-    def plan_nodes(self) -> np.ndarray:
-        """(n, 2) [m]."""
-        return self.plan.doflocs.T
-
-    @property
-    def plan_elements(self) -> np.ndarray:
-        """Plan nodes of the plan's elements, (m, 9)."""
-        return self.plan.element_dofs.T
+    @cached_property
+    def plan(self) -> Plan:
+        return Plan(self.basis.mesh, self.basis.element_dofs.T, self.basis.doflocs.T)
 
     @cached_property
     def heights(self) -> np.ndarray:
@@ -62,8 +56,8 @@ class Columns:
     @cached_property
     def positions(self) -> np.ndarray:
         """Nodes by column, (n, levels, 3) [m]."""
-        out = np.zeros((len(self.plan_nodes), self.levels, 3))
-        out[:, :, :2] = self.plan_nodes[:, None]
+        out = np.zeros((len(self.plan.nodes), self.levels, 3))
+        out[:, :, :2] = self.plan.nodes[:, None]
         out[:, :, 2] = np.multiply.outer(self.taper, self.heights)
         return out
 
@@ -83,8 +77,8 @@ class Columns:
     @cached_property
     def stacks(self) -> np.ndarray:
         """Nodes of the bricks over every plan element, (m, 9 · levels), by column."""
-        return (self.levels * self.plan_elements[:, :, None] + np.arange(self.levels)).reshape(
-            len(self.plan_elements), -1
+        return (self.levels * self.plan.elements[:, :, None] + np.arange(self.levels)).reshape(
+            len(self.plan.elements), -1
         )
 
     @cached_property
@@ -97,11 +91,11 @@ class Columns:
 
     def edge(self, name: str) -> np.ndarray:
         """Plan nodes on an edge."""
-        return self.plan.get_dofs(name).flatten()
+        return self.basis.get_dofs(name).flatten()
 
     def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, levels, 3)."""
-        return interpolate(self.plan.mesh, self.plan_elements, displacement[:, self.layers], points)
+        return interpolate(self.plan.mesh, self.plan.elements, displacement[:, self.layers], points)
 
     def about_middle(self, displacement: np.ndarray, nodal: np.ndarray) -> np.ndarray:
         """Force and moment about the middle node (n, 6) of forces (n, levels, 3) on the displaced columns."""
@@ -111,8 +105,8 @@ class Columns:
 
     def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
         """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""
-        plan = quarters(self.plan.element_dofs)
-        a, b, _, d = (self.plan_nodes[plan[:, corner]].T for corner in range(4))
+        plan = quarters(self.basis.element_dofs)
+        a, b, _, d = (self.plan.nodes[plan[:, corner]].T for corner in range(4))
         clockwise = (b - a)[0] * (d - a)[1] < (b - a)[1] * (d - a)[0]  # as scikit-fem numbers some meshes
         base = self.levels * np.where(clockwise[:, None], plan[:, ::-1], plan)
         cells = [np.concatenate([base + level, base + level + 1], axis=1) for level in range(self.levels - 1)]

@@ -237,14 +237,13 @@ def discretise(
     columns = Columns.on(mesh, scene.sheet, layers)
     stacks = columns.positions.reshape(-1, 3)[columns.stacks]
     positions = np.concatenate([stacks[:, place] for place in columns.places])
-    corners = columns.plan_nodes[columns.plan_elements]
-    middles = np.tile(corners.mean(axis=1), (layers, 1))[:, None]
+    middles = np.tile(columns.plan.corners.mean(axis=1), (layers, 1))[:, None]
     bricks = Bricks.build(
         positions,
         LAWS[law],
         scene.material if scene.uniform else _constants_of_bricks(scene, middles, layers),
     )
-    rods = rod.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes)
+    rods = rod.of_scene(scene, columns.plan)
     supports = column_supports.of_scene(scene, columns, clamp, rods)
-    dead, followers = loads.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes)
+    dead, followers = loads.of_scene(scene, columns.plan)
     return SolidStructure(columns, bricks, supports, dead, followers, on_columns(rods, columns))

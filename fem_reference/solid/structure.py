@@ -81,8 +81,8 @@ class SolidStructure:
         self.number = np.where(every, np.cumsum(every) - 1, -1).reshape(-1, 3)  # of all vectors
         kinds = (self.number[sites] for sites in (columns.stacks, rods.sites))
         self.pattern = Pattern(*(n.reshape(len(n), 3 * n.shape[1]) for n in kinds), size=int(every.sum()))
-        self.lever = float(np.ptp(columns.plan_nodes, axis=0).max())
-        self._turned = supports.turned[columns.plan_elements].any(axis=1)
+        self.lever = float(np.ptp(columns.plan.nodes, axis=0).max())
+        self._turned = supports.turned[columns.plan.elements].any(axis=1)
 
     @property
     def unknowns(self) -> int:
@@ -221,7 +221,7 @@ class SolidStructure:
         if not np.any(turned):
             return stacks
         k, size = stacks[turned].shape[:2]
-        z = bases[self.columns.plan_elements[turned]]  # (k, 9, 3 levels, 3 levels)
+        z = bases[self.columns.plan.elements[turned]]  # (k, 9, 3 levels, 3 levels)
         half = stacks[turned]
         for _ in range(2):
             rows = half.reshape(*z.shape[:3], size)
@@ -242,7 +242,7 @@ class SolidStructure:
 
     def of_follower(self, displacement: np.ndarray, load: Follower) -> np.ndarray:
         """Nodal forces (n, levels, 3) of a follower load on the displaced columns."""
-        out, on = np.zeros_like(self.dead), self.columns.plan_elements[load.elements]
+        out, on = np.zeros_like(self.dead), self.columns.plan.elements[load.elements]
         places = self.surface(self.columns.positions + displacement)
         force = load.force(places[load.elements]).reshape(len(on), 2, 9, 3)
         np.add.at(out, on, np.einsum("epic,pl->eilc", force, self.columns.averages))
@@ -254,7 +254,7 @@ class SolidStructure:
 
     def surface(self, positions: np.ndarray) -> np.ndarray:
         """Mean and director at the nodes of the plan's elements, (m, 18, 3)."""
-        averages = np.einsum("pl,nlc->pnc", self.columns.averages, positions)[:, self.columns.plan_elements]
+        averages = np.einsum("pl,nlc->pnc", self.columns.averages, positions)[:, self.columns.plan.elements]
         return np.concatenate([averages[0], averages[1]], axis=1)
 
     def of_surface(self, tangent: np.ndarray) -> np.ndarray:

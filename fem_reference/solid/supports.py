@@ -118,11 +118,11 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
     if clamp not in CLAMPS:
         raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
     line = supports.of_scene(scene, columns.plan.mesh)
-    edges, hinged = {}, np.zeros(len(columns.plan_nodes), dtype=bool)
+    edges, hinged = {}, np.zeros(len(columns.plan.nodes), dtype=bool)
 
     def face(nodes: np.ndarray, axes: np.ndarray | list[int], turns: bool) -> np.ndarray:
         """What a support holds of the columns of its nodes; turns: the director is free."""
-        held = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
+        held = np.zeros((len(columns.plan.nodes), columns.levels, 3), dtype=bool)
         held[nodes[:, None], columns.layers, axes] = True
         if not turns:
             held[nodes, :, : 2 if clamp == "shell-like" else 3] = True
@@ -141,5 +141,5 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
     for rod in rods:
         if rod.base is not None:
             edges[rod.held_as] = face(rod.line[[rod.base]], [0, 1, 2], False)
-    none = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
+    none = np.zeros((len(columns.plan.nodes), columns.levels, 3), dtype=bool)
     return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, hinged)

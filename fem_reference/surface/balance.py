@@ -19,14 +19,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from skfem import MeshQuad
 
 from fem_reference.surface.actuator_forces import OnEdge
 from fem_reference.surface.biquadratic import GAUSS, THREE, THREE_WEIGHTS, areas, cross, shape, side_shape
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import constants_of
-from fem_reference.surface.mesh import elements_in, facets_on
+from fem_reference.surface.mesh import Plan, elements_in, facets_on
 from sheetbench.scenes import Balance, EdgeLoad, PointLoad, Pressure, Scene, dead_force
 from sheetbench.scenes.loads import AreaLoad
 from sheetbench.scenes.shapes import Shape
@@ -37,14 +36,12 @@ _AT_GAUSS, _ = shape(*GAUSS)  # (9 points, 9 nodes)
 
 @dataclass(frozen=True)
 class Surface:
-    """A sheet as it lies: nine-node elements (m, 9) of a mesh, plan positions (n, 2) [m], φ [m] and d (n, 3).
+    """A sheet as it lies: its plan, φ [m] and d (n, 3) of the nodes.
 
     own: whether the mesh has an outline of its own, in place of the scene's sheet.
     """
 
-    mesh: MeshQuad
-    element_nodes: np.ndarray
-    plan: np.ndarray
+    plan: Plan
     position: np.ndarray
     director: np.ndarray
     own: bool = False
@@ -52,25 +49,20 @@ class Surface:
     @property
     def lever(self) -> float:
         """The longer side of the flat sheet [m]."""
-        return float(np.ptp(self.plan, axis=0).max())
-
-    @property
-    def corners(self) -> np.ndarray:
-        """Plan positions of the elements' nodes (m, 9, 2) [m]."""
-        return self.plan[self.element_nodes]
+        return float(np.ptp(self.plan.nodes, axis=0).max())
 
     def masses(self, scene: Scene) -> np.ndarray:
         """w |det J| ρh (m, 9) [kg] at the Gauss points, of a scene's sheet."""
-        return areas(self.corners) * constants_of(scene, self.corners).per_area
+        return areas(self.plan.corners) * constants_of(scene, self.plan.corners).per_area
 
     def sides(self, facets: np.ndarray) -> np.ndarray:
         """Nodes (k, 3) of the sides that are facets of the mesh, the sheet to their right."""
-        line = Line.along(self.mesh, facets, self.corners)
-        return self.element_nodes[line.elements[:, None], line.sides]
+        line = Line.along(self.plan.mesh, facets, self.plan.corners)
+        return self.plan.elements[line.elements[:, None], line.sides]
 
     def lengths(self, sides: np.ndarray) -> np.ndarray:
         """w |X,ξ| (k, 3) [m] at the points of sides (k, 3)."""
-        return THREE_WEIGHTS * np.linalg.norm(_SLOPE @ self.plan[sides], axis=-1)
+        return THREE_WEIGHTS * np.linalg.norm(_SLOPE @ self.plan.nodes[sides], axis=-1)
 
 
 def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np.ndarray, np.ndarray]:
@@ -78,14 +70,16 @@ def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np
     force = _dead_force(scene, surface)
     moment = sum((_weight_moment(scene, surface, edge) for edge in edges), np.zeros(3))
     if scene.gravity is not None:
-        at = _AT_GAUSS @ surface.position[surface.element_nodes]
+        at = _AT_GAUSS @ surface.position[surface.plan.elements]
         centre = np.einsum("eg,egc->c", surface.masses(scene), at)
         moment = moment + np.cross(centre, scene.gravity.last_acceleration)
     for load in scene.loads:
         factor = load.last_factor
         match load:
             case PointLoad():
-                at = interpolate(surface.mesh, surface.element_nodes, surface.position, np.array([load.at]))
+                at = interpolate(
+                    surface.plan.mesh, surface.plan.elements, surface.position, np.array([load.at])
+                )
                 moment = moment + factor * np.cross(at[0], load.force)
             case EdgeLoad():
                 moment = moment + factor * _edge_moment(load, surface)
@@ -129,7 +123,7 @@ def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
     mass = float(surface.masses(scene).sum())
     if not surface.own:
         return dead_force(scene, None if scene.uniform and not scene.pierced else mass)
-    sides = {name: surface.sides(facets) for name, facets in (surface.mesh.boundaries or {}).items()}
+    sides = {name: surface.sides(facets) for name, facets in (surface.plan.mesh.boundaries or {}).items()}
     lengths = {name: float(surface.lengths(on).sum()) for name, on in sides.items()}
     return dead_force(scene, mass, lengths)
 
@@ -151,7 +145,7 @@ def _weight_moment(scene: Scene, surface: Surface, edge: OnEdge) -> np.ndarray:
 
 
 def _edge_moment(load: EdgeLoad, surface: Surface) -> np.ndarray:
-    sides = surface.sides(facets_on(surface.mesh, load))
+    sides = surface.sides(facets_on(surface.plan.mesh, load))
     weights = surface.lengths(sides)
     position, director = (_VALUE @ values[sides] for values in (surface.position, surface.director))
     slope = _SLOPE @ surface.position[sides]
@@ -164,18 +158,19 @@ def _edge_moment(load: EdgeLoad, surface: Surface) -> np.ndarray:
 
 def _area(load: AreaLoad, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
     """w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of the elements that are loaded."""
-    on = surface.element_nodes[elements_in(load.where, surface.plan, surface.element_nodes)]
-    return areas(surface.plan[on]), _AT_GAUSS @ surface.position[on]
+    plan = surface.plan
+    on = plan.elements[elements_in(load.where, plan.nodes, plan.elements)]
+    return areas(plan.nodes[on]), _AT_GAUSS @ surface.position[on]
 
 
 def _pressure(surface: Surface, where: Shape | None) -> tuple[np.ndarray, np.ndarray]:
     """Force [m²] and moment [m³] of a unit pressure; with the sheet to its right, the rim of what is pressed
     runs clockwise."""
-    mesh, on = surface.mesh, elements_in(where, surface.plan, surface.element_nodes)
-    inside = np.isin(mesh.f2t, on)
+    plan, mesh = surface.plan, surface.plan.mesh
+    inside = np.isin(mesh.f2t, elements_in(where, plan.nodes, plan.elements))
     facets = np.flatnonzero(inside.sum(axis=0) == 1)
-    line = Line.along(mesh, facets, surface.corners, np.where(inside[0], *mesh.f2t)[facets])
-    rim = surface.position[surface.element_nodes[line.elements[:, None], line.sides]]
+    line = Line.along(mesh, facets, plan.corners, np.where(inside[0], *mesh.f2t)[facets])
+    rim = surface.position[plan.elements[line.elements[:, None], line.sides]]
     at, slope = _VALUE @ rim, _SLOPE @ rim
     square = (at * at).sum(axis=-1, keepdims=True)
     force, moment = (

@@ -30,7 +30,7 @@ from fem_reference.surface.biquadratic import (
 )
 from fem_reference.surface.location import locate
 from fem_reference.surface.materials import constants_of
-from fem_reference.surface.mesh import elements_in, facets_on
+from fem_reference.surface.mesh import Plan, elements_in, facets_on
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, encloses_volume
 from sheetbench.scenes.loads import AreaLoad
 
@@ -201,50 +201,46 @@ def area_force(
     return shares[:, None] * force_per_area
 
 
-def line_force(line: Line, element_nodes: np.ndarray, count: int, force_per_length: np.ndarray) -> np.ndarray:
+def line_force(line: Line, plan: Plan, force_per_length: np.ndarray) -> np.ndarray:
     """∫ q N dL (count, 3) [N] of a dead force per undeformed length q (3,) [N/m]."""
-    nodes = element_nodes[line.elements[:, None], line.sides]
-    return np.bincount(nodes.ravel(), line.shares.ravel(), count)[:, None] * force_per_length
+    nodes = plan.elements[line.elements[:, None], line.sides]
+    return np.bincount(nodes.ravel(), line.shares.ravel(), len(plan.nodes))[:, None] * force_per_length
 
 
-def point_force(
-    mesh: MeshQuad, element_nodes: np.ndarray, count: int, at: np.ndarray, force: np.ndarray
-) -> np.ndarray:
+def point_force(plan: Plan, at: np.ndarray, force: np.ndarray) -> np.ndarray:
     """F N(x) (count, 3) [N] of a dead force F (3,) at the plan point (2,) [m]."""
-    element, place = locate(mesh, at.reshape(1, 2))
+    element, place = locate(plan.mesh, at.reshape(1, 2))
     value, _ = shape(*place)
-    out = np.zeros((count, 3))
-    out[element_nodes[element[0]]] = value[0][:, None] * force
+    out = np.zeros((len(plan.nodes), 3))
+    out[plan.elements[element[0]]] = value[0][:, None] * force
     return out
 
 
-def of_scene(
-    scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray
-) -> tuple[np.ndarray, list[Follower]]:
+def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
     """Dead nodal forces (n, 3) [N] and follower loads of a scene on a mesh that carries the edges' names;
     every load with the last factor of its history."""
-    count, corners = len(nodes), nodes[element_nodes]
+    count, corners = len(plan.nodes), plan.corners
     dead, followers = np.zeros((count, 3)), list[Follower]()
     if scene.gravity is not None:
         weighed = areas(corners) * constants_of(scene, corners).per_area
-        dead += area_force(weighed, element_nodes, count, np.array(scene.gravity.last_acceleration))
+        dead += area_force(weighed, plan.elements, count, np.array(scene.gravity.last_acceleration))
     for load in scene.loads:
         factor = load.last_factor
         match load:
             case PointLoad():
                 force = factor * np.array(load.force)
-                dead += point_force(mesh, element_nodes, count, np.array(load.at), force)
+                dead += point_force(plan, np.array(load.at), force)
             case EdgeLoad():
-                line = Line.along(mesh, facets_on(mesh, load), corners)
-                dead += line_force(line, element_nodes, count, factor * np.array(load.force_per_length))
+                line = Line.along(plan.mesh, facets_on(plan.mesh, load), corners)
+                dead += line_force(line, plan, factor * np.array(load.force_per_length))
                 if load.moment_per_length:
                     followers.append(FollowerMoment(factor * load.moment_per_length, line))
             case AreaLoad():
-                on = elements_in(load.where, nodes, element_nodes)
+                on = elements_in(load.where, plan.nodes, plan.elements)
                 force = factor * np.array(load.force_per_area)
-                dead += area_force(areas(corners[on]), element_nodes[on], count, force)
+                dead += area_force(areas(corners[on]), plan.elements[on], count, force)
             case Pressure():
-                on = elements_in(load.where, nodes, element_nodes)
+                on = elements_in(load.where, plan.nodes, plan.elements)
                 closed = encloses_volume(scene.supports) and not (scene.pierced or load.where)
                 followers.append(FollowerPressure(factor * load.value, on, orientation(corners[on]), closed))
     return dead, followers

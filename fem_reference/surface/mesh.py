@@ -8,6 +8,7 @@ order of scikit-fem's `ElementQuad2`. Coordinates in metres.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -84,6 +85,20 @@ def _with_edges(mesh: MeshQuad, lengths: Sequence[float]) -> MeshQuad:
     """The mesh with boundaries where it reaches the edges of a sheet with these sides [m]."""
     ends = {name: lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}
     return mesh.with_boundaries({name: _at(EDGES[name].normal_axis, end) for name, end in ends.items()})
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """A mesh, the biquadratic nodes of its elements (m, 9), and the nodes' plan positions (n, 2) [m]."""
+
+    mesh: MeshQuad
+    elements: np.ndarray
+    nodes: np.ndarray
+
+    @property
+    def corners(self) -> np.ndarray:
+        """Plan positions of the elements' nodes (m, 9, 2) [m]."""
+        return self.nodes[self.elements]
 
 
 def nodes_of(mesh: MeshQuad) -> tuple[np.ndarray, np.ndarray]:

@@ -29,10 +29,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from skfem import MeshQuad
 
 from fem_reference.surface.biquadratic import TWO, lagrange, side_shape
 from fem_reference.surface.loads import Line
+from fem_reference.surface.mesh import Plan
 from fem_reference.surface.rod_elements import RodElements
 from fem_reference.surface.supports import Supports
 from sheetbench.errors import BadInput
@@ -69,17 +69,14 @@ class Rod:
     offset: float
 
 
-def of_scene(scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray) -> list[Rod]:
-    """The rods of a scene's chains, one an edge.
-
-    element_nodes: (m, 9); nodes: plan positions (n, 2) [m]. Raises BadInput for an edge that is not straight
-    or has no node where a base is held.
-    """
+def of_scene(scene: Scene, plan: Plan) -> list[Rod]:
+    """The rods of a scene's chains, one an edge. Raises BadInput for an edge that is not straight or has no
+    node where a base is held."""
     found = []
     for edge, here in scene.chains().items():
-        line = Line.along(mesh, mesh.boundaries[edge], nodes[element_nodes])
-        sides = element_nodes[line.elements[:, None], line.sides]
-        found.append(_rod(scene, edge, here, nodes, sides))
+        line = Line.along(plan.mesh, plan.mesh.boundaries[edge], plan.corners)
+        sides = plan.elements[line.elements[:, None], line.sides]
+        found.append(_rod(scene, edge, here, plan.nodes, sides))
     return found
 
 

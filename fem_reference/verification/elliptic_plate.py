@@ -81,14 +81,14 @@ def _quarter(radial: int, around: int) -> MeshQuad2:
 
 def _shares(columns: Columns) -> np.ndarray:
     """∫ N dA (n,) [m²] of the upper face."""
-    per_element = areas(columns.plan_nodes[columns.plan_elements])
-    count = len(columns.plan_nodes)
-    return area_force(per_element, columns.plan_elements, count, np.ones(1))[:, 0]
+    per_element = areas(columns.plan.corners)
+    count = len(columns.plan.nodes)
+    return area_force(per_element, columns.plan.elements, count, np.ones(1))[:, 0]
 
 
 def _at_d(columns: Columns) -> int:
     """The number of the node at D."""
-    x, y = columns.plan_nodes.T
+    x, y = columns.plan.nodes.T
     return int(np.argmin(np.hypot(x - INNER[0], y))) * columns.levels + columns.levels - 1
 
 

@@ -120,7 +120,7 @@ def _solid_deformation(mesh: MeshQuad) -> float:
     positions = structure.columns.positions
     displacement = positions @ (turn @ gradient).T - positions
     residual = structure.forces(SolidState(displacement), 0.0).residual
-    plan = structure.columns.plan_nodes
+    plan = structure.columns.plan.nodes
     inside = np.all((plan > 1e-9) & (plan < 1.0 - 1e-9), axis=1)
     middle = residual[inside, structure.columns.layers]  # top and bottom belong to the rim
     return float(np.abs(middle).max() / np.abs(residual).max())

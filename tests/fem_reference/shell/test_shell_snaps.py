@@ -17,7 +17,7 @@ from fem_reference.solving.equilibrium import trace
 from fem_reference.solving.path import Path, StepFailed
 from fem_reference.solving.pseudo_transient import relax
 from fem_reference.surface.loads import point_force
-from fem_reference.surface.mesh import rectangle
+from fem_reference.surface.mesh import Plan, rectangle
 from fem_reference.surface.supports import Driven
 from sheetbench import scenes
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
@@ -102,7 +102,7 @@ def strip(at=0.5, shorter=SHORTER, bent=0.0):
     closer = Driven(ends, nodes[ends], Shortening(shorter), np.ones(len(ends)))
     supports = replace(plain.supports, turning=(closer,))
     point = np.array([at * SIDE, WIDTH / 2])
-    dead = point_force(mesh, plain.element_nodes, len(nodes), point, np.array([0.0, 0.0, -1.5 * LIMIT]))
+    dead = point_force(Plan(mesh, plain.element_nodes, nodes), point, np.array([0.0, 0.0, -1.5 * LIMIT]))
     out = Strip.build(plain.element, plain.element_nodes, supports, dead)
     change = np.zeros((2, len(nodes), 3))
     change[0, :, 0] = -shorter * (nodes[:, 0] / SIDE - 0.5)

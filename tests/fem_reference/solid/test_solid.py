@@ -130,7 +130,7 @@ def test_order_of_convergence(poisson):
         rest = structure.rest()
         stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0)
         free = np.ones(structure.free.shape, dtype=bool)
-        free[structure.columns.plan.get_dofs().flatten()] = False
+        free[structure.columns.basis.get_dofs().flatten()] = False
         free[:, [0, -1]] = False
         free = np.flatnonzero(free)
         u = solve_free(stiffness, load, exact(structure.columns.positions).ravel(), free)

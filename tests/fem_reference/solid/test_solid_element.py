@@ -185,7 +185,7 @@ def test_patch_of_plane_stress(poisson, layers):
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0)
     free = np.ones(exact.shape, dtype=bool)
-    free[structure.columns.plan.get_dofs().flatten()] = False
+    free[structure.columns.basis.get_dofs().flatten()] = False
     free = np.flatnonzero(free)
     u = solve_free(stiffness, np.zeros(exact.size), exact.ravel(), free)
     np.testing.assert_allclose(u, exact.ravel(), atol=1e-9 * np.abs(exact).max())

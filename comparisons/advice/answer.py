@@ -122,11 +122,13 @@ class Advice(Answer):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        """Return a row per probing solve, the quickest first; the choice is marked."""
+        """Return a row per probing solve, the quickest first; the choice is marked. Statuses that are all
+        "converged" are for the files alone."""
         rows = sorted(self.tried, key=lambda one: one.solve_seconds)
         caption = "Quick solves; error: difference from the finest one"
         fields = ("model", "size", "solve_seconds", "error", "choice", "status")
-        return (Table.of(Tried, rows, caption, "tried", fields=fields),)
+        details = () if any(one.status != "converged" for one in rows) else ("status",)
+        return (Table.of(Tried, rows, caption, "tried", fields=fields, details=details),)
 
     def notes(self) -> list[str]:
         """Return the advice and its reasons, a sentence a line, and the command that solves the choice."""

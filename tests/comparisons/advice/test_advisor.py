@@ -94,6 +94,8 @@ def test_a_busy_machine_and_all_digits_are_shown(monkeypatch):
     assert advice.warnings[0] in report.notes
     column = next(c for c in report.tables[0].columns if c.name == "error")
     assert column.show(0.0104) == "1.04"
+    details = {c.name for c in report.tables[0].columns if c.detail}
+    assert details == {"status"} and {one.status for one in advice.tried} == {"converged"}
 
 
 @pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped", "curved-edge"])

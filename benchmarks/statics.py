@@ -1,27 +1,19 @@
 """Equilibria of lattices and shells: time, what it goes to, and the rate of the factorisations, in one run.
 
-    python benchmarks/statics.py [--large] [--batch N] [--against FOLDER [--sides N …]] [--json FILE] [--keep]
+    python benchmarks/statics.py [--large] [--batch N] [--json FILE] [--keep]
 
 Of every lattice the best of its solves, the call with its set-up over the solve, factorisations, their share
 of the solve and the rate that they reach; then a batch, by the clock, and the shell with the share of its
 factorisations. Warm code, one BLAS thread; CPU seconds, which other programs on the machine lengthen less
 than the clock's. --large: 129×129×2 and 257×257×2 too, with the peak of the memory (minutes, 3 GB).
-
---against FOLDER: the lattices beside those of another state of the code in the same run, each in a process of
-its own, by turns (`git worktree add ../before 123119f`, then --against ../before); with --sides nothing but
-that, for lattices of so many masses a side.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
 import platform
-import subprocess
-import sys
 from collections.abc import Callable
-from pathlib import Path
 from resource import RUSAGE_SELF, getrusage
 from time import perf_counter, process_time
 from typing import Any
@@ -39,53 +31,6 @@ from sheetbench.scenes import load
 
 SCENE = load("two-edges-clamped")
 LATTICES, LARGE, SHELLS, BATCH = (3, 5, 9, 17, 33, 65), (129, 257), (4, 8, 16, 32), 1000
-
-HERE = Path(__file__).resolve().parent.parent
-TURNS = 3  # of a small lattice here and there; large ones have one each
-ALONE = """
-import json, re, sys, time
-import lumped
-try:
-    from scenes import load  # as it once was
-except ImportError:
-    from sheetbench.scenes import load
-scene, masses = load("two-edges-clamped"), int(sys.argv[1])
-springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))
-for small in (5, 45) if masses > 20 else (5,):  # warm: 45 goes the way of large ones
-    lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(small, small)))
-best = float("inf")
-for _ in range(20 if masses < 20 else 1):
-    began = time.process_time()
-    found = lumped.solve(scene, springs)
-    best = min(best, time.process_time() - began)
-with open("/proc/self/status") as status:  # getrusage's peak is also that of the process it was started by
-    peak = 1024 * int(re.search(r"VmHWM:\\s*(\\d+)", status.read())[1])
-moved = abs(found.displacement(scene.probe_points())).max()
-print(json.dumps([best, found.iterations, peak, moved]))
-"""
-
-
-def against(masses: int, other: Path) -> dict[str, Any]:
-    """A lattice here and in another state of the code: CPU seconds of the call, factorisations, peak of the
-    memory, and by how much the largest displacement of the probes differs."""
-    best: dict[Path, list[float]] = {}
-    for _ in range(TURNS if masses < 100 else 1):
-        for root in (other, HERE):
-            environment = os.environ | {"PYTHONPATH": str(root), "OPENBLAS_NUM_THREADS": "1"}
-            asked = [sys.executable, "-c", ALONE, str(masses)]
-            said = subprocess.run(
-                asked, env=environment, cwd=root, check=True, stdout=subprocess.PIPE, text=True
-            )
-            found = json.loads(said.stdout.splitlines()[-1])
-            best[root] = min(best.get(root, found), found)
-    before, now = best[other], best[HERE]
-    return {
-        "against": f"{masses}×{masses}×2",
-        "call_seconds": [before[0], now[0]],
-        "factorisations": [before[1], now[1]],
-        "peak_bytes": [before[2], now[2]],
-        "apart": abs(now[3] / before[3] - 1.0),
-    }
 
 
 def timed(call: Callable[[], Any], clock: Callable[[], float] = process_time) -> float:
@@ -207,16 +152,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--large", action="store_true", help="129×129×2 and 257×257×2 too (minutes, 3 GB)")
     parser.add_argument("--batch", type=int, default=BATCH, help="lattices in the batch")
-    parser.add_argument("--against", type=Path, metavar="FOLDER", help="another state of the code, beside it")
-    parser.add_argument("--sides", type=int, nargs="+", metavar="N", help="only lattices of N masses a side")
     parser.add_argument("--json", metavar="FILE", help="where to keep the numbers")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
     asked = parser.parse_args()
-    if asked.sides and asked.against is None:
-        parser.error("--sides goes with --against")
     rows: list[dict[str, Any]] = []
-    sides = asked.sides or LATTICES + (LARGE if asked.large else ())
-    for masses in () if asked.sides else sides:
+    for masses in LATTICES + (LARGE if asked.large else ()):
         rows.append(lattice(masses))
         row = rows[-1]
         share = min(1.0, row["factorisations"] * row["one_factorisation_seconds"] / row["solve_seconds"])
@@ -226,18 +166,7 @@ def main() -> None:
             f"({share:.0%})  {row['gflops']:.1f} Gflop/s  {row['peak_bytes'] / 1e9:.1f} GB",
             flush=True,
         )
-    if asked.against is not None:
-        for masses in sides:
-            rows.append(against(masses, asked.against.resolve()))
-            (was, now), (more, memory) = rows[-1]["call_seconds"], rows[-1]["peak_bytes"]
-            print(
-                f"call    {rows[-1]['against']:>10}  {1e3 * now:9.2f} ms beside {1e3 * was:9.2f}, "
-                f"{now / was:.2f} of it; {memory / 1e9:.1f} GB beside {more / 1e9:.1f}; "
-                f"answers {rows[-1]['apart']:.1g} apart",
-                flush=True,
-            )
-    if not asked.sides:
-        rows.extend(of_batch_and_shells(asked.batch))
+    rows.extend(of_batch_and_shells(asked.batch))
     if asked.json:
         about = {"machine": platform.processor() or platform.machine(), "python": platform.python_version()}
         with open(asked.json, "w", encoding="utf-8") as file:

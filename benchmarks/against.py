@@ -19,6 +19,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from statistics import median
 from time import process_time
@@ -48,21 +49,15 @@ def call_of(case: str) -> Callable[[], float]:
     scene = load("two-edges-settling" if kind.startswith("settling") else "two-edges-clamped")
     if "press" in kind:
         scene = load(str(HERE / "pressed.toml"))
-    if kind in ("shell", "pressed-shell"):
-
-        def solve() -> Any:
-            return fem_reference.solve(scene, "shell", elements=size)
+    solve: Callable[[], Any]
+    if "shell" in kind:
+        solve = partial(fem_reference.solve, scene, "shell", elements=size)
     else:
         springs = lumped.calibrate(scene.sheet, scene.material, grid=(size, size))
-        if kind in ("lattice", "pressure"):
-
-            def solve() -> Any:
-                return lumped.solve(scene, springs)
-        else:
-            samples = {"every": 0.01} if kind == "settling-100" else {}
-
-            def solve() -> Any:
-                return lumped.simulate(scene, springs, 2.0, integrator="esdirk", **samples)
+        every = {"every": 0.01} if kind == "settling-100" else {}
+        solve = partial(lumped.solve, scene, springs)
+        if kind.startswith("settling"):
+            solve = partial(lumped.simulate, scene, springs, 2.0, integrator="esdirk", **every)
 
     middle = [[0.5 * scene.sheet.length_x, 0.5 * scene.sheet.length_y]]
 

@@ -8,7 +8,7 @@ EDITABLE := --config-settings editable_mode=compat --editable
 FUZZ   ?=
 KILLS  ?=
 
-.PHONY: docs docs-scene help install demo wheel test check nightly kernels slow fuzz kills catalogue verify tradeoff animations pictures \
+.PHONY: docs docs-scene help install demo wheel test check nightly kernels slow fuzz kills sizes catalogue verify tradeoff animations pictures \
         notebooks bench mutants tests-of viewer wheel-check extras-check lint clean
 help:
 	@echo "make demo      set up and compare both models on test 1 of the published study, Habibi et al. (files in $(OUT)/)"
@@ -20,6 +20,7 @@ help:
 	@echo "make kills     a hundred kills of campaigns, runs and trade-offs, and what stands there after (ten minutes; $(OUT)/kills/)"
 	@echo "make tests-of  the test files that run FILE=lumped/statics/polygon.py, the nearest first"
 	@echo "make mutants   faults put into FILE=… that its nearest tests do not notice, of 20 (COUNT=…); docs/quality.md"
+	@echo "make sizes     files, lines and lines of code of the packages, words of the pages"
 	@echo "make catalogue the table of the catalogue's answers, tests/helpers/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make nightly   every other test, as those of the studies, notebooks, browsers and the slow ones (half an hour)"
@@ -85,6 +86,9 @@ fuzz: $(VENV)/testing
 
 kills: $(VENV)/testing
 	@PYTHONPATH=tests/helpers $(BIN)/python -m fuzz.kills $(OUT)/kills $(KILLS)
+
+sizes:
+	@$(PYTHON) tests/helpers/sizes.py
 
 catalogue: $(VENV)/testing
 	@$(BIN)/python tests/helpers/catalogue.py

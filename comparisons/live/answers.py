@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.browser.sheets import forces, packed, viewer_sheet
+from comparisons.browser.sheets import packed, viewer_sheet
 from comparisons.comparison.comparison import error
 from comparisons.live.panel import Question
 from comparisons.models.resolve import resolve
@@ -29,12 +29,11 @@ DIFFERENCE = {"name": "difference", "label": "Difference from the shell", "unit"
 
 @dataclass(frozen=True)
 class Answered:
-    """The lattice's answer to a question; from_flat: as `compare` finds it, not from another equilibrium."""
+    """The lattice's answer to a question."""
 
     question: Question
     scene: Scene
     solution: Solution
-    from_flat: bool = True
 
     @property
     def displacement(self) -> np.ndarray:
@@ -57,17 +56,14 @@ class Answered:
         """Plan points (n, 2) [m] of the masses, of those beyond a rim the nearest of the sheet."""
         return on_sheet(self.scene, self.solution.mesh.points[:, :2])
 
-    def document(self, known: np.ndarray | None) -> dict[str, Any]:
-        """Return the message to the page; known: rest places of the masses that it has, of which only the
-        displacement is reported."""
-        found = _document("lattice", self.question, self.scene, self.solution)
+    def document(self) -> dict[str, Any]:
+        """Return the message to the page."""
         mesh = self.solution.mesh
-        found["displacement"] = packed(np.nan_to_num(self.displacement))
-        found["forces"] = forces(mesh.points, self.displacement, self.scene)
-        if known is None or not np.array_equal(known, mesh.points):
-            flat = {**DIFFERENCE, "kind": "difference", "values": packed(np.zeros(len(mesh.points)))}
-            found["sheet"] = viewer_sheet("lattice", mesh, "Lattice", [flat], self.scene)
-        return found
+        flat = {**DIFFERENCE, "kind": "difference", "values": packed(np.zeros(len(mesh.points)))}
+        return {
+            **_document(self.question, self.scene, self.solution),
+            "sheet": viewer_sheet("lattice", mesh, "Lattice", [flat], self.scene),
+        }
 
 
 def lattice(scene: Scene, question: Question, last: Answered | None = None) -> Answered:
@@ -77,7 +73,7 @@ def lattice(scene: Scene, question: Question, last: Answered | None = None) -> A
 
     springs = resolve(scene, question.lattice).springs
     near = last.displacement if last is not None and last.starts(question) else None
-    return Answered(question, scene, lumped.solve(scene, springs, near=near), near is None)
+    return Answered(question, scene, lumped.solve(scene, springs, near=near))
 
 
 @dataclass(frozen=True)
@@ -97,7 +93,7 @@ def shell(scene: Scene, question: Question, masses: np.ndarray) -> Sampled:
     """Return the shell's answer, sampled at plan points of masses (n, 2) [m]. Raises BadInput as the
     lattice's."""
     solution = solve(resolve(scene, Elements("shell", question.elements)))
-    found = _document("shell", question, scene, solution)
+    found = _document(question, scene, solution)
     plan = plan_mesh(scene, SHELL_CELLS)
     u = solution.displacement(plan.points[:, :2])
     mesh = FieldMesh(plan.points, plan.cells, {"displacement": u})
@@ -120,13 +116,12 @@ def compared(answered: Answered, sampled: Sampled) -> dict[str, Any]:
     }
 
 
-def _document(kind: str, question: Question, scene: Scene, solution: Solution) -> dict[str, Any]:
+def _document(question: Question, scene: Scene, solution: Solution) -> dict[str, Any]:
     known = plain(solution.document(scene))
     kept = ("label", "status", "advice", "load_factor", "unknowns", "settings", "probes")
     message = solution.message or ("" if solution.comparable else solution.status.advice)
     found = {name: known[name] for name in kept}
     return {
-        "kind": kind,
         "number": question.number,
         "said": message,
         "seconds": solution.solve_seconds,

@@ -2,8 +2,8 @@
 
 The server listens on the loopback alone, and yet every page open in the browser can send requests there.
 So a request needs the random token in its path; its Host must be the loopback's, else a foreign name that was
-made to lead here (DNS rebinding) would do; an Origin that it brings must be the page's own, and opening the
-web socket, which browsers let any page try, needs one. The token is compared in constant time.
+made to lead here (DNS rebinding) would do; an Origin that it brings must be the page's own, and a question,
+which browsers let any page post, needs one. The token is compared in constant time.
 
 A browser gets what it is to open on its command line, which every user of the machine can read. So that is
 the address of a file that its user alone can read; the page's is in it, and it is gone when the page ends.
@@ -15,12 +15,11 @@ import os
 import secrets
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from email.message import Message
 from html import escape
 from http import HTTPStatus
 from pathlib import Path
 from tempfile import TemporaryDirectory
-
-from websockets.datastructures import Headers
 
 LOOPBACK = "127.0.0.1"
 NAMES = (LOOPBACK, "localhost")
@@ -41,14 +40,13 @@ class Guard:
         self._hosts = {f"{name}:{port}" for name in NAMES}
         self.address = f"http://{LOOPBACK}:{port}/{self.token}/"
 
-    def refusal(self, path: str, headers: Headers, socket: bool) -> HTTPStatus | None:
-        """Return why a request is not answered, None where it is; socket: whether it is to open the web
-        socket."""
-        hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
+    def refusal(self, path: str, headers: Message, own: bool = False) -> HTTPStatus | None:
+        """Return why a request is not answered, None where it is; own: whether it must name its origin."""
+        hosts, origins = headers.get_all("Host", []), headers.get_all("Origin", [])
         if len(hosts) != 1 or hosts[0].lower() not in self._hosts:
             return HTTPStatus.MISDIRECTED_REQUEST
-        own = {f"http://{host}" for host in self._hosts}
-        if len(origins) > 1 or (socket and not origins) or not own.issuperset(map(str.lower, origins)):
+        ours = {f"http://{host}" for host in self._hosts}
+        if len(origins) > 1 or (own and not origins) or not ours.issuperset(map(str.lower, origins)):
             return HTTPStatus.FORBIDDEN
         given = _plain(path).split("/")[1:2]
         if not secrets.compare_digest((given or [""])[0].encode(), self.token.encode()):
@@ -61,11 +59,10 @@ class Guard:
 
     @property
     def headers(self) -> dict[str, str]:
-        """What every answer says: scripts, styles and the socket of this server alone, and nobody's frame."""
-        sockets = " ".join(f"ws://{host}" for host in sorted(self._hosts))
+        """What every answer says: scripts, styles and answers of this server alone, and nobody's frame."""
         policy = (
             "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
-            f"connect-src 'self' {sockets}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+            "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
         )
         return {
             "Content-Security-Policy": policy,

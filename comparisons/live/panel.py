@@ -46,12 +46,14 @@ class Slider:
 
 @dataclass(frozen=True)
 class Question:
-    """One setting of all sliders; number: rising, so that the newest is known."""
+    """One setting of all sliders; number: of the question; copy: the text that it asks for; rest: whether the
+    sliders rest, so that the equilibrium is sought from flat."""
 
     number: int
     values: dict[str, float]
     calibration: str
     copy: str = ""
+    rest: bool = True
     layer_distance: float | None = None
 
     @property
@@ -88,7 +90,8 @@ class Panel:
 
     def first(self) -> Question:
         """Return the question that the page starts with."""
-        return self._question(0, {name: float(s.value) for name, s in self.sliders.items()}, self.start)
+        values = {name: float(s.value) for name, s in self.sliders.items()}
+        return Question(0, values, self.start, layer_distance=self._lattice.layer_distance)
 
     def document(self) -> dict[str, Any]:
         """Return the panel as the page builds it."""
@@ -112,7 +115,7 @@ class Panel:
             if isinstance(error, BadInput):
                 raise
             raise BadInput("not a question: no JSON") from None
-        keys = {"number", "values", "calibration", "copy"}
+        keys = {"number", "values", "calibration", "copy", "rest"}
         if not isinstance(found, dict) or not isinstance(found.get("values"), dict) or set(found) - keys:
             _refuse(f"not a question: it has {', '.join(sorted(keys))}")
         number, values = found.get("number"), found["values"]
@@ -123,14 +126,14 @@ class Panel:
                 f"values: {', '.join(sorted(map(str, unlike)))[:80]}: {', '.join(self.sliders)} are needed"
             )
         read = {name: self._within(slider, values[name]) for name, slider in self.sliders.items()}
-        if found.get("calibration") not in self.calibrations:
+        if not isinstance(found.get("calibration"), str) or found["calibration"] not in self.calibrations:
             _refuse(f"calibration: choose from {', '.join(self.calibrations)}")
-        if found.get("copy", "") not in ("", "springs", "scene"):
+        copy, rest = found.get("copy", ""), found.get("rest", True)
+        if copy not in ("", "springs", "scene"):
             _refuse("copy: springs or scene")
-        return self._question(number, read, found["calibration"], found.get("copy", ""))
-
-    def _question(self, number: int, values: dict[str, float], calibration: str, copy: str = "") -> Question:
-        return Question(number, values, calibration, copy, self._lattice.layer_distance)
+        if not isinstance(rest, bool):
+            _refuse("rest: true or false")
+        return Question(number, read, found["calibration"], copy, rest, self._lattice.layer_distance)
 
     def scene_of(self, question: Question) -> Scene:
         """Return the scene of a question. Raises SceneError where the values contradict each other."""

@@ -1,154 +1,220 @@
-"""The server of the page: a few fixed files and a web socket, on this machine's loopback alone.
+"""The server of the page: a few fixed files and its questions, on this machine's loopback alone.
 
-`websockets` answers both: one dependency-free wheel, asyncio, and plain requests by `process_request`. What
-comes in is bounded: one question is a message of 4 kB at most, and few pages are open at once.
+    GET  /TOKEN/          the page; live.css, live.js, viewer.js, viewer.css beside it
+    GET  /TOKEN/panel     the sliders, and the number of the page's first question
+    POST /TOKEN/lattice   a question: the lattice's answer
+    POST /TOKEN/shell     the same question: the shell's answer, and how far the lattice's is from it
+    POST /TOKEN/text      the springs or the scene of a question, as TOML
+
+The page asks one question of each model at a time and leaves out those that a newer one overtakes, so the
+server keeps no queue. The lattice is solved on the request's thread, one question at a time; the shell in a
+process of its own, so that neither waits for the other. Sought from the last
+equilibrium an answer takes a third of the time; one of a question with `rest` is sought from flat, as
+`sheetbench compare` does.
+
+What comes in is bounded: a question has 4 kB at most, a connection that says nothing for a minute is closed,
+and few are open at once. A question that contradicts itself is answered with status 400 and a sentence.
 """
 
 from __future__ import annotations
 
-import asyncio
-import logging
-import signal
-import socket
-from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager, suppress
+import json
+import sys
+import threading
+import traceback
+from collections import OrderedDict
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler
 from importlib import resources
-
-from websockets.asyncio.server import ServerConnection, serve
-from websockets.datastructures import Headers
-from websockets.exceptions import ConnectionClosed
-from websockets.http11 import Request, Response
+from itertools import count
+from socketserver import TCPServer, ThreadingMixIn
+from typing import Any
 
 from comparisons.browser import viewer
+from comparisons.calibration.answer import to_toml as springs_to_toml
+from comparisons.live import answers
+from comparisons.live.answers import Answered
 from comparisons.live.guard import LOOPBACK, Guard
-from comparisons.live.models import Models
-from comparisons.live.panel import Panel
-from comparisons.live.session import Session
+from comparisons.live.panel import Panel, Question
+from comparisons.models.resolve import resolve
+from comparisons.runs.executors import Processes, single_threaded
 from sheetbench.errors import BadInput
+from sheetbench.scenes.toml import to_toml
 
 MESSAGE = 4096  # bytes of a question at most
-PAGES = 4  # open at once
-SOCKET = "socket"
+CONNECTIONS = 32  # open at once
+KEPT = 16  # answers of the lattice, which the shell's are held against
+QUESTIONS = 10**6  # of one page
+SILENCE = 60.0  # s after which a connection that says nothing is closed
 TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript"}
 
 
 def run(panel: Panel, port: int, opened: Callable[[str], None]) -> None:
     """Serve the page until interrupted. opened: called with its address. Raises BadInput for a port that
-    cannot be had.
+    cannot be had."""
+    with served(panel, port) as server:
+        opened(server.guard.address)
+        server.serve_forever()
 
-    An interrupt may come in the midst of any instruction, a send of `websockets` too, which would then report
-    a failed connection. So asyncio hears it here: it cancels the server, and raises KeyboardInterrupt after.
-    """
-    heard_by = signal.getsignal(signal.SIGINT)
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # which asyncio replaces by its own
+
+@contextmanager
+def served(panel: Panel, port: int = 0) -> Iterator[Server]:
+    """A server of the panel's page, which answers while `serve_forever` runs. port: 0 takes any that is
+    free."""
+    server = Server(panel, port)
+    threading.Thread(target=server.warm_up, daemon=True).start()
     try:
-        asyncio.run(_until_interrupted(panel, port, opened))
+        yield server
     finally:
-        signal.signal(signal.SIGINT, heard_by)
+        server.server_close()
+        server.shells.abandon()
 
 
-async def _until_interrupted(panel: Panel, port: int, opened: Callable[[str], None]) -> None:
-    async with served(panel, port) as address:
-        opened(address)
-        await asyncio.get_running_loop().create_future()
+class Server(ThreadingMixIn, TCPServer):
+    """The panel, who may ask, and who answers."""
 
+    daemon_threads = True
+    allow_reuse_address = True
 
-@asynccontextmanager
-async def served(panel: Panel, port: int = 0) -> AsyncIterator[str]:
-    """A server of the panel's page; its address, with the token. port: 0 takes any that is free."""
-    models = Models()
-    try:
-        listening = _listening(port)
-        guard = Guard(listening.getsockname()[1])
-        first = panel.first()
-        desk = _Desk(
-            panel, models, guard, asyncio.ensure_future(models.warm_up(panel.scene_of(first), first))
-        )
-        async with serve(
-            desk.converse,
-            sock=listening,
-            process_request=desk.answer,
-            max_size=MESSAGE,
-            max_queue=4,
-            compression=None,  # on one machine it only takes time
-            server_header=None,
-            logger=_silent(),
-        ):
-            yield guard.address
-    finally:
-        models.close()
-
-
-def _listening(port: int) -> socket.socket:
-    try:
-        return socket.create_server((LOOPBACK, port))
-    except (OSError, OverflowError) as error:
-        raise BadInput(f"--port = {port}: cannot be had: {error}") from None
-
-
-class _Desk:
-    """Requests and web sockets of the page, answered."""
-
-    def __init__(self, panel: Panel, models: Models, guard: Guard, warm: asyncio.Future[None]) -> None:
-        self._panel, self._models, self._guard, self._warm = panel, models, guard, warm
-        self._assets = _assets()
-        self._pages = 0
-
-    def answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Return the answer to a request; None lets it open the web socket."""
-        socket_asked = self._guard.name(request.path) == SOCKET
-        refused = self._guard.refusal(request.path, request.headers, socket_asked)
-        if refused is not None:
-            return self._response(refused)
-        if socket_asked:
-            return self._response(HTTPStatus.SERVICE_UNAVAILABLE) if self._pages >= PAGES else None
-        if request.method != "GET":
-            return self._response(HTTPStatus.METHOD_NOT_ALLOWED)
-        if (found := self._assets.get(self._guard.name(request.path))) is None:
-            return self._response(HTTPStatus.NOT_FOUND)
-        return self._response(HTTPStatus.OK, *found)
-
-    async def converse(self, connection: ServerConnection) -> None:
-        """Talk with a page until it is closed."""
-
-        async def send(text: str) -> None:
-            await connection.send(text)
-
-        self._pages += 1
+    def __init__(self, panel: Panel, port: int) -> None:
         try:
-            with suppress(ConnectionClosed):
-                await Session(self._panel, self._models, asyncio.shield(self._warm), send).run(
-                    aiter(connection)
-                )
-        finally:
-            self._pages -= 1
+            super().__init__((LOOPBACK, port), Desk)
+        except (OSError, OverflowError) as error:
+            raise BadInput(f"--port = {port}: cannot be had: {error}") from None
+        self.panel, self.guard, self.assets = panel, Guard(self.server_address[1]), _assets()
+        self.lattice_turn, self.shells = threading.Lock(), Processes(1)
+        self.answers: OrderedDict[int, Answered] = OrderedDict()  # by the numbers of their questions
+        self._numbers = count(0, QUESTIONS)
+        self._connections = threading.BoundedSemaphore(CONNECTIONS)
 
-    def _response(self, status: HTTPStatus, kind: str = "text/plain", body: bytes = b"") -> Response:
-        body = body or f"{status.value} {status.phrase}\n".encode()
-        headers = {**self._guard.headers, "Content-Type": kind, "Content-Length": str(len(body))}
-        headers["Connection"] = "close"
-        return Response(status.value, status.phrase, Headers(headers), body)
+    def process_request(self, request: Any, client_address: Any) -> None:
+        """Answer on a thread of the connection's own, or close it where too many are open."""
+        if self._connections.acquire(blocking=False):
+            super().process_request(request, client_address)
+        else:
+            self.shutdown_request(request)
+
+    def process_request_thread(self, request: Any, client_address: Any) -> None:
+        """Answer until the connection is closed."""
+        try:
+            super().process_request_thread(request, client_address)
+        finally:
+            self._connections.release()
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """A connection that breaks is nobody's fault here; anything else the terminal shows."""
+        if not isinstance(error := sys.exception(), OSError):
+            traceback.print_exception(error)
+
+    def document(self) -> dict[str, Any]:
+        """Return the panel for a page that opens, with the number that its questions begin with."""
+        return {**self.panel.document(), "number": next(self._numbers)}
+
+    def warm_up(self) -> None:
+        """Let both models solve the first question, so that nothing is left to import or compile."""
+        first = self.panel.first()
+        scene = self.panel.scene_of(first)
+        with suppress(Exception):  # the page's first question tells
+            with single_threaded():  # as the process starts
+                self.shells.submit(answers.shell, scene, first, scene.probe_points())
+            with self.lattice_turn:
+                answers.lattice(scene, first)
+
+    def lattice(self, question: Question) -> dict[str, Any] | None:
+        """Return the lattice's answer; None where it is the one that the page has already."""
+        with self.lattice_turn:
+            near = None if question.rest else next(reversed(self.answers.values()), None)
+            answered = answers.lattice(self.panel.scene_of(question), question, near)
+            before = self.answers.pop(question.number, None)
+            self.answers[question.number] = answered
+            while len(self.answers) > KEPT:
+                self.answers.popitem(last=False)
+        return None if before and answered.agrees(before) else answered.document()
+
+    def shell(self, question: Question) -> dict[str, Any] | None:
+        """Return the shell's answer beside the lattice's; None where the lattice's is no longer kept."""
+        if (answered := self.answers.get(question.number)) is None:
+            return None
+        shell = self.shells.submit(answers.shell, answered.scene, answered.question, answered.masses)
+        return answers.compared(answered, shell.result())
+
+    def text(self, question: Question) -> dict[str, Any]:
+        """Return what is to be copied, as TOML: the lattice's [springs], or the scene."""
+        scene = self.panel.scene_of(question)
+        if question.copy == "scene":
+            return {"text": to_toml(scene)}
+        with self.lattice_turn:
+            return {"text": springs_to_toml(resolve(scene, question.lattice, "springs").springs)}
+
+
+class Desk(BaseHTTPRequestHandler):
+    """The requests of one connection."""
+
+    server: Server
+    protocol_version = "HTTP/1.1"
+    timeout = SILENCE
+    server_version = sys_version = ""
+
+    def log_message(self, *_: object) -> None:
+        """Requests are not logged: the address in them is secret."""
+
+    def do_GET(self) -> None:
+        """Answer with a file of the page, or with its panel."""
+        if (refused := self.server.guard.refusal(self.path, self.headers)) is not None:
+            self._reply(refused)
+        elif (name := self.server.guard.name(self.path)) == "panel":
+            self._reply(HTTPStatus.OK, self.server.document())
+        elif (asset := self.server.assets.get(name)) is None:
+            self._reply(HTTPStatus.NOT_FOUND)
+        else:
+            self._send(HTTPStatus.OK, *asset)
+
+    def do_POST(self) -> None:
+        """Answer a question; one that contradicts itself is refused in a line."""
+        guard, length = self.server.guard, self.headers.get("Content-Length", "")
+        asked = {"lattice": self.server.lattice, "shell": self.server.shell, "text": self.server.text}
+        if (refused := guard.refusal(self.path, self.headers, own=True)) is not None:
+            return self._reply(refused)
+        if not (length.isascii() and length.isdigit() and int(length) <= MESSAGE):
+            return self._reply(HTTPStatus.REQUEST_ENTITY_TOO_LARGE)
+        if (answer := asked.get(guard.name(self.path))) is None:
+            return self._reply(HTTPStatus.NOT_FOUND)
+        try:
+            document = answer(self.server.panel.read(self.rfile.read(int(length))))
+        except BadInput as error:
+            return self._reply(HTTPStatus.BAD_REQUEST, {"said": str(error)})
+        except Exception as error:  # a fault of the program: the page goes on, and the terminal shows it
+            traceback.print_exception(error)
+            said = "a fault of the program; the terminal that it was started from says more"
+            return self._reply(HTTPStatus.INTERNAL_SERVER_ERROR, {"said": said})
+        self._reply(HTTPStatus.OK if document else HTTPStatus.NO_CONTENT, document)
+
+    def _reply(self, status: HTTPStatus, document: dict[str, Any] | None = None) -> None:
+        """Send JSON; a refusal without one ends the connection, whose further bytes are not looked at."""
+        if document is None and status is not HTTPStatus.NO_CONTENT:
+            self.close_connection = True
+            document = {"said": status.phrase}
+        text = "" if document is None else json.dumps(document, allow_nan=False)
+        self._send(status, "application/json", text.encode())
+
+    def _send(self, status: HTTPStatus, kind: str, body: bytes) -> None:
+        self.send_response(status)
+        fixed = {"Content-Type": kind} if body else {}
+        closing = {"Connection": "close"} if self.close_connection else {}
+        length = {"Content-Length": str(len(body))} if status is not HTTPStatus.NO_CONTENT else {}
+        for name, value in {**self.server.guard.headers, **fixed, **closing, **length}.items():
+            self.send_header(name, value)
+        self.end_headers()
+        self.wfile.write(body)
 
 
 def _assets() -> dict[str, tuple[str, bytes]]:
     """Return type and content of the page's files by name, read once; the page itself has none."""
-    page = resources.files("comparisons.live").joinpath("page")
-    own = {
-        name: page.joinpath(name).read_text(encoding="utf-8") for name in ("live.html", "live.css", "live.js")
-    }
+    folder = resources.files("comparisons.live").joinpath("page")
+    own = {name: folder.joinpath(name).read_text("utf-8") for name in ("live.html", "live.css", "live.js")}
     texts = {**own, "viewer.js": viewer.script(), "viewer.css": viewer.style()}
-    found = {
-        name: (f"{TYPES[name.rpartition('.')[2]]}; charset=utf-8", text.encode())
-        for name, text in texts.items()
-    }
+    kinds = {name: f"{TYPES[name.rpartition('.')[2]]}; charset=utf-8" for name in texts}
+    found = {name: (kinds[name], text.encode()) for name, text in texts.items()}
     return {"": found.pop("live.html"), **found}
-
-
-def _silent() -> logging.Logger:
-    """Return a logger for requests that are turned away: they are nobody's fault here."""
-    logger = logging.getLogger(__name__)
-    logger.propagate = False
-    if not logger.handlers:
-        logger.addHandler(logging.NullHandler())
-    return logger

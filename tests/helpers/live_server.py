@@ -1,14 +1,12 @@
 """A server of `sheetbench live` in a thread of the tests, and a page's side of the conversation with it."""
 
-import asyncio
+import http.client
 import json
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 from urllib.parse import urlsplit
-
-from websockets.sync.client import ClientConnection, connect
 
 from comparisons.live.panel import Panel
 from comparisons.live.server import served
@@ -17,38 +15,33 @@ from comparisons.live.server import served
 @contextmanager
 def serving(panel: Panel) -> Iterator[str]:
     """The address of the panel's page."""
-    told: dict[str, Any] = {}
-    there = threading.Event()
-
-    async def serve() -> None:
-        told["loop"], told["over"] = asyncio.get_running_loop(), asyncio.Event()
-        async with served(panel) as address:
-            told["address"] = address
-            there.set()
-            await told["over"].wait()
-
-    thread = threading.Thread(target=lambda: asyncio.run(serve()))
-    thread.start()
-    assert there.wait(600)
-    try:
-        yield told["address"]
-    finally:
-        told["loop"].call_soon_threadsafe(told["over"].set)
-        thread.join(600)
+    with served(panel) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            yield server.guard.address
+        finally:
+            server.shutdown()
+            thread.join(600)
 
 
-@contextmanager
-def talking(address: str, **options: Any) -> Iterator[ClientConnection]:
-    """A web socket as the page opens it, both models ready."""
+def got(address: str, path: str, body: bytes | None = None, **headers: str) -> http.client.HTTPResponse:
+    """The answer to a request of a path, a post where there is a body, with headers of one's own in place of
+    the usual ones; the limit only ends a test that hangs."""
     place = urlsplit(address)
-    headers = {"origin": f"http://{place.netloc}", **options}
-    with connect(f"ws://{place.netloc}{place.path}socket", **headers) as socket:
-        yield socket
+    connection = http.client.HTTPConnection(place.netloc, timeout=600)
+    connection.putrequest("GET" if body is None else "POST", path, skip_host=True)
+    usual = {"Host": place.netloc}
+    if body is not None:
+        usual |= {"Origin": f"http://{place.netloc}", "Content-Length": str(len(body))}
+    for name, value in {**usual, **headers}.items():
+        connection.putheader(name, value)
+    connection.endheaders(body)
+    return connection.getresponse()
 
 
-def hear(socket: ClientConnection, until: Callable[[dict[str, Any]], bool]) -> list[dict[str, Any]]:
-    """The messages up to the one that is waited for. The limit only ends a test that hangs."""
-    found = []
-    while not found or not until(found[-1]):
-        found.append(json.loads(socket.recv(600)))
-    return found
+def posted(address: str, what: str, question: str | bytes) -> tuple[int, Any]:
+    """Status and document of the answer to a question, as the page asks it."""
+    body = question.encode() if isinstance(question, str) else question
+    answer = got(address, urlsplit(address).path + what, body)
+    return answer.status, json.loads(answer.read() or b"null")

@@ -1,13 +1,12 @@
 // The page of `sheetbench live`: sliders ask, lattice and shell answer, the newest counts.
 //
-// Every question has a number, and every answer that of its question; a question that is overtaken by a newer
-// one before anybody begins with it is not answered. All texts are set as text, never read as markup.
+// Every question has a number, and every answer that of its question. Each model has one question at a time; one
+// that a newer overtakes before the model is free is not asked. All texts are set as text, never read as markup.
 
 "use strict";
 
 (() => {
   const at = (id) => document.getElementById(id);
-  const socket = new WebSocket(new URL("socket", location.href.replace(/^http/, "ws")));
   const STEPS = 1000;
   const FACTS = ["Status", "Time to solve, ms", "Unknowns", "Largest |u| at the probes, mm"];
   const sliders = new Map();
@@ -15,9 +14,9 @@
   const given = {}; // its sheet, as the viewer takes it
   const begun = new Map(); // when the question of a number was requested, by the event's own clock
   const latencies = []; // ms from the event to the lattice drawn
-  let panel, calibration, viewer;
+  const REST = 300; // ms without a new question: the sliders rest
+  let panel, calibration, viewer, resting;
   let number = 0;
-  let wanted = "";
 
   window.live = { latencies, shown, asked: () => number };
 
@@ -131,6 +130,7 @@
 
   function build(message) {
     panel = message;
+    number = panel.number;
     at("name").textContent = panel.name;
     at("title").textContent = panel.title;
     document.title = `${panel.name} · sheetbench live`;
@@ -174,19 +174,21 @@
   }
 
   function question(more = {}) {
-    number += 1;
     const values = {};
     for (const [name, slider] of sliders) values[name] = slider.value;
     if (sliders.get("grading").range.disabled) values.grading = 0;
-    return JSON.stringify({ number, values, calibration: calibration.value, ...more });
+    return { number, values, calibration: calibration.value, ...more };
   }
 
-  function ask(since) {
-    if (socket.readyState !== WebSocket.OPEN) return;
-    socket.send(question());
+  // The lattice answers while one drags, from its last equilibrium; once the sliders rest, from flat as well.
+  function ask(since, rest = false) {
+    number += 1;
     begun.set(number, since);
     at("refused").textContent = "";
     mark();
+    clearTimeout(resting);
+    if (!rest) resting = setTimeout(() => lattices.ask(question({ rest: true })), REST);
+    lattices.ask(question({ rest }));
   }
 
   // ---- what is answered
@@ -198,31 +200,29 @@
     { name: "difference", label: "Difference", sheets: ["lattice"], field: "difference" },
   ];
 
-  function draw(model, message, values) {
-    const { displacement, forces } = message.sheet ?? message;
-    if (message.sheet) given[model] = message.sheet;
-    else Object.assign(given[model], { displacement, forces });
-    if (message.sheet && (model === "lattice" || !viewer?.sheets.has(model))) {
-      const sheets = Object.values(given);
-      const views = given.shell ? VIEWS : VIEWS.slice(0, 1);
-      if (viewer) {
-        const both = model === "shell"; // its first answer
-        viewer.setSheets(sheets, views);
-        if (both) viewer.setSheet("both");
-      } else {
-        const { outline, from } = panel;
-        viewer = Sheets.createViewer(at("stage"), { sheets, views, outline, from, label: "Lattice and shell", quick: true });
-        window.live.viewer = viewer;
-      }
-      return;
+  function draw(model, message) {
+    const { displacement, forces, points } = message.sheet;
+    const known = given[model];
+    given[model] = message.sheet;
+    if (known?.points.float32 === points.float32) return viewer.update(model, { displacement, forces });
+    const sheets = Object.values(given);
+    const views = given.shell ? VIEWS : VIEWS.slice(0, 1);
+    if (viewer) {
+      viewer.setSheets(sheets, views);
+      if (model === "shell") viewer.setSheet("both"); // its first answer
+    } else {
+      const { outline, from } = panel;
+      viewer = Sheets.createViewer(at("stage"), { sheets, views, outline, from, label: "Lattice and shell", quick: true });
+      window.live.viewer = viewer;
     }
-    viewer.update(model, { displacement, values, forces });
   }
 
-  function lattice(message) {
+  function lattice(message, question) {
+    at("state").textContent = "";
     shown.lattice = message;
     draw("lattice", message);
     tell("lattice", message);
+    shells.ask(question);
     const since = begun.get(message.number);
     for (const old of begun.keys()) if (old <= message.number) begun.delete(old);
     if (since === undefined) return;
@@ -279,30 +279,46 @@
 
   // ---- the conversation
 
-  const heard = {
-    panel: build,
-    ready() {
-      at("state").textContent = "";
-      ask(performance.now());
-      begun.clear(); // the first answer is of no drag
-    },
-    lattice,
-    shell,
-    refused({ number: of, said }) {
-      if (of === null || of === number) at("refused").textContent = said;
-    },
-    text({ text, of }) {
-      copy(text, of);
-    },
-  };
-  socket.addEventListener("message", (event) => {
-    const message = JSON.parse(event.data);
-    heard[message.kind](message);
-  });
-  socket.addEventListener("close", () => {
-    at("state").textContent = "The server has ended: start sheetbench live again, and open the address that it tells.";
-    at("stage").prepend(at("state"));
-  });
+  async function post(what, question) {
+    let answer;
+    try {
+      answer = await fetch(what, { method: "POST", body: JSON.stringify(question) });
+    } catch {
+      at("state").textContent = "The server has ended: start sheetbench live again, and open the address that it prints.";
+      at("stage").prepend(at("state"));
+      return null;
+    }
+    if (answer.status === 204) return null;
+    const message = await answer.json();
+    if (answer.ok) return message;
+    if (question.number === number) refuse(message.said);
+    return null;
+  }
+
+  // One question of a model at a time; of those that wait the newest is asked next.
+  class Model {
+    constructor(name, heard) {
+      Object.assign(this, { name, heard, busy: false, waiting: null });
+    }
+
+    async ask(question) {
+      this.waiting = question;
+      if (this.busy) return;
+      this.busy = true;
+      try {
+        while ((question = this.waiting)) {
+          this.waiting = null;
+          const answer = await post(this.name, question);
+          if (answer) this.heard(answer, question);
+        }
+      } finally {
+        this.busy = false;
+      }
+    }
+  }
+
+  const lattices = new Model("lattice", lattice);
+  const shells = new Model("shell", shell);
 
   async function copy(text, of) {
     const lines = text.trim().split("\n").length;
@@ -320,8 +336,10 @@
   }
 
   for (const button of document.querySelectorAll("[data-copy]")) {
-    button.addEventListener("click", () => {
-      if (socket.readyState === WebSocket.OPEN) socket.send(question({ copy: button.dataset.copy }));
+    button.addEventListener("click", async () => {
+      const of = button.dataset.copy;
+      const answer = await post("text", question({ copy: of }));
+      if (answer) copy(answer.text, of);
     });
   }
   at("reset").addEventListener("click", (event) => {
@@ -331,4 +349,9 @@
     ask(event.timeStamp);
   });
   at("panel").addEventListener("submit", (event) => event.preventDefault());
+  fetch("panel").then((answer) => answer.json()).then((message) => {
+    build(message);
+    ask(performance.now(), true);
+    begun.clear(); // the first answer is of no drag
+  });
 })();

@@ -1,15 +1,10 @@
 """`sheetbench live`: who is let in, what is refused, that the newest question counts, compare's answers."""
 
-import asyncio
-import gc
 import http.client
 import json
-import signal
 import socket
 import stat
-import threading
 import webbrowser
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -17,17 +12,13 @@ from urllib.parse import unquote, urlsplit
 import numpy as np
 import pytest
 from commands import run
-from live_server import hear, serving, talking
+from live_server import got, posted, serving
 from terminals import COMMAND, Terminal
-from websockets.asyncio.connection import Connection
-from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 import sheetbench as sb
-from comparisons.cli import interruption
 from comparisons.live import answers, server
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
-from comparisons.live.server import MESSAGE
-from comparisons.live.session import Newest, Session
+from comparisons.live.server import CONNECTIONS, KEPT, MESSAGE
 from comparisons.models.spec import Lattice
 from sheetbench.errors import BadInput
 
@@ -50,17 +41,6 @@ def asked(panel, number=1, calibration="consistent", **values):
     return json.dumps({"number": number, "values": start | values, "calibration": calibration})
 
 
-def got(address, path, **headers):
-    """The answer to a request of a path, with headers of one's own in place of the usual ones."""
-    place = urlsplit(address)
-    connection = http.client.HTTPConnection(place.netloc, timeout=20)
-    connection.putrequest("GET", path, skip_host=True)
-    for name, value in {"Host": place.netloc, **headers}.items():
-        connection.putheader(name, value)
-    connection.endheaders()
-    return connection.getresponse()
-
-
 def test_the_page_is_there_with_a_policy(address):
     answer = got(address, urlsplit(address).path)
     assert answer.status == 200 and b"sheetbench live" in answer.read()
@@ -70,7 +50,7 @@ def test_the_page_is_there_with_a_policy(address):
 
 
 @pytest.mark.parametrize(
-    "path", ["/", "/wrong/", "/socket", "/%2e%2e/", "//", "//[", "/[?]", "http://127.0.0.1/"]
+    "path", ["/", "/wrong/", "/panel", "/%2e%2e/", "//", "//[", "/[?]", "http://127.0.0.1/"]
 )
 def test_without_the_token_nothing_is_answered(address, path):
     assert got(address, path).status == 403
@@ -88,10 +68,16 @@ def test_a_foreign_host_or_origin_is_refused(address):
     assert got(address, place.path, Host="evil.example").status == 421
     assert got(address, place.path, Host=f"evil.example:{place.port}").status == 421
     assert got(address, place.path, Origin="http://evil.example").status == 403
-    for origin in (None, "null", "http://evil.example", f"https://{place.netloc}", "http://127.0.0.1:1"):
-        with pytest.raises(InvalidStatus) as refused, talking(address, origin=origin):
-            pass
-        assert refused.value.response.status_code == 403
+    question, lattice = b"{}", place.path + "lattice"
+    for origin in ("null", "http://evil.example", f"https://{place.netloc}", "http://127.0.0.1:1"):
+        assert got(address, lattice, question, Origin=origin).status == 403
+
+
+def test_a_question_without_an_origin_is_refused(address):
+    place = urlsplit(address)
+    connection = http.client.HTTPConnection(place.netloc, timeout=600)
+    connection.request("POST", place.path + "lattice", b"{}")
+    assert connection.getresponse().status == 403
 
 
 def test_it_listens_on_the_loopback_alone(address):
@@ -124,6 +110,8 @@ def test_a_given_k_has_a_slider_and_goes_with_the_calibrations_that_take_it():
     ({"young": -1.0}, "young = -1: from"),
     ({"weight": 1.0}, "values: weight"),
     ({"calibration": "magic"}, "calibration: choose from consistent"),
+    ({"calibration": []}, "calibration: choose from consistent"),
+    ({"calibration": {}}, "calibration: choose from consistent"),
     ("[" * 4000, "no JSON"),
     ("1e999", "not a question"),
     (b"\xff", "no JSON"),
@@ -149,10 +137,7 @@ def test_a_narrow_sheet_gets_no_more_masses_than_a_square_one():
 
 def test_answers_are_those_of_compare(address, panel):
     values = {"grid": 5, "thickness": 0.0025, "curvature_x0": 3.0, "gravity": 0.5}
-    with talking(address) as page:
-        hear(page, lambda m: m["kind"] == "ready")
-        page.send(asked(panel, 7, **values))
-        lattice, shell = hear(page, lambda m: m["kind"] == "shell")
+    (_, lattice), (_, shell) = (posted(address, of, asked(panel, 7, **values)) for of in ("lattice", "shell"))
     scene = sb.load("curved-edge")
     weight = tuple(0.5 * g for g in scene.gravity.acceleration)
     bent = [s.replace(curvature=3.0) if s.kind == "curved" else s for s in scene.supports]
@@ -171,11 +156,9 @@ def test_answers_are_those_of_compare(address, panel):
 
 
 def test_springs_and_scene_can_be_had_as_text(address, panel):
-    with talking(address) as page:
-        hear(page, lambda m: m["kind"] == "ready")
-        for of in ("springs", "scene"):
-            page.send(json.dumps({**json.loads(asked(panel, young=2e6)), "copy": of}))
-        springs, scene = (m["text"] for m in hear(page, lambda m: m.get("of") == "scene"))
+    question = json.loads(asked(panel, young=2e6))
+    answers = [posted(address, "text", json.dumps({**question, "copy": of})) for of in ("springs", "scene")]
+    springs, scene = (document["text"] for _, document in answers)
     changed = SCENE.replace(material=SCENE.material.replace(young=2e6))
     expected = sb.calibrate(changed, grid=3)
     assert f"axial = {expected.document()['springs']['axial']!r}" in springs
@@ -183,48 +166,71 @@ def test_springs_and_scene_can_be_had_as_text(address, panel):
 
 
 def test_what_does_not_go_together_is_refused_and_the_page_goes_on(address, panel):
-    with talking(address) as page:
-        hear(page, lambda m: m["kind"] == "ready")
-        page.send("{")
-        page.send(asked(panel, 2, calibration="uniform", grading=0.3))
-        page.send(asked(panel, 3))
-        told = hear(page, lambda m: m["kind"] == "shell")
-    refused = {m["number"]: m["said"] for m in told if m["kind"] == "refused"}
-    assert refused[None] == "not a question: no JSON"
-    assert 2 not in refused or "cells of one size" in refused[2]  # where it was not overtaken
-    assert told[-1]["number"] == 3
+    assert posted(address, "lattice", "{") == (400, {"said": "not a question: no JSON"})
+    status, document = posted(address, "lattice", asked(panel, 2, calibration="uniform", grading=0.3))
+    assert status == 400 and "cells of one size" in document["said"]
+    assert posted(address, "lattice", asked(panel, 3))[1]["number"] == 3
 
 
-def test_a_question_that_is_overtaken_is_dropped():
-    async def story():
-        newest: Newest[int] = Newest()
-        for number in (1, 2, 3):
-            newest.put(number)
-        first = await newest.get()
-        newest.put(4)
-        return [first, await newest.get()]
-
-    assert asyncio.run(story()) == [3, 4]
+def test_a_fault_of_the_program_is_told_and_the_page_goes_on(address, panel, monkeypatch, capsys):
+    monkeypatch.setattr(answers, "lattice", lambda *_: 1 / 0)
+    status, document = posted(address, "lattice", asked(panel, 4))
+    assert status == 500 and "a fault of the program" in document["said"]
+    assert "ZeroDivisionError" in capsys.readouterr().err
+    monkeypatch.undo()
+    assert posted(address, "lattice", asked(panel, 4))[0] == 200
 
 
-def test_dragging_is_answered_in_order_and_ends_with_the_newest(address, panel):
-    count = 40
-    with talking(address) as page:
-        hear(page, lambda m: m["kind"] == "ready")
-        for number in range(count):
-            page.send(asked(panel, number, gravity=number / count))
-        told = hear(page, lambda m: m["kind"] == "shell" and m["number"] == count - 1)
-    for kind in ("lattice", "shell"):
-        numbers = [m["number"] for m in told if m["kind"] == kind]
-        assert numbers == sorted(set(numbers)) and numbers[-1] == count - 1
-    assert sum(m["kind"] == "shell" for m in told) < count
+def test_at_rest_the_equilibrium_is_found_from_flat_and_told_where_it_is_another(address, panel, monkeypatch):
+    found, solve = [], answers.lattice
+
+    def watched(scene, question, near=None):
+        found.append(near)
+        return solve(scene, question, near)
+
+    monkeypatch.setattr(answers, "lattice", watched)
+    dragged = json.loads(asked(panel, 50)) | {"rest": False}
+    assert posted(address, "lattice", json.dumps(dragged))[0] == 200
+    assert posted(address, "lattice", json.dumps(dragged | {"number": 51}))[0] == 200
+    assert posted(address, "lattice", json.dumps(dragged | {"number": 51, "rest": True})) == (204, None)
+    assert found[1].question.number == 50 and found[2] is None
 
 
-def test_a_message_that_is_too_long_ends_the_conversation(address):
-    with talking(address) as page:
-        page.send("x" * (MESSAGE + 1))
-        with pytest.raises(Exception, match="1009"):
-            hear(page, lambda m: False)
+def test_the_shell_answers_what_the_lattice_has_answered(address, panel):
+    assert posted(address, "shell", asked(panel, 900)) == (204, None)
+    for number in range(901, 902 + KEPT):
+        posted(address, "lattice", asked(panel, number))
+    assert posted(address, "shell", asked(panel, 901)) == (204, None)
+    assert posted(address, "shell", asked(panel, 902))[1]["number"] == 902
+
+
+def test_pages_number_their_questions_apart(address):
+    first, second = (json.loads(got(address, urlsplit(address).path + "panel").read()) for _ in range(2))
+    assert second["number"] >= first["number"] + 10**6
+
+
+LENGTHS = {"long": str(MESSAGE + 1), "minus": "-1", "float": "1e3", "arab": "٣", "huge": "9" * 30}
+
+
+@pytest.mark.parametrize("length", LENGTHS.values(), ids=LENGTHS)
+def test_a_question_that_is_too_long_is_not_read(address, length):
+    headers = {"Content-Length": length.encode("utf-8").decode("latin-1")}
+    assert got(address, urlsplit(address).path + "lattice", b"{}", **headers).status == 413
+
+
+def test_a_question_of_no_model_is_not_answered(address, panel):
+    assert posted(address, "solid", asked(panel))[0] == 404
+
+
+def test_few_connections_are_open_at_once(address):
+    place = urlsplit(address)
+    idle = [socket.create_connection((place.hostname, place.port), 600) for _ in range(2 * CONNECTIONS)]
+    try:
+        closed = [one for one in idle[-CONNECTIONS // 2 :] if one.recv(1) == b""]
+        assert len(closed) == CONNECTIONS // 2
+    finally:
+        for one in idle:
+            one.close()
 
 
 def test_no_command_line_has_the_secret_address(capsys, monkeypatch):
@@ -248,35 +254,12 @@ def test_no_command_line_has_the_secret_address(capsys, monkeypatch):
 def test_it_ends_by_ctrl_c():
     terminal = Terminal(COMMAND, "live", "two-edges-clamped", "--no-browser")
     terminal.wait_for("Ctrl-C ends it")
-    with talking(terminal.shown.split()[0]) as page:
-        hear(page, lambda m: m["kind"] == "ready")
-        terminal.press(b"\x03")
+    address = terminal.shown.split()[0]
+    assert got(address, urlsplit(address).path + "panel").status == 200
+    terminal.press(b"\x03")
     assert terminal.end() == 130
     assert "nothing was kept" not in terminal.shown and "the server has stopped" in terminal.shown
     assert "Traceback" not in terminal.shown and "http://127.0.0.1:" in terminal.shown
-
-
-def test_an_interrupt_in_the_midst_of_a_send_is_no_fault(panel, monkeypatch, caplog):
-    async def interrupted(session, document):
-        monkeypatch.setattr(Connection, "send_data", struck)
-        await say(session, document)
-
-    def struck(connection):
-        monkeypatch.setattr(Connection, "send_data", send)
-        signal.raise_signal(signal.SIGINT)
-        send(connection)
-
-    def visit(address):
-        with suppress(ConnectionClosed), talking(address) as page:
-            hear(page, lambda message: False)
-
-    say, send = Session._say, Connection.send_data
-    monkeypatch.setattr(interruption, "PATIENCE", 600.0)  # on a busy machine too, this process goes on
-    monkeypatch.setattr(Session, "_say", interrupted)
-    with interruption.heeded(), pytest.raises(KeyboardInterrupt):
-        server.run(panel, 0, lambda address: threading.Thread(target=visit, args=(address,)).start())
-    gc.collect()  # a task whose exception nobody took says so when it goes
-    assert not caplog.records
 
 
 def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is():

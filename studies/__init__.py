@@ -14,7 +14,6 @@ STUDIES = {
     "master-curves": "the heavy cantilever and lateral buckling, without units: lattices and shells",
     "peers": "our models beside other people's codes, in one run",
     "reference-set": "the reference set of suite and score, computed anew",
-    "reproduction": "the study of Habibi et al. in depth: its contradictions, the nearest sheets",
     "rubber": "laws and constants of measured rubbers, and the stretch from which a linear lattice is off",
     "simulators": "other simulators with what is exported for them",
     "stability": "where each solver holds, degrades, refuses or breaks: eight published maps",

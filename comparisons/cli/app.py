@@ -42,7 +42,6 @@ VERBS = (
     "advise",
     "stability",
     "verify",
-    "reproduce",
     "crosscheck",
     "modes",
     "schema",

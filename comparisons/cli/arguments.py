@@ -19,6 +19,7 @@ from typing import Any
 
 FILE = "sheetbench-defaults.toml"
 REMOVED_VERBS = {
+    "reproduce": "run 'sheetbench study reproduction'",
     "transfer": "run 'sheetbench study transfer' in a checkout",
     "view": "write a folder with --out and run 'sheetbench report DIR --open': its page turns the sheets; in "
     "Python, solution.to_pyvista().warp_by_vector().plot() opens a window",

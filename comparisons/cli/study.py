@@ -1,4 +1,4 @@
-"""`sheetbench study NAME`: a study of the laboratory, the package `studies`, which only a checkout has."""
+"""`sheetbench study NAME`: the reproduction of the published study, and in a checkout those of `studies`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from comparisons.cli.options import NoPictures
 CONTEXT = {"ignore_unknown_options": True, "help_option_names": []}  # options are the study's, help too
 CHECKOUT = Path(__file__).parents[2]
 LABORATORY = "studies"
+INSTALLED = {"reproduction": "Habibi et al. again: errors, tables, settling run, the nearest sheets"}
 HELP = ("-h", "--help")
 
 
@@ -27,16 +28,13 @@ def command(
     ] = None,
     no_pictures: NoPictures = False,
 ) -> None:
-    """Run a study of the models from a checkout of the repository; without NAME, list them."""
+    """Run a study of the models; without NAME, list those that are installed."""
     from comparisons.cli import console
     from sheetbench.answers.table import Column, Table
 
     studies = _studies()
     if name in (None, *HELP):
         print(context.get_help())
-        if not studies:
-            console.note(_no_checkout())
-            return
         columns = (Column("study"), Column("about", prose=True))
         console.show(Table("Studies", columns, tuple(studies.items())))
         return
@@ -45,10 +43,14 @@ def command(
     from comparisons.cli.verb import as_verb
     from sheetbench.errors import BadInput, require_choice
 
-    if not studies:
-        raise BadInput(f"study {name}: {_no_checkout()}")
+    if str(name) not in studies and not _in_checkout():
+        raise BadInput(
+            f"study {name}: choose from {', '.join(studies)}; others need a clone of the repository: run "
+            "'make install' there, then .venv/bin/sheetbench study NAME"
+        )
     require_choice("study", str(name), studies)
-    module = import_module(f"{LABORATORY}.{str(name).replace('-', '_')}.command")
+    own = f"{LABORATORY}.{str(name).replace('-', '_')}.command"
+    module = import_module(f"comparisons.cli.{name}" if name in INSTALLED else own)
     markup = getattr(context.find_root().command, "rich_markup_mode", None)  # as wide as the terminal is
     app = typer.Typer(rich_markup_mode=markup, context_settings={"help_option_names": list(HELP)})
     app.command(name)(as_verb(str(name), module.command))
@@ -59,16 +61,11 @@ def command(
         raise typer.Exit(status)
 
 
+def _in_checkout() -> bool:
+    """Return whether these packages stand in a checkout."""
+    return (CHECKOUT / LABORATORY / "__init__.py").is_file()
+
+
 def _studies() -> dict[str, str]:
-    """Return every study with what it is about; none where these packages do not stand in a checkout."""
-    if not (CHECKOUT / LABORATORY / "__init__.py").is_file():
-        return {}
-    studies: dict[str, str] = import_module(LABORATORY).STUDIES
-    return studies
-
-
-def _no_checkout() -> str:
-    return (
-        "studies are not installed with the package; clone the repository, run 'make install' there, then "
-        ".venv/bin/sheetbench study NAME"
-    )
+    """Return every study that is here, with what it is about."""
+    return {**INSTALLED, **(import_module(LABORATORY).STUDIES if _in_checkout() else {})}

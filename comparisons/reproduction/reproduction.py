@@ -1,15 +1,14 @@
 """The study of Habibi et al. again, part by part: findings first, then a table a part, and their pictures.
 
+errors    the printed error table computed again
 tables    tests 1 and 2: published model and experiment, our lattices, our shell with its error bar
 settling  the run from rest, and what it takes
-
-What in the published figures contradicts itself, and which sheets come nearest to them, is a study
-(`studies.reproduction`).
+nearest   which sheets come nearest to the tables, and what in the tables none of them can have
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Annotated, Any
@@ -20,8 +19,9 @@ from comparisons.models.grids import Elements
 from comparisons.motion.frames import write_frames
 from comparisons.report.vtk import write_mesh
 from comparisons.report.work import Work, silent
-from comparisons.reproduction import findings
+from comparisons.reproduction import findings, nearest, printed_errors
 from comparisons.reproduction.answers import SETS, ReproducedTest, answer
+from comparisons.reproduction.findings import Finding
 from comparisons.reproduction.published import SOURCES, published, scene
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling, settling
 from sheetbench.answers.answer import Answer
@@ -33,7 +33,7 @@ from sheetbench.scenes import Status
 from sheetbench.scenes.habibi import KNOWN_FAULTS, PROBES, published_inputs
 from sheetbench.scenes.words import sheet_in_words
 
-PARTS = ("tables", "settling")
+PARTS = ("errors", "tables", "settling", "nearest")
 SEED = (
     "Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation "
     "continuum surfaces"
@@ -83,6 +83,19 @@ class Reproduction(Answer):
     settling: Settling | None = None
 
     @property
+    def cells(self) -> list[printed_errors.Cell]:
+        """The printed errors, computed again."""
+        return printed_errors.cells() if "errors" in self.parts else []
+
+    def findings(self) -> list[Finding]:
+        """Return every finding of the parts there are."""
+        return [
+            *(printed_errors.findings(self.cells) if self.cells else ()),
+            *findings.all_of(self.answers, self.settling),
+            *(nearest.findings() if "nearest" in self.parts else ()),
+        ]
+
+    @property
     def succeeded(self) -> bool:
         """Whether our own models have answers; lattices of the published k need not."""
         runs = self.settling.runs.values() if self.settling is not None else ()
@@ -99,8 +112,12 @@ class Reproduction(Answer):
             "parts": list(self.parts),
             "inputs": published_inputs(),
             "known_faults": list(KNOWN_FAULTS),
-            "findings": [vars(one) for one in findings.all_of(self.answers, self.settling)],
+            "findings": [vars(one) for one in self.findings()],
         }
+        if self.cells:
+            document["errors"] = printed_errors.as_dict(self.cells)
+        if "nearest" in self.parts:
+            document["nearest"] = nearest.stored()["fits"]
         if self.answers:
             document["tests"] = [
                 {"test": one.test, "sense": one.sense, "name": one.name, **one.comparison.document()}
@@ -117,7 +134,7 @@ class Reproduction(Answer):
         lead = f"{SEED}. {first.title}. {second.title}. {sheet}. {POINTS}"
         return (
             "The study of Habibi et al., reproduced",
-            "what was published, and what the same inputs give",
+            "what was published, what the same inputs give, and what comes nearest to it",
             lead,
         )
 
@@ -127,8 +144,12 @@ class Reproduction(Answer):
         return tests if self.settling is None else [*tests, (runs(self.settling), "motion", self.settling)]
 
     def tables(self) -> list[Table]:
-        found = findings.all_of(self.answers, self.settling)
-        return [findings_table(found), *(table for table, *_ in self._drawn())]
+        return [
+            Table.of(Finding, self.findings(), "Findings", "findings", grouped=True),
+            *([printed_errors.table(self.cells)] if self.cells else ()),
+            *(table for table, *_ in self._drawn()),
+            *([nearest.table()] if "nearest" in self.parts else ()),
+        ]
 
     def figures(self) -> list[Picture]:
         module = "comparisons.reproduction.figure"
@@ -175,11 +196,6 @@ def reproduce(
     if "settling" in parts:
         parts_done["settling"] = settling(progress=progress)
     return Reproduction(tuple(part for part in PARTS if part in parts), elements, **parts_done)
-
-
-def findings_table(every: Sequence[findings.Finding]) -> Table:
-    """Return a row per finding."""
-    return Table.of(findings.Finding, every, "Findings", "findings", grouped=True)
 
 
 def displacements(one: ReproducedTest) -> Table:

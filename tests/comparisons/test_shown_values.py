@@ -16,7 +16,7 @@ from comparisons.cli import modes
 from comparisons.linearisation.answer import Linearisation
 from comparisons.models.spec import spec_of
 from comparisons.modes.spectra import spectra
-from comparisons.reproduction import figure
+from comparisons.reproduction import figure, nearest
 from comparisons.runs.store import Finished
 from comparisons.stability import tiles as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure
@@ -27,8 +27,6 @@ from comparisons.tradeoff.row import TradeoffRow
 from lumped.calibration.tables import moduli
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, WIDTHS
-from studies.reproduction.nearest import Fit
-from studies.reproduction.study import nearest_sheets
 from studies.stability import STUDIES
 
 PUBLISHED = Path(__file__).parents[2] / "docs" / "stability"
@@ -126,11 +124,12 @@ def test_grading_changes_no_rate_and_a_calibration_does():
     assert probing._rate(even) == probing._rate(graded) != probing._rate(other)
 
 
-def test_a_fit_is_shown_in_the_tables_units():
+def test_a_fit_is_shown_in_the_tables_units(monkeypatch):
     sought = {"young": 2.5e6, "k": 321.0, "layer_distance": 1.5e-3, "tilt": np.pi / 6.0, "curvature": 4.0}
-    wanted = np.full((4, 3), 1e-3)
-    moved = wanted * np.array([[0.5], [1.0], [1.0], [1.0]])
-    row = shown(nearest_sheets([Fit("sheet", (1,), 0, sought, moved, wanted, "misfit", True)]))
+    numbers = {"by": "misfit", "rms": 0.25, "error": 0.5, "met": 9, "entries": 12}
+    fit = {"tests": [1], "sense": 0, "kind": "sheet", "table": "experiment", "sought": sought, **numbers}
+    monkeypatch.setattr(nearest, "stored", lambda: {"made": "", "fits": [fit]})
+    row = shown(nearest.table())
     assert [float(row[name]) for name in ("E", "k", "lz", "tilt", "κ")] == [2.5, 321.0, 1.5, 30.0, 4.0]
     assert (float(row["rms"]), float(row["error"]), row["met"]) == (25.0, 50.0, "9 of 12")
 

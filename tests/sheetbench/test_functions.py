@@ -12,11 +12,12 @@ from comparisons.cli.app import VERBS
 
 ROOT = Path(__file__).parents[2]
 ONLY_IN_THE_TERMINAL = {"live", "new", "scenes", "study"}
+STUDIES = ("reproduce",)  # `sheetbench study reproduction`
 
 
 def test_every_verb_is_a_function_or_is_said_not_to_be_one():
     page = (ROOT / "docs" / "first-steps.md").read_text(encoding="utf-8")
-    for verb in VERBS:
+    for verb in (*VERBS, *STUDIES):
         if verb in ONLY_IN_THE_TERMINAL:
             assert f"`{verb}`" in page.partition("Only in the terminal")[2]
         else:

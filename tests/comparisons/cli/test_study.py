@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[3]
 def test_studies_are_listed_and_each_has_a_help_page(capsys):
     assert run("study") == 0
     listed = capsys.readouterr().out
-    for name in STUDIES:
+    for name in (*study.INSTALLED, *STUDIES):
         assert f"\n{name} " in listed
         assert run("study", name, "--help") == 0
         assert f"sheetbench study {name}" in capsys.readouterr().out
@@ -23,16 +23,20 @@ def test_studies_are_listed_and_each_has_a_help_page(capsys):
 def test_every_study_is_in_the_documentation_and_has_a_make_target():
     page = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     targets = (ROOT / "studies" / "Makefile").read_text(encoding="utf-8")
-    for name in STUDIES:
+    for name in (*study.INSTALLED, *STUDIES):
         assert f"| `{name}` |" in page and f"sheetbench study {name}" in targets
 
 
-def test_an_installed_package_says_where_studies_are(tmp_path, monkeypatch, capsys):
+def test_an_installed_package_has_the_reproduction_and_names_the_way_to_the_others(
+    tmp_path, monkeypatch, capsys
+):
     monkeypatch.setattr(study, "CHECKOUT", tmp_path)
     assert run("study", "coverage") == 2
-    assert "studies are not installed with the package; clone the repository" in one_line(capsys)
-    assert run("study", "--help") == 0
-    assert "clone the repository" in capsys.readouterr().out
+    assert "choose from reproduction; others need a clone of the repository" in one_line(capsys)
+    assert run("study") == 0
+    listed = capsys.readouterr().out
+    assert "reproduction " in listed and "coverage" not in listed
+    assert run("study", "reproduction", "--part", "nearest", "--json") == 0
 
 
 def test_what_is_gone_is_refused_with_what_replaces_it(capsys):

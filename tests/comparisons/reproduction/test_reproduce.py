@@ -1,14 +1,19 @@
 """The study of Habibi et al. reproduced: its inputs, the tables beside our answers, the verb."""
 
+import json
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from commands import run
 
+from comparisons.reproduction import nearest
 from comparisons.reproduction.answers import answer
-from comparisons.reproduction.findings import all_of
+from comparisons.reproduction.printed_errors import Cell, cells, means
 from comparisons.reproduction.published import published, scene
-from comparisons.reproduction.reproduction import Reproduction
+from comparisons.reproduction.reproduction import Reproduction, reproduce
+from comparisons.reproduction.settling import settling
 from sheetbench.answers.report import Report
 from sheetbench.scenes import Status
 from sheetbench.scenes.habibi import published_inputs
@@ -57,7 +62,7 @@ def test_the_tables_hold_what_was_published_and_what_we_answer(test_1):
     )
     assert {"test-1.vtu", "test-1-shell.vtu", "test-1-k550-lz17.vtu"} <= set(report.files())
     assert any(
-        "with the published inputs" in one.finding.lower() for one in all_of(found.answers, found.settling)
+        "with the published inputs" in one.finding.lower() for one in found.findings()
     )
 
 
@@ -68,3 +73,58 @@ def test_a_published_lattice_without_an_answer_is_a_complaint_and_no_failure(tes
     found = Reproduction(("tables",), 2, answers=(fallen,))
     assert found.succeeded
     assert [said.partition(": ")[0] for said in found.report().complaints] == ["Test 1, k550-lz17"]
+
+
+def test_every_printed_error_is_of_the_larger_value():
+    """By hand: 0.02/0.35 = 5.71 % of the experiment is printed 5.7; 0.06/0.87 = 6.90 % of the model, 6.8."""
+    found = {(cell.test, cell.component, cell.probe): cell for cell in cells()}
+    assert len(found) == 24 and all(cell.by_larger for cell in found.values())
+    first, second = found[1, "ux", "P1"], found[1, "ux", "P2"]
+    assert (first.of, first.digits, first.changes) == ("experiment", "rounded", False)
+    assert (second.of, second.digits, second.changes) == ("model", "cut off", True)
+    assert second.of_experiment == pytest.approx(0.06 / 0.81) and second.of_model == pytest.approx(
+        0.06 / 0.87
+    )
+    assert Counter(cell.of for cell in found.values()) == {"model": 13, "experiment": 8, "both": 3}
+    mean = means(list(found.values()))
+    assert mean["printed"] == pytest.approx(0.0492, abs=5e-5) and mean["of_experiment"] > mean["printed"]
+
+
+def test_a_printed_error_of_neither_is_said_to_be():
+    cell = Cell(1, "ux", "P1", 0.09, 0.0571, 0.0606, 0.0571, "neither", "")
+    assert cell.changes and not cell.by_larger
+
+
+def test_what_is_kept_of_the_nearest_sheets_says_where_it_comes_from():
+    stored = nearest.stored()
+    assert "at commit f525c8e5" in stored["made"] and stored["made"] in nearest.table().text
+    for fit in stored["fits"]:
+        assert 0 <= fit["met"] < fit["entries"] and 0.0 < fit["rms"] < fit["error"]
+    told = " ".join(one["finding"] for one in stored["findings"])
+    for fit in stored["fits"]:
+        if fit["by"] == "misfit" and fit["met"] == 3 and fit["tests"] == [1]:
+            assert f"has 3 of {fit['entries']} entries" in told
+
+
+def test_the_run_is_by_the_default_integrator():
+    found = settling(0.02)
+    assert {run.integrator for run in found.runs.values()} == {"esdirk"}
+
+
+def test_every_part_is_one_answer(monkeypatch):
+    document = reproduce(["errors", "nearest"]).document()
+    assert {"parts", "inputs", "known_faults", "findings", "errors", "nearest"} == set(document)
+    assert document["errors"]["means"]["quoted"] == 0.048
+    assert document["errors"]["cells"][1]["changes"] is True
+    assert document["findings"][1]["finding"].startswith("The printed errors have a mean of 4.92 %; 4.8 %")
+    assert document["findings"][2]["about"] == "inputs"
+
+
+def test_the_verb_writes_a_page_and_says_what_it_found(tmp_path, capsys):
+    assert run("study", "reproduction", "--part", "errors", "--out", str(tmp_path)) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "24 of 24 printed errors" in shown
+    page = (tmp_path / "reproduction.md").read_text(encoding="utf-8")
+    assert page.startswith("# The study of Habibi et al., reproduced") and "model \\*" in page
+    assert json.loads((tmp_path / "reproduction.json").read_text())["parts"] == ["errors"]
+    assert (tmp_path / "errors.csv").read_text().count("\n") == 25

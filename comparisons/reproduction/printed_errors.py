@@ -10,14 +10,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import floor
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
+from comparisons.reproduction.findings import Finding
 from comparisons.reproduction.published import COMPONENTS, printed
-from sheetbench.answers.table import PERCENT, Column
-from sheetbench.scenes.habibi import PROBES, published_errors
+from sheetbench.answers.table import PERCENT, Column, Table, percent
+from sheetbench.scenes.habibi import PROBES, published_errors, published_inputs
 
+TEXT = (
+    "|model − experiment| of the published tables, relative to the one and to the other. * the printed error "
+    "is not relative to the experiment: the normalisation changes there."
+)
 PRINTED = 1e-3  # the last digit of a printed error, 0.1 %
 _SLACK = 1e-6  # of that digit, for what decimals leave
 
@@ -98,6 +103,44 @@ def _digits(computed: float, value: float) -> str:
     if floor(computed / PRINTED + 0.5 + _SLACK) == digit:
         return "rounded"
     return "cut off" if floor(computed / PRINTED + _SLACK) == digit else ""
+
+
+def findings(cells: list[Cell]) -> list[Finding]:
+    """Return what the printed errors are relative to, and their mean beside the one that is quoted."""
+    mean, explained = means(cells), [cell for cell in cells if cell.by_larger]
+    cut, changed = sum(cell.digits == "cut off" for cell in explained), sum(cell.changes for cell in cells)
+    return [
+        Finding(
+            "printed errors",
+            f"{len(explained)} of {len(cells)} printed errors are the difference over the larger of the two "
+            f"values, {cut} of them cut off instead of rounded. {changed} are therefore relative to the "
+            "model and not to the experiment; relative to the experiment throughout their mean is "
+            f"{percent(mean['of_experiment'], '.2f')}.",
+        ),
+        Finding(
+            "printed errors",
+            f"The printed errors have a mean of {percent(mean['printed'], '.2f')}; "
+            f"{percent(published_inputs()['mean_error'])} is quoted.",
+        ),
+    ]
+
+
+def table(cells: list[Cell]) -> Table:
+    """Return a row per printed error: of the experiment, of the model, and which of the two it is."""
+    fields = (
+        "test", "component", "probe", "printed", "of_experiment", "of_model", "relative_to", "digits_kept"
+    )  # fmt: skip
+    caption = "Printed errors, computed again"
+    return Table.of(Cell, cells, caption, "errors", fields=fields, grouped=True, text=TEXT)
+
+
+def as_dict(cells: list[Cell]) -> dict[str, Any]:
+    """Return the cells and their means for JSON."""
+    quoted = published_inputs()["mean_error"]
+    return {
+        "cells": [{**vars(one), "changes": one.changes} for one in cells],
+        "means": {**means(cells), "quoted": quoted},
+    }
 
 
 def means(cells: list[Cell]) -> dict[str, float]:

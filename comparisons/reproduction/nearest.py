@@ -1,0 +1,85 @@
+"""Which sheets come nearest to the published tables, and what in the tables none of them can have.
+
+Could the lattice of Habibi et al. have computed the published model's table, and could a plate have shown
+the published experiment's? Each was tried for both tests, alone and together, over a row of values and by
+searches in ever more numbers. The rows and sentences are stored results, `data/nearest.json`, which names
+the commit that has the searches.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import Annotated, Any
+
+import numpy as np
+
+from comparisons.reproduction.findings import Finding
+from sheetbench.answers.table import MEGAPASCALS, MILLIMETRES, PERCENT, Column, Table, Unit
+
+SOUGHT = {
+    "young": MEGAPASCALS(".3g", "E"),
+    "k": Unit("N/m", "N/m")(".3g", "k"),
+    "layer_distance": MILLIMETRES(".3g", "lz"),
+    "tilt": Unit("rad", "°", 180.0 / np.pi)(".2g", "tilt"),
+    "curvature": Unit("1/m", "1/m")(".3g", "κ"),
+}
+RODS = {0: "–", 1: "ends up", -1: "ends down"}
+TEXT = (
+    "sheet: a plate (consistent springs), of the published experiment; lattice: equal springs, of the "
+    "published model. A number is given where it was sought, else it is as published. tilt: the supports "
+    "turned as one, > 0 downwards. by: nearest by the least misfit, or the one of the scan with most entries "
+    "met. rms and error: of the differences, over the largest published component. met: entries within 10 % "
+    "of themselves. Stored results of {}."
+)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The sheet of a kind that comes nearest to a published table; sought: the values found (SI) of the
+    numbers that were free; met: how many components of the table it has."""
+
+    tests: Annotated[str, Column("tests")]
+    rod: str
+    kind: Annotated[str, Column("of")]
+    table: Annotated[str, Column("table", detail=True)]
+    sought: Mapping[Column, float | None]
+    by: str
+    rms: Annotated[float, PERCENT(".3g")]
+    error: Annotated[float, PERCENT(".3g")]
+    met: str
+
+
+@cache
+def stored() -> dict[str, Any]:
+    """Return the results: `made` (by what), `findings`, `fits`."""
+    file = resources.files("comparisons.reproduction").joinpath("data", "nearest.json")
+    document: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+    return document
+
+
+def findings() -> list[Finding]:
+    """Return the findings on the published inputs and on the nearest sheets."""
+    return [Finding(**one) for one in stored()["findings"]]
+
+
+def table() -> Table:
+    """Return a row per fit: what was sought, what was found, how near."""
+    rows = [
+        Fit(
+            " and ".join(map(str, fit["tests"])),
+            "sought" if "curvature" in fit["sought"] else RODS[fit["sense"]],
+            fit["kind"],
+            fit["table"],
+            {column: fit["sought"].get(name) for name, column in SOUGHT.items()},
+            fit["by"],
+            fit["rms"],
+            fit["error"],
+            f"{fit['met']} of {fit['entries']}",
+        )
+        for fit in stored()["fits"]
+    ]
+    return Table.of(Fit, rows, "The nearest sheets", "nearest", text=TEXT.format(stored()["made"]))

@@ -36,6 +36,7 @@ from sheetbench.scenes.patches import COINCIDENT, of_sheet, parts_between, share
 
 SHEAR_CORRECTION = 5.0 / 6.0
 FINER = 4
+ROUNDING = 1e-12  # of moduli, for what is 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +87,16 @@ def twisting(bending: np.ndarray) -> np.ndarray:
     edge that bends freely the moment across it stays 0, and fibres at an angle turn twist into bending."""
     own = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
     return np.asarray(bending[..., 2, 2, None] - _over(bending[..., :2, 2] ** 2, own))
+
+
+def stretch_by_twist(bending: np.ndarray) -> np.ndarray:
+    """r (…, 2) of edges normal to x and to y: where the moment across the edge is 0, the twisting moment is
+    `twisting` (2 κ_nt + r κ_tt), κ_tt the curvature along the edge; 0 of fibres along the sides."""
+    twist, skew = bending[..., 2, 2], bending[..., :2, 2][..., ::-1]  # D66; D26, D16
+    own = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
+    along = skew - _over(bending[..., 0, 1, None] * bending[..., :2, 2], own)
+    ratio = _over(along, twisting(bending))
+    return np.where(np.abs(along) > ROUNDING * twist[..., None], ratio, 0.0)
 
 
 def _over(part: np.ndarray, whole: np.ndarray) -> np.ndarray:

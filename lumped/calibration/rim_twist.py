@@ -48,15 +48,15 @@ def with_rims(kinds: Kinds, found: Calibration) -> tuple[SpringSet, list[str]]:
         of_cell(constants.of_cell(springs, *first[n]), (*kinds.of[n][0], springs.layer_distance), layers)
         for n in range(len(kinds.of))
     ]
-    twist = np.zeros(there.shape)
+    rims = np.zeros((*there.shape, len(constants.RIMS_OWN)))
     notes: list[str] = []
     factors: dict[tuple[int, int, int, bool], float] = {}
 
     def taken(at: tuple[int, int], axis: int, count: int, both: bool) -> float:
-        """What a rim across an axis adds to the shear of the cell `at` the end of a run [N/m]."""
+        """What a rim across an axis adds to the cell `at` the end of a run [N/m]."""
         kind = int(kinds.which[at])
         key = kind, axis, count, both
-        twisting, shear, by_diagonals = of_kind[kind]
+        twisting, shear, by_diagonals, _ = of_kind[kind]
         if key not in factors:
             width = kinds.of[kind][0][axis]
             strip = width, twisting[axis], shear[1 - axis], by_diagonals[1 - axis]
@@ -80,19 +80,20 @@ def with_rims(kinds: Kinds, found: Calibration) -> tuple[SpringSet, list[str]]:
                     at = (place, cell) if axis == 0 else (cell, place)
                     if not _aligned(kinds.factor, at, axis):
                         continue
+                    stretch = of_kind[int(kinds.which[at])][3][axis]
                     if cell != outer:
-                        twist[at] += taken(at, axis, stop - start, True)
+                        strain = (0.0, stretch, 1.0) if axis == 0 else (stretch, 0.0, 1.0)
+                        rims[at] += constants.rank_one(taken(at, axis, stop - start, True), *strain)
                         continue
+                    at_edges[f"{far}edge_coupling"][place] = stretch
                     for name, both in (("edge", not whole), ("strip", True)):
                         at_edges[f"{far}{name}_shear"][place] = taken(at, axis, stop - start, both)
         for name, values in at_edges.items():
             edges[name].append(tuple(values.tolist()))
-    shear = constants.of_cells(springs.shear, there.size).reshape(there.shape) + twist
-    mid_shear = constants.of_cells(springs.mid_shear, there.size).reshape(there.shape) - layers * twist
     update: dict[str, Any] = {name: either(*both) for name, both in edges.items()}
-    update |= {
-        name: tuple(map(tuple, v.tolist())) for name, v in (("shear", shear), ("mid_shear", mid_shear))
-    }
+    for name, values in zip(constants.RIMS_OWN, np.moveaxis(rims, -1, 0), strict=True):
+        if values.any():
+            update[name] = tuple(map(tuple, values.tolist()))
     return springs.model_copy(update=update), list(dict.fromkeys(notes))
 
 

@@ -41,12 +41,14 @@ ROUNDING = 1e-12  # of moduli, for what is 0
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m], per_area (…)
-    [kg/m²]; of cells the dots are (rows, columns)."""
+    """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m] along x and y,
+    free_shear the same where no force shears the other way, per_area (…) [kg/m²]; of cells the dots are
+    (rows, columns)."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
+    free_shear: np.ndarray
     per_area: np.ndarray
 
     @classmethod
@@ -66,7 +68,8 @@ class Section:
         rigidity = stretching * h**2 / 12.0
         shear = SHEAR_CORRECTION * young / (2.0 * (1.0 + nu)) * h
         membrane, bending = (k[..., None, None] * unit for k in (stretching, rigidity))
-        return cls(membrane, bending, np.stack([shear, shear], axis=-1), density * h)
+        both = np.stack([shear, shear], axis=-1)
+        return cls(membrane, bending, both, both, density * h)
 
     def each(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
         """With every part of it changed."""
@@ -77,9 +80,9 @@ class Section:
 
     @property
     def layer_width(self) -> np.ndarray:
-        """λ (…, 2) [m], in which twist fades at free edges normal to x and to y: √(D/S), D `twisting` and S
-        the shear stiffness along the edge; h/√10 of an isotropic sheet."""
-        return np.sqrt(_over(twisting(self.bending), self.shear[..., ::-1]))
+        """λ (…, 2) [m], in which the twisting moment fades at free edges normal to x and to y: √(D/S), D
+        `twisting` and S along the edge, across which no force shears; h/√10 of an isotropic sheet."""
+        return np.sqrt(_over(twisting(self.bending), self.free_shear[..., ::-1]))
 
 
 def twisting(bending: np.ndarray) -> np.ndarray:
@@ -184,6 +187,10 @@ def _in_series(section: Section, axis: int, begin: np.ndarray, share: np.ndarray
         rest = mean(part - row[..., :, None] * share_of_row[..., None, :])
         return rest + mixed[..., :, None] * mixed[..., None, :] / compliance[..., None, None]
 
-    shear = mean(section.shear)
-    shear[..., axis] = 1.0 / mean(1.0 / section.shear[..., axis])
-    return Section(form(section.membrane), form(section.bending), shear, mean(section.per_area))
+    def along_each(part: np.ndarray) -> np.ndarray:
+        found = mean(part)
+        found[..., axis] = 1.0 / mean(1.0 / part[..., axis])
+        return found
+
+    shears = along_each(section.shear), along_each(section.free_shear)
+    return Section(form(section.membrane), form(section.bending), *shears, mean(section.per_area))

@@ -26,7 +26,7 @@ from typing import Self
 import numpy as np
 
 from lumped import plies
-from lumped.coverage import clamped_stiffness
+from lumped.coverage import clamped_stiffness, oblique_rims
 from lumped.grid_lines import Lines, grid_lines
 from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, require_uniform
 from sheetbench.scenes.cells import NUMBERS
@@ -43,13 +43,14 @@ ROUNDING = 1e-12  # of moduli, for what is 0
 class Section:
     """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m] along x and y,
     free_shear the same where no force shears the other way, per_area (…) [kg/m²]; of cells the dots are
-    (rows, columns)."""
+    (rows, columns); rims: where their oblique rims are (`lumped.coverage.oblique_rims`)."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
     free_shear: np.ndarray
     per_area: np.ndarray
+    rims: np.ndarray | None = None
 
     @classmethod
     def of(cls, constants: Constants) -> Self:
@@ -72,17 +73,20 @@ class Section:
         return cls(membrane, bending, both, both, density * h)
 
     def each(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
-        """With every part of it changed."""
-        return type(self)(*map(change, vars(self).values()))
+        """With every part of it changed, but for the rims."""
+        return replace(self, **{name: change(getattr(self, name)) for name in PARTS})
 
     def __add__(self, other: Section) -> Section:
-        return Section(*(a + b for a, b in zip(vars(self).values(), vars(other).values(), strict=True)))
+        return Section(*(getattr(self, name) + getattr(other, name) for name in PARTS))
 
     @property
     def layer_width(self) -> np.ndarray:
         """λ (…, 2) [m], in which the twisting moment fades at free edges normal to x and to y: √(D/S), D
         `twisting` and S along the edge, across which no force shears; h/√10 of an isotropic sheet."""
         return np.sqrt(_over(twisting(self.bending), self.free_shear[..., ::-1]))
+
+
+PARTS = ("membrane", "bending", "shear", "free_shear", "per_area")
 
 
 def twisting(bending: np.ndarray) -> np.ndarray:
@@ -133,7 +137,10 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | No
         whole = of_cells(Cells.of(scene.sheet, scene.material), grid)
     if cut:
         whole = replace(_times(whole, clamped), per_area=whole.per_area)
-    return _times(whole, shares_of(scene.region, lines[0].at, lines[1].at)) if scene.pierced else whole
+    if not scene.pierced:
+        return whole
+    share = shares_of(scene.region, lines[0].at, lines[1].at)
+    return replace(_times(whole, share), rims=oblique_rims(scene, lines, share))
 
 
 def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> Section | None:

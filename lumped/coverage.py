@@ -10,7 +10,7 @@ from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Scene, Support, Symmetric, held_axes
-from sheetbench.scenes.patches import boxes_of, shares_of
+from sheetbench.scenes.patches import COINCIDENT, boxes_of, shares_of
 from sheetbench.scenes.region import edge_parts
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.supports import place
@@ -84,6 +84,32 @@ def clamped_stiffness(scene: Scene, lines: tuple[Lines, Lines]) -> np.ndarray:
         free = 1.0 - covered + left[:-2, 1:-1] + left[2:, 1:-1] + left[1:-1, :-2] + left[1:-1, 2:]
         factor[~whole] /= free[~whole]
     return factor
+
+
+def oblique_rims(scene: Scene, lines: tuple[Lines, Lines], share: np.ndarray) -> np.ndarray | None:
+    """Where the sheet is within a cell's length of rims that are not along the axes, (rows, columns, 2, 2):
+    the part of a cell's sheet that is, times n nᵀ of the rim's normal n; None without such rims. share: of
+    the sheet in every cell."""
+    import shapely
+
+    x, y = lines
+    rings = [np.asarray(ring.coords) for ring in (scene.region.exterior, *scene.region.interiors)]
+    ends = np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in rings])
+    along = ends[:, 1] - ends[:, 0]
+    oblique = np.abs(along).min(axis=1) > COINCIDENT * max(scene.sheet.lengths)
+    if not oblique.any():
+        return None
+    sides, along = shapely.linestrings(ends[oblique]), along[oblique]
+    near = shapely.line_merge(shapely.union_all(sides)).buffer(np.sqrt(x.mean * y.mean), cap_style="flat")
+    band = scene.region.intersection(near)
+    rows, columns = np.nonzero(shares_of(band, x.at, y.at))
+    pieces = shapely.intersection(band, boxes_of(x.at, y.at)[rows, columns])
+    nearest = along[shapely.STRtree(sides).nearest(shapely.centroid(pieces))]
+    normal = np.stack([-nearest[:, 1], nearest[:, 0]], axis=1) / np.hypot(*nearest.T)[:, None]
+    part = shapely.area(pieces) / (share[rows, columns] * x.widths[columns] * y.widths[rows])
+    found = np.zeros((*share.shape, 2, 2))
+    found[rows, columns] = np.minimum(part, 1.0)[:, None, None] * normal[:, :, None] * normal[:, None, :]
+    return found
 
 
 Reach = tuple[tuple[str, tuple[tuple[float, float], ...]], ...]

@@ -27,10 +27,8 @@ import numpy as np
 
 from lumped import spring_constants as constants
 from lumped.lattice import STEPS
-from lumped.sections import Section
+from lumped.sections import ROUNDING, Section
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
-
-ROUNDING = 1e-12  # of moduli, for what is 0
 
 
 @dataclass(frozen=True)

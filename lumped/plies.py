@@ -22,7 +22,7 @@ import numpy as np
 
 from sheetbench.scenes.orthotropy import Ply
 
-Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
+Parts = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def in_plane(ply: Ply) -> np.ndarray:
@@ -39,7 +39,8 @@ def in_plane(ply: Ply) -> np.ndarray:
 
 
 def section(plies: Sequence[Ply], thickness: np.ndarray) -> Parts:
-    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m] and S along x and y (…, 2) [N/m] of plies."""
+    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m] and S along x and y (…, 2) [N/m] of plies, where there is no shear
+    the other way and where there is no force."""
     moduli = [in_plane(ply) for ply in plies]
     layers = list(zip(moduli, plies, strict=True))
     stretching = sum(c * (ply.high - ply.low) for c, ply in layers)
@@ -55,8 +56,9 @@ def section(plies: Sequence[Ply], thickness: np.ndarray) -> Parts:
         compliance = compliance + squares * _shear_compliance(ply)
         below = a - b * ply.high**2
     h = np.asarray(thickness)[..., None]
-    shear = h * np.diagonal(np.linalg.inv(compliance), axis1=-2, axis2=-1)
-    return h[..., None] * stretching, h[..., None] ** 3 * bending, shear
+    shear, free = np.linalg.inv(compliance), 1.0 / np.diagonal(compliance, axis1=-2, axis2=-1)
+    shear = np.diagonal(shear, axis1=-2, axis2=-1)
+    return h[..., None] * stretching, h[..., None] ** 3 * bending, h * shear, h * free
 
 
 def _shear_compliance(ply: Ply) -> np.ndarray:

@@ -26,7 +26,7 @@ from typing import Self
 import numpy as np
 
 from lumped import plies
-from lumped.coverage import clamped_stiffness
+from lumped.coverage import clamped_stiffness, oblique_rims
 from lumped.grid_lines import Lines, grid_lines
 from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, require_uniform
 from sheetbench.scenes.cells import NUMBERS
@@ -36,17 +36,21 @@ from sheetbench.scenes.patches import COINCIDENT, of_sheet, parts_between, share
 
 SHEAR_CORRECTION = 5.0 / 6.0
 FINER = 4
+ROUNDING = 1e-12  # of moduli, for what is 0
 
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m], per_area (…)
-    [kg/m²]; of cells the dots are (rows, columns)."""
+    """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m] along x and y,
+    free_shear the same where no force shears the other way, per_area (…) [kg/m²]; of cells the dots are
+    (rows, columns); rims: where their oblique rims are (`lumped.coverage.oblique_rims`)."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
+    free_shear: np.ndarray
     per_area: np.ndarray
+    rims: np.ndarray | None = None
 
     @classmethod
     def of(cls, constants: Constants) -> Self:
@@ -65,20 +69,24 @@ class Section:
         rigidity = stretching * h**2 / 12.0
         shear = SHEAR_CORRECTION * young / (2.0 * (1.0 + nu)) * h
         membrane, bending = (k[..., None, None] * unit for k in (stretching, rigidity))
-        return cls(membrane, bending, np.stack([shear, shear], axis=-1), density * h)
+        both = np.stack([shear, shear], axis=-1)
+        return cls(membrane, bending, both, both, density * h)
 
     def each(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
-        """With every part of it changed."""
-        return type(self)(*map(change, vars(self).values()))
+        """With every part of it changed, but for the rims."""
+        return replace(self, **{name: change(getattr(self, name)) for name in PARTS})
 
     def __add__(self, other: Section) -> Section:
-        return Section(*(a + b for a, b in zip(vars(self).values(), vars(other).values(), strict=True)))
+        return Section(*(getattr(self, name) + getattr(other, name) for name in PARTS))
 
     @property
     def layer_width(self) -> np.ndarray:
-        """λ (…, 2) [m], in which twist fades at free edges normal to x and to y: √(D/S), D `twisting` and S
-        the shear stiffness along the edge; h/√10 of an isotropic sheet."""
-        return np.sqrt(_over(twisting(self.bending), self.shear[..., ::-1]))
+        """λ (…, 2) [m], in which the twisting moment fades at free edges normal to x and to y: √(D/S), D
+        `twisting` and S along the edge, across which no force shears; h/√10 of an isotropic sheet."""
+        return np.sqrt(_over(twisting(self.bending), self.free_shear[..., ::-1]))
+
+
+PARTS = ("membrane", "bending", "shear", "free_shear", "per_area")
 
 
 def twisting(bending: np.ndarray) -> np.ndarray:
@@ -86,6 +94,16 @@ def twisting(bending: np.ndarray) -> np.ndarray:
     edge that bends freely the moment across it stays 0, and fibres at an angle turn twist into bending."""
     own = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
     return np.asarray(bending[..., 2, 2, None] - _over(bending[..., :2, 2] ** 2, own))
+
+
+def stretch_by_twist(bending: np.ndarray) -> np.ndarray:
+    """r (…, 2) of edges normal to x and to y: where the moment across the edge is 0, the twisting moment is
+    `twisting` (2 κ_nt + r κ_tt), κ_tt the curvature along the edge; 0 of fibres along the sides."""
+    twist, skew = bending[..., 2, 2], bending[..., :2, 2][..., ::-1]  # D66; D26, D16
+    own = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
+    along = skew - _over(bending[..., 0, 1, None] * bending[..., :2, 2], own)
+    ratio = _over(along, twisting(bending))
+    return np.where(np.abs(along) > ROUNDING * twist[..., None], ratio, 0.0)
 
 
 def _over(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
@@ -119,7 +137,10 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | No
         whole = of_cells(Cells.of(scene.sheet, scene.material), grid)
     if cut:
         whole = replace(_times(whole, clamped), per_area=whole.per_area)
-    return _times(whole, shares_of(scene.region, lines[0].at, lines[1].at)) if scene.pierced else whole
+    if not scene.pierced:
+        return whole
+    share = shares_of(scene.region, lines[0].at, lines[1].at)
+    return replace(_times(whole, share), rims=oblique_rims(scene, lines, share))
 
 
 def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> Section | None:
@@ -173,6 +194,10 @@ def _in_series(section: Section, axis: int, begin: np.ndarray, share: np.ndarray
         rest = mean(part - row[..., :, None] * share_of_row[..., None, :])
         return rest + mixed[..., :, None] * mixed[..., None, :] / compliance[..., None, None]
 
-    shear = mean(section.shear)
-    shear[..., axis] = 1.0 / mean(1.0 / section.shear[..., axis])
-    return Section(form(section.membrane), form(section.bending), shear, mean(section.per_area))
+    def along_each(part: np.ndarray) -> np.ndarray:
+        found = mean(part)
+        found[..., axis] = 1.0 / mean(1.0 / part[..., axis])
+        return found
+
+    shears = along_each(section.shear), along_each(section.free_shear)
+    return Section(form(section.membrane), form(section.bending), *shears, mean(section.per_area))

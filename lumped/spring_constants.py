@@ -2,7 +2,8 @@
 
 A constant that every cell has its own of goes by its mean over the cells. Given another mean, all its values
 scale; those that may have either sign shift. Tables of cells are rows from y0 to y1, each from x0 to x1;
-edge_shear, strip_shear and those of the far edges have lists along the edges. One number is every cell's.
+edge_shear, strip_shear, edge_coupling and those of the far edges have lists along the edges. One number is
+every cell's.
 """
 
 from __future__ import annotations
@@ -17,7 +18,22 @@ from sheetbench.scenes import EDGES, PerDirection, SpringSet
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.springs import DamperSet, Either
 
-EDGES_OWN = ("edge_shear", "strip_shear", "far_edge_shear", "far_strip_shear")
+EDGES_OWN = (
+    "edge_shear",
+    "strip_shear",
+    "edge_coupling",
+    "far_edge_shear",
+    "far_strip_shear",
+    "far_edge_coupling",
+)
+RIMS_OWN = (  # in the order of `of_strains`
+    "rim_stretch_x",
+    "rim_stretch_y",
+    "rim_shear",
+    "rim_coupling_xy",
+    "rim_coupling_x",
+    "rim_coupling_y",
+)
 RUBBER_CONSTANTS = (
     "neo_hookean_shear",
     "neo_hookean_volume",
@@ -28,7 +44,7 @@ RUBBER_CONSTANTS = (
 )
 COUPLINGS = ("coupling_xy", "coupling_x", "coupling_y")
 MID_COUPLINGS = ("mid_coupling_xy", "mid_coupling_x", "mid_coupling_y")
-SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN)
+SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN, *RIMS_OWN)
 
 
 def number(table: SpringSet | DamperSet, family: str, direction: str) -> float | None:
@@ -86,13 +102,13 @@ def of_rubber(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (c, 4) [N/m] of the small strains of a layer's plan cells that are rubber membranes, less
     that of their axial links, and what else `lumped.springs.laws` takes of them (c, 9). sides (c, 2, 3)
-    [m], area (c,) [m²]; twist: [N/m] that edges add to the shear of all cells, of which `kept` are (c,);
-    `shear` is what rims add."""
+    [m], area (c,) [m²]; twist: [N/m] that edges and rims add to the shear of all cells, of which `kept` are
+    (c,)."""
     count = len(twist)
     shear, volume, c01, c20, c30, limit = (
         of_cells(getattr(springs, name), count)[kept] for name in RUBBER_CONSTANTS
     )
-    twist = (twist + of_cells(springs.shear, count))[kept]
+    twist = twist[kept]
     c10 = 0.5 * shear
     stiffening = 2.0 * c20 + np.divide(c10, limit, out=np.zeros_like(limit), where=limit > 0.0)
     modulus, lame = shear + 2.0 * c01, volume + 4.0 * (c01 + stiffening)
@@ -104,22 +120,38 @@ def of_rubber(
     return stiffness, np.column_stack([energy, limit, *axial, twist / area])
 
 
+def rank_one(stiffness: Any, *strain: Any) -> np.ndarray:
+    """The strain springs and couplings (…, 6) [N/m], as `of_strains` has them, of energy ½ k (s·ε)² a0: k the
+    stiffness (…) [N/m], s what each of ε1, ε2 and γ counts (…)."""
+    x, y, shear = strain
+    products = np.broadcast_arrays(x * x, y * y, shear * shear, x * y, x * shear, y * shear)
+    return np.asarray(np.asarray(stiffness)[..., None] * np.stack(products, axis=-1))
+
+
 def of_edge_cells(springs: SpringSet, grid: Grid, twisting: frozenset[str]) -> np.ndarray:
-    """Stiffness [N/m] against shear that the edges along which nothing holds the director (`twisting`) add to
-    every cell of a layer, (cells,); to a cell at two of them the sum."""
-    cells = np.zeros((grid[1] - 1, grid[0] - 1))
+    """The strain springs and couplings that the edges along which nothing holds the director (`twisting`) add
+    to every cell of a layer, and rims, (cells, 6) [N/m]; to a cell at two of them the sum."""
+    shape = grid[1] - 1, grid[0] - 1
+    cells = np.stack([of_cells(getattr(springs, name), shape[0] * shape[1]) for name in RIMS_OWN], axis=-1)
+    cells = cells.reshape(*shape, len(RIMS_OWN))
     for edge in twisting:
         axis = EDGES[edge].normal_axis
         opposite = next(e for e in EDGES if e != edge and EDGES[e].normal_axis == axis)
-        value: Any = springs.strip_shear if opposite in twisting else springs.edge_shear
-        far = springs.far_strip_shear if opposite in twisting else springs.far_edge_shear
-        if EDGES[edge].far_end and far is not None:
-            value = far
-        if isinstance(value, Either):
-            value = (value.x, value.y)[axis]
-        row = -1 if EDGES[edge].far_end else 0
-        cells[(slice(None), row) if axis == 0 else (row, slice(None))] += np.asarray(value)
-    return cells.ravel()
+        far = EDGES[edge].far_end
+        stiffness = _of_edge(springs, "strip_shear" if opposite in twisting else "edge_shear", axis, far)
+        stretch = _of_edge(springs, "edge_coupling", axis, far)
+        strain = (0.0, stretch, 1.0) if axis == 0 else (stretch, 0.0, 1.0)
+        row = -1 if far else 0
+        cells[(slice(None), row) if axis == 0 else (row, slice(None))] += rank_one(stiffness, *strain)
+    return cells.reshape(-1, len(RIMS_OWN))
+
+
+def _of_edge(springs: SpringSet, name: str, axis: int, far: bool) -> np.ndarray:
+    """A constant of the cells along an edge: of the one normal to an axis, the far one or that before it."""
+    value: Any = getattr(springs, name)
+    if far and (own := getattr(springs, f"far_{name}")) is not None:
+        value = own
+    return np.asarray((value.x, value.y)[axis] if isinstance(value, Either) else value)
 
 
 def names(springs: SpringSet) -> list[str]:

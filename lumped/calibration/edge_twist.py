@@ -9,6 +9,14 @@ width lost λ. In a corner cell between two such edges what they take adds; cell
 is wide ask for f below ½, and two of those would leave the corner without twisting stiffness, so that the
 sheet is unstable there: such corners have f = 0.55.
 
+With fibres at an angle to the edge (normal n, tangent t) it is the twisting moment that fades, not the twist:
+where M_nn = 0, M_nt = D̃66 (2 κ_nt + r κ_tt),
+
+    D̃66 = D66 − D_n6²/D_nn,   D̃_t6 = D_t6 − D_nt D_n6/D_nn,   r = D̃_t6/D̃66,   λ = √(D̃66/S_t),
+
+and the strip's energy is that of 2 κ_nt + r κ_tt in place of the twist, D̃66 in place of D66. So the cells'
+springs act on γ + r ε_tt: a strip that a moment bends has M_nt = 0, and loses nothing.
+
 A long strip of n cells of width b across, on a graded grid each with its own, with shear links along it
 (stiffness S, a share s of it by the cells' diagonals), rate of twist 2θ = 1 and ψ_j the shear of row j,
 minimises
@@ -19,7 +27,7 @@ and loses the width Σ_c [b − f_c (b − (ψ_{c+1} − ψ_c))], which is Σ_c 
 edges free: f_0 = f_{n−1} = f (of a single cell both reductions add) and 2 λ is lost; else ψ_n = 0 at the far
 edge and λ is lost. An edge's cell is a spring f D66/b in series with the rest of the strip, whose energy is
 quadratic in ψ_1 − ψ_0 alone, so f follows from one solution for the rest. Derived for this project
-(`docs/theory.md`); D66 is that of `lumped.sections.twisting`. The thin strip's torsion constant is
+(`docs/theory.md`); D̃66 and r are those of `lumped.sections`. The thin strip's torsion constant is
 Saint-Venant's.
 """
 
@@ -55,12 +63,11 @@ def layer_width(thickness: float) -> float:
 def with_edges(
     sheet: Sheet, grid: Grid, springs: SpringSet, grading: Graded = 0.0, cells: Section | None = None
 ) -> tuple[SpringSet, list[str]]:
-    """The springs with `edge_shear` and `strip_shear`, and a note for edges where no factor will do.
+    """The springs with `edge_shear`, `strip_shear`, `edge_coupling`; a note for edges where no factor will do.
 
     A layer's cell takes −(1 − f) D66/Σ z_k², z_k [m] the heights of the layers. On a graded grid every cell
     along an edge has the f of the strip of cells that begins with it, or the largest there is. Where cells
-    are finer towards one of two opposite edges each has its own, `far_edge_shear` and `far_strip_shear` at
-    the far one; of a strip whose edges are both free, that of the strip and its mirror image together.
+    are finer towards one of two opposite edges each has its own, `far_edge_shear` and so on at the far one; of a strip whose edges are both free, that of the strip and its mirror image together.
     """
     lines = grid_lines(sheet, grid, grading)
     notes: list[str] = []
@@ -89,29 +96,31 @@ def _of_edges(
     differ: bool,
     notes: list[str],
 ) -> dict[str, Any]:
-    """edge_shear and strip_shear of x0 and y0, or of x1 and y1 (`far`); adds to the notes. lost: λ of the
-    cells (rows, columns, 2) [m]; differ: whether they have sections of their own, and each is taken as if all
+    """Constants of x0 and y0 by name, or of x1 and y1 (`far`); adds to the notes. lost: λ of the cells (rows, columns, 2) [m]; differ: whether they have sections of their own, and each is taken as if all
     across the sheet were like it."""
     square = moduli.second_moment(layers) * springs.layer_distance**2
     unequal = constants.varies(springs)
     found: dict[bool, list[Any]] = {False: [], True: []}
+    couplings: list[Any] = []
     for axis in range(2):
         across, along = lines[axis], lines[1 - axis]
         skewed = not _alike(across)
         edge = f"{'xy'[axis]}{int(far)}"
         places = range(len(along.widths)) if unequal else range(1)
         strips = [_strip(springs, lines, axis, place, layers, far) for place in places]
+        stretch = tuple(float(strip[3][0]) for strip in strips)
+        couplings.append(stretch if any(stretch) else 0.0)
         if differ:
-            strips = [
-                (np.full_like(d, d[0]), np.full_like(s, s[0]), np.full_like(q, q[0])) for d, s, q in strips
-            ]
+            strips = [tuple(np.full_like(part, part[0]) for part in strip) for strip in strips]
         widths = across.widths[::-1] if far else across.widths
         along_edge = np.moveaxis(lost[..., axis], 1 - axis, 0)[-int(far)]
         for both, values in found.items():
             taken = []
             mirrored = both and skewed
             for place, strip in zip(places, strips, strict=True):
-                width, twisting, shear, shares = (_with_image(row, mirrored) for row in (widths, *strip))
+                width, twisting, shear, shares = (
+                    _with_image(row, mirrored) for row in (widths, *strip[:3])
+                )
                 factor = edge_factor(
                     len(width), width, twisting, shear, shares, float(along_edge[place]), both
                 )
@@ -122,7 +131,8 @@ def _of_edges(
                     factor = max(factor, AT_CORNERS)
                 taken.append((factor - 1.0) * float(strip[0][0]) / square)
             values.append(tuple(taken) if unequal else taken[0])
-    return {"edge_shear": either(*found[False]), "strip_shear": either(*found[True])}
+    edges = {"edge_shear": either(*found[False]), "strip_shear": either(*found[True])}
+    return {**edges, "edge_coupling": either(*couplings)}
 
 
 def _with_image(row: np.ndarray, mirrored: bool) -> np.ndarray:
@@ -132,29 +142,30 @@ def _with_image(row: np.ndarray, mirrored: bool) -> np.ndarray:
 
 def _strip(
     springs: SpringSet, lines: tuple[Lines, Lines], axis: int, place: int, layers: int, far: bool
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of the cells across the sheet along `axis`, at a place along its edge: D66 [N·m], S along the edge
-    [N/m] and the share of it in the furthest diagonals, (n,) each, from its far end on if `far`; (1,) where
-    all cells are alike."""
+) -> tuple[np.ndarray, ...]:
+    """Of the cells across the sheet along `axis`, at a place along its edge: D̃66 [N·m], S along the edge
+    [N/m], the share of it in the furthest diagonals and r, (n,) each, from its far end on if `far`; (1,)
+    where all cells are alike."""
     rows = []
     unequal = constants.varies(springs)
     for cell in range(len(lines[axis].widths)) if unequal else range(1):
         column, row = (cell, place) if axis == 0 else (place, cell)
         own = constants.of_cell(springs, row, column) if unequal else springs
         sides = (float(lines[0].widths[column]), float(lines[1].widths[row]), springs.layer_distance)
-        twisting, shear, shares = of_cell(own, sides, layers)
-        rows.append((twisting[axis], shear[1 - axis], shares[1 - axis]))
-    of_strip = np.array(rows[::-1] if far else rows).T
-    return of_strip[0], of_strip[1], of_strip[2]
+        twisting, shear, shares, stretch = of_cell(own, sides, layers)
+        rows.append((twisting[axis], shear[1 - axis], shares[1 - axis], stretch[axis]))
+    return tuple(np.array(rows[::-1] if far else rows).T)
 
 
 @lru_cache(maxsize=4096)  # kinds of cells: strips have most in common
 def of_cell(
     springs: SpringSet, sides: tuple[float, float, float], layers: int
-) -> tuple[list[float], list[float], list[float]]:
-    """D66 [N·m] of a cell at edges normal to x and to y, its S along x and y [N/m], the diagonals' share."""
+) -> tuple[list[float], ...]:
+    """D̃66 [N·m] of a cell at edges normal to x and to y, its S along x and y [N/m], the diagonals' share, and
+    r at edges normal to x and to y."""
     whole = moduli.of_springs(springs, sides, layers)
-    return sections.twisting(whole.bending).tolist(), whole.shear.tolist(), _shares(springs, sides)
+    at_edges = sections.twisting(whole.bending), sections.stretch_by_twist(whole.bending)
+    return at_edges[0].tolist(), whole.shear.tolist(), _shares(springs, sides), at_edges[1].tolist()
 
 
 def _shares(springs: SpringSet, spacing: tuple[float, float, float]) -> list[float]:

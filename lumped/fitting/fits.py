@@ -29,7 +29,7 @@ from lumped.calibration.report import report
 from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.lattice import Grid
 from lumped.sensitivity import sensitivity
-from lumped.spring_constants import EDGES_OWN
+from lumped.spring_constants import EDGES_OWN, RIMS_OWN
 from lumped.vibration import frequency_slopes
 from sheetbench.answers.table import PERCENT, Table
 from sheetbench.errors import BadInput
@@ -38,7 +38,7 @@ from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.summary import few
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
-FIXED_CONSTANTS = ("vertical", "layer_distance", "stretch", *EDGES_OWN)
+FIXED_CONSTANTS = ("vertical", "layer_distance", "stretch", *EDGES_OWN, *RIMS_OWN)
 
 
 @dataclass(frozen=True)

@@ -263,20 +263,20 @@ def _links(kind: type[Links], rest: Rest, which: np.ndarray, k: np.ndarray, name
 
 def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
     """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
-    twist = constants.of_edge_cells(springs, lattice.grid, lattice.twisting)
+    edges = constants.of_edge_cells(springs, lattice.grid, lattice.twisting)
     layers, rest = lattice.grid[2], rest_of(lattice, pattern)
     for family in lattice.cells:
         nodes, slots, sides, area = rest.cells(family.name)
         every = layers if family.name == "area" else 1
         if family.name == "area" and springs.rubber:
             every_sides, every_area = (part[: len(part) // every] for part in (sides, area))
-            found = constants.of_rubber(springs, every_sides, every_area, twist, lattice.kept)
+            found = constants.of_rubber(springs, every_sides, every_area, edges[:, 2], lattice.kept)
             stiffness, others = (np.concatenate([each] * every) for each in found)
             yield Cells(nodes, stiffness, slots, sides, area, ("", "rubber"), False, RUBBER, others)
             continue
-        name, strains = constants.of_strains(springs, family.name, len(twist))
-        of_area = constants.of_cells(getattr(springs, family.name), len(twist))
-        strains[:, 2] += twist if family.name == "area" else -layers * twist
+        name, strains = constants.of_strains(springs, family.name, len(edges))
+        of_area = constants.of_cells(getattr(springs, family.name), len(edges))
+        strains += edges if family.name == "area" else -layers * edges
         stiffness = np.column_stack([of_area, strains])
         if stiffness.any():
             stiffness = np.concatenate([stiffness[lattice.kept]] * every)

@@ -6,13 +6,15 @@ stiffnesses [N/m] (Habibi et al.'s ka, kd, kz, kdT, kddT); area and mid_area are
 ½ k ε² a0 of a cell's mean strain, make up what those cannot: shear and mid_shear against the in-plane shear
 of a layer's and of the mid-surface's cells, stretch and mid_stretch against their stretching along x, y.
 edge_shear and strip_shear change the twisting stiffness of the cells along an edge whose director nothing
-holds and leave their membrane stiffness alone: as much as shear on every layer's cell, and of the other sign
-for all layers together on the mid-surface's.
+holds and leave their membrane stiffness alone: energy ½ k (γ + r ε)² a0 on every layer's cell, ε its strain
+along the edge and r the edge_coupling, and of the other sign for all layers together on the mid-surface's.
+The rim_ springs do so at the rims of outlines and cutouts, cell by cell.
 
 On a graded grid every cell has springs of its own: a constant is then a table of cells, a list of rows from
 y0 to y1, each from x0 to x1. A link takes half the value of each cell beside it, a vertical one a quarter of
-each around it. edge_shear and strip_shear are a list along the edges; where cells are finer towards one of
-two opposite edges they are x0's and y0's, and far_edge_shear and far_strip_shear x1's and y1's.
+each around it. edge_shear, strip_shear and edge_coupling are a list along the edges; where cells differ
+from one of two opposite edges to the other they are x0's and y0's, and those that begin with far_ x1's and
+y1's.
 """
 
 from __future__ import annotations
@@ -69,6 +71,7 @@ Stiffness = Annotated[
     Unit("N/m"),
 ]
 EdgeStiffness = Annotated[Annotated[Number, A_NUMBER] | Annotated[Either, A_TABLE], FORM, Unit("N/m")]
+EdgeCoupling = Annotated[Annotated[Number, A_NUMBER] | Annotated[Either, A_TABLE], FORM]
 Damping = Annotated[
     Annotated[NonNegative, A_NUMBER] | Annotated[PerDirection, A_TABLE],
     FORM,
@@ -139,10 +142,28 @@ class SpringSet(Frozen):
     """Strain springs against the twist of cells along a free, hinged or held edge, its opposite not so."""
     strip_shear: EdgeStiffness = 0.0
     """The same where the opposite edge is free, hinged or held too."""
+    edge_coupling: EdgeCoupling = 0.0
+    """Of cells with fibres at an angle: what edge_shear and strip_shear resist is γ + edge_coupling ε, ε the
+    strain along the edge."""
     far_edge_shear: EdgeStiffness | None = None
     """edge_shear of the edges x1 and y1, where it is not that of x0 and y0."""
     far_strip_shear: EdgeStiffness | None = None
     """strip_shear of the edges x1 and y1, where it is not that of x0 and y0."""
+    far_edge_coupling: EdgeCoupling | None = None
+    """edge_coupling of the edges x1 and y1, where it is not that of x0 and y0."""
+    rim_shear: Annotated[AnySign, Unit("N/m")] = 0.0
+    """edge_shear of the cells at rims of outlines and cutouts: energy ½ k γ² a0 of every layer's cell, and of
+    the other sign for all layers together of the mid-surface's, as all rim_ springs."""
+    rim_stretch_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """Of such cells with fibres at an angle or at oblique rims, energy ½ k ε1² a0 of the strain along x."""
+    rim_stretch_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of the strain along y."""
+    rim_coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same, energy k ε1 ε2 a0."""
+    rim_coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same, energy k ε1 γ a0."""
+    rim_coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same, energy k ε2 γ a0."""
     layer_distance: Annotated[Positive, Unit("m")] = Field(kw_only=True)
     """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
 

@@ -1,0 +1,98 @@
+"""What a free edge lets go where fibres lie at an angle to it: its twisting moment, not its twist."""
+
+import numpy as np
+import pytest
+
+import lumped
+from lumped.assembly import Assembly
+from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
+
+STRONG = dict(young_1=100e6, young_2=2e6, poisson_12=0.3, shear_12=1e6)
+ORDINARY = dict(young_1=20e6, young_2=2e6, poisson_12=0.3, shear_12=1.2e6, shear_13=3e6, shear_23=0.5e6)
+THICKNESS = 1e-3
+ANGLES = (0, 7, 20, 30, 45, 60, 75, 90, 130, -20)
+SIDES = frozenset({"y0", "y1"})
+
+
+def strip(width, angle, fibres=STRONG, length=0.1, **keys):
+    material = Material(kind="orthotropic", density=1e3, angle=float(np.radians(angle)), **fibres)
+    sheet = Sheet(length_x=length, length_y=width, thickness=THICKNESS)
+    gravity = Gravity(acceleration=(0.0, 0.0, -9.81))
+    support = (Clamped(edge="x0"),)
+    scene = Scene(name="strip", sheet=sheet, material=material, support=support, gravity=gravity)
+    return scene.replace(**keys) if keys else scene
+
+
+def calibrated(scene, grid, grading=0.0):
+    cells = lumped.sections_of(scene, (*grid, 2), grading)
+    return lumped.calibrate(scene.sheet, scene.material, grid, cells=cells, grading=grading)
+
+
+def bent(scene, springs, twisting, small=1e-10):
+    """Energy of the lattice over that of the sheet which a moment along x bends, by that moment alone, and
+    the largest force on a mass away from the ends, over the largest of all."""
+    assembly = Assembly(scene.sheet, springs, twisting=twisting)
+    bending = lumped.sections_of(scene.replace(cutouts=()), (2, 2, 2)).bending[0, 0]
+    curvature = np.linalg.solve(bending, [1.0, 0.0, 0.0])
+    curvature *= small / np.abs(curvature).max()
+    kx, ky, kxy = curvature
+    x, y, z = assembly.lattice.positions.T
+    u = np.column_stack(
+        [
+            z * (kx * x + 0.5 * kxy * y),
+            z * (ky * y + 0.5 * kxy * x),
+            -0.5 * (kx * x**2 + ky * y**2 + kxy * x * y),
+        ]
+    )
+    energy, force = assembly.force(u)
+    middle = np.abs(x - 0.5 * scene.sheet.length_x) < 0.3 * scene.sheet.length_x
+    stored = 0.5 * curvature @ bending @ curvature * scene.region.area
+    return energy / stored, np.abs(force[middle]).max() / np.abs(force).max()
+
+
+@pytest.mark.parametrize("fibres", [STRONG, ORDINARY], ids=["strong", "ordinary"])
+@pytest.mark.parametrize("cells, thicknesses", [(1, 2), (1, 20), (2, 60), (8, 5), (8, 60)])
+def test_a_moment_bends_a_strip_as_it_bends_the_sheet(fibres, cells, thicknesses):
+    """M_nt = 0: free edges have nothing to let go, at any angle and width."""
+    width = thicknesses * THICKNESS
+    for angle in ANGLES:
+        scene = strip(width, angle, fibres, length=10 * width)
+        energy, pull = bent(scene, calibrated(scene, (10 * cells + 1, cells + 1)), SIDES)
+        assert energy == pytest.approx(1.0, rel=1e-7), angle
+        assert pull < 1e-5, angle
+
+
+@pytest.mark.parametrize("grading", [0.5])
+def test_so_it_does_on_a_graded_grid(grading):
+    for angle in (20, 60):
+        scene = strip(0.02, angle)
+        energy, pull = bent(scene, calibrated(scene, (21, 7), grading), SIDES)
+        assert energy == pytest.approx(1.0, rel=1e-7) and pull < 1e-5
+
+
+PLY = THICKNESS / 4
+LAMINATE = [{"thickness": PLY, "angle": angle} for angle in (0.5, -0.8, -0.8, 0.5)]
+
+
+def test_so_it_does_with_a_laminate():
+    scene = strip(0.02, 0.0, ORDINARY, layers=LAMINATE)
+    assert abs(lumped.sections_of(scene, (2, 2, 2)).bending[0, 0, 0, 2]) > 1e-6
+    energy, pull = bent(scene, calibrated(scene, (21, 5)), SIDES)
+    assert energy == pytest.approx(1.0, rel=1e-7) and pull < 1e-5
+
+
+def test_so_it_does_at_rims():
+    """The strip's upper part is cut off, its upper edge a rim."""
+    for angle in (20, 60):
+        cut = {"shape": {"rectangle": {"x": (0.0, 0.1), "y": (0.02, 0.04)}}}
+        scene = strip(0.04, angle, cutouts=[cut])
+        springs = calibrated(scene, (21, 9))
+        assert np.any(springs.springs.rim_coupling_x)
+        energy, _ = bent(scene, springs, SIDES)
+        assert energy == pytest.approx(1.0, rel=1e-7)
+
+
+def test_fibres_along_the_sides_couple_nothing():
+    for angle in (0, 90):
+        springs = calibrated(strip(0.02, angle), (21, 5)).springs
+        assert not any(np.any(getattr(springs, name)) for name in ("edge_coupling", "far_edge_coupling"))

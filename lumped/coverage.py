@@ -58,8 +58,8 @@ def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.n
 
 
 def held_crossings(lines: tuple[Lines, Lines], shape: Shape) -> np.ndarray:
-    """Which crossings of lines a support in a shape holds, (ny, nx): those inside or, but for rounding, on its
-    boundary, and those of whose surroundings, half a cell each way, it takes a part."""
+    """Which crossings of lines a support in a shape holds, (ny, nx): those inside and, but for rounding, on
+    its boundary, and those of whose surroundings, half a cell each way, it takes a part."""
     import shapely
 
     x, y = (side.at for side in lines)

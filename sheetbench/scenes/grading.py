@@ -91,7 +91,7 @@ def places_with_lines(places: Sequence[float], length: float, count: int) -> lis
     for depth in sorted(set(inset.values())):
         alike = [own[at] for at in sorted(own) if inset[at] == depth]
         free = [at for at in alike if all(abs(at - other) >= least_spacing for other in kept)]
-        if len(free) == 1 or len(free) == 2 and free[1] - free[0] >= least_spacing:
+        if len(free) == 1 or (len(free) == 2 and free[1] - free[0] >= least_spacing):
             kept += free
     found = sorted(kept)[1:-1]
     if not count % 2 and len(found) % 2 and is_mirrored(found, length):

@@ -12,7 +12,7 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Scene, Support, Symmetric, held_axes
 from sheetbench.scenes.patches import COINCIDENT, boxes_of, shares_of
 from sheetbench.scenes.region import edge_parts
-from sheetbench.scenes.shapes import Shape
+from sheetbench.scenes.shapes import COINCIDENT, Shape
 from sheetbench.scenes.supports import place
 
 if TYPE_CHECKING:
@@ -58,12 +58,16 @@ def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.n
 
 
 def held_crossings(lines: tuple[Lines, Lines], shape: Shape) -> np.ndarray:
-    """Which crossings of lines a support in a shape holds, (ny, nx): those inside, and those of whose
-    surroundings, half a cell each way, it takes a part."""
+    """Which crossings of lines a support in a shape holds, (ny, nx): those inside and, but for rounding, on
+    its boundary, and those of whose surroundings, half a cell each way, it takes a part."""
+    import shapely
+
     x, y = (side.at for side in lines)
     around = (np.concatenate([at[:1], 0.5 * (at[1:] + at[:-1]), at[-1:]]) for at in (x, y))
-    inside = shape.contains(np.stack(np.meshgrid(x, y), axis=-1))
-    return np.asarray(inside | (shares_of(shape.area, *around) > HELD))
+    crossings = np.stack(np.meshgrid(x, y), axis=-1)
+    beside = shapely.distance(shape.area, shapely.points(crossings)) < COINCIDENT * max(x[-1], y[-1])
+    taken = shares_of(shape.area, *around) > HELD + COINCIDENT
+    return np.asarray(beside | shape.contains(crossings) | taken)
 
 
 def clamped_stiffness(scene: Scene, lines: tuple[Lines, Lines]) -> np.ndarray:

@@ -9,7 +9,7 @@ Graded towards one end only they are the lines of one half of a side twice as lo
 1 + (½ π − 1) γ at the other.
 
 Of a drawn sheet whose shapes have sides along the axes the lines nearest to these are moved there, and those
-between them in proportion, so that rims, slits and clamps end where cells do. Sides closer to the one before
+between them in proportion, so that rims, slits and clamps end where cells do. Sides closer to one further out
 than a tenth of a mean cell have no line of their own; where there are too few lines for all none is moved.
 """
 
@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.scenes import PiecewiseLinear, Sheet
-from sheetbench.scenes.grading import Graded, Grading, amount, places_with_lines, towards
+from sheetbench.scenes.grading import Graded, Grading, amount, line_numbers, places_with_lines, towards
 from sheetbench.scenes.grid import Grid
 
 
@@ -103,13 +103,12 @@ def _lines(length: float, count: int, grading: float, ends: tuple[bool, bool], h
 
 def _through(lines: Lines, places: Sequence[float]) -> Lines:
     """The lines with some moved to the places [m], rising, and those between in proportion."""
-    last, end = len(lines.at) - 1, lines.at[-1]
-    kept = [0.0, *places_with_lines(places, float(end), last + 1)]
-    if not (count := len(kept) - 1):
+    last, end = len(lines.at) - 1, float(lines.at[-1])
+    kept = places_with_lines(places, end, last + 1)
+    if not kept:
         return lines
     numbers = np.arange(last + 1)
-    nearest = np.rint(PiecewiseLinear(lines.at.tolist(), numbers.tolist()).at(np.array(kept))).astype(int)
-    for n in range(1, count + 1):
-        nearest[n] = np.clip(nearest[n], nearest[n - 1] + 1, last - 1 - count + n)
-    at = PiecewiseLinear([*nearest.tolist(), last], [*kept, float(end)]).at(numbers)
+    in_cells = PiecewiseLinear(lines.at.tolist(), numbers.tolist()).at(np.array(kept))
+    moved = [0, *line_numbers(in_cells.tolist(), last), last]
+    at = PiecewiseLinear(moved, [0.0, *kept, end]).at(numbers)
     return Lines(at, np.diff(at), lines.mean)

@@ -78,7 +78,8 @@ class CellFamily:
 class Lattice:
     """Topology and rest geometry. lines: across x and across y; layer_distance: lz [m]; positions: (n, 3)
     [m]; share: (n,) of each mass in the plan area, in mean cells; twisting: the edges along which nothing
-    holds the director; present: (ny − 1, nx − 1) of the cells, None where all are."""
+    holds the director; present: (ny − 1, nx − 1) of the cells, and the mass per area that their shares of the
+    sheet have [kg/m²], None where all are."""
 
     grid: Grid
     lines: tuple[Lines, Lines]
@@ -89,6 +90,7 @@ class Lattice:
     share: np.ndarray
     twisting: frozenset[str] = frozenset()
     present: np.ndarray | None = None
+    per_area: np.ndarray | None = None
 
     @cached_property
     def kept(self) -> np.ndarray | slice:
@@ -195,11 +197,11 @@ def build(
     twisting: frozenset[str] = frozenset(),
     grading: Graded = 0.0,
     half: tuple[bool, bool] = (False, False),
-    present: np.ndarray | None = None,
+    per_area: np.ndarray | None = None,
 ) -> Lattice:
     """The lattice of a sheet. `weights="full"` gives every link its family's full stiffness and every
     mass the same share, as Habibi et al. have them. grading, half: of the grid's lines (`lumped.grid_lines`).
-    present: of the cells, where some are not.
+    per_area: of the cells (ny − 1, nx − 1) [kg/m²], where some are not there and have none.
 
     Raises BadInput for fewer than two masses a side or two layers, a grading outside 0 to 1, and full weights
     on a graded grid. A small lattice is the same object every time: its arrays are not to
@@ -210,6 +212,7 @@ def build(
         raise BadInput(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
     if weights == "full" and grading:
         raise BadInput(f"weights = 'full': equal masses are for equal cells, not for grading = {grading:g}")
+    present = None if per_area is None else per_area > 0.0
     lines = across_x, across_y = grid_lines(sheet, grid, grading, half)
     j, i, k = _indices(grid)
     heights = (k - (layers - 1) / 2) * layer_distance
@@ -252,6 +255,7 @@ def build(
         share=share,
         twisting=twisting,
         present=present,
+        per_area=per_area,
     )
 
 

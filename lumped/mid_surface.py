@@ -4,14 +4,19 @@ Between masses the surface is the cubic through the nearest four lines of the gr
 of them where there are fewer): a sheet of curvature κ lies up to κ l²/8 beside a bilinear surface through
 masses l apart, at 9 × 9 masses of a sagging sheet 1 to 3 % of its sag, and more where cells are graded.
 
-Near rims, where not all cells between those lines are there, it is the quadric nearest to the masses of the
-cell and of those connected with it, up to REACH cells on.
+On lattices with absent cells every cell has the quadric nearest to its masses and those of cells connected
+with it, up to REACH cells on, by least squares; masses count the more the nearer they are and the more sheet
+the cells around them have. The surface is a mean of these, so that it is continuous: of the four cells around
+the nearest crossing of lines, weighed by how much sheet they have and by ½ ± the distance from the lines
+there, in cells, along x and y. In the middle of a cell it is that cell's, on a side of two the mean of both.
 
 A linear map of the masses' displacement; its transpose shares a force at a point among the masses around it,
 as loads do it among the four next to it (order 1).
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -33,8 +38,8 @@ class MidSurface:
         outside = np.max(np.abs(np.array(places) - 0.5), axis=0) > 0.5 + 1e-9
         if outside.any():
             raise BadInput(f"point {points[outside][0].tolist()} m is off the sheet")
-        if lattice.present is not None:
-            self._near_rims(lattice, lattice.present, points, order)
+        if lattice.per_area is not None:
+            self._near_rims(lattice, lattice.per_area, points, order)
             return
         ends = [lines.around(points[:, axis], order + 1) for axis, lines in enumerate(lattice.lines)]
         (i, x, beyond_x), (j, y, beyond_y) = ends
@@ -46,26 +51,30 @@ class MidSurface:
         weights = y[:, :, None, None] * x[:, None, :, None] / lattice.grid[2] * signs
         self._share = weights.reshape(len(points), -1, 3)
 
-    def _near_rims(self, lattice: Lattice, present: np.ndarray, points: np.ndarray, order: int) -> None:
-        """Nodes and shares on a lattice with absent cells, cell by cell of the points'."""
-        x, y = lattice.lines
-        own = [_own_cell(lattice, present, point) for point in points]
-        most = (order + 1) ** 2 if order == 1 else (2 * REACH + 2) ** 2
-        self._nodes = np.zeros((len(points), most, lattice.grid[2]), dtype=int)
-        self._share = np.zeros((len(points), most, 3))
-        columns = lattice.columns()
+    def _near_rims(self, lattice: Lattice, per_area: np.ndarray, points: np.ndarray, order: int) -> None:
+        """Nodes and shares on a lattice with absent cells: of the lines around each point's cell."""
+        own = [_own_cell(lattice, per_area, point) for point in points]
+        reach = 0 if order == 1 else REACH + 1
+        around = np.arange(-reach, reach + 2)
+        first = np.array(own).reshape(-1, 2, 1)
+        rows, over = (np.clip(first[:, axis] + around, 0, per_area.shape[axis]) for axis in (0, 1))
+        columns = lattice.columns()[rows[:, :, None], over[:, None, :]]
+        self._nodes = columns.reshape(len(points), -1, lattice.grid[2])
+        share = np.zeros((len(points), len(around), len(around)))
+        known: dict[tuple[int, int], _Polynomial] = {}
         for cell in set(own):
-            (row, column), which = cell, np.array([n for n, each in enumerate(own) if each == cell])
-            rows, over = _connected(present, cell, 0 if order == 1 else REACH)
-            places = np.stack([x.at[over], y.at[rows]], axis=1)
-            sides = np.array([x.widths[column], y.widths[row]])
-            middle = np.array([x.at[column], y.at[row]]) + 0.5 * sides
-            known, wanted = ((at - middle) / sides for at in (places, points[which]))
-            near = 1.0 / (0.5 + (known**2).sum(axis=1))
-            fit = np.linalg.pinv(_terms(known, order) * near[:, None], rcond=1e-9) * near
-            self._nodes[which[:, None], np.arange(len(rows))] = columns[rows, over]
-            shares = (_terms(wanted, order) @ fit)[:, :, None] / lattice.grid[2]
-            self._share[which[:, None], np.arange(len(rows))] = shares
+            which = np.array([n for n, each in enumerate(own) if each == cell])
+            weights = {cell: np.ones(len(which))}
+            for other, weight in (
+                _blend(lattice, per_area, cell, points[which]) if order > 1 else weights
+            ).items():
+                if other not in known:
+                    known[other] = _Polynomial.near(lattice, per_area, other, order)
+                found = known[other]
+                row, column = found.rows - cell[0] + reach, found.over - cell[1] + reach
+                share[which[:, None], row, column] += weight[:, None] * found.at(points[which])
+        share = share.reshape(len(points), -1, 1) / lattice.grid[2]
+        self._share = np.broadcast_to(share, (*share.shape[:2], 3))
 
     def of(self, field: np.ndarray) -> np.ndarray:
         """Values (n, 3) at the points of a field of vectors over the masses, (masses and more, 3)."""
@@ -91,7 +100,69 @@ class MidSurface:
         return out
 
 
-def _own_cell(lattice: Lattice, present: np.ndarray, point: np.ndarray) -> tuple[int, int]:
+@dataclass(frozen=True, eq=False)
+class _Polynomial:
+    """The polynomial nearest to masses at the crossings of lines (k,), rows and over: its terms are
+    fit (terms, k) @ values of these, in places from the middle of its cell in its sides, (2,) [m] each."""
+
+    rows: np.ndarray
+    over: np.ndarray
+    fit: np.ndarray
+    middle: np.ndarray
+    sides: np.ndarray
+    order: int
+
+    @classmethod
+    def near(cls, lattice: Lattice, per_area: np.ndarray, cell: tuple[int, int], order: int) -> _Polynomial:
+        """Of a cell (row, column) and those connected with it."""
+        (row, column), (x, y) = cell, lattice.lines
+        rows, over = _connected(per_area, cell, 0 if order == 1 else REACH)
+        sides = np.array([x.widths[column], y.widths[row]])
+        middle = np.array([x.at[column], y.at[row]]) + 0.5 * sides
+        places = (np.stack([x.at[over], y.at[rows]], axis=1) - middle) / sides
+        near = np.sqrt(_around(per_area)[rows, over]) / (0.5 + (places**2).sum(axis=1))
+        fit = np.linalg.pinv(_terms(places, order) * near[:, None], rcond=1e-9) * near
+        return cls(rows, over, fit, middle, sides, order)
+
+    def at(self, points: np.ndarray) -> np.ndarray:
+        """What share every mass has in the values at plan points (n, 2) [m], (n, k)."""
+        return np.asarray(_terms((points - self.middle) / self.sides, self.order) @ self.fit)
+
+
+def _around(per_area: np.ndarray) -> np.ndarray:
+    """The mean of the cells around each crossing of lines, (rows + 1, columns + 1)."""
+    wide = np.pad(per_area, 1)
+    return 0.25 * (wide[1:, 1:] + wide[1:, :-1] + wide[:-1, 1:] + wide[:-1, :-1])
+
+
+def _blend(
+    lattice: Lattice, per_area: np.ndarray, cell: tuple[int, int], points: np.ndarray
+) -> dict[tuple[int, int], np.ndarray]:
+    """What weight (n,) the polynomials of a cell and of those around have at plan points (n, 2) [m] in it."""
+    (row, column), (x, y) = cell, lattice.lines
+    right = (points[:, 0] - x.at[column]) / x.widths[column] - 0.5
+    up = (points[:, 1] - y.at[row]) / y.widths[row] - 0.5
+    found: dict[tuple[int, int], np.ndarray] = {}
+    for dj, by_row in ((-1, np.maximum(0.0, -up)), (0, 1.0 - np.abs(up)), (1, np.maximum(0.0, up))):
+        for di, by_column in (
+            (-1, np.maximum(0.0, -right)),
+            (0, 1.0 - np.abs(right)),
+            (1, np.maximum(0.0, right)),
+        ):
+            beside = row + dj, column + di
+            if _there(per_area, beside):
+                found[beside] = by_row * by_column * per_area[beside]
+    total = np.sum([*found.values()], axis=0)
+    return {one: weight / total for one, weight in found.items()}
+
+
+def _there(per_area: np.ndarray, cell: tuple[int, int]) -> bool:
+    """Whether there is a cell of this row and column."""
+    inside = all(0 <= at < count for at, count in zip(cell, per_area.shape, strict=True))
+    return inside and bool(per_area[cell] > 0.0)
+
+
+def _own_cell(lattice: Lattice, per_area: np.ndarray, point: np.ndarray) -> tuple[int, int]:
     """Row and column of the cell present in which, or on whose rim, a plan point [m] lies. Raises BadInput
     where there is none."""
     (column, x), (row, y) = (lines.index(c) for c, lines in zip(point, lattice.lines, strict=True))
@@ -101,22 +172,18 @@ def _own_cell(lattice: Lattice, present: np.ndarray, point: np.ndarray) -> tuple
         for i in (0, *([-1] if x < ON_LINE else [1] if x > 1.0 - ON_LINE else []))
     ]
     for j, i in near:
-        if 0 <= j < present.shape[0] and 0 <= i < present.shape[1] and present[j, i]:
+        if _there(per_area, (j, i)):
             return int(j), int(i)
     raise BadInput(f"point {point.tolist()} m: there is no sheet, by its outline or a cutout")
 
 
-def _connected(present: np.ndarray, cell: tuple[int, int], reach: int) -> tuple[np.ndarray, np.ndarray]:
+def _connected(per_area: np.ndarray, cell: tuple[int, int], reach: int) -> tuple[np.ndarray, np.ndarray]:
     """Rows and columns of the lines that cross at the corners of a cell, and of those that can be reached
     from it over so many sides."""
     found, last = {cell}, {cell}
     for _ in range(reach):
         beside = {(j + dj, i + di) for j, i in last for dj, di in ((0, 1), (0, -1), (1, 0), (-1, 0))}
-        last = {
-            (j, i)
-            for j, i in beside - found
-            if 0 <= j < present.shape[0] and 0 <= i < present.shape[1] and present[j, i]
-        }
+        last = {one for one in beside - found if _there(per_area, one)}
         found |= last
     corners = sorted({(j + dj, i + di) for j, i in found for dj in (0, 1) for di in (0, 1)})
     rows, over = np.array(corners).T

@@ -19,6 +19,7 @@ from fem_reference.surface.outlined import LAYERS, quadrilaterals
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import EDGES, EdgeLoad, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric
+from sheetbench.scenes.grading import is_mirrored, line_numbers
 from sheetbench.scenes.grid import MESH, elements_of
 from sheetbench.scenes.plan_mesh import divided
 from sheetbench.scenes.region import area_in, edge_length
@@ -217,16 +218,16 @@ def _within(mesh: MeshQuad, region: BaseGeometry) -> MeshQuad:
 
 
 def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:
-    """The lines with some moved to the sides, and those between in proportion; at least one for each."""
-    count = max(len(lines) - 1, len(sides) + 1)
+    """The lines with some moved to the sides, and those between in proportion; at least one for each. Sides
+    that are the same from either end, one in the middle, have an even number of elements."""
+    count, places, length = max(len(lines) - 1, len(sides) + 1), sides.tolist(), float(lines[-1])
+    if len(sides) % 2 and is_mirrored(places, length):
+        count += count % 2
     at = np.arange(count + 1)
     lines = PiecewiseLinear(np.linspace(0.0, count, len(lines)).tolist(), lines.tolist()).at(at)
-    nearest = np.rint(PiecewiseLinear(lines.tolist(), at.tolist()).at(sides)).astype(int)
-    for n in range(len(sides)):
-        nearest[n] = np.clip(nearest[n], 1 if n == 0 else nearest[n - 1] + 1, count - len(sides) + n)
-    fixed = np.concatenate([[0], nearest, [count]])
-    places = [lines[0], *sides, lines[-1]]
-    return PiecewiseLinear(lines[fixed].tolist(), places).at(lines)
+    in_elements = PiecewiseLinear(lines.tolist(), at.tolist()).at(sides)
+    fixed = [0, *line_numbers(in_elements.tolist(), count), count]
+    return PiecewiseLinear(lines[fixed].tolist(), [lines[0], *places, lines[-1]]).at(lines)
 
 
 def _cuts(scene: Scene) -> list[str]:

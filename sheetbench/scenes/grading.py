@@ -16,10 +16,13 @@ from itertools import pairwise
 from math import ceil
 from typing import Any
 
+import numpy as np
+
 from sheetbench.errors import BadInput
 from sheetbench.scenes.sheet import EDGES
 
 THINNEST, ROUNDING = 0.1, 1e-9
+ALIKE = 1e-5  # weight of how alike cells are beside how near lines are to places; its square: to the middle
 Places = tuple[tuple[float, ...], tuple[float, ...]]
 
 
@@ -75,21 +78,77 @@ def through(places: Places) -> Graded:
 
 def places_with_lines(places: Sequence[float], length: float, count: int) -> list[float]:
     """Return those of the places [m], rising, on a side of this length that have one of its `count` lines:
-    those no closer to the one before and to the ends than THINNEST of a mean cell; none if lines are too few.
+    those no closer than THINNEST of a mean cell to the ends and to others, of which the outer has the line;
+    none if lines are too few.
+
+    From either end it is the same: of two as far from both ends neither has one, nor has the middle of
+    places that are mirrored about it where the number of cells is odd.
     """
     least_spacing = THINNEST * length / (count - 1) * (1.0 - ROUNDING)
-    kept = [0.0]
-    for place in places:
-        if place - kept[-1] >= least_spacing and length - place >= least_spacing:
-            kept.append(place)
-    return kept[1:] if len(kept) < count else []
+    inset = {at: rounded(min(at, length - at), length) for at in (rounded(each, length) for each in places)}
+    own = {rounded(place, length): place for place in reversed(places)}
+    kept = [0.0, length]
+    for depth in sorted(set(inset.values())):
+        alike = [own[at] for at in sorted(own) if inset[at] == depth]
+        free = [at for at in alike if all(abs(at - other) >= least_spacing for other in kept)]
+        if len(free) == 1 or (len(free) == 2 and free[1] - free[0] >= least_spacing):
+            kept += free
+    found = sorted(kept)[1:-1]
+    if not count % 2 and len(found) % 2 and is_mirrored(found, length):
+        found.pop(len(found) // 2)
+    return found if len(found) < count - 1 else []
+
+
+def rounded(place: float, length: float) -> float:
+    """Return a place on a side without its rounding."""
+    return round(place / (ROUNDING * length)) * ROUNDING * length
+
+
+def is_mirrored(places: Sequence[float], length: float) -> bool:
+    """Return whether places [m], rising, are the same from either end of a side."""
+    pairs = zip(places, reversed(places), strict=True)
+    return all(rounded(one + other - length, length) == 0.0 for one, other in pairs)
+
+
+def line_numbers(places: Sequence[float], cells: int) -> list[int]:
+    """Return which of the lines 1 to `cells` − 1 are moved to places [cells], rising: those nearest to all of
+    them, by the sum of squares; of equally near ones those that leave cells most alike, then those nearest to
+    the middle.
+
+    From either end they are the same. Source: dynamic programming over places and lines.
+    """
+    at = np.array([rounded(place, cells) for place in places])
+    if not is_mirrored(places, cells):
+        return _nearest(np.append(at, cells), cells, 0.5 * cells)[:-1]
+    half = _nearest(np.append(at[: len(at) // 2], 0.5 * cells), -(-cells // 2), 0.5 * cells)[:-1]
+    return [*half, *[cells // 2] * (len(places) % 2), *(cells - number for number in reversed(half))]
+
+
+def _nearest(places: np.ndarray, last: int, middle: float) -> list[int]:
+    """Rising numbers from 1 to `last`, which is that of the last place."""
+    before, widest = np.zeros(1, dtype=int), last - len(places) + 1
+    cost, start, choices = np.zeros(1), 0.0, []
+    for number, place in enumerate(places, start=1):
+        lines = number + np.arange(widest) if number < len(places) else np.array([last])
+        between = lines[:, None] - before
+        uneven = (place - start) ** 2 / np.maximum(between, 1)
+        own = (lines - place) ** 2 + ALIKE**2 * (lines - middle) ** 2
+        total = np.where(between > 0, cost + own[:, None] + ALIKE * uneven, np.inf)
+        choices.append((lines, total.argmin(axis=1)))
+        cost, start, before = total.min(axis=1), place, lines
+    chosen, numbers = 0, []
+    for lines, came_from in reversed(choices):
+        numbers.append(int(lines[chosen]))
+        chosen = int(came_from[chosen])
+    return numbers[::-1]
 
 
 def lines_for_all(places: Sequence[float], length: float) -> int:
     """Return how many lines a side [m] is to have so that each of the places [m], rising, has one."""
     ends = [0.0, *places, length]
     narrowest = min(after - before for before, after in pairwise(ends))
-    return max(len(ends), ceil(THINNEST * length / narrowest * (1.0 - ROUNDING)) + 1)
+    count = max(len(ends), ceil(THINNEST * length / narrowest * (1.0 - ROUNDING)) + 1)
+    return count + (count + 1) % 2 if len(places) % 2 and is_mirrored(places, length) else count
 
 
 def amount(grading: Graded) -> float:

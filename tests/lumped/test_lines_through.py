@@ -6,7 +6,10 @@ import pytest
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from lumped.assembly import Assembly
+from lumped.coverage import held_columns
 from lumped.grid_lines import grid_lines
+from lumped.lattice import build
+from lumped.sections import sections_of
 from lumped.supports import constrain
 from sheetbench.scenes import Sheet, load
 from sheetbench.scenes.grading import as_settings, of_settings, through
@@ -33,6 +36,39 @@ def test_lines_are_moved_to_places(places, on_lines):
     )
     assert on_lines or np.array_equal(x.at, even[0].at)
     assert np.array_equal(y.at, even[1].at)
+
+
+@pytest.mark.parametrize(
+    "places",
+    [
+        (0.035, 0.0351, 0.08),  # two in one cell, one in the middle
+        (0.045, 0.105),  # halfway between lines of 17 and of 9
+        (0.045, 0.055, 0.13),
+        (0.0795, 0.0805),  # too close for a line each, and as far from both ends
+        (0.065, 0.0651, 0.0652, 0.07),
+        (0.08,),  # in the middle: of an odd number of cells neither line is the nearest
+    ],
+)
+@pytest.mark.parametrize("count", [8, 9, 17])
+def test_lines_are_moved_alike_from_either_end(places, count):
+    grid, length = (count, 5, 2), SHEET.length_x
+    there, back = (
+        grid_lines(SHEET, grid, through((each, ())))[0].at
+        for each in (places, tuple(length - place for place in reversed(places)))
+    )
+    assert length - there[::-1] == pytest.approx(back, abs=1e-12)
+
+
+def test_a_support_holds_the_masses_on_its_border_whatever_the_rounding():
+    """A side of 0.1 − 0.06 lies a last bit beside 0.04, where the line is; a cell that a clamp covers and not
+    all of whose corners it holds would be infinitely stiff."""
+    assert 0.1 - 0.06 != 0.04
+    sheet = {"length_x": 0.1, "length_y": 0.1, "thickness": 3e-3}
+    held = {"kind": "clamped", "where": {"rectangle": {"x": (0.0, 0.1 - 0.06), "y": (0.0, 0.04)}}}
+    scene = load("one-edge-clamped").replace(sheet=sheet, supports=[held], probes={})
+    cells = sections_of(scene, (6, 6, 2))
+    count = len(held_columns(build(scene.sheet, (6, 6, 2), 1e-3), scene.supports[0]))
+    assert (cells is None or np.isfinite(cells.bending).all()) and count == 9
 
 
 def test_the_places_are_the_sides_of_shapes_and_the_ends_of_edges_and_are_written_with_springs():

@@ -107,7 +107,7 @@ def command(
     if simulators and export is None:
         from comparisons.codes.setup import setup, squares_of
 
-        found = setup(of, simulators[0], squares_of(grid), best=scene is not None)
+        found = setup(of, simulators[0], squares_of(grid), named=scene is not None)
         with output.open(about=about, variant={"--for": simulators[0]}) as out:
             out.show(found)
         return

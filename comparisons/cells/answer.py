@@ -48,8 +48,8 @@ class Modulus:
 class CellModuli(Answer):
     """A cell's coefficients for a scene's sheet, the moduli they give, and the error of fine meshes there.
 
-    Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come nearest
-    to the sheet's, and the error that they leave, where that is another. limit_error is None where it cannot
+    Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
+    nearest to the sheet's, and the error that they leave, where that is another. limit_error is None where it cannot
     be told; missing: why.
     """
 
@@ -111,6 +111,9 @@ class CellModuli(Answer):
             *([Table.of(Parameter, codes, caption, "codes", grouped=True)] if codes else []),
             Table.of(Modulus, self.rows, "Moduli of the sheet and of the cell", "moduli"),
         )
+
+    def result(self) -> str:
+        return self._verdict() or super().result()
 
     def notes(self) -> list[str]:
         missed = [

@@ -28,7 +28,7 @@ from comparisons.codes.springs import hinged_springs, layered_springs, tetrahedr
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
-from sheetbench.answers.table import Table
+from sheetbench.answers.table import Table, number
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice
 from sheetbench.scenes import EDGES, AnyScene, Scene, SceneError, require_static, require_uniform, scene_of
 from sheetbench.scenes.words import sheet_in_words
@@ -103,6 +103,11 @@ class CodeSetup(Answer):
             Table.of(Parameter, self.keys, f"Parameters of {self.code.title}", "parameters", fields=fields),
         )
 
+    def result(self) -> str:
+        """The parameters, and the error that stays."""
+        off = "" if self.limit_error is None else f"; {100 * self.limit_error:.1f} % off on the finest mesh"
+        return ", ".join(f"{key.parameter} {number(key.value, '.4g')} {key.unit}" for key in self.keys) + off
+
     def notes(self) -> list[str]:
         chosen = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
         notes = [f"Coefficients of hinges and springs: those that {chosen}."] if self.elastic else []
@@ -113,8 +118,8 @@ class CodeSetup(Answer):
             )
         if not self.named:
             notes.append(
-                "No SCENE was named, whose answer would choose the coefficients and tell their error; the files "
-                "hold the sheet clamped at x0 under its own weight."
+                "No SCENE was named, whose answer would choose the coefficients and tell their error; the "
+                "files hold the sheet clamped at x0 under its own weight."
             )
         notes.append(f"Limits: {self.code.cannot}.")
         notes.append(f"Source: {self.code.source}.")

@@ -85,7 +85,7 @@ class Settling:
 
 
 def settling(duration: float = DURATION, progress: Callable[[str], None] = lambda what: None) -> Settling:
-    """Both runs, and where they ought to end. Raises NoEquilibrium where a lattice has no stable one there."""
+    """Both runs, and where they ought to end. Raises NoEquilibrium where a lattice has no stable one."""
     scene, distance = load(SCENE), matched_layer_distance()
     consistent = lumped.calibrate(scene.sheet, scene.material, grid=masses(), method="consistent")
     lattices: dict[str, tuple[lumped.Calibration, Literal["tributary", "full"]]] = {

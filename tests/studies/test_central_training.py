@@ -19,5 +19,5 @@ def test_the_table_is_what_its_scenes_ask_for():
 def test_a_scene_without_a_stable_equilibrium_trains_nothing():
     pushed = EdgeLoad("x1", force_per_length=(-400.0, 0.0, 0.0))
     held = (*HELD["one edge clamped"], Held("x1", ("y", "z")))
-    with pytest.raises(NoEquilibrium, match="shell.*unstable"):
+    with pytest.raises(NoEquilibrium, match=r"shell.*unstable"):
         _displacement(_scene(held, None, (pushed,)), "shell")

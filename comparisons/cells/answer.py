@@ -49,8 +49,8 @@ class CellModuli(Answer):
     """A cell's coefficients for a scene's sheet, the moduli they give, and the error of fine meshes there.
 
     Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
-    nearest to the sheet's, and the error that they leave, where that is another. limit_error is None where it cannot
-    be told; missing: why.
+    nearest to the sheet's, and the error that they leave, where that is another. limit_error is None where it
+    cannot be told; missing: why.
     """
 
     cell: Cell

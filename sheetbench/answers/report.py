@@ -108,8 +108,8 @@ class Report:
     name: of the document's file; page: of the tables' files in Markdown and LaTeX, `name` unless given.
     title, subtitle, lead: what it is about, and a line more. result: the answer in a line. tables: in the
     files, each with a name in CSV too; printed: what a terminal shows instead of them. notes: remarks under
-    the tables. complaints: what went wrong, a sentence each. document: the JSON document. attachments: further files by name, with what
-    writes them. settings: for the manifest. succeeded: whether the question has its answer.
+    the tables. complaints: what went wrong, a sentence each. document: the JSON document. attachments:
+    further files by name, with what writes them. settings: for the manifest. succeeded: whether the question has its answer.
     """
 
     name: str

@@ -14,7 +14,7 @@ from comparisons.cells.meshes import cell_on
 from fem_reference.surface.materials import section_of
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Column, Table, number
-from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.errors import BadInput, NoEquilibrium, require_effect
 from sheetbench.scenes import AnyScene, Scene, require_plain, scene_of
 from sheetbench.scenes.words import sheet_in_words
 
@@ -171,8 +171,8 @@ def homogenise(
     require_plain(scene, "homogenise")
     if isinstance(cell, str):
         cell = cell_on(scene.sheet, cell, spacing, hinge)
-    elif spacing is not None or hinge is not None:
-        raise BadInput("spacing, hinge: no effect on a Cell, which has its own; leave them out")
+    else:
+        require_effect("on a Cell, which has its own", {"spacing": spacing, "hinge": hinge})
     if unknown := set(given) - set(cell.units()):
         raise BadInput(f"coefficient {', '.join(sorted(unknown))}: {cell.name} has {', '.join(cell.units())}")
     chosen = nearest(cell, scene.material, scene.sheet.thickness) | given

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from comparisons.cells.cell import Cell, Place, from_toml
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, require_effect
 from sheetbench.scenes import Sheet
 
 SPACINGS = 8  # cells along the shorter side, unless a spacing is given
@@ -26,10 +26,10 @@ def cell_of(
     "length" unless given. Raises BadInput for what is missing, and for what has no effect on this cell.
     """
     of_file = cell.endswith(".toml")
-    unused = {"hinge": hinge is not None and (of_file or cell == BRICKS), "spacing": of_file and spacing}
-    for name in (name for name, value in unused.items() if value):
-        raise BadInput(f"{name}: no effect on {cell}: {'a file has its own' if of_file else 'no hinges'}")
+    if cell == BRICKS:
+        require_effect(f"on {BRICKS}, which have no hinges", {"hinge": hinge})
     if of_file:
+        require_effect(f"on {cell}, which has its own", {"spacing": spacing, "hinge": hinge})
         return from_toml(Path(cell))
     if cell in NAMES and not (isinstance(spacing, float | int) and spacing > 0.0):
         raise BadInput(f"spacing = {spacing}: the distance of nodes, in metres, is needed")

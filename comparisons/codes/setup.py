@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.cells.cell import Cell
-from comparisons.cells.codes import CODES, Code, Parameter, parameters_of
+from comparisons.cells.codes import CODES, Code, Parameter, parameters_of, undamped
 from comparisons.cells.coefficients import best_hinge, limit_error, nearest
 from comparisons.cells.homogenise import moduli_of
 from comparisons.cells.meshes import mesh as cell_of_triangles
@@ -121,6 +121,8 @@ class CodeSetup(Answer):
                 "No SCENE was named, whose answer would choose the coefficients and tell their error; the "
                 "files hold the sheet clamped at x0 under its own weight."
             )
+        if left := undamped(self.code, self.scene.material):
+            notes.append(f"The scene's damping is left out: {left}.")
         notes.append(f"Limits: {self.code.cannot}.")
         notes.append(f"Source: {self.code.source}.")
         tested = "by running it" if self.code.runs else "by reading the files back; not run itself"

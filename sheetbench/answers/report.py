@@ -109,7 +109,8 @@ class Report:
     title, subtitle, lead: what it is about, and a line more. result: the answer in a line. tables: in the
     files, each with a name in CSV too; printed: what a terminal shows instead of them. notes: remarks under
     the tables. complaints: what went wrong, a sentence each. document: the JSON document. attachments:
-    further files by name, with what writes them. settings: for the manifest. succeeded: whether the question has its answer.
+    further files by name, with what writes them. settings: for the manifest. succeeded: whether the question
+    has its answer.
     """
 
     name: str

@@ -209,7 +209,10 @@ def test_no_scene_that_nobody_named_heads_an_answer(capsys):
 
 @pytest.mark.parametrize(
     ("option", "why"),
-    [("bricks --hinge angle", "hinge: no effect on bricks"), ("FILE --spacing 1mm", "spacing: no effect on")],
+    [
+        ("bricks --hinge angle", "hinge: no effect on bricks, which have no hinges"),
+        ("FILE --spacing 1mm", "spacing: no effect on"),
+    ],
 )
 def test_options_without_effect_on_a_cell_are_refused(tmp_path, capsys, option, why):
     file = tmp_path / "cell.toml"

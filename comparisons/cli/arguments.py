@@ -65,12 +65,17 @@ def with_defaults(
         if name not in verbs or not isinstance(table, dict):
             raise Refused(f"{FILE}: {name}: a table of a verb is needed, as [compare]")
     known = options_of(verb) if verb in tables else ()
-    options = [
+    written = [
         one for key, value in tables.get(verb, {}).items() for one in _written(verb, key, value, known)
     ]
+    options = [one for one in written if _opposite(one) not in others]
     if options and "--quiet" not in (*others, *options):
         print(f"{FILE}: {verb} {' '.join(options)}", file=sys.stderr)
     return [verb, *options, *others]
+
+
+def _opposite(flag: str) -> str:
+    return f"--{flag.removeprefix('--no-')}" if flag.startswith("--no-") else f"--no-{flag[2:]}"
 
 
 def _written(verb: str, key: str, value: Any, known: Collection[str]) -> Iterator[str]:

@@ -28,6 +28,8 @@ def test_options_of_the_file_come_before_those_of_the_command(folder, capsys):
     assert with_defaults(["compare", "S", "--grid", "5"], VERBS) == ["compare", *options, "S", "--grid", "5"]
     assert capsys.readouterr().err == f"{FILE}: compare {' '.join(options)}\n"
     assert with_defaults(["modes", "S", "--quiet"], VERBS) == ["modes", "--count=2", "S", "--quiet"]
+    assert "--no-uncertainty" not in with_defaults(["compare", "S", "--uncertainty"], VERBS)
+    capsys.readouterr()
     assert with_defaults(["check", "S"], VERBS) == ["check", "S"]
     assert with_defaults(["modes", "--help"], VERBS) == ["modes", "--help"] and with_defaults([], VERBS) == []
     assert capsys.readouterr().err == ""

@@ -6,7 +6,7 @@ other type, a ValueError too, is a fault of the program and shows where it came 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
 
@@ -40,6 +40,17 @@ class Implausible(UserWarning):
 def printable(text: str) -> str:
     """The text with its control characters written out, so that none of a file's reaches a terminal."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+def require_effect(why: str, options: Mapping[str, object]) -> None:
+    """Raise BadInput for the first of these options that is given: they have no effect.
+
+    options: values by name, as the user writes it; None, False and what is empty are not given. why: with or
+    without what, as "without --out".
+    """
+    for name, value in options.items():
+        if value is not None and value is not False and value != () and value != []:
+            raise BadInput(f"{name}: no effect {why}; leave it out")
 
 
 def require_choice(option: str, value: str, choices: Iterable[str]) -> None:

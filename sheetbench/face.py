@@ -18,7 +18,7 @@ from comparisons.models.resolve import resolve, resolve_each
 from comparisons.models.spec import Elements, Lattice, Spec, lattices, parse, spec_of
 from comparisons.report.work import silent
 from sheetbench.choices import CALIBRATION, INTEGRATOR, REFERENCE, REFERENCES
-from sheetbench.errors import BadInput
+from sheetbench.errors import require_effect
 from sheetbench.scenes import AnyScene, History, Solution, scene_of
 
 if TYPE_CHECKING:
@@ -171,15 +171,14 @@ def compare(
     if duration is not None:
         from comparisons.motion.comparison import compare_motion
 
-        if not companion:
-            raise BadInput("companion: is for statics; leave it out with a duration")
+        statics = {name: keywords.get(name) for name in ("linear", "symmetry", "branch")}
+        require_effect("with a duration", {"companion": None if companion else "off", **statics})
         both |= {"uncertainty": uncertainty is not False, "every": every, "frames": frames}
         both |= {"others": others}
         return compare_motion(scene, duration, lattice, reference, **both)
     from comparisons.comparison.comparison import compare
 
-    if every is not None or frames:
-        raise BadInput("every, frames: are for motions; give a duration")
+    require_effect("without a duration", {"every": every, "frames": frames or None})
     both |= {"uncertainty": uncertainty, "companion": companion, "others": others}
     return compare(scene, lattice, reference, **both)
 

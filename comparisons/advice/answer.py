@@ -146,6 +146,9 @@ class Advice(Answer):
             *([] if command is None else ["Solve it with:", command]),
         ]
 
+    def result(self) -> str:
+        return self.reason if self.choice is None else f"{self.choice.label}: {self.reason}"
+
     def complaints(self) -> list[str]:
         return [] if self.succeeded else [self.reason]
 

@@ -10,10 +10,11 @@ from comparisons.cells.cell import Cell
 from comparisons.cells.codes import Parameter, parameters
 from comparisons.cells.coefficients import best_hinge, limit_error, nearest
 from comparisons.cells.homogenise import Moduli, moduli_of
+from comparisons.cells.meshes import cell_on
 from fem_reference.surface.materials import section_of
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Column, Table, number
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, NoEquilibrium, require_effect
 from sheetbench.scenes import AnyScene, Scene, require_plain, scene_of
 from sheetbench.scenes.words import sheet_in_words
 
@@ -23,11 +24,13 @@ MISSED = 0.01  # of the sheet's modulus 11
 
 @dataclass(frozen=True)
 class Coefficient:
-    """A coefficient of the cell's elements [SI]."""
+    """A coefficient of the cell's elements [SI]; nearest: the one whose moduli come nearest to the sheet's,
+    where that is another."""
 
     coefficient: str
     unit: str
     value: Annotated[float, Column("value", form="#.6g")]
+    nearest: Annotated[float | None, Column("nearest to the moduli", form="#.6g")] = None
 
 
 @dataclass(frozen=True)
@@ -45,18 +48,25 @@ class Modulus:
 class CellModuli(Answer):
     """A cell's coefficients for a scene's sheet, the moduli they give, and the error of fine meshes there.
 
-    best_hinge: the hinges' coefficient that is best in this scene alone, and the error that it leaves; None
-    where there is none, or where coefficients were given.
+    Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
+    nearest to the sheet's, and the error that they leave, where that is another. limit_error is None where it
+    cannot be told; missing: why.
     """
 
     cell: Cell
     scene: Scene
     coefficients: dict[str, float]
     moduli: Moduli
-    limit_error: float
-    best_hinge: tuple[float, float] | None = None
+    limit_error: float | None
+    nearest: tuple[dict[str, float], float] | None = None
+    missing: str = ""
 
     file_name = "cell"
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the error in the scene is known."""
+        return not self.missing
 
     @property
     def rows(self) -> list[Modulus]:
@@ -71,18 +81,39 @@ class CellModuli(Answer):
 
     def heading(self) -> tuple[str, str, str]:
         size = f"nodes {1e3 * (self.cell.area / len(self.cell.nodes)) ** 0.5:.4g} mm apart"
-        return f"cell {self.cell.name}", size, sheet_in_words(self.scene.sheet, self.scene.material)
+        sheet = sheet_in_words(self.scene.sheet, self.scene.material)
+        return f"cell {self.cell.name}", size, " ".join(filter(None, (f"{sheet}.", self._verdict())))
+
+    def _verdict(self) -> str:
+        """How far off the finest mesh is in the scene, in a sentence."""
+        if self.limit_error is None:
+            return ""
+        text = f"In {self.scene.name} even an infinitely fine mesh is {100 * self.limit_error:.1f} % off"
+        if self.nearest is None:
+            return f"{text}."
+        return (
+            f"{text} with the coefficients below, {100 * self.nearest[1]:.1f} % with those nearest to the "
+            "sheet's moduli."
+        )
 
     def tables(self) -> tuple[Table, ...]:
         units = self.cell.units()
-        coefficients = [Coefficient(name, units[name], value) for name, value in self.coefficients.items()]
+        others = {} if self.nearest is None else self.nearest[0]
+        coefficients = [
+            Coefficient(name, units[name], value, others.get(name))
+            for name, value in self.coefficients.items()
+        ]
         codes = parameters(self.cell.hinge, self.coefficients, self.scene) if self.cell.triangles else []
         caption = "Parameters of codes with such cells"
+        fields = ("coefficient", "unit", "value", *(("nearest",) if others else ()))
         return (
-            Table.of(Coefficient, coefficients, "Coefficients", "coefficients"),
+            Table.of(Coefficient, coefficients, "Coefficients", "coefficients", fields=fields),
             *([Table.of(Parameter, codes, caption, "codes", grouped=True)] if codes else []),
             Table.of(Modulus, self.rows, "Moduli of the sheet and of the cell", "moduli"),
         )
+
+    def result(self) -> str:
+        return self._verdict() or super().result()
 
     def notes(self) -> list[str]:
         missed = [
@@ -93,18 +124,18 @@ class CellModuli(Answer):
         notes = ["off by: difference over the sheet's A11, D11 or S."]
         if missed:
             notes.append(f"These coefficients miss {', '.join(missed)}.")
-        notes.append(
-            f"Error of an infinitely fine mesh with them in this scene: {100 * self.limit_error:.1f} % of "
-            "the largest displacement, from a shell with the cell's moduli."
-        )
-        if self.best_hinge is not None:
-            value, error = self.best_hinge
-            unit = self.cell.units()["hinge"]
-            notes.append(f"Least error in this scene: {100 * error:.1f} % with hinge = {value:.4g} {unit}.")
+        if self.limit_error is not None:
+            notes.append(
+                "Errors in the scene: of the largest displacement, by a shell with the cell's moduli beside "
+                "one with the sheet's."
+            )
         return notes
 
+    def complaints(self) -> list[str]:
+        return [f"no error in {self.scene.name} is known: {self.missing}"] if self.missing else []
+
     def document(self) -> dict[str, Any]:
-        best = self.best_hinge and dict(zip(("value", "error"), self.best_hinge, strict=True))
+        nearest = self.nearest and dict(zip(("coefficients", "limit_error"), self.nearest, strict=True))
         return {
             "cell": self.cell.name,
             "area": self.cell.area,
@@ -114,21 +145,42 @@ class CellModuli(Answer):
                 {"name": r.modulus, "asked": r.sheet, "got": r.cell, "miss": r.miss} for r in self.rows
             ],
             "limit_error": self.limit_error,
-            "best_hinge": best,
+            "nearest": nearest,
+            "message": self.missing,
         }
 
 
-def homogenise(scene: AnyScene, cell: Cell, given: Mapping[str, float] | None = None) -> CellModuli:
-    """Return a cell's coefficients for a scene's sheet, those nearest to its moduli, and what they give.
+def homogenise(
+    scene: AnyScene,
+    cell: Cell | str,
+    *,
+    spacing: float | None = None,
+    hinge: str | None = None,
+    coefficients: Mapping[str, float] | None = None,
+) -> CellModuli:
+    """Return a cell's coefficients for a scene's sheet, and what they give: those nearest to its moduli, and
+    of hinges the one that is best in the scene.
 
-    given: coefficients to be taken instead. Raises BadInput for one that the cell does not have, and for a
-    scene without an answer at rest.
+    cell: a name or a file, whose nodes are `spacing` [m] apart, an eighth of the shorter side unless given,
+    with the energy of a `hinge`; or a `Cell`. coefficients: taken in place of those found. Where the scene's
+    sheet has no stable equilibrium the answer has no error and says so. Raises BadInput for a coefficient
+    that the cell does not have, a scene without an answer at rest, and spacing and hinge of a cell that has
+    its own.
     """
-    scene, given = scene_of(scene), dict(given or {})
+    scene, given = scene_of(scene), dict(coefficients or {})
     require_plain(scene, "homogenise")
+    if isinstance(cell, str):
+        cell = cell_on(scene.sheet, cell, spacing, hinge)
+    else:
+        require_effect("on a Cell, which has its own", {"spacing": spacing, "hinge": hinge})
     if unknown := set(given) - set(cell.units()):
         raise BadInput(f"coefficient {', '.join(sorted(unknown))}: {cell.name} has {', '.join(cell.units())}")
-    coefficients = nearest(cell, scene.material, scene.sheet.thickness) | given
-    moduli = moduli_of(cell, coefficients)
-    best = None if given else best_hinge(scene, cell, coefficients)
-    return CellModuli(cell, scene, coefficients, moduli, limit_error(scene, moduli), best)
+    chosen = nearest(cell, scene.material, scene.sheet.thickness) | given
+    try:
+        off, others = limit_error(scene, moduli_of(cell, chosen)), None
+        if not given and (best := best_hinge(scene, cell, chosen)):
+            others, chosen = (chosen, off), chosen | {"hinge": best[0]}
+            off = limit_error(scene, moduli_of(cell, chosen))
+    except NoEquilibrium as error:
+        return CellModuli(cell, scene, chosen, moduli_of(cell, chosen), None, missing=str(error))
+    return CellModuli(cell, scene, chosen, moduli_of(cell, chosen), off, others)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from sheetbench.answers.table import Column
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Material, Scene
 
 Numbers = Mapping[str, float]
 BEND_SCALE = 1.28e-5  # ppf-contact-solver's own number
@@ -32,7 +32,8 @@ class Key:
 class Code:
     """A code. hinge: the weight of its hinges; elements: "triangles", or "springs" alone; mesh: the one to
     take; cannot: what its sheet cannot be; source: repository, file and what stands there; runs: whether it
-    was run here."""
+    was run here; dampers: what a material's one damper is there, none where the code has nothing in
+    proportion to the stiffness."""
 
     name: str
     title: str
@@ -44,6 +45,7 @@ class Code:
     elements: str = "triangles"
     licence: str = ""
     runs: bool = False
+    dampers: tuple[Key, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -84,6 +86,7 @@ def _flex_young(c: Numbers) -> float:
 
 DENSITY = Key("density", "kg/m³", "of the volume", lambda c: c["density"])
 AREAL = Key("density", "kg/m²", "of the area: times thickness", lambda c: c["density"] * c["thickness"])
+TIMES_STIFFNESS = "times the stiffness, of membrane and hinges"
 HINGED = "hinges bend as an isotropic sheet of ν = −1/3 (equilateral cells) or of no ν: see docs/cells.md"
 
 CODES = {
@@ -122,6 +125,7 @@ CODES = {
             HINGED + "; its bending energy is quadratic in the positions",
             licence="Apache-2.0",
             runs=True,
+            dampers=(Key("damping", "s", TIMES_STIFFNESS, lambda c: c["damping_time"]),),
         ),
         Code(
             "pybullet",
@@ -141,6 +145,14 @@ CODES = {
             "springs",
             "zlib",
             True,
+            (
+                Key(
+                    "springDampingStiffness",
+                    "N·s/m",
+                    "of every link, along it; the script has more, to come to rest",
+                    lambda c: c["damping_time"] * c["k"],
+                ),
+            ),
         ),
         Code(
             "genesis",
@@ -193,6 +205,10 @@ CODES = {
             "materialBendingStiffness»)",
             HINGED,
             licence="LGPL-2.1",
+            dampers=(
+                Key("rayleighStiffness", "s", TIMES_STIFFNESS, lambda c: c["damping_time"]),
+                Key("rayleighMass", "1/s", "times the mass", lambda c: c["damping_rate"]),
+            ),
         ),
         Code(
             "arcsim",
@@ -218,9 +234,11 @@ CODES = {
             ),
             "ArcSim as in DrapeTester/ClothDrapeTester, arcsim/AdaptiveCloth/physics.cpp: bending_energy («"
             "shape = sq(edge->l) / (2 * a); return ke * shape * sq(theta - …) / 4»), stretching_force («2 * "
-            "k[3] * G(0, 1)»); dde.cpp: evaluate_stretching_sample («real_elastic[0] *= 2»)",
+            "k[3] * G(0, 1)»); dde.cpp: evaluate_stretching_sample («real_elastic[0] *= 2»); add_internal_"
+            "forces («A = dt^2 J + dt damp J»)",
             HINGED + "; remeshing changes the hinges' weights: switch it off (refine_angle and the like)",
             licence="University of California, not for profit",
+            dampers=(Key("damping", "s", TIMES_STIFFNESS, lambda c: c["damping_time"]),),
         ),
         Code(
             "c-ipc",
@@ -338,7 +356,19 @@ def parameters(hinge: str, coefficients: Numbers, scene: Scene) -> list[Paramete
 
 def parameters_of(code: Code, coefficients: Numbers, scene: Scene) -> list[Parameter]:
     """The parameters of a code for a scene's sheet."""
-    numbers = {"thickness": scene.sheet.thickness, "density": scene.material.density, **coefficients}
-    return [
-        Parameter(code.title, key.name, key.value(numbers), key.unit, key.convention) for key in code.keys
-    ]
+    material = scene.material
+    damping = {"damping_time": material.dashpot_time, "damping_rate": material.damping_rate}
+    numbers = {"thickness": scene.sheet.thickness, "density": material.density, **damping, **coefficients}
+    keys = (*code.keys, *(code.dampers if material.dashpot_time else ()))
+    return [Parameter(code.title, key.name, key.value(numbers), key.unit, key.convention) for key in keys]
+
+
+def undamped(code: Code, material: Material) -> str:
+    """Why a material's damping is not among a code's parameters, or "" where it is, or there is none."""
+    if material.branches.times:
+        return f"{code.title} has no Maxwell branches"
+    if material.dashpot_time and not code.dampers:
+        return f"{code.title} has no damper in proportion to the stiffness"
+    if material.damping_rate and not any(key.name == "rayleighMass" for key in code.dampers):
+        return f"{code.title} has no damper in proportion to the mass"
+    return ""

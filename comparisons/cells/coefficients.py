@@ -12,11 +12,12 @@ from comparisons.cells.cell import Cell
 from comparisons.cells.homogenise import Moduli, moduli_of
 from comparisons.comparison.differences import error
 from fem_reference.surface.materials import Section, section_of
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import Material, Scene
 
 COARSE = 8  # elements of the shells of a search
 STIFF = 1e3  # times κGh, of a cell whose normals stay normal
+LOST = 1e3  # error of moduli in a search with which the sheet has no stable equilibrium
 TURNED = np.array([[1.0, 1.0, 2.0**0.5], [1.0, 1.0, 2.0**0.5], [2.0**0.5, 2.0**0.5, 2.0]])
 
 
@@ -58,7 +59,8 @@ def limit_error(scene: Scene, moduli: Moduli, elements: int = 16) -> float:
     """The error in a scene of a mesh of this cell, however fine: that of a shell with the cell's moduli.
 
     elements: along the side of a square, as many in all on others. The shell takes large rotations, as such
-    meshes do. Raises BadInput where bending and stretching are coupled.
+    meshes do. Raises BadInput where bending and stretching are coupled, NoEquilibrium where the sheet, or one
+    of these moduli, has no stable equilibrium in the scene.
     """
     return limit_errors(scene, elements)(moduli)
 
@@ -68,16 +70,37 @@ def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
     lengths = scene.sheet.lengths
     across = max(2, round(elements * min(lengths) / (lengths[0] * lengths[1]) ** 0.5))
     points = scene.probe_points()
-    true = fem_reference.solve(scene, model="shell", elements=across).displacement(points)
+    sheet = fem_reference.solve(scene, model="shell", elements=across)
+    true = sheet.require_stable().displacement(points)
 
     def off(moduli: Moduli) -> float:
         found = fem_reference.solve(scene, model="shell", elements=across, section=_section(scene, moduli))
-        share = error(found.displacement(points), true)
+        share = error(found.require_stable().displacement(points), true)
         if share is None:
             raise BadInput("the probes do not move: there is no error to tell")
         return share
 
     return off
+
+
+def least_error(
+    scene: Scene, moduli: Callable[[float], Moduli], low: float, high: float
+) -> tuple[float, float]:
+    """The number between low and high whose moduli leave the least error in the limit in this scene, and that
+    error. Raises NoEquilibrium where the sheet, or every one of these moduli, is unstable there."""
+    error_of = limit_errors(scene, COARSE)
+
+    def off(logarithm: float) -> float:
+        try:
+            return error_of(moduli(float(np.exp(logarithm))))
+        except NoEquilibrium:
+            return LOST
+
+    bounds = (float(np.log(low)), float(np.log(high)))
+    found = minimize_scalar(off, bounds=bounds, method="bounded", options={"xatol": 5e-3})
+    if found.fun == LOST:
+        raise NoEquilibrium("no coefficients of this mesh have a stable equilibrium in this scene")
+    return float(np.exp(found.x)), float(found.fun)
 
 
 def _section(scene: Scene, moduli: Moduli) -> Section:
@@ -94,11 +117,9 @@ def best_hinge(scene: Scene, cell: Cell, coefficients: dict[str, float]) -> tupl
     of a cell without hinges. Searched from a twentieth to ten times the coefficient given."""
     if "hinge" not in coefficients:
         return None
-    start, error_of = float(np.log(coefficients["hinge"])), limit_errors(scene, COARSE)
+    start = coefficients["hinge"]
 
-    def off(logarithm: float) -> float:
-        return error_of(moduli_of(cell, coefficients | {"hinge": float(np.exp(logarithm))}))
+    def moduli(hinge: float) -> Moduli:
+        return moduli_of(cell, coefficients | {"hinge": hinge})
 
-    bounds = (start + np.log(0.05), start + np.log(10.0))
-    found = minimize_scalar(off, bounds=bounds, method="bounded", options={"xatol": 5e-3})
-    return float(np.exp(found.x)), float(found.fun)
+    return least_error(scene, moduli, 0.05 * start, 10.0 * start)

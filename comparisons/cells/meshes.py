@@ -10,14 +10,38 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from comparisons.cells.cell import Cell, Place, from_toml
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, require_effect
+from sheetbench.scenes import Sheet
 
+SPACINGS = 8  # cells along the shorter side, unless a spacing is given
 SEED, SIDE, JITTER = 7, 5, 0.25  # of the unstructured mesh: points along a side, their shift over the spacing
 
 
-def cell_of(text: str, spacing: float, thickness: float, hinge: str = "length") -> Cell:
-    """The cell of a mesh's name, or of a file that ends in .toml, whose lengths and hinges are its own."""
-    return from_toml(Path(text)) if text.endswith(".toml") else mesh(text, spacing, thickness, hinge)
+def cell_of(
+    cell: str, spacing: float | None = None, thickness: float | None = None, hinge: str | None = None
+) -> Cell:
+    """The cell of a mesh's name, with its nodes `spacing` [m] apart, or of a file that ends in .toml.
+
+    thickness [m]: of bricks; hinge: the energy of the others' hinges, of `comparisons.cells.cell.HINGES`,
+    "length" unless given. Raises BadInput for what is missing, and for what has no effect on this cell.
+    """
+    of_file = cell.endswith(".toml")
+    if cell == BRICKS:
+        require_effect(f"on {BRICKS}, which have no hinges", {"hinge": hinge})
+    if of_file:
+        require_effect(f"on {cell}, which has its own", {"spacing": spacing, "hinge": hinge})
+        return from_toml(Path(cell))
+    if cell in NAMES and not (isinstance(spacing, float | int) and spacing > 0.0):
+        raise BadInput(f"spacing = {spacing}: the distance of nodes, in metres, is needed")
+    if cell == BRICKS and not thickness:
+        raise BadInput(f"thickness = {thickness}: of bricks, in metres, is needed")
+    return mesh(cell, spacing or 0.0, thickness or 0.0, hinge or "length")
+
+
+def cell_on(sheet: Sheet, cell: str, spacing: float | None = None, hinge: str | None = None) -> Cell:
+    """`cell_of` on a sheet, nodes an eighth of its shorter side apart unless given."""
+    usual = None if cell.endswith(".toml") else min(sheet.lengths) / SPACINGS
+    return cell_of(cell, usual if spacing is None else spacing, sheet.thickness, hinge)
 
 
 def mesh(name: str, spacing: float, thickness: float, hinge: str = "length") -> Cell:

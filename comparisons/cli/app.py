@@ -4,7 +4,7 @@ A verb is a module of this package named like the verb, with a function `command
 quick, so a verb imports what it works with inside that function.
 
 Exit status: 0 done; 1 a fault of the program, with its traceback; 2 bad input, in one line; 3 a solver
-did not converge; 130 interrupted.
+did not converge; 130 interrupted; 141 the output was closed, as by `head`.
 """
 
 from __future__ import annotations
@@ -54,6 +54,7 @@ VERBS = (
 )
 FAULT = 1
 BAD_INPUT = 2
+PIPE_CLOSED = 141  # 128 + SIGPIPE, as of a program that the signal ends
 NOT_CONVERGED = 3
 UsageError: Any = typer.BadParameter.__base__  # click's, or typer's own copy of it
 SIZE = re.compile("0*[1-9][0-9]{0,3}")  # of a terminal, in columns or lines
@@ -109,7 +110,7 @@ def main(arguments: list[str] | None = None) -> None:
     _clean_environment(os.environ)
     of_process = arguments == sys.argv[1:]
     try:
-        arguments = with_defaults(arguments, VERBS)
+        arguments = with_defaults(arguments, VERBS, _options_of)
         refuse_removed(arguments)
     except Refused as refused:
         print(f"sheetbench: {refused}", file=sys.stderr)
@@ -130,12 +131,26 @@ def main(arguments: list[str] | None = None) -> None:
         except SystemExit as leaving:
             if leaving.code == interruption.STATUS:
                 interruption.say()
+            if isinstance(leaving.__context__, BrokenPipeError):  # for which typer leaves with 1
+                _drop_output()
+                raise SystemExit(PIPE_CLOSED) from None
             raise
         except Exception as error:
             if isinstance(error, typer.Abort) or interrupts.is_behind(error):
                 interruption.say()
                 raise SystemExit(interruption.STATUS) from None
             raise SystemExit(_report_error(error)) from None
+
+
+def _options_of(verb: str) -> frozenset[str]:
+    """Return a verb's options, as "--symmetry"."""
+    return frozenset(name for one in verb_group((verb,)).commands[verb].params for name in one.opts)
+
+
+def _drop_output() -> None:
+    """Write what is left of the output to nowhere."""
+    with suppress(OSError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
 def _clean_environment(environment: MutableMapping[str, str]) -> None:
@@ -157,9 +172,11 @@ def _system_message(error: OSError) -> str | None:
 
 def _report_error(error: Exception) -> int:
     """Print what the user did wrong, or that the program did; return the exit status."""
+    if isinstance(error, BrokenPipeError):
+        _drop_output()
+        return PIPE_CLOSED
     if isinstance(error, OSError) and (message := _system_message(error)) is not None:
-        with suppress(OSError):  # what is left to be written has no place to go
-            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        _drop_output()
         print(f"sheetbench: {message}", file=sys.stderr)
         return BAD_INPUT
     from sheetbench.answers.escape import terminal

@@ -11,6 +11,8 @@ from comparisons.cli.options import Export, Grading, Grid, K, Large, LayerDistan
 from comparisons.cli.output import OutputOptions
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
+DAMPING = ("--loss-factor", "--damping-ratio", "--log-decrement", "--quality", "--prony")
+
 
 def command(
     scene: Annotated[
@@ -83,7 +85,7 @@ def command(
     from comparisons.calibration.calibrate import calibrate, expected, subject
     from comparisons.models.sizes import require_room
     from comparisons.models.spec import Lattice
-    from sheetbench.errors import BadInput
+    from sheetbench.errors import BadInput, require_effect
 
     if toml and output.json:
         raise BadInput("--toml and --json: choose one")
@@ -105,9 +107,13 @@ def command(
     of = subject(scene, sheet.values | damped, "--")
     about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
     if simulators and export is None:
+        from comparisons.cells.codes import CODES, undamped
         from comparisons.codes.setup import setup, squares_of
 
-        found = setup(of, simulators[0], squares_of(grid), best=scene is not None)
+        if damped and (code := CODES.get(simulators[0])) and (why := undamped(code, of.material)):
+            given = zip(DAMPING, (loss_factor, damping_ratio, log_decrement, quality, prony), strict=True)
+            require_effect(f"with --for {code.name}: {why}", dict(given))
+        found = setup(of, simulators[0], squares_of(grid), named=scene is not None)
         with output.open(about=about, variant={"--for": simulators[0]}) as out:
             out.show(found)
         return

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from comparisons.cli.options import Scene
-from comparisons.cli.output import OutputOptions
+from comparisons.cli.output import PictureOptions
 
 
-def command(scene: Scene, *, output: OutputOptions) -> None:
+def command(scene: Scene, *, output: PictureOptions) -> None:
     """Explain a scene in plain words and warn about likely mistakes."""
     from warnings import catch_warnings, simplefilter
 

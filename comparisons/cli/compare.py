@@ -33,11 +33,13 @@ def command(
     ] = False,
     no_uncertainty: Annotated[bool, option("Solve the reference once, without its error bar.")] = False,
     branch: Annotated[
-        str,
+        str | None,
         option(
-            f"{listed(BRANCHES)}: buckled leaves an unstable equilibrium along its buckling mode.", "NAME"
+            f"{listed(BRANCHES)}: buckled leaves an unstable equilibrium along its buckling mode. "
+            "Default: path.",
+            "NAME",
         ),
-    ] = "path",
+    ] = None,
     duration: Annotated[
         float | None, option("Compare the motion over this time, from rest.", "S", unit="s")
     ] = None,
@@ -60,16 +62,16 @@ def command(
     from comparisons.models.resolve import resolve
     from comparisons.report.vtk import write_mesh
     from sheetbench import scenes
-    from sheetbench.errors import BadInput
+    from sheetbench.errors import BadInput, require_effect
 
+    if uncertainty and no_uncertainty:
+        raise BadInput("--uncertainty and --no-uncertainty: give one of them")
     models = {"--reference": reference, **({"--model": " ".join(model)} if model else {})}
     if duration is not None:
         from comparisons.motion.comparison import compare_motion
 
-        statics = {"--symmetry": symmetry, "--branch": branch != "path", "--export": export}
-        for option, value in statics.items():
-            if value:
-                raise BadInput(f"{option}: is for statics; leave it out with --duration")
+        statics = {"--symmetry": symmetry, "--branch": branch, "--export": export}
+        require_effect("with --duration", statics)
         if animate:
             output.require_pictures("--animate")
         moving = scenes.load(scene)
@@ -111,7 +113,7 @@ def command(
                 law=law,
                 uncertainty=False if no_uncertainty else uncertainty or None,
                 symmetry=symmetry,
-                branch=branch,
+                branch=branch or "path",
                 others=model or (),
             )
         if export is not None:

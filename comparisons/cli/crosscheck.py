@@ -59,19 +59,20 @@ def command(
 
     An empty list leaves a model, or all external codes, out: --solid "". An interrupted run is resumed.
     """
-    from comparisons.cli import console
     from comparisons.crosscheck.candidates import candidates, load_scenes
     from comparisons.crosscheck.crosscheck import crosscheck
     from comparisons.external.installed import find_codes
     from comparisons.models.spec import Elements, Lattice, items
     from comparisons.motion.comparison import compare_motion
-    from sheetbench.errors import BadInput
+    from sheetbench.errors import BadInput, require_effect
     from sheetbench.scenes import load
 
     codes = find_codes(None if judges is None else items(judges))
     usual = SIZES if duration is None else MOVING
     given = dict(zip(("lumped", *REFERENCES), (grid, plate, shell, solid), strict=True))
     sizes = {name: usual[name] if text is None else text for name, text in given.items()}
+    if not codes:
+        require_effect("without external codes", {"--meshes": meshes})
     meshes = usual.get("meshes") if meshes is None else meshes
     models = candidates(sizes.pop("lumped"), lattice.spec.but(calibration=calibration), sizes, codes, meshes)
     if duration is not None:
@@ -80,8 +81,8 @@ def command(
         if len(scenes) > 1 or not isinstance(own, Lattice) or not isinstance(shell_spec, Elements):
             raise BadInput("--duration: one scene, a lattice, and a shell that others are measured against")
         scene = load(*scenes)
-        if campaign.workers is not None or campaign.retry:
-            console.warn("--workers, --retry: no effect with --duration, where one model moves after another")
+        of_campaign = {"--workers": campaign.workers, "--retry": campaign.retry}
+        require_effect("with --duration, where one model moves after another", of_campaign)
         with output.open(scene=scene, variant={"--duration": duration}) as out:
             others, kept = list(finest.values()), out.reserve("runs/")
             out.show(

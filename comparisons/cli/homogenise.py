@@ -9,8 +9,6 @@ import typer
 from comparisons.cli.options import option
 from comparisons.cli.output import OutputOptions
 
-SPACINGS = 8  # cells along the shorter side, unless a spacing is given
-
 
 def command(
     cell: Annotated[
@@ -21,9 +19,7 @@ def command(
             "bricks: one through the thickness; or a TOML file with periods, nodes and elements.",
         ),
     ],
-    scene: Annotated[str, typer.Argument(metavar="[SCENE]", help="Scene with the sheet and its load.")] = (
-        "two-edges-clamped"
-    ),
+    scene: Annotated[str, typer.Argument(metavar="SCENE", help="Scene with the sheet and its load.")],
     spacing: Annotated[
         float | None,
         option(
@@ -31,16 +27,16 @@ def command(
         ),
     ] = None,
     hinge: Annotated[
-        str,
+        str | None,
         option(
             "Energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height, w = 3 length² "
-            "over the area of both triangles.",
+            "over the area of both triangles. Default: length.",
             "WEIGHT",
         ),
-    ] = "length",
+    ] = None,
     coefficient: Annotated[
         list[str] | None,
-        option("Use this coefficient in place of the nearest one. May be repeated.", "NAME=VALUE"),
+        option("Use this coefficient in place of the one found. May be repeated.", "NAME=VALUE"),
     ] = None,
     *,
     output: OutputOptions,
@@ -50,12 +46,11 @@ def command(
     That error is the limit of the mesh: a finer mesh of the same cell does not reduce it.
     """
     from comparisons.cells.answer import homogenise
-    from comparisons.cells.meshes import cell_of
-    from sheetbench import scenes
+    from comparisons.cells.meshes import cell_on
+    from comparisons.comparison.comparison import load_static
     from sheetbench.errors import BadInput
 
-    of = scenes.load(scene)
-    length = min(of.sheet.length_x, of.sheet.length_y) / SPACINGS if spacing is None else spacing
+    of = load_static(scene)
     given = {}
     for text in coefficient or ():
         name, _, value = text.partition("=")
@@ -63,6 +58,7 @@ def command(
             given[name] = float(value)
         except ValueError:
             raise BadInput(f"--coefficient {text}: NAME=VALUE, the value a number") from None
-    named = cell_of(cell, length, of.sheet.thickness, hinge)
-    with output.open(scene=of, variant={"CELL": cell, "--spacing": length, "--hinge": hinge}) as out:
-        out.show(homogenise(of, named, given))
+    named = cell_on(of.sheet, cell, spacing, hinge)
+    variant = {"CELL": cell, "--spacing": spacing, "--hinge": hinge}
+    with output.open(scene=of, variant=variant) as out:
+        out.show(homogenise(of, named, coefficients=given))

@@ -7,10 +7,9 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Elements, Large, LatticeOptions, Law, option
+from comparisons.cli.options import Large, LatticeOptions, Law, option
 from comparisons.cli.output import PictureOptions
 from sheetbench.choices import ELEMENTS
-from sheetbench.errors import BadInput
 
 
 def command(
@@ -44,24 +43,33 @@ def command(
         option("With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².", "M2", unit="m²"),
     ] = None,
     unknown: Annotated[
-        str,
+        str | None,
         option(
             "young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other constants of "
             "fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE, tilt_EDGE "
             "(of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch, drag "
-            "(of the air); several with commas.",
+            "(of the air); several with commas. Default: young.",
             "NAMES",
         ),
-    ] = "young",
-    model: Annotated[str, option("lumped, shell or solid.", "MODEL")] = "lumped",
-    elements: Elements = str(ELEMENTS),
+    ] = None,
+    model: Annotated[str | None, option("lumped, shell or solid. Default: lumped.", "MODEL")] = None,
+    elements: Annotated[
+        str | None,
+        option(
+            "The shell's or solid's elements along the shorter side, or 8x4 along x and y; default: "
+            f"{ELEMENTS}.",
+            "N",
+        ),
+    ] = None,
     law: Law = None,
     offset: Annotated[
-        float,
+        float | None,
         option(
-            "Distance of a point cloud from the mid-surface: half the thickness for the sheet's top.", "M"
+            "Distance of a point cloud from the mid-surface: half the thickness for the sheet's top.",
+            "M",
+            unit="m",
         ),
-    ] = 0.0,
+    ] = None,
     large: Large = False,
     output: PictureOptions,
 ) -> None:
@@ -72,9 +80,12 @@ def command(
     Lengths are in metres unless a column's header says otherwise (uz \\[mm]), in the scene's axes.
     --tensile fits a rubber's law and its constants instead.
     """
+    from sheetbench.errors import BadInput, require_effect
+
+    of_scene = {"SCENE": scene, "--measured": measured, "--unknown": unknown, "--model": model}
+    of_scene |= {"--elements": elements, "--law": law, "--offset": offset, **lattice.given()}
     if tensile:
-        if measured is not None or scene is not None:
-            raise BadInput("--tensile: needs no SCENE and no --measured; ask for one or the other")
+        require_effect("with --tensile", of_scene)
         from comparisons.identification.tensile.tensile import identify_tensile
 
         curves = identify_tensile(tensile, area=area, up_to=up_to)
@@ -83,12 +94,13 @@ def command(
         return
     if scene is None or measured is None:
         raise BadInput("identify: give a SCENE and --measured FILE, or --tensile FILE")
+    require_effect("without --tensile", {"--area": area, "--up-to": up_to})
     from comparisons.comparison.comparison import load_static
     from comparisons.identification.identification import identify
     from comparisons.identification.measurements import read
     from comparisons.identification.prediction import NotReached
     from comparisons.models.grids import parse_elements
-    from comparisons.models.spec import items
+    from comparisons.models.spec import Lattice, items
 
     loaded = load_static(scene)
     data = read(measured, loaded)
@@ -97,12 +109,12 @@ def command(
             fit = identify(
                 loaded,
                 data,
-                items(unknown),
+                items(unknown or "young"),
                 lattice.spec,
-                model=model,
-                elements=parse_elements(elements),
+                model=model or Lattice.NAME,
+                elements=None if elements is None else parse_elements(elements),
                 law=law,
-                offset=offset,
+                offset=offset or 0.0,
             )
         except NotReached as error:
             out.stop(f"no answer with the scene's own values: {error}")

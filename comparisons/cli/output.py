@@ -85,7 +85,14 @@ class Output:
         from comparisons.runs.campaign import campaign
         from comparisons.runs.executors import pool_of
         from comparisons.runs.store import FILE
+        from sheetbench.errors import require_effect
 
+        if options.scheduler is None:
+            require_effect("without --scheduler", {"--wait": options.wait})
+        else:
+            require_effect("with --scheduler, whose workers they are", {"--workers": options.workers})
+        if self._folder is None:
+            require_effect("without --out, which keeps what failed", {"--retry": options.retry})
         with ExitStack() as stack:
             if self._folder is None:
                 path = Path(stack.enter_context(TemporaryDirectory()))

@@ -20,6 +20,10 @@ def command(
         float | None,
         option("Largest time step. Default: from the stability limit or the error.", "S", unit="s"),
     ] = None,
+    error: Annotated[
+        float | None,
+        option("Error of a step, of the displacement, for integrators that choose their steps.", "FRACTION"),
+    ] = None,
     integrator: Annotated[
         str,
         option(
@@ -56,7 +60,8 @@ def command(
         truth = read_measured(measured, list(loaded.probes))
         require_within(truth, duration, measured)
     model = resolve(loaded, lattice.spec, "motion")
-    run = {"--integrator": integrator, **lattice.given(), "--step": step, "--every": every}
+    run = {"--integrator": integrator, **lattice.given(), "--step": step, "--every": every, "--error": error}
+    chosen = {} if error is None else {"error": error}
     with output.open(scene=loaded, variant=run, alone=True) as out:
         pace = Pace(duration)
 
@@ -74,6 +79,7 @@ def command(
             store=out.reserve("run/"),
             frames=FRAMES if output.out is not None else 0,
             progress=reached,
+            **chosen,
         )
         out.reserve("frames/")
         out.export(export, loaded, model.springs)

@@ -95,7 +95,7 @@ def command(
     from comparisons.comparison.comparison import load_static
     from comparisons.models.spec import items
     from comparisons.tradeoff.choices import of_motion, of_statics
-    from sheetbench.errors import BadInput
+    from sheetbench.errors import require_effect
     from sheetbench.scenes import load
 
     measure: Callable[..., Tradeoff | DynamicTradeoff]
@@ -104,16 +104,14 @@ def command(
     meshes |= {name: sizes for name, sizes in given.items() if sizes is not None}
     if duration is not None:
         statics = {"--symmetry": symmetry, "--lumped-pair": lumped_pair, "--repeats": repeats}
-        for option in (option for option, value in statics.items() if value):
-            raise BadInput(f"{option}: is for statics; leave it out with --duration")
+        require_effect("with --duration", statics)
         loaded = load(scene)
         integrators = integrator or ",".join(sorted(INTEGRATORS))
         measure = of_motion(
             loaded, duration, grid, calibration, lattice.spec, integrators, meshes, model or (), elements
         )
-    elif integrator is not None:
-        raise BadInput("--integrator: is for motion; give --duration too")
     else:
+        require_effect("without --duration", {"--integrator": integrator})
         loaded = load_static(scene)
         calibration = calibration or (USUAL if lattice.k is None else "uniform")
         if lumped_pair is None:

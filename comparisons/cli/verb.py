@@ -45,10 +45,9 @@ def as_verb(name: str, command: Callable[..., None]) -> Callable[..., None]:
     def run(*, quiet: bool, **values: Any) -> None:
         resumed = of_campaign or values.get("duration") is not None
         interruption.promise(name, values.get("out"), resumed)
-        if not draws:
-            values.pop("no_pictures")
+        plain = {} if draws else {"no_pictures": values.pop("no_pictures")}
         for group, kind in groups.items():
-            verb = {"verb": name} if issubclass(kind, OutputOptions) else {}
+            verb = {"verb": name, **plain} if issubclass(kind, OutputOptions) else {}
             values[group] = kind(**verb, **{one.name: values.pop(one.name) for one in kind.parameters()})
         try:
             if not quiet:

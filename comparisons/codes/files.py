@@ -19,6 +19,7 @@ from comparisons.codes.mesh import SheetMesh
 
 Keys = Mapping[str, float]
 OBJ, JSON = "sheet.obj", "sheet.json"
+RAYLEIGH = {"rayleighMass": 2.0, "rayleighStiffness": 0.0}  # that bring an undamped sheet to rest
 
 
 @dataclass(frozen=True)
@@ -68,6 +69,7 @@ def obj(mesh: SheetMesh, material: bool = False) -> str:
 def mujoco(of: Problem) -> dict[str, str]:
     """MJCF: a body with three slides a vertex, none where it is held; a flex of the triangles."""
     mesh, keys = of.mesh, of.keys
+    damping = f' damping="{keys["damping"]!r}"' if "damping" in keys else ""
     parts = [
         f'<mujoco model="sheet">\n<option timestep="0.002" gravity="{_numbers(mesh.gravity)}" '
         'integrator="discrete"><flag contact="disable"/></option>\n<worldbody>'
@@ -85,7 +87,7 @@ def mujoco(of: Problem) -> dict[str, str]:
         f'</worldbody>\n<deformable><flex name="sheet" dim="2" radius="0.0001" body="'
         f'{" ".join(f"v{n}" for n in range(len(mesh.vertices)))}" element="{_numbers(mesh.triangles)}">'
         f'<elasticity young="{keys["young"]!r}" poisson="{keys["poisson"]!r}" '
-        f'thickness="{keys["thickness"]!r}" elastic2d="both"/>'
+        f'thickness="{keys["thickness"]!r}" elastic2d="both"{damping}/>'
         '<contact selfcollide="none"/></flex></deformable>'
     )
     loaded = [(n, axis) for n, axis in np.argwhere(mesh.forces).tolist() if not mesh.held[n]]
@@ -131,7 +133,7 @@ def sofa(of: Problem) -> dict[str, str]:
     ElementTree.SubElement(root, "DefaultAnimationLoop")
     node = ElementTree.SubElement(root, "Node", name="sheet")
     components: list[tuple[str, dict[str, str]]] = [
-        ("EulerImplicitSolver", {"rayleighMass": "2", "rayleighStiffness": "0"}),
+        ("EulerImplicitSolver", {name: f"{keys.get(name, usual):.12g}" for name, usual in RAYLEIGH.items()}),
         ("SparseLDLSolver", {"template": "CompressedRowSparseMatrixMat3x3"}),
         (
             "TriangleSetTopologyContainer",
@@ -175,7 +177,9 @@ def arcsim(of: Problem) -> dict[str, str]:
         "frame_time": 0.04,
         "frame_steps": 8,
         "end_time": 5,
-        "cloths": [{"mesh": OBJ, "materials": [{"data": "material.json", "damping": 1e-3}]}],
+        "cloths": [
+            {"mesh": OBJ, "materials": [{"data": "material.json", "damping": keys.get("damping", 1e-3)}]}
+        ],
         "handles": [{"nodes": np.flatnonzero(of.mesh.held).tolist()}],
         "gravity": of.mesh.gravity.tolist(),
         "disable": ["strainlimiting", "remeshing", "plasticity", "proximity", "collision"],

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.cells.cell import Cell
-from comparisons.cells.codes import CODES, Code, Parameter, parameters_of
+from comparisons.cells.codes import CODES, Code, Parameter, parameters_of, undamped
 from comparisons.cells.coefficients import best_hinge, limit_error, nearest
 from comparisons.cells.homogenise import moduli_of
 from comparisons.cells.meshes import mesh as cell_of_triangles
@@ -28,8 +28,8 @@ from comparisons.codes.springs import hinged_springs, layered_springs, tetrahedr
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
-from sheetbench.answers.table import Table
-from sheetbench.errors import BadInput, require_choice
+from sheetbench.answers.table import Table, number
+from sheetbench.errors import BadInput, NoEquilibrium, require_choice
 from sheetbench.scenes import EDGES, AnyScene, Scene, SceneError, require_static, require_uniform, scene_of
 from sheetbench.scenes.words import sheet_in_words
 
@@ -43,7 +43,9 @@ NEAR = 0.02  # of a square's side, from a clamp to the row beyond it
 class CodeSetup(Answer):
     """A scene for a code. coefficients: our own, of the cell; limit_error: of however fine a mesh with them,
     None where the scene has no answer at rest; best: whether they are those that are best in the scene;
-    given: parameters of the code in place of those that the coefficients make."""
+    given: parameters of the code in place of those that the coefficients make; named: whether the user named
+    the scene, without which there is a sheet alone; missing: why the error is not known where it should
+    be."""
 
     scene: Scene
     code: Code
@@ -53,8 +55,15 @@ class CodeSetup(Answer):
     limit_error: float | None
     best: bool
     given: Mapping[str, float] = field(default_factory=dict)
+    named: bool = True
+    missing: str = ""
 
     file_name = "code"
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the error in the scene is known, or needs not be."""
+        return not self.missing
 
     @property
     def keys(self) -> list[Parameter]:
@@ -83,7 +92,7 @@ class CodeSetup(Answer):
     def heading(self) -> tuple[str, str, str]:
         where = f"{self.code.mesh}, {self.squares} squares along the shorter side"
         return (
-            f"{self.scene.name} for {self.code.title}",
+            f"{self.scene.name if self.named else 'sheet'} for {self.code.title}",
             where,
             sheet_in_words(self.scene.sheet, self.scene.material),
         )
@@ -94,6 +103,11 @@ class CodeSetup(Answer):
             Table.of(Parameter, self.keys, f"Parameters of {self.code.title}", "parameters", fields=fields),
         )
 
+    def result(self) -> str:
+        """The parameters, and the error that stays."""
+        off = "" if self.limit_error is None else f"; {100 * self.limit_error:.1f} % off on the finest mesh"
+        return ", ".join(f"{key.parameter} {number(key.value, '.4g')} {key.unit}" for key in self.keys) + off
+
     def notes(self) -> list[str]:
         chosen = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
         notes = [f"Coefficients of hinges and springs: those that {chosen}."] if self.elastic else []
@@ -102,6 +116,13 @@ class CodeSetup(Answer):
                 "Error of an infinitely fine mesh with them in this scene: "
                 f"{100 * self.limit_error:.1f} % of the largest displacement."
             )
+        if not self.named:
+            notes.append(
+                "No SCENE was named, whose answer would choose the coefficients and tell their error; the "
+                "files hold the sheet clamped at x0 under its own weight."
+            )
+        if left := undamped(self.code, self.scene.material):
+            notes.append(f"The scene's damping is left out: {left}.")
         notes.append(f"Limits: {self.code.cannot}.")
         notes.append(f"Source: {self.code.source}.")
         tested = "by running it" if self.code.runs else "by reading the files back; not run itself"
@@ -111,6 +132,9 @@ class CodeSetup(Answer):
         elif coarse := self._too_coarse():
             notes.append(coarse)
         return notes
+
+    def complaints(self) -> list[str]:
+        return [f"no error in {self.scene.name} is known: {self.missing}"] if self.missing else []
 
     def _too_coarse(self) -> str:
         """Whether two layers of springs are too shallow for the load, in a sentence; "" where they are not.
@@ -153,6 +177,7 @@ class CodeSetup(Answer):
             "squares": self.squares,
             "coefficients": dict(self.coefficients),
             "limit_error": self.limit_error,
+            "message": self.missing,
             "cannot": self.code.cannot,
             "source": self.code.source,
             "licence": self.code.licence,
@@ -172,13 +197,16 @@ def setup(
     squares: int = SQUARES,
     *,
     best: bool = True,
+    named: bool = True,
     mesh: str | None = None,
     coefficients: Mapping[str, float] | None = None,
     given: Mapping[str, float] | None = None,
 ) -> CodeSetup:
     """Return a scene in a code's words.
 
-    best: whether hinges are those best in the scene. mesh: another than the code's own choice; coefficients:
+    best: whether hinges are those best in the scene; named: whether the user named the scene: without, no
+    number is of it. Where the scene's sheet has no stable equilibrium the answer has no error and says so.
+    mesh: another than the code's own choice; coefficients:
     taken in place of those found; given: the code's own parameters, likewise. Raises BadInput for an unknown
     code.
     """
@@ -189,11 +217,11 @@ def setup(
     if squares < 2:
         raise BadInput(f"{squares} squares along the shorter side: at least 2")
     spacing = float(min(scene.sheet.lengths)) / squares
-    at_rest = _at_rest(scene)
-    best = best and at_rest
-    name, off = mesh or row.mesh, None
+    at_rest = named and _at_rest(scene)
+    name, missing = mesh or row.mesh, ""
+    off: float | None = None
     if name == LAYERED:
-        found, _, off = layered_springs(scene, spacing, best)
+        found = layered_springs(scene, spacing) | dict(coefficients or {})
         cell = tetrahedral_cell(spacing, found["layers"])
     elif row.elements == "springs":
         cell = triangular_cell(name, spacing)
@@ -201,14 +229,22 @@ def setup(
     else:
         cell = cell_of_triangles(name, spacing, scene.sheet.thickness, row.hinge)
         found = nearest(cell, scene.material, scene.sheet.thickness)
-    if best and "hinge" in found and not coefficients and (better := best_hinge(scene, cell, found)):
-        found["hinge"] = better[0]
+    best = best and at_rest and not coefficients
     found |= coefficients or {}
-    if at_rest and off is None:
-        springs = found if name != LAYERED else {"k": found["k"]}
-        off = limit_error(scene, moduli_of(cell, springs))
-    best = best and not coefficients and not given
-    return CodeSetup(scene, row, cell, squares, found, off, best, dict(given or {}))
+    try:
+        if best and name == LAYERED:
+            found = layered_springs(scene, spacing, best=True)
+        elif best and (better := best_hinge(scene, cell, found)):
+            found["hinge"] = better[0]
+        if name == LAYERED:
+            cell = tetrahedral_cell(spacing, found["layers"])
+        if at_rest:
+            springs = found if name != LAYERED else {"k": found["k"]}
+            off = limit_error(scene, moduli_of(cell, springs))
+    except NoEquilibrium as error:
+        best, missing = False, str(error)
+    best = best and not given
+    return CodeSetup(scene, row, cell, squares, found, off, best, dict(given or {}), named, missing)
 
 
 def squares_of(grid: str | None) -> int:

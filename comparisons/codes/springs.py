@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import combinations
-from math import log
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq
 
 from comparisons.cells.cell import Cell, Place
-from comparisons.cells.coefficients import COARSE, TURNED, limit_error, limit_errors, nearest
+from comparisons.cells.coefficients import TURNED, least_error, nearest
 from comparisons.cells.homogenise import Moduli, moduli_of
 from comparisons.cells.meshes import mesh
 from fem_reference.surface.materials import section_of
@@ -73,13 +72,11 @@ def hinged_springs(cell: Cell, material: Material, thickness: float) -> dict[str
     return nearest(cell, material, thickness, {"lambda_h": 0.0, "mu_h": 0.0})
 
 
-def layered_springs(
-    scene: Scene, spacing: float, best: bool
-) -> tuple[dict[str, float], Moduli, float | None]:
-    """k [N/m] and the layers' distance [m] of tetrahedra, their moduli, and the error of the limit.
+def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[str, float]:
+    """k [N/m] and the layers' distance [m] of tetrahedra.
 
     k has the membrane nearest to the sheet's, the distance then the bending stiffnesses, or what is best in
-    the scene.
+    the scene. Raises NoEquilibrium where the scene's sheet has no stable one.
     """
     own = section_of(scene.material, scene.sheet.thickness)
 
@@ -91,21 +88,14 @@ def layered_springs(
 
     low, high = (share * scene.sheet.thickness for share in HEIGHTS)
     if best:
-        bounds, error_of = (log(low), log(high)), limit_errors(scene, COARSE)
-
-        def off(logarithm: float) -> float:
-            return error_of(at(float(np.exp(logarithm)))[1])
-
-        options = {"xatol": 5e-3}
-        height = float(np.exp(minimize_scalar(off, bounds=bounds, method="bounded", options=options).x))
+        height, _ = least_error(scene, lambda height: at(height)[1], low, high)
     else:
 
         def miss(height: float) -> float:
             return _share(at(height)[1].bending, own.bending) - 1.0
 
         height = float(brentq(miss, low, high))
-    k, moduli = at(height)
-    return {"k": k, "layers": height}, moduli, limit_error(scene, moduli) if best else None
+    return {"k": at(height)[0], "layers": height}
 
 
 def _share(form: np.ndarray, target: np.ndarray) -> float:

@@ -187,6 +187,21 @@ class Comparison(Answer):
             **({"expected_error": expected.as_dict()} if expected else {}),
         }
 
+    def result(self) -> str:
+        """Return how far each model is from the reference, or how it ended."""
+        return "; ".join(map(self._result, (one for one in self.solutions if one is not self.reference)))
+
+    def _result(self, solution: Solution) -> str:
+        if (off := self.error(solution)) is None:
+            ended = [one for one in (solution, self.reference) if one.status is not Status.CONVERGED]
+            return f"{solution.label}: not comparable" + "".join(
+                f", {one.model} {one.status}" for one in ended
+            )
+        expected = f", expected {few(100 * self.expected.value)} %" if self.expected is not None else ""
+        own = expected if solution is self.solutions[0] else ""
+        bar = "" if self.bar is None else f" ± {few(100 * self.bar.error)} %"
+        return f"{solution.label}: {few(100 * off)} % off {self.reference.label}{bar}{own}"
+
     def heading(self) -> tuple[str, str, str]:
         """Return the scene, and its sheet."""
         return self.scene.name, self.scene.title, sheet_in_words(self.scene.sheet, self.scene.material)

@@ -17,6 +17,7 @@ from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from fem_reference.pulled_strip import curving, laws_of, pulled
 from sheetbench.choices import STRAIN_LAW
+from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Sheet, Solution
 from sheetbench.scenes.summary import few
 
@@ -29,13 +30,15 @@ RUBBER, OFF = "neo-hookean", 0.02  # the law of soft sheets that name none, and 
 
 
 def of_lattice(lattice: Resolved[Lattice]) -> float:
-    """c of a lattice on a rectangle of its scene's sides and material, pulled one way."""
+    """c of a lattice on a rectangle of its scene's sides and material, pulled one way. Raises NoEquilibrium
+    where it does not bear the pull."""
     scene, material = lattice.scene, lattice.scene.material
     sheet = Sheet(scene.sheet.length_x, scene.sheet.length_y, scene.sheet.thickness)
     corner, softness = np.array([sheet.lengths]), []
     for pull in PULLS:
         strip = pulled((pull * material.young * sheet.thickness, 0.0), sheet, material)
-        moved = solve(lattice.on(strip.replace(springs=scene.springs))).displacement(corner)[0, 0]
+        answer = solve(lattice.on(strip.replace(springs=scene.springs))).require_stable()
+        moved = answer.displacement(corner)[0, 0]
         softness.append(float(moved) / (sheet.length_x * pull))
     return (1.0 - softness[1] / softness[0]) / (softness[1] * PULLS[1])
 
@@ -50,7 +53,11 @@ def strain_law_note(lattice: Resolved[Lattice], solutions: tuple[Solution, ...],
         return ""
     if LEAST * stretch <= above or first.unknowns > 3 * MOST:
         return ""
-    law, own = str(reference.settings.get("law", STRAIN_LAW)), of_lattice(lattice)
+    law = str(reference.settings.get("law", STRAIN_LAW))
+    try:
+        own = of_lattice(lattice)
+    except NoEquilibrium as failed:
+        return _unknown(failed)
     material = lattice.scene.material
     off = {name: abs(own - curving(name, material)) for name in laws_of(material)}
     if off[law] <= PULLS[1] or not off[law] * stretch > above:
@@ -70,7 +77,16 @@ def strain_law_note(lattice: Resolved[Lattice], solutions: tuple[Solution, ...],
 def limit(lattice: Resolved[Lattice], stretch: float) -> str:
     """Return a sentence on the stretch from which on a lattice is no rubber, where a sheet is stretched
     farther."""
-    return _limit(lattice, of_lattice(lattice), stretch) if stretch > LOOKED_AT else ""
+    if stretch <= LOOKED_AT:
+        return ""
+    try:
+        return _limit(lattice, of_lattice(lattice), stretch)
+    except NoEquilibrium as failed:
+        return _unknown(failed)
+
+
+def _unknown(failed: NoEquilibrium) -> str:
+    return f"The lattice's law of strain is not known: pulled one way, {failed}."
 
 
 def _limit(lattice: Resolved[Lattice], own: float, stretch: float) -> str:

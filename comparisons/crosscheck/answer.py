@@ -16,6 +16,7 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import MILLIMETRES, PERCENT, Column, Table
 from sheetbench.choices import REFERENCE
 from sheetbench.scenes import Scene, Status
+from sheetbench.scenes.summary import few
 
 EXPLANATION = (
     "u: the largest component of the displacements at the probes, extrapolated from the meshes (Richardson); "
@@ -180,6 +181,16 @@ class Crosscheck(Answer):
             None if between is None else between.bars,
             ", ".join(differing) or "none",
         )
+
+    def result(self) -> str:
+        """Return how far the models are from the one that they are compared with, scene by scene."""
+        return "; ".join(filter(None, map(self._apart, self.scenes)))
+
+    def _apart(self, scene: Scene) -> str:
+        rows = [self._limit(scene, one) for one in self.convergences[scene.name]]
+        off = [f"{r.model} {few(100 * r.off)} %" for r in rows if r.off is not None]
+        truth = self.against(scene.name)
+        return f"{scene.name}: {', '.join(off)} from {truth.name}" if off and truth is not None else ""
 
     def notes(self) -> list[str]:
         """Why models leave scenes out, and what the columns mean."""

@@ -14,7 +14,7 @@ from comparisons.identification.residual_test import Runs
 from comparisons.models.grading import choice_notes
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture
-from sheetbench.answers.table import MILLIMETRES, NUMBER, SECONDS, Column, Table, Unit, unit
+from sheetbench.answers.table import MILLIMETRES, NUMBER, SECONDS, Column, Table, Unit, quantity, unit
 from sheetbench.scenes import Scene
 
 SHOWN = 20  # residuals on the terminal; all of them are in the files
@@ -155,6 +155,16 @@ class Identification(Answer):
     def figures(self) -> tuple[Picture, ...]:
         compose = "comparisons.identification.figure:compose"
         return (Picture("identification", compose, (self,), formats=RASTER),)
+
+    def result(self) -> str:
+        """Return the values and their intervals."""
+        return "; ".join(
+            f"{name} {quantity(u.value, u.unit, '.4g')} "
+            f"({quantity(u.interval[0], u.unit, '.4g')} to {quantity(u.interval[1], u.unit, '.4g')})"
+            if u.determined
+            else f"{name} not determined"
+            for name, u in self.unknowns.items()
+        )
 
     def notes(self) -> tuple[str, ...]:
         return *choice_notes(self.settings), self._explanation()

@@ -49,7 +49,7 @@ from comparisons.models.spec import Elements, Lattice
 from comparisons.report.work import Progress, silent
 from lumped import identifiability
 from sheetbench.choices import REFERENCES
-from sheetbench.errors import BadInput, require_choice
+from sheetbench.errors import BadInput, require_choice, require_effect
 from sheetbench.scenes import AnyScene, Scene, SpringTable, require_static, scene_of
 from sheetbench.scenes.region import off_sheet
 
@@ -119,13 +119,15 @@ def identify(
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
     names = [names] if isinstance(names, str) else names
     unknowns = tuple(unknown(scene, name) for name in names)
-    reference = None
+    reference, own = None, Lattice.given(lattice, keywords)
+    of_reference = {"elements": elements, "law": law}
     if model != Lattice.NAME:
-        reference = Elements.given(model, {"elements": elements, "law": law})
+        reference = Elements.given(model, of_reference)
         require_choice("model", reference.kind, MODELS)
-    elif law is not None:
-        raise BadInput(f"law = '{law}': of a shell or solid; the lattice's is that of its springs")
-    question = _Question(scene, unknowns, Lattice.given(lattice, keywords), reference, offset, refine)
+        require_effect(f"with the model {reference.kind}", own.settings)
+    else:
+        require_effect("with the model lumped", of_reference)
+    question = _Question(scene, unknowns, own, reference, offset, refine)
     _check(measured, question)
     return _answer(question, measured)
 

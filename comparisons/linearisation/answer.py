@@ -178,6 +178,12 @@ class Linearisation(Answer):
     def choices(self) -> dict[str, Any]:
         return {"label": self.label, "about": self.about, "states": len(self.space.a)}
 
+    def result(self) -> str:
+        """Return the lowest pole."""
+        lowest = int(np.argmin(np.abs(self.upper)))
+        frequency, ratio = abs(self.upper[lowest]) / (2.0 * np.pi), 100.0 * self.damping_ratios[lowest]
+        return f"lowest of {len(self.space.a)} states: {frequency:.4g} Hz, damping ratio {ratio:.3g} %"
+
     def notes(self) -> tuple[str, ...]:
         """Return what a balanced truncation promises, and what the numbers mean."""
         if self.balanced is None:

@@ -30,7 +30,7 @@ from sheetbench.choices import (
     listed,
     method_of,
 )
-from sheetbench.errors import BadInput, Implausible, require_choice
+from sheetbench.errors import BadInput, Implausible, require_choice, require_effect
 from sheetbench.scenes import Scene
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.plausibility import layer_slips
@@ -137,9 +137,8 @@ def resolve(
     scene or the use, and, unless the context is `large`, for one that takes more memory than there is.
     """
     for other, names in ONLY.items():
-        for name in names if isinstance(spec, Lattice) and use not in (other, "springs") else ():
-            if name in spec.settings:
-                raise BadInput(f"{name} = {spec.settings[name]}: is for {other}; leave it out here")
+        if isinstance(spec, Lattice) and use not in (other, "springs"):
+            require_effect(f"on {use}", {name: spec.settings.get(name) for name in names})
     found: Resolved[Any]
     if isinstance(spec, Lattice):
         found = _lattice(scene, spec, own)

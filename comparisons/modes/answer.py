@@ -213,6 +213,14 @@ class Spectra(Answer, Sequence[Spectrum]):
             "thicknesses (a linear estimate); --about deformed gives those about its equilibrium"
         ]
 
+    def result(self) -> str:
+        """Return every model's lowest frequency."""
+        return "; ".join(
+            f"{one.label}: {number(float(one.frequencies[0]), '.4g')} Hz"
+            for one in self
+            if len(one.frequencies)
+        )
+
     def notes(self) -> list[str]:
         """Return what the table does not say: labels, rigid motions left out, actuators left out."""
         notes = [" · ".join(spectrum.label for spectrum in self), *choice_notes(self[0].settings)]

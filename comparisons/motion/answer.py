@@ -13,7 +13,7 @@ from comparisons.motion.frames import write_frames
 from comparisons.motion.history import left_out
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Film, Picture, Write
-from sheetbench.answers.table import Table
+from sheetbench.answers.table import Table, quantity
 from sheetbench.scenes import History, Scene
 from sheetbench.scenes.measured_history import Measured
 
@@ -56,6 +56,14 @@ class Simulation(Answer):
     def files(self) -> dict[str, Write]:
         """All samples, and the sheet at some moments."""
         return {**self.history.files(), "frames.pvd": partial(write_frames, history=self.history)}
+
+    def result(self) -> str:
+        """Return the largest displacement of a probe on the way, or why the run ended early."""
+        largest = {name: float(abs(u).max()) for name, u in self.history.probes.items() if len(u)}
+        if not largest or not self.succeeded:
+            return super().result()
+        probe = max(largest, key=lambda name: largest[name])
+        return f"{probe} moves by up to {quantity(largest[probe], 'm', '.4g')} in {self.history.time[-1]:g} s"
 
     def notes(self) -> list[str]:
         """What was chosen, and what the history says."""

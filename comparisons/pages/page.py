@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 from base64 import b64encode
+from collections import Counter
 from collections.abc import Mapping
 from importlib import resources
 from io import BytesIO
@@ -33,7 +34,7 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes.words import in_words
 
 PACKAGE = "comparisons.pages"
-AS_THEY_ARE = ("title", "verb", "place", "command", "date", "notes", "complaints")  # of a study
+AS_THEY_ARE = ("title", "verb", "place", "command", "date", "result", "notes", "complaints")  # of a study
 MANY, OTHERS = 4, 30  # studies from which on each is folded; other files that are named
 TIMES = ("duration", "step", "largest_step", "every")
 MACHINE = {"processor": "{}", "cpu_count": "{} processors", "system": "{}", "python": "Python {}"}
@@ -46,6 +47,7 @@ LARGEST = 80_000_000  # pixels of a picture that is opened
 def page(found: FolderContents, title: str) -> str:
     """Return the HTML of a folder's studies."""
     shown = [_study(study, n) for n, study in enumerate(found.studies, start=1)]
+    titles = Counter(study.title for study in found.studies)
     troubles = [*found.troubles, *(trouble for study in found.studies for trouble in study.troubles)]
     style, script = viewer.style() + _own("page.css"), viewer.script() + _own("page.js")
     environment = Environment(
@@ -57,6 +59,7 @@ def page(found: FolderContents, title: str) -> str:
     return environment.get_template("page.html").render(
         title=title,
         studies=shown,
+        ambiguous={title for title, count in titles.items() if count > 1},
         others=[(name, memory_of(size)) for name, size in found.others[:OTHERS]],
         more=max(len(found.others) - OTHERS, 0),
         brief=len(shown) > MANY,

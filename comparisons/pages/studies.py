@@ -75,6 +75,11 @@ class Study:
         return str(named or alone or self.place or self.folder.resolve().name)
 
     @property
+    def result(self) -> str:
+        """The run's answer in a line."""
+        return str(self.words.get("result") or "")
+
+    @property
     def date(self) -> str:
         """The day and minute of the run, as "2026-11-21 04:37"."""
         return str(self.run.get("date") or "")[:16].replace("T", " ")

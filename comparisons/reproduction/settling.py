@@ -84,7 +84,7 @@ class Settling:
 
 
 def settling(duration: float = DURATION, progress: Callable[[str], None] = lambda what: None) -> Settling:
-    """Both runs, and where they ought to end."""
+    """Both runs, and where they ought to end. Raises NoEquilibrium where a lattice has no stable one."""
     scene, distance = load(SCENE), matched_layer_distance()
     consistent = lumped.calibrate(scene.sheet, scene.material, grid=masses(), method="consistent")
     lattices: dict[str, tuple[lumped.Calibration, Literal["tributary", "full"]]] = {
@@ -97,7 +97,8 @@ def settling(duration: float = DURATION, progress: Callable[[str], None] = lambd
     for name, (springs, weights) in lattices.items():
         progress(f"simulating the settling sheet: {name}")
         runs[name] = lumped.simulate(scene, springs, duration, weights=weights, frames=FRAMES)
-        rest[name] = lumped.solve(scene, springs, weights=weights).displacement(at)[0]
+        still = lumped.solve(scene, springs, weights=weights)
+        rest[name] = still.require_stable().displacement(at)[0]
     return Settling(scene, runs, rest)
 
 

@@ -184,6 +184,9 @@ class Score(ShownAnswer):
     def figures(self) -> tuple[Picture, ...]:
         return (Picture("score", "comparisons.scoring.figure:compose", (self,)),)
 
+    def result(self) -> str:
+        return self._verdict
+
     def notes(self) -> list[str]:
         notes = [
             "error: largest difference over the reference's largest value; distinguishable: above its bar",

@@ -89,6 +89,10 @@ class Stability(Answer):
         bound = f"holds: converged with an error of at most {100.0 * LARGE:g} %"
         return (f"{bound}, at rest against the {self.reference}, in motion against a fine step.",)
 
+    def result(self) -> str:
+        ended = [verdict(row) for row in self.rows if place(row) is not None]
+        return f"{ended.count('holds')} of {len(ended)} cells hold"
+
     def complaints(self) -> list[str]:
         return broken(self.rows)
 

@@ -136,10 +136,16 @@ class Tradeoff(Answer):
             "probes; field error: root mean square over the sheet. One thread; times on warm code; memory: "
             "growth of the process."
         )
-        best = cheapest(
+        return [*self.reasons, *self._cheapest(), explained, *self.warnings]
+
+    def result(self) -> str:
+        """The quickest rows within the tolerances, or why there is none."""
+        return " ".join(self._cheapest()) or super().result()
+
+    def _cheapest(self) -> list[str]:
+        return cheapest(
             [r.label for r in self.rows], [r.error for r in self.rows], [r.seconds for r in self.rows]
         )
-        return [*self.reasons, *best, explained, *self.warnings]
 
     def complaints(self) -> list[str]:
         failed = [row for row in self.rows if row.status != Status.CONVERGED]

@@ -113,17 +113,23 @@ class DynamicTradeoff(Answer):
 
     def notes(self) -> list[str]:
         known = "unknown" if self.uncertainty is None else f"{few(100 * self.uncertainty)} %"
-        names = [f"{row.name} with steps of {milliseconds(row.step or 0.0)}" for row in self.rows]
-        seconds = [row.seconds_per_second for row in self.rows]
         lattices = " · ".join(self.lattices)
         of = f"{self.reference.model} with {self.reference.size} elements"
         return [
             f"errors: at the probes, against the {of}; uncertainty of that reference: {known}",
             *([f"{lattices}; lowest period {self.lowest_period:.4g} s"] if lattices else []),
             *self.reasons,
-            *cheapest(names, [row.error for row in self.rows], seconds, " per simulated second"),
+            *self._cheapest(),
             *self.warnings,
         ]
+
+    def result(self) -> str:
+        return " ".join(self._cheapest()) or super().result()
+
+    def _cheapest(self) -> list[str]:
+        names = [f"{row.name} with steps of {milliseconds(row.step or 0.0)}" for row in self.rows]
+        seconds = [row.seconds_per_second for row in self.rows]
+        return cheapest(names, [row.error for row in self.rows], seconds, " per simulated second")
 
     def complaints(self) -> tuple[str, ...]:
         return folded([*self.rows, self.reference])

@@ -15,7 +15,7 @@ from sheetbench.answers.table import NUMBER, PERCENT, Table, number
 from sheetbench.choices import STRAIN_LAWS
 
 LAWS = "strain-laws"
-FIELDS = ("case", "quantity", "mesh", "computed", "passed", "published", "relative", "held_to", "source")
+FIELDS = ("case", "quantity", "computed", "passed", "mesh", "published", "relative", "held_to", "source")
 
 
 @dataclass(frozen=True)
@@ -58,10 +58,13 @@ class Verification(Answer):
         return [*self.by_case(), *self._laws()]
 
     def by_case(self) -> Iterator[Table]:
-        """Return a table for every case and mesh, with what it is."""
-        for (case, mesh), rows in groupby(self.rows, key=lambda row: (row.case, row.mesh)):
-            title = f"{case}: {CASES[case].title}; {mesh}"
-            yield Table.of(Row, rows, title, "verification", fields=FIELDS, details=("case", "mesh"))
+        """Return a table for every case, with what it is; a column names the mesh where there are several."""
+        for case, of_case in groupby(self.rows, key=lambda row: row.case):
+            rows = list(of_case)
+            meshes = {row.mesh for row in rows}
+            title = f"{case}: {CASES[case].title}" + (f"; {rows[0].mesh}" if len(meshes) == 1 else "")
+            details = ("case", "mesh") if len(meshes) == 1 else ("case",)
+            yield Table.of(Row, rows, title, "verification", fields=FIELDS, details=details)
 
     def _laws(self) -> list[Table]:
         if not any(row.case == LAWS for row in self.rows):

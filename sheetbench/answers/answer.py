@@ -36,6 +36,11 @@ class Answer(ABC):
         scene: Any = getattr(self, "scene", None)
         return ("", "", "") if scene is None else (scene.name, scene.title, "")
 
+    def result(self) -> str:
+        """Return the answer in a line with its numbers, for a list of answers: unless an answer has its own,
+        the first thing that it complains of or remarks."""
+        return next(iter((*self.complaints(), *self.notes())), "")
+
     def printed(self) -> Sequence[Table]:
         """Return what a terminal shows, where that is not all tables."""
         return self.tables()
@@ -74,6 +79,7 @@ class Answer(ABC):
             title=title,
             subtitle=subtitle,
             lead=lead,
+            result=self.result(),
             document=self.document(),
             tables=tuple(self.tables()),
             printed=tuple(self.printed()),

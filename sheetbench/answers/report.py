@@ -106,10 +106,11 @@ class Report:
     """The answer to a question, ready to be shown.
 
     name: of the document's file; page: of the tables' files in Markdown and LaTeX, `name` unless given.
-    title, subtitle, lead: what it is about, and a line more. tables: in the files, each with a name in CSV
-    too; printed: what a terminal shows instead of them. notes: remarks under the tables. complaints: what
-    went wrong, a sentence each. document: the JSON document. attachments: further files by name, with what
-    writes them. settings: for the manifest. succeeded: whether the question has its answer.
+    title, subtitle, lead: what it is about, and a line more. result: the answer in a line. tables: in the
+    files, each with a name in CSV too; printed: what a terminal shows instead of them. notes: remarks under
+    the tables. complaints: what went wrong, a sentence each. document: the JSON document. attachments:
+    further files by name, with what writes them. settings: for the manifest. succeeded: whether the question
+    has its answer.
     """
 
     name: str
@@ -117,6 +118,7 @@ class Report:
     document: Mapping[str, Any]
     subtitle: str = ""
     lead: str = ""
+    result: str = ""
     page: str = ""
     tables: tuple[Table, ...] = ()
     printed: tuple[Table, ...] | None = None
@@ -204,6 +206,7 @@ class Report:
             "title": self.title,
             "subtitle": self.subtitle,
             "lead": self.lead,
+            "result": self.result,
             "document": f"{self.name}.json",
             "tables": [table.words() for table in self.tables],
             "notes": list(self.notes),

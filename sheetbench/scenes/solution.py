@@ -9,14 +9,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 import numpy as np
 
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NEWTONS, NUMBER, Table
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import summary
 from sheetbench.scenes.balance import Balance
 from sheetbench.scenes.quantities import PlanPoint
@@ -237,6 +237,12 @@ class Solution(Answer):
     def comparable(self) -> bool:
         """Whether it may be compared with others, as `comparable` has it."""
         return comparable(self.status, self.load_factor)
+
+    def require_stable(self) -> Self:
+        """Return this answer. Raises NoEquilibrium unless it is a stable equilibrium under the whole load."""
+        if self.status is not Status.CONVERGED or not self.comparable:
+            raise NoEquilibrium(f"{self.label}: {self.status}: {self.message or self.status.advice}")
+        return self
 
     @property
     def probes(self) -> dict[str, np.ndarray]:

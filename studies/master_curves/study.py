@@ -203,7 +203,7 @@ def _tips() -> Iterator[Tip]:
 
 def _tip(scene: Scene, **settings: Any) -> tuple[float, float, float]:
     """Along the strip, down and aside."""
-    return way(scene, _solve(scene, **settings).displacement(scene.probe_points())[0])
+    return way(scene, _solve(scene, **settings).require_stable().displacement(scene.probe_points())[0])
 
 
 def measure(progress: Callable[[str], None]) -> MasterCurves:

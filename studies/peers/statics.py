@@ -49,7 +49,7 @@ def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
     scene, codes = load(SCENE), known_codes()
     points = scene.probe_points()
     say(f"shell {TRUTH}, the reference")
-    truth = solve(resolve(scene, Elements("shell", TRUTH))).displacement(points)
+    truth = solve(resolve(scene, Elements("shell", TRUTH))).require_stable().displacement(points)
     for model, code, setting, sizes, calibration in LADDERS:
         absent = model in codes and codes[model].version() is None
         for size in sizes:

@@ -74,8 +74,9 @@ WHY = {  # what the numbers do not say by themselves; each with the command that
     ),
     "newton": (
         "On a one-diagonal grid its hinges twist 4.6 times as stiffly as rubber of ν = 0.48 "
-        "(`sheetbench homogenise one-diagonal --coefficient hinge=6.8`, D/l: (1 + √2)/2 where (1 − ν)/2 is "
-        "asked, over D); alternate diagonals 2.7 times, and the best k is then 60 % of D/l.",
+        "(`sheetbench homogenise one-diagonal two-edges-clamped --coefficient hinge=6.8`, D/l: "
+        "(1 + √2)/2 where (1 − ν)/2 is asked, over D); alternate diagonals 2.7 times, and the best k is then "
+        "60 % of D/l.",
         "VBD starts every step from free fall and does not arrive: with 10 iterations and steps of 3 times "
         "what a wave takes from vertex to vertex, *two-edges-clamped* rests at −17.8 mm, with 1.5 and 5 "
         "iterations at −15.1, with shorter and shorter steps at −13.4, where the shell has −13.5 "

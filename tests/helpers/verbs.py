@@ -32,7 +32,7 @@ SMALL = {
     "suite": ["suite", "--suite", "modes"],
     "score": ["score", "answers.csv", "--case", "thick"],
     "linearise": ["linearise", "one-edge-clamped", "--lumped", "3", "--modes", "3"],
-    "homogenise": ["homogenise", "equilateral"],
+    "homogenise": ["homogenise", "equilateral", SEED],
     "report": ["report", "stability"],
     "study": ["study", "reproduction", "--part", "tables", "--elements", "2"],
 }

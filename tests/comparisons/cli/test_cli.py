@@ -176,3 +176,14 @@ def test_calibrate_from_options_and_from_a_scene_agree(capsys):
         "edge_shear", "strip_shear",
     }  # fmt: skip
     assert {"D11", "D12", "D66", "A11", "A12", "A66", "S"} <= {row["name"] for row in by_options["moduli"]}
+
+
+@pytest.mark.parametrize("line", ["suite", "suite --json", "compare --help"])
+def test_an_output_that_nobody_reads_on_is_no_fault(line):
+    """As `| head` leaves it: quiet, with the status of a program that SIGPIPE ends, for what is longer than a
+    pipe holds and for what is not."""
+    command = [sys.executable, "-m", "sheetbench", *line.split()]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        said = process.stderr.read()
+    assert (process.returncode, said) == (141, b"")

@@ -11,6 +11,7 @@ from commands import one_line, run
 from verbs import SMALL, write_inputs
 
 from comparisons.cli.app import verb_group
+from sheetbench.answers.report import Picture
 
 OUT = [  # the --out of `report` is a page
     verb
@@ -63,3 +64,12 @@ def test_what_is_no_folder_is_refused(verb, capsys):
     for out, said in (("", "--out = ''"), ("taken", "taken")):
         assert run(*asked(verb), "--out", out) == 2
         assert said in one_line(capsys)
+
+
+@pytest.mark.parametrize("verb", OUT)
+def test_no_pictures_leaves_out_every_picture(verb, tmp_path, monkeypatch):
+    """Of verbs, too, whose pictures have no style of their own."""
+    drawn = []
+    monkeypatch.setattr(Picture, "write", lambda picture, folder: drawn.append(picture.name))
+    assert run(*asked(verb), "--quiet", "--no-pictures", "--out", str(tmp_path / "out")) == 0
+    assert drawn == []

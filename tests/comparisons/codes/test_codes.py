@@ -236,3 +236,39 @@ def test_layers_too_shallow_for_the_load_are_told_with_the_mesh_that_bears_it(sq
     """Two layers of springs in a thin sheet: with 8 squares shear turns over 39 % of those between them."""
     notes = setup(references("statics")["thin"].scene, "pybullet", squares, best=False).notes()
     assert [f"--grid {grid} or more" in note for note in notes if "too coarse" in note] == [True] * bool(grid)
+
+
+DAMPED = SCENE.replace(material=SCENE.material.replace(damping_time=0.01))
+
+
+def test_mujocos_dampers_are_the_time_times_its_stiffness(tmp_path):
+    """At velocities so small that both are linear; without damping there is none."""
+    mujoco = pytest.importorskip("mujoco")
+    forces = []
+    for scene in (DAMPED, SCENE):
+        text = setup(scene, "mujoco", 4, best=False).files()
+        text["mujoco.xml"](tmp_path / "mujoco.xml")
+        model = mujoco.MjModel.from_xml_path(str(tmp_path / "mujoco.xml"))
+        moving, displaced = mujoco.MjData(model), mujoco.MjData(model)
+        moving.qvel[:] = 1e-6 * np.random.default_rng(2).standard_normal(model.nv)
+        displaced.qpos[:] = 0.01 * moving.qvel
+        for data in (moving, displaced):
+            mujoco.mj_forward(model, data)
+        forces.append((moving.qfrc_damper.copy(), displaced.qfrc_spring.copy()))
+    (damper, spring), (none, _) = forces
+    assert damper == pytest.approx(spring, rel=1e-4, abs=1e-4 * np.abs(spring).max())
+    assert np.abs(spring).max() > 0.0 and not none.any()
+
+
+@pytest.mark.parametrize("code", WRITERS)
+def test_dampers_stand_in_the_files_or_are_said_to_be_left_out(code):
+    made = setup(DAMPED, code, 4, best=False)
+    keys = {key.parameter: key.value for key in made.keys}
+    times = {"damping": 0.01, "rayleighStiffness": 0.01}
+    if code == "pybullet":
+        times = {"springDampingStiffness": 0.01 * keys["springElasticStiffness"]}
+    known = keys.keys() & times.keys()
+    assert known or any("The scene's damping is left out" in note for note in made.notes())
+    assert all(keys[name] == pytest.approx(times[name]) for name in known)
+    texts = "".join(write.keywords["text"] for write in made.files().values())
+    assert all(name in texts and f"{times[name]:.6g}"[:5] in texts for name in known)

@@ -52,11 +52,12 @@ def test_a_reference_is_a_spec_or_its_name_and_keywords():
 
 
 @pytest.mark.parametrize(("ask", "said"), [
-    (lambda scene: sb.modes(scene, sb.Lattice(symmetry=True)), "symmetry = True: is for statics"),
-    (lambda scene: sb.simulate(scene, 0.1, sb.Lattice(masses="gregory")), "masses = gregory: is for modes"),
-    (lambda scene: sb.compare(scene, duration=0.1, branch="buckled"), "branch = buckled: is for statics"),
-    (lambda scene: sb.compare(scene, duration=0.1, companion=False), "companion: is for statics"),
-    (lambda scene: sb.compare(scene, every=0.1), "every, frames: are for motions"),
+    (lambda scene: sb.modes(scene, sb.Lattice(symmetry=True)), "symmetry: no effect on modes"),
+    (lambda scene: sb.simulate(scene, 0.1, sb.Lattice(masses="gregory")), "masses: no effect on motion"),
+    (lambda scene: sb.compare(scene, duration=0.1, branch="buckled"), "branch: no effect with a duration"),
+    (lambda scene: sb.compare(scene, duration=0.1, companion=False), "companion: no effect with a duration"),
+    (lambda scene: sb.compare(scene, every=0.1), "every: no effect without a duration"),
+    (lambda scene: sb.compare(scene, duration=0.1, symmetry=True), "symmetry: no effect with a duration"),
     (lambda scene: sb.advise(scene, lattice=sb.Lattice(9)), "grid = 9: is chosen here"),
     (lambda scene: sb.solve(scene, sb.External("nosuch")), "model = 'nosuch': unknown"),
     (lambda scene: sb.solve(scene, "shell", k=3.0), "shell: no option 'k'"),

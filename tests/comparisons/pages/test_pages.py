@@ -256,3 +256,14 @@ def test_a_folder_that_is_none_is_refused(tmp_path, capsys):
     assert run("report", str(tmp_path)) == 2
     assert "no verb has written here" in capsys.readouterr().err
     assert not (tmp_path / "report.html").exists()
+
+
+def test_a_report_of_several_folders_shows_their_numbers_and_tells_them_apart(tmp_path):
+    for grid in (3, 5):
+        found = compare("two-edges-clamped", grid=grid, elements=4, companion=False)
+        about = {"scene": found.scene.document()}
+        undrawn = replace(found.report(), pictures=())
+        Folder(tmp_path / f"grid-{grid}", "compare", ["sheetbench"], about=about).report(undrawn)
+    text = re.sub(r"<[^>]*>", "", page(read(tmp_path), "all").split("<nav")[1].split("</nav>")[0])
+    assert "grid-3: two-edges-clamped" in text and "grid-5: two-edges-clamped" in text
+    assert len(re.findall(r"lumped [35]×[35]×2 consistent: [\d.]+ % off shell 4 × 4 ± [\d.]+ %", text)) == 2

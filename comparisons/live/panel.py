@@ -123,7 +123,7 @@ class Panel:
                 f"values: {', '.join(sorted(map(str, unlike)))[:80]}: {', '.join(self.sliders)} are needed"
             )
         read = {name: self._within(slider, values[name]) for name, slider in self.sliders.items()}
-        if found.get("calibration") not in self.calibrations:
+        if found.get("calibration") not in [*self.calibrations]:  # by value: a list has no hash
             _refuse(f"calibration: choose from {', '.join(self.calibrations)}")
         if found.get("copy", "") not in ("", "springs", "scene"):
             _refuse("copy: springs or scene")

@@ -124,6 +124,8 @@ def test_a_given_k_has_a_slider_and_goes_with_the_calibrations_that_take_it():
     ({"young": -1.0}, "young = -1: from"),
     ({"weight": 1.0}, "values: weight"),
     ({"calibration": "magic"}, "calibration: choose from consistent"),
+    ({"calibration": []}, "calibration: choose from consistent"),
+    ({"calibration": {}}, "calibration: choose from consistent"),
     ("[" * 4000, "no JSON"),
     ("1e999", "not a question"),
     (b"\xff", "no JSON"),

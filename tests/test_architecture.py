@@ -20,11 +20,16 @@ pytestmark = pytest.mark.smoke
 ROOT = Path(__file__).parent.parent
 GROUND = ("sheetbench.scenes", "sheetbench.choices", "sheetbench.files", "sheetbench.kernels")
 GROUND += ("sheetbench.numerics", "sheetbench.clock", "sheetbench.errors", "sheetbench.answers")
-GROUND += ("sheetbench.runs",)
+GROUND += ("sheetbench.process", "sheetbench.runs")
 ALLOWED = {
     "sheetbench/answers": {"sheetbench.answers", "sheetbench.errors", "sheetbench.files"},
     "sheetbench/runs": {"sheetbench.errors", "sheetbench.files", "sheetbench.runs"},
-    "sheetbench/scenes": {"sheetbench.answers", "sheetbench.errors", "sheetbench.scenes"},
+    "sheetbench/scenes": {
+        "sheetbench.answers",
+        "sheetbench.errors",
+        "sheetbench.process",
+        "sheetbench.scenes",
+    },
     "sheetbench/numerics": {"sheetbench.kernels", "sheetbench.numerics"},
     "lumped": {*GROUND, "lumped"},
     "fem_reference": {*GROUND, "fem_reference"} - {"sheetbench.files"},

@@ -41,8 +41,11 @@ def command_line() -> list[str]:
 class Output:
     """The terminal, the JSON document and the folder of a verb that runs."""
 
-    def __init__(self, options: OutputOptions, folder: Folder | None, style: FigureStyle) -> None:
+    def __init__(
+        self, options: OutputOptions, about: Mapping[str, Any], folder: Folder | None, style: FigureStyle
+    ) -> None:
         self._options = options
+        self._about = about
         self._folder = folder
         self._style = style
         self._store_files: list[str] = []
@@ -107,10 +110,13 @@ class Output:
             }
 
     def stop(self, complaint: str) -> None:
-        """End the command without an answer, with the reason and exit status 3."""
+        """End the command without an answer: the reason, also as the document's `stopped`, exit status 3."""
         from comparisons.cli import console
 
         self.close()
+        if self._options.json:
+            document = {**self._about, "stopped": complaint, "warnings": [complaint, *messages.shown]}
+            console.document(document)
         console.warn(complaint)
         raise typer.Exit(NOT_CONVERGED)
 
@@ -201,10 +207,12 @@ class OutputOptions(Group):
 
         scene, or about: what the answer is about; variant: options that decide which files it leaves; alone:
         no other process may write to the folder meanwhile (campaigns see to that themselves). Raises BadInput
-        for a folder that cannot be made, or that holds files of something else.
+        for a folder that cannot be made, or that holds files of something else. A NoEquilibrium within stops
+        the command.
         """
         from comparisons.models.context import running
         from sheetbench.answers.figure_style import parse_figure
+        from sheetbench.errors import NoEquilibrium
 
         startup.end()
         style = parse_figure(self.figure)
@@ -212,13 +220,13 @@ class OutputOptions(Group):
             self.require_pictures("--figure")
         with ExitStack() as stack:
             folder = None
+            if scene is not None:
+                about = {"scene": scene.document()}
             if self.out is not None:
                 from comparisons.runs.folder import Folder
                 from sheetbench.answers import files
                 from sheetbench.files import only_writer
 
-                if scene is not None:
-                    about = {"scene": scene.document()}
                 if alone:
                     stack.enter_context(only_writer(files.folder(self.out)))
                 folder = Folder(
@@ -229,9 +237,12 @@ class OutputOptions(Group):
                     variant=variant,
                     overwrite=self.overwrite,
                 )
-            out = stack.enter_context(closing(Output(self, folder, style)))
+            out = stack.enter_context(closing(Output(self, about or {}, folder, style)))
             stack.enter_context(running(progress=out.progress))
-            yield out
+            try:
+                yield out
+            except NoEquilibrium as error:
+                out.stop(str(error))
 
 
 @dataclass(frozen=True)

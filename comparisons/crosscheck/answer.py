@@ -202,8 +202,11 @@ class Crosscheck(Answer):
         return [*left, EXPLANATION]
 
     def complaints(self) -> list[str]:
-        """The meshes without an answer."""
-        return self.failures
+        """The meshes without an answer, and those whose answer is no stable or no physical one."""
+        return [
+            *self.failures,
+            *(f"{scene.name}: {said}" for scene, one in self._each() for said in one.unsound),
+        ]
 
     def choices(self) -> dict[str, Any]:
         """The scenes and the external codes."""

@@ -66,8 +66,12 @@ class Convergence:
     @property
     def failures(self) -> list[str]:
         """What went wrong on a mesh, a clause each; refusals are no failures."""
-        lost = [row for row in self.rows if not _answered(row) and row["status"] != Status.REFUSED]
-        return [": ".join(filter(None, [row["label"], row["status"], row["message"]])) for row in lost]
+        return [_said(row) for row in self.rows if not _answered(row) and row["status"] != Status.REFUSED]
+
+    @property
+    def unsound(self) -> list[str]:
+        """The answers that are compared and no stable, physical equilibria, a clause each."""
+        return [_said(row) for row in self.rows if _answered(row) and row["status"] != Status.CONVERGED]
 
     @property
     def meshes(self) -> str:
@@ -80,6 +84,10 @@ class Convergence:
 
 def _answered(row: dict[str, Any]) -> bool:
     return "probes" in row and comparable(row["status"], row["load_factor"])
+
+
+def _said(row: dict[str, Any]) -> str:
+    return ": ".join(filter(None, [row["label"], row["status"], row["message"]]))
 
 
 @dataclass(frozen=True)

@@ -27,8 +27,8 @@ from typing import Any
 import numpy as np
 
 from comparisons.external import memory
-from comparisons.external.process import run
 from sheetbench.errors import BadInput
+from sheetbench.process import run
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.quantities import LARGEST
 

@@ -32,7 +32,7 @@ STATIC_STEP = 1e-3  # in x, for differences of solutions that are accurate to ab
 MOTION_STEP = 1e-2  # in x, for differences of runs, accurate to about 1e-5
 
 
-class NotReached(ArithmeticError):
+class NotReached(NoEquilibrium):
     """The model has no answer here; the text says how it ended."""
 
 

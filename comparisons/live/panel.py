@@ -126,7 +126,7 @@ class Panel:
                 f"values: {', '.join(sorted(map(str, unlike)))[:80]}: {', '.join(self.sliders)} are needed"
             )
         read = {name: self._within(slider, values[name]) for name, slider in self.sliders.items()}
-        if not isinstance(found.get("calibration"), str) or found["calibration"] not in self.calibrations:
+        if found.get("calibration") not in [*self.calibrations]:  # by value: a list has no hash
             _refuse(f"calibration: choose from {', '.join(self.calibrations)}")
         copy, rest = found.get("copy", ""), found.get("rest", True)
         if copy not in ("", "springs", "scene"):

@@ -131,7 +131,7 @@ def _moving(name: str, frames: list[tuple[float, FieldMesh]], scene: Scene | Non
 
 
 def _mesh(path: Path) -> FieldMesh:
-    read = meshio.read(path)
+    read = meshio.read(path, "vtu")  # whatever its name: a list of moments may be another person's
     points = np.asarray(read.points, dtype=float)
     u = np.asarray(read.point_data["displacement"], dtype=float)
     if u.shape != points.shape or points.shape[1] != 3:

@@ -23,8 +23,8 @@ from multiprocessing.resource_tracker import ensure_running
 from typing import Any, Protocol, runtime_checkable
 from urllib.parse import urlsplit
 
-from comparisons.external.process import ONE_THREAD
 from sheetbench.errors import BadInput
+from sheetbench.process import ONE_THREAD
 
 PATIENCE = 15.0  # s without anybody to carry out a run
 ANSWER = 5.0  # s that a scheduler may take to answer

@@ -1,4 +1,4 @@
-"""A mesh of one's own of a sheet's plan: quadrilaterals, from a file that meshio reads or as numbers.
+"""A mesh of one's own of a sheet's plan: quadrilaterals, from a file or as numbers.
 
 [sheet] mesh = "fin.msh"     in metres, in the plane z = 0, its path relative to the scene's file
 
@@ -9,24 +9,21 @@ of the sheet are the mesh's boundary. A scene keeps the numbers, and no longer n
 
 from __future__ import annotations
 
-from contextlib import redirect_stderr, redirect_stdout
 from functools import cached_property
-from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import Field, model_validator
 
+from sheetbench.scenes.mesh_files import read_cells
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
-from sheetbench.scenes.reading import LARGEST
 
 if TYPE_CHECKING:
     from shapely import Polygon
 
 ROUNDING = 1e-9  # of the mesh's size: places closer than that are one
 TRIANGLE, QUADRILATERAL = "triangle", "quad"
-SHOWN = 6  # kinds of cells named
 Corner = Annotated[int, Field(ge=0)]
 
 
@@ -90,44 +87,15 @@ def read_mesh(value: Any) -> Any:
     if not isinstance(value, str):
         return value
     try:
-        return _mesh_of(*_cells(Path(value)))
+        return _mesh_of(*read_cells(Path(value)))
     except ValueError as error:
         raise ValueError(f"{value}: {error}") from None
 
 
-def _cells(path: Path) -> tuple[np.ndarray, dict[str, list[np.ndarray]]]:
-    """Points (n, 3) [m] of a file and the corners of its triangles (k, 3) and quadrilaterals (k, 4)."""
-    import meshio
-
-    if not path.is_file():
-        raise ValueError("no such file")
-    if path.stat().st_size > LARGEST:
-        raise ValueError(f"larger than {LARGEST // 2**20} MB, which no such file is")
-    printed = StringIO()
-    try:
-        with redirect_stdout(printed), redirect_stderr(printed):  # it prints, and ends the process
-            read = meshio.read(path)
-    except (Exception, SystemExit) as error:
-        why = " ".join((str(error) if isinstance(error, Exception) else printed.getvalue()).split())
-        raise ValueError(f"meshio cannot read it: {why or type(error).__name__}") from None
-    cells: dict[str, list[np.ndarray]] = {TRIANGLE: [], QUADRILATERAL: []}
-    for block in read.cells:
-        for kind, corners in ((TRIANGLE, 3), (QUADRILATERAL, 4)):
-            if block.type.rstrip("0123456789") == kind and len(block.data):
-                cells[kind].append(np.asarray(block.data)[:, :corners])
-    if not any(cells.values()):
-        kinds = ", ".join(list(dict.fromkeys(block.type for block in read.cells))[:SHOWN]) or "none"
-        raise ValueError(f"no triangles and no quadrilaterals; its cells: {kinds}")
-    return np.asarray(read.points, dtype=float), cells
-
-
-def _mesh_of(points: np.ndarray, cells: dict[str, list[np.ndarray]]) -> PlanMesh:
+def _mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
     """The mesh of points (n, 2 or 3) [m] and of polygons of 3 and of 4 corners."""
-    polygons = {kind: np.concatenate(blocks) for kind, blocks in cells.items() if blocks}
-    used = np.unique(np.concatenate([one.ravel() for one in polygons.values()]))
-    points, every = points[used], {kind: np.searchsorted(used, one) for kind, one in polygons.items()}
-    if not np.isfinite(points).all():
-        raise ValueError("a point is no finite number")
+    used = np.unique(np.concatenate([one.ravel() for one in cells.values()]))
+    points, every = points[used], {kind: np.searchsorted(used, one) for kind, one in cells.items()}
     size = np.ptp(points, axis=0).max()
     if points.shape[1] > 2 and (high := np.abs(points[:, 2]).max()) > ROUNDING * size:
         raise ValueError(f"a point lies {high:g} m off the plane z = 0, in which the flat sheet is")

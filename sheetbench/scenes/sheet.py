@@ -63,9 +63,9 @@ class Sheet(Frozen):
     """Corners [x, y] in turn of a sheet that is no rectangle: length_x and length_y are the sides of the
     rectangle around it, which begins at x = 0 and y = 0."""
     mesh: MeshLike | None = Field(default=None, kw_only=True)
-    """In place of `outline`: a mesh file that meshio reads, as "fin.msh", relative to the scene's file. Its
-    triangles and quadrilaterals [m] in the plane z = 0 are what plate, shell and solid solve on, its boundary
-    is the outline, with its holes."""
+    """In place of `outline`: a mesh file of Gmsh or another format (docs/limits.md), as "fin.msh", relative
+    to the scene's file. Its triangles and quadrilaterals [m] in the plane z = 0 are what plate, shell and
+    solid solve on, its boundary is the outline, with its holes."""
 
     @model_validator(mode="after")
     def _thinner_than_wide(self) -> Sheet:

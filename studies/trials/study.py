@@ -25,9 +25,9 @@ from comparisons.cells.codes import CODES
 from comparisons.codes.mesh import refusal
 from comparisons.codes.setup import CodeSetup, setup
 from comparisons.comparison.differences import error
-from comparisons.external.process import ONE_THREAD, run
 from comparisons.scoring.reference import Reference, references
 from sheetbench.errors import BadInput, require_choice
+from sheetbench.process import ONE_THREAD, run
 from sheetbench.scenes import Scene, Status
 
 RESULTS = Path(__file__).parent.parent / "results"

@@ -4,6 +4,7 @@
 that brings most new pairs. It needs about as many rows as the product of the two largest dimensions.
 """
 
+import json
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -17,6 +18,7 @@ from commands import run
 from comparisons.cli.output import Output
 from sheetbench.answers.answer import Answer
 
+LONGEST = 400  # characters of a refusal with its paths
 Row = tuple[tuple[str, ...], ...]
 
 
@@ -78,7 +80,8 @@ def check(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> int:
-    """Run a command line: no traceback, exit status 0, 2 or 3, and each converged answer in balance."""
+    """Run a command line: no traceback, exit status 0, 2 or 3, a document with --json unless it is refused, a
+    refusal in few words, and each converged answer in balance."""
     answers: list[Answer] = []
     show = Output.show
 
@@ -93,7 +96,10 @@ def check(
     assert "Traceback" not in said.err, said.err[-3000:]
     assert status in (0, 2, 3), said.err
     if status == 2:
-        assert said.err.strip() and not answers
+        assert said.err.strip() and not answers and not said.out
+        assert len(said.err.splitlines()[-1]) <= LONGEST, said.err
+    elif "--json" in arguments:
+        json.loads(said.out)
     for answer in answers:
         for solution in answer.document().get("solutions", ()):
             require_balanced(solution)

@@ -29,8 +29,8 @@ from comparisons.external.answer import (
 )
 from comparisons.external.bricks import GRADINGS, Bricks
 from comparisons.external.calculix.deck import INCOMPRESSIBLE, LAWS, Steps, deck
-from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
+from sheetbench.process import Failed, output_of
 from sheetbench.scenes import History, Scene, Solution, Status
 from sheetbench.scenes.orthotropy import FIBRES, Ply, impossible_in_space
 from sheetbench.scenes.scene import SHAPED

@@ -22,8 +22,8 @@ import numpy as np
 
 from comparisons.external.answer import SUBSTEPS, moved, refusal, refusal_of_motion, require_count, solution
 from comparisons.external.kratos.problem import Triangles, problem
-from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
+from sheetbench.process import Failed, output_of
 from sheetbench.scenes import History, Scene, Solution, Status
 
 STEPS = (1, 4, 16)

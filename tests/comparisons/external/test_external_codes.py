@@ -17,9 +17,9 @@ from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.felupe import LAWS as FELUPE_LAWS
 from comparisons.external.felupe import MODEL as FELUPE
 from comparisons.external.kratos.model import MODEL as KRATOS
-from comparisons.external.process import Failed, output_of
 from fem_reference.verification.strain_laws import RUBBERS
 from sheetbench.errors import BadInput
+from sheetbench.process import Failed, output_of
 from sheetbench.scenes import (
     Chain,
     Clamped,

@@ -224,6 +224,8 @@ def test_damage_costs_a_sentence(tmp_path, capsys):
         '{"findings": [{"finding": "k <b>"}], "rows": [{"of": "a", "at": 7}]}'
     )
     (tmp_path / "broken.pvd").write_text("<a><DataSet timestep='0' file='../x.vtu'/></a>")
+    (tmp_path / "other.pvd").write_text("<a><DataSet timestep='0' file='endless.ele'/></a>")
+    (tmp_path / "endless.ele").write_text("# a reader of TetGen's does not end\n")
     (tmp_path / "good.csv").write_text("x [m],what\n0.001,a\n")
     (tmp_path / "deep").mkdir()
     (tmp_path / "deep/manifest.json").write_text("[" * 100_000)
@@ -240,7 +242,7 @@ def test_damage_costs_a_sentence(tmp_path, capsys):
     said = capsys.readouterr()
     troubles = json.loads(said.out)["troubles"]
     broken = ("vtu", "json", "csv", "png", "pvd")  # the first document of a run is its own
-    for name in (*(f"broken.{kind}" for kind in broken), "broken2.svg", "deep/manifest.json"):
+    for name in (*(f"broken.{kind}" for kind in broken), "other.pvd", "broken2.svg", "deep/manifest.json"):
         assert any(one.startswith(name) for one in troubles), name
     assert any("lies outside" in one for one in troubles) and any("not there" in one for one in troubles)
     assert "Traceback" not in said.err

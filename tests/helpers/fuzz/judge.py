@@ -18,7 +18,7 @@ import numpy as np
 from comparisons.cli import main
 
 DONE, BAD_INPUT, NOT_CONVERGED = 0, 2, 3
-LONGEST = 3000  # characters of a refusal
+LONGEST = 400  # characters of a refusal with its paths
 
 
 @dataclass(frozen=True)

@@ -64,13 +64,14 @@ def run(
     seconds: float,
     memory_mb: int | None = None,
     *,
+    most: int = MOST,
     folder: Path | None = None,
     variables: Mapping[str, str] | None = None,
 ) -> Ended:
     """Run a program on a question for standard input.
 
     seconds: after which it is stopped; memory_mb: of address space, None for no limit (the shell's ulimit);
-    folder: to run it in; variables: of its environment, beside ours.
+    most: bytes of answer; folder: to run it in; variables: of its environment, beside ours.
     """
     if memory_mb is not None:
         command = ["sh", "-c", 'ulimit -v "$0" && exec "$@"', str(1024 * memory_mb), *command]
@@ -88,7 +89,7 @@ def run(
             env={**os.environ, **(variables or {})},
         ) as process:
             try:
-                answer, complaint, stopped = _hear(process, started + seconds)
+                answer, complaint, stopped = _hear(process, started + seconds, most)
                 took = perf_counter() - started
             finally:
                 _end(process.pid)
@@ -98,7 +99,7 @@ def run(
     return Ended(process.returncode, answer, lines[-1] if lines else "", stopped, took)
 
 
-def _hear(process: subprocess.Popen[bytes], until: float) -> tuple[bytes, bytes, str]:
+def _hear(process: subprocess.Popen[bytes], until: float, most: int) -> tuple[bytes, bytes, str]:
     """Standard output, the end of standard error, and why to stop the program; "" where it has ended."""
     assert process.stdout is not None and process.stderr is not None
     answer, complaint = bytearray(), bytearray()
@@ -119,8 +120,8 @@ def _hear(process: subprocess.Popen[bytes], until: float) -> tuple[bytes, bytes,
                 else:
                     waiting.unregister(key.fileobj)
             del complaint[:-TAIL]
-            if len(answer) > MOST:
-                stopped = f"more than {MOST // 2**20} MB of answer"
+            if len(answer) > most:
+                stopped = f"more than {most // 2**20} MB of answer"
             elif ended and not (ready and left):
                 break
             elif not left:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from sheetbench.scenes import Scene
 from sheetbench.scenes.sheet import Gravity
-from sheetbench.scenes.tables import Loading, OverTime, PiecewiseLinear
+from sheetbench.scenes.tables import Loading, PiecewiseLinear
 
 Factor = PiecewiseLinear | None  # over time; None: constant
 
@@ -24,17 +24,6 @@ def single_loads(scene: Scene) -> Iterator[tuple[Scene, Factor]]:
 def factor_at(factor: Factor, time: float) -> float:
     """The factor at a time [s]."""
     return 1.0 if factor is None else float(factor.at(time))
-
-
-def kinks(scene: Scene) -> list[float]:
-    """The times [s] after 0 at which a history or a motion bends, increasing."""
-    tables: list[OverTime | None] = [
-        load.history for load in (scene.gravity, *scene.loads) if load is not None
-    ]
-    tables += [*(support.motion for support in scene.supports), *scene.motions().values()]
-    commands = (getattr(actuator, "curvature", None) for actuator in scene.actuators)
-    tables += [command for command in commands if isinstance(command, OverTime)]
-    return sorted({time for table in tables if table is not None for time in table.time if time > 0.0})
 
 
 def _factor(load: Loading) -> Factor:

@@ -32,7 +32,6 @@ from fem_reference.surface.loads import Follower
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene
 from sheetbench.scenes.supports import held_axes, named
-from sheetbench.scenes.tables import PiecewiseLinear
 
 Loaded = tuple[np.ndarray, list[Follower]]  # dead nodal forces (n, 3) and follower loads
 
@@ -85,7 +84,7 @@ class Moving(ABC):
         self.dead: list[tuple[np.ndarray, Factor]] = []
         self.followers: list[tuple[Follower, Factor]] = []
         self._motions = [
-            (name, held_axes(s), PiecewiseLinear(s.motion.time, s.motion.displacement))
+            (name, held_axes(s), s.motion.course)
             for name, s in named(scene.supports).items()
             if s.motion is not None
         ]

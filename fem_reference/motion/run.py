@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from fem_reference.motion.generalised_alpha import GeneralisedAlpha, StepFailed
-from fem_reference.motion.loads import kinks
 from fem_reference.motion.moving import Motion, Moving
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.runs.columns import Part, width
@@ -21,6 +20,7 @@ from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.history import ENERGIES
+from sheetbench.scenes.motion import kinks
 
 MOST_STEPS = 10**6
 
@@ -70,7 +70,8 @@ class Run:
         """Go on to the end, or to the last step that could be made: how it ended."""
         last = self.schedule.samples * self.schedule.every
         motion = self._start()
-        bends = [time for time in kinks(self.scene) if motion.time * (1.0 - 1e-9) <= time < last]
+        began = max(motion.time * (1.0 - 1e-9), np.finfo(float).tiny)
+        bends = [time for time in kinks(self.scene) if began <= time < last]
         for end in (*bends, last):
             while end - motion.time > 1e-9 * end:
                 try:

@@ -25,13 +25,19 @@ from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
-from sheetbench.scenes import PiecewiseLinear, Scene, held_axes, holds_director
+from sheetbench.scenes import Scene, held_axes, holds_director
+from sheetbench.scenes.motion import kinks
 from sheetbench.scenes.supports import named
+from sheetbench.scenes.tables import PiecewiseCurve
+
+
+ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
 
 
 @dataclass(frozen=True)
 class State:
-    """Time [s], displacement, velocity and acceleration (size, 3); multiplier rows of u hold λ. memory: of
+    """Time [s], displacement, velocity and acceleration (size, 3), the last one beside that of what is
+    prescribed; multiplier rows of u hold λ. memory: of
     the material's branches, where it has some (`lumped.dynamics.maxwell`)."""
 
     time: float
@@ -81,7 +87,7 @@ class System:
             raise BadInput("precision = 'single': takes no Maxwell branches; leave it out")
         self._elastic_separate = self.maxwell is not None or self.assembly.precision == "single"
         # integrators ask for the same two moments several times a step
-        self.place, self.place_rate = lru_cache(4)(self._place), lru_cache(4)(self._place_rate)
+        self.place, self.place_rate = lru_cache(16)(self._place), lru_cache(16)(self._place_rate)
         self.motions = self._support_motions()
         self.moving = bool(self.motions or (self.coupling is not None and self.coupling.moved.any()))
         self._still = problem.constraints.turned(1.0)
@@ -121,23 +127,30 @@ class System:
             g += self.coupling.driven(self.drive(time))
         return g
 
-    def _place_rate(self, time: float) -> np.ndarray:
-        """Velocity of g from this moment on, (size, 3) [m/s]."""
+    def _place_rate(self, time: float, before: bool = False) -> np.ndarray:
+        """Velocity of g from this moment on, or until then, (size, 3) [m/s]."""
         g = np.zeros_like(self._still)
         if not self.moving:
             return g
         for moved, axis, course in self.motions:
-            g[moved, axis] = course.slope(time)[axis]
+            g[moved, axis] = course.slope(time, before)[axis]
         if self.coupling is not None:
             g += self.coupling.driven_velocity(time)
         return g
 
-    def _support_motions(self) -> list[tuple[np.ndarray, int, PiecewiseLinear]]:
+    def place_acceleration(self, time: float) -> np.ndarray:
+        """Acceleration of g from this moment on, of what supports move, (size, 3) [m/s²]."""
+        g = np.zeros_like(self._still)
+        for moved, axis, course in self.motions:
+            g[moved, axis] = course.bend(time)[axis]
+        return g
+
+    def _support_motions(self) -> list[tuple[np.ndarray, int, PiecewiseCurve]]:
         """Masses, axis and displacement (3,) [m] of what supports move, an axis at a time."""
         found = []
         for name, support in named(self.scene.supports).items():
             if support.motion is not None:
-                course = PiecewiseLinear(support.motion.time, support.motion.displacement)
+                course = support.motion.course
                 row = self.problem.constraints.holders[name][0].ravel()
                 for axis in held_axes(support):
                     free = ~self.problem.constraints.fixed[row, axis]
@@ -158,11 +171,8 @@ class System:
 
     @cached_property
     def kinks(self) -> np.ndarray:
-        """Times at which loads or supports change their course, sorted [s]."""
-        scene = self.scene
-        held = [load.history for load in scene.loads] + [scene.gravity.history if scene.gravity else None]
-        tables = [*held, *(support.motion for support in scene.supports)]
-        return np.unique([time for table in tables if table is not None for time in table.time])
+        """Times at which something changes its course, sorted [s]."""
+        return np.array(kinks(self.scene))
 
     def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Elastic energy and internal force, actuators with their multipliers and branches included."""
@@ -287,6 +297,18 @@ class System:
     def exerted(self, state: State) -> np.ndarray:
         """What supports and actuators exert on their masses, (size, 3)."""
         return self.balance(state)[1]
+
+    def jumps(self, time: float) -> bool:
+        """Whether what is prescribed changes its velocity at once."""
+        if not self.moving:
+            return False
+        after = self.place_rate(time)
+        jump = np.abs(after - self.place_rate(time, before=True)).max()
+        return bool(jump > ROUNDED * np.abs(after).max())
+
+    def kinetic_of(self, rate: np.ndarray) -> float:
+        """Kinetic energy [J] of what is prescribed, at its velocities (size, 3) [m/s]."""
+        return 0.5 * float(rate.ravel() @ (self.mass @ rate.ravel()))
 
     def kinetic_of_placed(self, state: State) -> float:
         """Kinetic energy [J] of what is prescribed, whose gain is work done on the masses: all but that of

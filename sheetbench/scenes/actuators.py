@@ -44,7 +44,7 @@ class CurvatureTable(OverTime):
     """Intrinsic curvature over time, one for all joints."""
 
     value: Annotated[tuple[Number, ...], Unit("1/m")]
-    """Intrinsic curvature of all joints at each time; statics take the last one."""
+    """Intrinsic curvature of all joints at each time, linear between them; statics take the last one."""
 
 
 Curvature = Annotated[
@@ -129,9 +129,10 @@ class EdgeMotion(OverTime):
     edge: EdgeName
     """The edge that is moved, which has no support."""
     displacement: Annotated[tuple[Vector3, ...], Unit("m")] = ()
-    """[ux, uy, uz] of the edge's middle at each time."""
+    """[ux, uy, uz] of the edge's middle at each time, linear between them."""
     rotation: Annotated[tuple[Vector3, ...], Unit("rad")] = ()
-    """Rotation vector [about x, about y, about z] of the edge about its middle at each time, right-handed."""
+    """Rotation vector [about x, about y, about z] of the edge about its middle at each time, right-handed,
+    linear between them."""
 
     @property
     def held_as(self) -> str:

@@ -39,7 +39,6 @@ from sheetbench.scenes.supports import (
     named,
     place,
 )
-from sheetbench.scenes.tables import PiecewiseLinear
 
 EXACT = 1e-6  # m per metre of the longer side, and in a director: what numbers written in decimals leave
 BETWEEN = (0.381966, 0.618034)
@@ -151,7 +150,7 @@ def _pose(
         still = Placed(np.zeros((1, 3)), np.zeros((3, 3)))
         placed = driven[holder.edge].placed(point) if holder.edge in driven else still
         if holder.motion is not None:
-            shift = PiecewiseLinear(holder.motion.time, holder.motion.displacement).at(time)
+            shift = holder.motion.course.at(time)
     return placed.displacement[0] + shift, UP + np.atleast_2d(placed.director)[0]
 
 

@@ -21,17 +21,25 @@ from pydantic import ConfigDict, Field, field_validator, model_validator
 from sheetbench.scenes.quantities import Angle, Frozen, Number, Unit, Vector3
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.sheet import EDGES, EdgeName
-from sheetbench.scenes.tables import OverTime
+from sheetbench.scenes.tables import CURVES, Interpolation, OverTime, PiecewiseCurve
 
 Component = Literal["x", "y", "z"]
 LARGEST_TILT = pi / 2.0  # rad, of a clamp
 
 
 class Motion(OverTime):
-    """Prescribed displacement of a support over time, linear between samples; statics take the last."""
+    """Prescribed displacement of a support over time; statics take the last sample."""
 
     displacement: Annotated[tuple[Vector3, ...], Unit("m")]
     """[ux, uy, uz] of the whole edge at each time."""
+    interpolation: Interpolation = Field(default="smooth", kw_only=True)
+    """Between samples "smooth" has cubics that do not overshoot, so that the velocity jumps at the first and
+    last sample at most; "linear" has lines, and the velocity jumps at every sample."""
+
+    @property
+    def course(self) -> PiecewiseCurve:
+        """The displacement (3,) [m] over time."""
+        return CURVES[self.interpolation](self.time, self.displacement)
 
 
 class _EdgeSupport(Frozen):

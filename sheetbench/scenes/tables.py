@@ -1,49 +1,100 @@
-"""Values over time: samples at increasing times [s], linear between them, constant before and after."""
+"""Values over time: samples at increasing times [s], joined by lines or by a smooth curve, constant before
+and after.
+
+Smooth means cubics between the samples whose slopes go over into each other and which do not overshoot: where
+the samples rise the curve rises, where two are equal it rests. Source: Fritsch and Butland (1984), SIAM J.
+Sci. Stat. Comput. 5, 300–304, as SciPy's `PchipInterpolator` has it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from sheetbench.scenes.quantities import Frozen, Number, Unit
 
-INSTANT = 1e-9  # s, that a sum of time steps may lack of the moment it stands for
+INSTANT = 1e-9  # of a table's span, that a sum of time steps may lack of the moment it stands for
+
+Interpolation = Literal["smooth", "linear"]
+Values = Sequence[float] | Sequence[Sequence[float]]
 
 
-class PiecewiseLinear:
-    """Values (n, …) at increasing times (n,) [s], linear between them and constant outside."""
+class PiecewiseCurve:
+    """Values (n, …) at increasing times (n,) [s], constant outside; between them what `_between` says."""
 
-    def __init__(self, time: Sequence[float], values: Sequence[float] | Sequence[Sequence[float]]):
-        self._time, self._values = np.array(time, dtype=float), np.array(values, dtype=float)
-        spacing = np.diff(self._time).reshape(-1, *(1,) * (self._values.ndim - 1))
-        outside = np.zeros_like(self._values[:1])
-        self._slopes = np.concatenate([outside, np.diff(self._values, axis=0) / spacing, outside])
+    def __init__(self, time: Sequence[float], values: Values):
+        self._time, values = np.array(time, dtype=float), np.array(values, dtype=float)
+        self._instant = INSTANT * (self._time[-1] - self._time[0])
+        inner = self._between(self._time, values) if len(self._time) > 1 else values[None, :0]
+        # coefficients of each piece in the time since its start, from the constant on; the first and the last
+        # piece are what lies before and after
+        self._pieces = np.zeros((len(inner), len(values) + 1, *values.shape[1:]))
+        self._pieces[:, 1:-1] = inner
+        self._pieces[0, 0], self._pieces[0, -1] = values[0], values[-1]
+
+    def _between(self, time: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """Coefficients (degree + 1, n − 1, …) of the pieces."""
+        raise NotImplementedError
 
     def at(self, time: float | np.ndarray | None = None) -> np.ndarray:
         """The value at a time [s], or those at times (k,), (k, …); without one the last, as statics take
         it."""
         if time is None:
-            return np.asarray(self._values[-1])
-        passed = np.searchsorted(self._time, time, side="right")
-        before = np.maximum(passed - 1, 0)
-        since = np.reshape(time - self._time[before], (*np.shape(time), *(1,) * (self._values.ndim - 1)))
-        value: np.ndarray = self._values[before] + since * self._slopes[passed]
-        return value
+            return np.asarray(self._pieces[0, -1])
+        return self._sum(time, np.searchsorted(self._time, time, side="right"), 0)
 
-    def slope(self, time: float | np.ndarray) -> np.ndarray:
-        """Its derivative [1/s] from a time [s] on."""
-        return np.asarray(self._slopes[np.searchsorted(self._time, time + INSTANT, side="right")])
+    def slope(self, time: float | np.ndarray, before: bool = False) -> np.ndarray:
+        """Its derivative [1/s] from a time [s] on, or until then."""
+        return self._sum(time, self._piece(time, before), 1)
+
+    def bend(self, time: float | np.ndarray) -> np.ndarray:
+        """Its second derivative [1/s²] from a time [s] on."""
+        return self._sum(time, self._piece(time, False), 2)
+
+    def _piece(self, time: float | np.ndarray, before: bool) -> np.ndarray:
+        shifted = time - self._instant if before else time + self._instant
+        return np.searchsorted(self._time, shifted, side="right")
+
+    def _sum(self, time: float | np.ndarray, piece: np.ndarray, derivative: int) -> np.ndarray:
+        """The derivative of this order of the pieces' polynomials, by Horner's rule."""
+        since = time - self._time[np.maximum(piece - 1, 0)]
+        since = np.reshape(since, (*np.shape(time), *(1,) * (self._pieces.ndim - 2)))
+        found = np.zeros(np.shape(self._pieces[0, piece]))
+        for power in range(len(self._pieces) - 1, derivative - 1, -1):
+            factor = float(np.prod(np.arange(power - derivative + 1, power + 1)))
+            found = factor * self._pieces[power, piece] + since * found
+        return found
+
+
+class PiecewiseLinear(PiecewiseCurve):
+    """Linear between the samples."""
+
+    def _between(self, time: np.ndarray, values: np.ndarray) -> np.ndarray:
+        spacing = np.diff(time).reshape(-1, *(1,) * (values.ndim - 1))
+        return np.stack([values[:-1], np.diff(values, axis=0) / spacing])
+
+
+class SmoothCurve(PiecewiseCurve):
+    """Cubic between the samples; a table of two is a line."""
+
+    def _between(self, time: np.ndarray, values: np.ndarray) -> np.ndarray:
+        from scipy.interpolate import PchipInterpolator  # a scene that is only read need not wait for it
+
+        return np.asarray(PchipInterpolator(time, values).c[::-1])
+
+
+CURVES: dict[Interpolation, type[PiecewiseCurve]] = {"smooth": SmoothCurve, "linear": PiecewiseLinear}
 
 
 class OverTime(Frozen):
     """Base of the tables: time (n,) [s], increasing, and n samples of everything else that is a list."""
 
     time: Annotated[tuple[Number, ...], Unit("s")] = Field(min_length=1)
-    """Increasing times; linear between them, the first sample before and the last one after."""
+    """Increasing times; the first sample holds before and the last one after."""
 
     @model_validator(mode="after")
     def _one_sample_each(self) -> OverTime:
@@ -62,7 +113,7 @@ class FactorTable(OverTime):
     """A factor over time."""
 
     factor: tuple[Number, ...]
-    """What the load is multiplied by at each time; statics take the last one."""
+    """What the load is multiplied by at each time, linear between them; statics take the last one."""
 
 
 class Loading(Frozen):

@@ -175,7 +175,8 @@ def _support(support: AnySupport, sheet: Sheet) -> str:
     moved = ""
     if support.motion is not None:
         last = _vector(support.motion.displacement[-1], "m")
-        moved = f", moved over {support.motion.time[-1]:g} s, in the end by {last}"
+        how = {"smooth": "smoothly", "linear": "linearly between samples"}[support.motion.interpolation]
+        moved = f", moved {how} over {support.motion.time[-1]:g} s, in the end by {last}"
     if isinstance(support, Clamped):
         if support.tilt == 0.0:
             return f"clamped: the mid-surface and its normal held{moved}"

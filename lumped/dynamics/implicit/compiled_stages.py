@@ -30,8 +30,9 @@ class Stages(NamedTuple):
 
 class Step(NamedTuple):
     """What the stages of a step share: its length [s]; coefficients of velocities and accelerations, and of
-    the guess of an acceleration, (s, s); c₁ and c₂ of their equation; what supports do beside their course at
-    the start, (s, n, 3) [m] or empty; the loads, (s, n, 3) or (1, n, 3) if they stay the same [N]."""
+    the guess of an acceleration, (s, s); c₁ and c₂ of their equation; how far supports are from where the
+    stages' velocities lead, (s, n, 3) [m], and their velocity beside that at the start, (s, n, 3) [m/s], or
+    both empty; the loads, (s, n, 3) or (1, n, 3) if they stay the same [N]."""
 
     length: float
     weights: np.ndarray
@@ -39,6 +40,7 @@ class Step(NamedTuple):
     damping_coefficient: float
     mass_coefficient: float
     shifts: np.ndarray
+    turns: np.ndarray
     loads: np.ndarray
 
 
@@ -97,9 +99,10 @@ def _begin(i: int, step: Step, stages: Stages, base_u: np.ndarray, base_v: np.nd
                 base_u[row] += weight * v[row]
                 base_v[row] += weight * a[row]
     if len(step.shifts):
-        shift = step.shifts[i].reshape(-1)
+        shift, turn = step.shifts[i].reshape(-1), step.turns[i].reshape(-1)
         for row in range(len(base_u)):
             base_u[row] += shift[row]
+            base_v[row] += turn[row]
     own = 1.0 / step.damping_coefficient
     for row in range(len(base_u)):
         base_u[row] += own * base_v[row]

@@ -6,11 +6,19 @@
 with the coefficients of `tableau` beside this file. Every stage is one equation for uᵢ with the same factors,
 as aᵢᵢ = γ; the first is the last one's of the step before. The error of a step, h Σ (bᵢ − b̂ᵢ) vᵢ, is held
 relative to the largest displacement so far, or to a tenth of where the forces at the start lead. Energies
-taken by dampers and put in by loads and supports are h Σ bᵢ Pᵢ. Between the ends of a step the motion is the
-polynomial of fifth degree with their displacements, velocities and accelerations, and the energies that of
-the stages' powers (`tableau.CUMULATIVE`): steps may be longer than the distance of samples; reactions, which
-stiff springs magnify, are then good to some percent. They end where something changes its course: a load's
-history, a support's motion. No chains: their constraints would lower the order.
+taken by dampers and put in by loads and supports are h Σ bᵢ Pᵢ. What supports prescribe is taken as it is
+prescribed, at every stage.
+
+Steps may be longer than the distance of samples. Between the ends of one the motion is the polynomial of fifth
+degree with their displacements, velocities and accelerations, û, v̂ and â, and then, as stiff springs magnify
+what it misses, the solution of
+
+    M (â + c₂ (u − û)) + f(u, v̂ + c₁ (u − û), t) = 0,   c₁ = 1/(γh),   c₂ = c₁²,
+
+which lies in equilibrium along stiff directions and on the polynomial along soft ones, to two corrections
+with the step's factors. Energies are polynomials through the stages' powers (`tableau.CUMULATIVE`). Steps end
+where something changes its course: a load's history, a support's motion. No chains: their constraints would
+lower the order.
 """
 
 from __future__ import annotations
@@ -38,6 +46,7 @@ SHARE = 0.3  # last correction of an adaptive step relative to the error it may 
 STALE = (
     1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
 )
+CORRECTED = 2  # times, a state within a step
 KEEP_FACTORS_UP_TO = 12  # corrections of a step's stages up to which the next one keeps the factors: two each
 
 
@@ -133,7 +142,7 @@ class Esdirk(DenseIntegrator):
             return state, at_most
         near = 1e-9 * at_most
         if np.any(np.abs(system.kinks - now) < near) and now > near:
-            if system.moving:  # a velocity jumps, and dampers with it: the steps begin as at the start
+            if system.jumps(now):  # and dampers with the velocity: the steps begin as at the start
                 self.step = min(self.step, self._first)
             system.since(state)
             force = system.unbalanced(state.u, state.v, now)
@@ -152,19 +161,22 @@ class Esdirk(DenseIntegrator):
         if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
             middle = state.u + 0.5 * h * state.v
             self._newton.renew(StepEquation(state.time + 0.5 * h, middle, state.v, by * by, by), middle)
-        step = Step(h, STAGES, GUESSES, by, by * by, self._shifts(times), self._loads(times))
+        step = Step(h, STAGES, GUESSES, by, by * by, *self._shifts(times, h), self._loads(times))
         if not self._newton.solve_stages(step, stages, tolerance):
             self._solve_one_by_one(step, stages, tolerance)
         return stages
 
-    def _shifts(self, times: np.ndarray) -> np.ndarray:
-        """How far supports are off their straight course where a step goes past a kink, (7, n, 3) [m], or
-        empty."""
+    def _shifts(self, times: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray]:
+        """How far supports are from where the stages' velocities lead, (7, n, 3) [m], and their velocities
+        beside that at the start, (7, n, 3) [m/s]; both empty where none moves."""
         system, began = self.system, float(times[0])
         if not system.moving:
-            return np.empty((0, *system.problem.loads.dead.shape))
-        start, rate = system.place(began), system.place_rate(began)
-        return np.array([system.place(float(time)) - start - (time - began) * rate for time in times])
+            nothing = np.empty((0, *system.problem.loads.dead.shape))
+            return nothing, nothing
+        later = [float(time) for time in times[1:]]
+        rates = np.array([system.place_rate(began), *(system.place_rate(t, before=True) for t in later)])
+        places = np.array([system.place(t) for t in (began, *later)])
+        return places - places[0] - h * np.tensordot(STAGES, rates, 1), rates - rates[0]
 
     def _loads(self, times: np.ndarray) -> np.ndarray:
         """Loads at the stages if they change, those that do not follow the sheet, (7 or 1, n, 3) [N]."""
@@ -179,7 +191,7 @@ class Esdirk(DenseIntegrator):
             u = stages.u[0] + h * np.tensordot(STAGES[i, :i], stages.v[:i], 1)
             v = stages.v[0] + h * np.tensordot(STAGES[i, :i], stages.a[:i], 1)
             if len(step.shifts):
-                u += step.shifts[i]
+                u, v = u + step.shifts[i], v + step.turns[i]
             self._begin_stage(i, h)
             equation = StepEquation(float(stages.time[i]), u + v / c1, v, c2, c1)
             guess = equation.base_u + np.tensordot(GUESSES[i, :i], stages.a[:i], 1) / c1**2
@@ -216,45 +228,72 @@ class Esdirk(DenseIntegrator):
         """The states at times (k,) [s] within the last step; energies since it began."""
         stages, h = self._step
         theta = (times - stages.time[0]) / h
-        u, v, a = _within(stages, h, theta)
+        u, v, a = self._within(stages, h, theta)
         weights = h * (np.vander(theta, len(CUMULATIVE), increasing=True) @ CUMULATIVE)
         taken, put_in = (weights @ stages.power).T
-        maxwell, start = self.system.maxwell, self._memories[0]
+        system, maxwell, start = self.system, self.system.maxwell, self._memories[0]
         memories: list[np.ndarray | None] = [None] * len(times)
-        if maxwell is not None and start is not None:
-            for i, until in enumerate(weights):
-                maxwell.stage(start, self._relaxed(until), 0.0)
+        began, c1 = float(stages.time[0]), 1.0 / (GAMMA * h)
+        for i, time in enumerate(times.tolist()):
+            if maxwell is not None and start is not None:
+                maxwell.stage(start, self._relaxed(weights[i]), 0.0)
+            equation = StepEquation(time, u[i] - a[i] / c1**2, v[i] - a[i] / c1, c1**2, c1)
+            u[i] = self._newton.correct(equation, u[i], CORRECTED)
+            a[i] = self._newton.state(equation, u[i])[1]
+            if maxwell is not None and start is not None:
                 memories[i] = memory = maxwell.after(u[i])
                 taken[i] -= maxwell.stored(memory) - maxwell.stored(start)
+            if system.moving:
+                rate = system.place_rate(time, before=True)
+                put_in[i] += system.kinetic_of(rate) - system.kinetic_of(system.place_rate(began))
         return Samples(times, u, v, a, memories, taken, put_in)
+
+    def _within(self, stages: Stages, h: float, theta: np.ndarray) -> np.ndarray:
+        """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step: polynomials,
+        and what is prescribed as it is prescribed."""
+        ends = [stages.u[[0, -1]], stages.v[[0, -1]], stages.a[[0, -1]]]
+        if not self.system.moving:
+            return _within(*ends, h, theta)
+        began, until = float(stages.time[0]), float(stages.time[-1])
+        system, times = self.system, (began + h * theta).tolist()
+        ends[0] = ends[0] - np.array([system.place(began), system.place(until)])
+        ends[1] = ends[1] - np.array([system.place_rate(began), system.place_rate(until, before=True)])
+        found = _within(*ends, h, theta)
+        found[0] += np.array([system.place(time) for time in times])
+        found[1] += np.array([system.place_rate(time, before=True) for time in times])
+        return found
 
     def _advance(self, start: State, stages: Stages, h: float) -> Advance:
         system, power = self.system, stages.power
         if self._end[0] is start:
             power[0] = self._end[1]
         else:
-            power[0, 0] = system.power(start)
-            power[0, 1] = self._put_in(start, start.time)
+            power[0] = self._power(start)
         end = self._stage(stages, -1)
         if system.moving or system.working:
             for i in range(1, len(power)):
-                power[i, 1] = self._put_in(self._stage(stages, i), start.time)
+                power[i, 1] = self._put_in(self._stage(stages, i), before=True)
         self._step = stages, h
         taken, put_in = h * (STAGES[-1] @ power)
         if system.maxwell is not None and start.memory is not None and end.memory is not None:
             taken -= system.maxwell.stored(end.memory) - system.maxwell.stored(start.memory)
         if system.moving:
-            last, turn = end, system.place_rate(end.time) - system.place_rate(start.time)
-            end = replace(last, v=last.v + turn)
-            put_in += system.kinetic_of_placed(end) - system.kinetic_of_placed(last)
-        self._end = end, power[-1]
+            rate = system.place_rate(end.time)
+            end = replace(end, v=end.v + rate - system.place_rate(end.time, before=True))
+            put_in += system.kinetic_of(rate) - system.kinetic_of(system.place_rate(start.time))
+        self._end = end, self._power(end) if system.jumps(end.time) else power[-1]
         return Advance(end, float(taken), float(put_in))
 
-    def _put_in(self, stage: State, began: float) -> float:
-        """Power [W] that moving supports and loads without a potential put in, in a step that began then."""
+    def _power(self, state: State) -> np.ndarray:
+        """Power [W] that dampers take and that is put in from a state on."""
+        return np.array([self.system.power(state), self._put_in(state)])
+
+    def _put_in(self, stage: State, before: bool = False) -> float:
+        """Power [W] that moving supports, but for what speeds up their own masses, and loads without a
+        potential put in from a moment on, or until then."""
         system, put_in = self.system, 0.0
         if system.moving:
-            put_in += float(np.sum(system.exerted(stage) * system.place_rate(began)))
+            put_in += float(np.sum(system.exerted(stage) * system.place_rate(stage.time, before=before)))
         if system.working:
             force = system.external(stage.u, stage.time) - system.problem.loads.dead
             put_in += float(np.sum(force * stage.v))
@@ -262,11 +301,13 @@ class Esdirk(DenseIntegrator):
 
 
 @njit(cache=True)
-def _within(stages: Stages, h: float, theta: np.ndarray) -> np.ndarray:
+def _within(
+    displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, h: float, theta: np.ndarray
+) -> np.ndarray:
     """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step of length h [s], by
-    the polynomial with those of both its ends."""
-    u0, v0, a0 = stages.u[0].ravel(), stages.v[0].ravel(), stages.a[0].ravel()
-    u1, v1, a1 = stages.u[-1].ravel(), stages.v[-1].ravel(), stages.a[-1].ravel()
+    the polynomial with those of both its ends, (2, n, 3) each."""
+    u0, v0, a0 = displacement[0].ravel(), velocity[0].ravel(), acceleration[0].ravel()
+    u1, v1, a1 = displacement[1].ravel(), velocity[1].ravel(), acceleration[1].ravel()
     curve, out = np.empty((6, len(u0))), np.empty((3, len(theta), len(u0)))
     for i in range(len(u0)):
         change = u1[i] - u0[i] - h * v0[i] - 0.5 * h * h * a0[i]

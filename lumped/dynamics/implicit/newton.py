@@ -111,15 +111,28 @@ class Newton:
             u = self._solve_compiled(self._compiled, equation, guess, small)
             if u is not None:
                 return u
-        system = self._system
-
-        def residual(u: np.ndarray) -> np.ndarray:
-            v, a = self.state(equation, u)
-            inertia: np.ndarray = (system.mass @ a.ravel()).reshape(-1, 3)
-            return inertia - system.unbalanced(u, v, equation.time)
-
         key = (equation.mass_coefficient, equation.damping_coefficient)
-        return self.solve(key, residual, lambda u: self._blocks(equation, u), guess, tolerance=small)
+        return self.solve(key, lambda u: self._residual(equation, u), lambda u: self._blocks(equation, u), guess, tolerance=small)
+
+    def correct(self, equation: StepEquation, guess: np.ndarray, times: int) -> np.ndarray:
+        """A guess of u corrected so many times with the factors at hand; the guess where that leads nowhere."""
+        u, problem = np.array(guess), self._system.problem
+        if self._compiled is not None and self._factored is not None:
+            base = equation.base_u, equation.base_v
+            by = equation.mass_coefficient, equation.damping_coefficient
+            external = self._system.external(u, equation.time)
+            self._compiled.iterate(u, base, by, external, 0.0, np.inf, times)
+        elif self._factor is not None:
+            for _ in range(times):
+                u = u + problem.expand(self._factor.solve(-problem.reduce(self._residual(equation, u))))
+        far = float(np.abs(u - guess).max())
+        return u if far <= problem.size else guess
+
+    def _residual(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
+        """Inertia and internal less external forces (size, 3) [N]."""
+        v, a = self.state(equation, u)
+        inertia: np.ndarray = (self._system.mass @ a.ravel()).reshape(-1, 3)
+        return inertia - self._system.unbalanced(u, v, equation.time)
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
         """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be

@@ -12,14 +12,13 @@ from lumped.statics.solver import build_problem, solve_path
 from sheetbench.scenes import Chain
 from sheetbench.scenes.kinematics import bent_or_tilted
 from sheetbench.scenes.supports import AnySupport, Motion
-from sheetbench.scenes.tables import PiecewiseLinear
 
 
 def _at_the_start(support: AnySupport) -> AnySupport:
     """The support where it is at t = 0."""
     if support.motion is None:
         return support
-    place = PiecewiseLinear(support.motion.time, support.motion.displacement).at(0.0)
+    place = support.motion.course.at(0.0)
     motion = Motion(time=(0.0,), displacement=(tuple(place.tolist()),))
     return support.replace(motion=motion)
 

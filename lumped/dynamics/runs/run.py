@@ -91,12 +91,14 @@ class Run:
         """Steps to the next sample; the samples that the last of them reached or passed."""
         plan, reached, taken = self._plan, self.reached, 0
         goal = (reached.samples + 1) * plan.every
-        while (goal - reached.state.time > 1e-9 * plan.every) if plan.adapts else (taken < plan.steps):
+        while goal - reached.state.time > 1e-9 * plan.every:
             try:
+                at_most = self._at_most(goal)
                 if plan.adapts:
-                    advance, steps = self._method.advance(reached.state, self._at_most(goal)), 1
+                    advance, steps = self._method.advance(reached.state, at_most), 1
                 else:
-                    step, left = plan.every / plan.steps, plan.steps - taken
+                    left = max(int(np.ceil(at_most * plan.steps / plan.every - 1e-6)), 1)
+                    step = plan.every / plan.steps if self._whole(at_most, left) else at_most / left
                     advance, steps = self._method.march(reached.state, step, left)
             except (StepFailed, SingularMatrixError) as failure:
                 return Fault(Status.DIVERGED, f"at {reached.state.time:.6g} s: {failure}")
@@ -123,13 +125,19 @@ class Run:
         return samples._replace(dissipated=dissipated + samples.dissipated, work=work + samples.work)
 
     def _at_most(self, goal: float) -> float:
-        """How long the next adaptive step may be [s]: to the next sample, or the next checkpoint or the end
-        where states within steps are known."""
+        """How long the next step may be [s]: to the next sample, or the next checkpoint or the end where
+        states within steps are known; no farther than to where something changes its course."""
         plan, reached = self._plan, self.reached
         if self._dense is not None:
             whole = reached.samples // SAMPLES_PER_CHECKPOINT + 1
             goal = min(whole * SAMPLES_PER_CHECKPOINT, plan.samples) * plan.every
-        return goal - reached.state.time
+        kinks, now = self._system.kinks, reached.state.time
+        ahead = kinks[kinks > now + 1e-9 * plan.every][:1]
+        return float(min([goal, *ahead])) - now
+
+    def _whole(self, at_most: float, steps: int) -> bool:
+        """Whether so long a time [s] is that of so many fixed steps."""
+        return abs(at_most * self._plan.steps / self._plan.every - steps) < 1e-6
 
     def _sample(self, samples: Samples) -> Fault | None:
         reached, rows = self.reached, self._sampling.rows(samples)

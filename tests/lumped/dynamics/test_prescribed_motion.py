@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from dynamic_cases import run, scene, springs, system
 from numpy.testing import assert_allclose
+from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation
 
 import lumped
@@ -16,12 +17,14 @@ LIFTED = [[0.0, 0.0, 0.0], [1e-3, 2e-3, 4e-3], [2e-3, 0.0, -1e-3]]
 TURNED = [[0.0, 0.0, 0.0], [0.1, 0.3, -0.1], [0.1, -0.2, 0.2]]
 
 
-def support(kind, **more):
-    return {"edge": "x0", "kind": kind, "motion": {"time": TIME, "displacement": LIFTED}, **more}
+def support(kind, interpolation="smooth", **more):
+    motion = {"time": TIME, "displacement": LIFTED, "interpolation": interpolation}
+    return {"edge": "x0", "kind": kind, "motion": motion, **more}
 
 
 MOVED = {
     "clamped": {"supports": [support("clamped")]},
+    "clamped, linear": {"supports": [support("clamped", "linear")]},
     "hinged": {"supports": [support("hinged"), {"edge": "x1", "kind": "clamped"}]},
     "held": {"supports": [support("held", components=["z"]), {"edge": "x1", "kind": "clamped"}]},
     "turned": {
@@ -45,12 +48,14 @@ def test_at_every_step_an_edge_is_where_and_as_fast_as_prescribed(moved, name):
 
     def expected(time):
         lift, turn = ([np.interp(time, TIME, c) for c in np.transpose(v)] for v in (LIFTED, TURNED))
+        if moved in ("clamped", "hinged", "held"):
+            lift = PchipInterpolator(TIME, LIFTED)(time)
         turned = Rotation.from_rotvec(turn).apply(arms.reshape(-1, 3)).reshape(arms.shape)
         return (lift + (turned - arms if moved == "turned" else 0.0 * arms))[..., axes]
 
     def told(field):
         columns = field[edge][..., axes]
-        whole = moved in ("clamped", "turned")
+        whole = moved.startswith(("clamped", "turned"))
         return columns if whole else np.broadcast_to(columns.mean(axis=1, keepdims=True), columns.shape)
 
     for state in states:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation
 
 from sheetbench.scenes import (
@@ -16,6 +17,7 @@ from sheetbench.scenes import (
     Symmetric,
 )
 from sheetbench.scenes.kinematics import UP, BentEdge, MovedEdge, TiltedEdge, bent_or_tilted
+from sheetbench.scenes.tables import SmoothCurve
 
 SHEET = Sheet(length_x=0.3, length_y=0.2, thickness=0.003)
 TIME, DISPLACEMENT = (0.1, 0.5, 0.7), ((0.0, 0.01, 0.0), (0.02, 0.0, -0.01), (0.0, 0.0, 0.03))
@@ -131,3 +133,31 @@ def test_curvatures_are_told_joint_by_joint_whatever_they_are_given_as():
     assert_allclose(table.at(), [5.0] * 4)
     assert_allclose(chain(3.0, segments=1).curvatures().at(), [3.0])
     assert_allclose(chain((), segments=1).curvatures().at(), [0.0])
+
+
+def test_a_smooth_course_is_scipys_and_its_derivatives_are_its_slopes():
+    """Constant outside; one slope from either side at an inner sample, none beyond the ends."""
+    time, values = (1.0, 2.0, 4.0, 5.0), ((0.0, 1.0), (2.0, 1.0), (3.0, 1.5), (3.0, -3.0))
+    course, scipys = SmoothCurve(time, values), PchipInterpolator(time, values)
+    at = np.linspace(1.01, 4.99, 37)
+    assert_allclose(course.at(at), scipys(at), atol=1e-15)
+    assert_allclose(course.slope(at), scipys(at, 1), atol=1e-14)
+    assert_allclose(course.bend(at), scipys(at, 2), atol=1e-14)
+    assert_allclose(course.slope(2.0), course.slope(2.0, before=True), atol=1e-14)
+    assert_allclose(course.at(np.array([0.0, 9.0])), [values[0], values[-1]])
+    assert_allclose([course.slope(0.5), course.slope(5.0), course.bend(7.0)], 0.0)
+    assert_allclose(course.slope(5.0, before=True), scipys(5.0, 1))
+
+
+def test_a_smooth_course_does_not_overshoot_and_rests_where_samples_are_equal():
+    course = SmoothCurve((0.0, 0.1, 0.5, 0.6), (0.0, 3.0, 3.0, 0.0))
+    between = course.at(np.linspace(0.0, 0.6, 301))
+    assert between.max() == 3.0 and between.min() == 0.0
+    assert_allclose(course.at(np.linspace(0.1, 0.5, 9)), 3.0)
+
+
+def test_a_table_of_two_samples_is_a_line_either_way():
+    at = np.linspace(-0.1, 0.3, 9)
+    assert_allclose(
+        SmoothCurve((0.0, 0.2), (1.0, 3.0)).at(at), PiecewiseLinear((0.0, 0.2), (1.0, 3.0)).at(at)
+    )

@@ -31,8 +31,8 @@ ALIKE = 1e-9  # shares of cells that one straight line cuts
 
 
 def with_twist(sheet: Sheet, kinds: Kinds, found: Calibration) -> Calibration:
-    """The calibration with the twist of its edges, and of its rims where cells are absent."""
-    if found.present is None:
+    """The calibration with the twist of its edges, and of its rims where cells are absent or cut."""
+    if found.present is None and (found.cells is None or found.cells.rims is None):
         springs, notes = with_edges(sheet, found.grid, found.springs, found.grading, found.cells)
     else:
         springs, notes = with_rims(kinds, found)
@@ -40,10 +40,10 @@ def with_twist(sheet: Sheet, kinds: Kinds, found: Calibration) -> Calibration:
 
 
 def with_rims(kinds: Kinds, found: Calibration) -> tuple[SpringSet, list[str]]:
-    """The springs of a calibration with absent cells and the twist of their rims, and a note for rims where
-    no factor will do."""
-    assert found.cells is not None and found.present is not None
-    springs, layers, there = found.springs, found.grid[2], found.present
+    """The springs of a calibration with the twist of its cells' rims, and a note for rims where no factor
+    will do."""
+    assert found.cells is not None
+    springs, layers, there = found.springs, found.grid[2], found.cells.per_area > 0.0
     lost = np.broadcast_to(found.cells.layer_width, (*there.shape, 2))
     square = moduli.second_moment(layers) * springs.layer_distance**2
     first = {int(n): np.argwhere((kinds.which == n) & (kinds.factor == 1.0))[0] for n in range(len(kinds.of))}

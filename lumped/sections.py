@@ -74,7 +74,7 @@ class Section:
 
     def each(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
         """With every part of it changed, but for the rims."""
-        return replace(self, **{name: change(getattr(self, name)) for name in PARTS})
+        return type(self)(*(change(getattr(self, name)) for name in PARTS), rims=self.rims)
 
     def __add__(self, other: Section) -> Section:
         return Section(*(getattr(self, name) + getattr(other, name) for name in PARTS))

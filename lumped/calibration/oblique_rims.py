@@ -68,7 +68,8 @@ def _of_cell(
         float(t**2 @ by_diagonals),
         math.sqrt(twisting / free),
     )
-    factor = edge_factor(STRIP, *(float(f"{each:.{DIGITS}g}") for each in strip), False)
+    width, rigidity, sheared, share, lost = (float(f"{each:.{DIGITS}g}") for each in strip)
+    factor = edge_factor(STRIP, width, rigidity, sheared, share, lost, False)
     if factor is None:
         notes.append("no twisting stiffness of the cells along an oblique rim makes it right")
         factor = 1.0

@@ -114,4 +114,5 @@ def _edges(calibration: dict[str, Any]) -> str:
         factors += [1.0 + float(k) * square / twisting for k in (np.min(cells), np.max(cells))]
     share = " to ".join(dict.fromkeys(number(each, ".3f") for each in (min(factors), max(factors))))
     what = "D66 less D16²/D11 or D26²/D22" if "D16" in got else "D66"
-    return f". {what}: times {share} in cells along free, hinged and held edges, to match the torsion of a strip"
+    cells_there = "in cells along free, hinged and held edges"
+    return f". {what}: times {share} {cells_there}, to match the torsion of a strip"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -90,30 +90,44 @@ def clamped_stiffness(scene: Scene, lines: tuple[Lines, Lines]) -> np.ndarray:
     return factor
 
 
-def oblique_rims(scene: Scene, lines: tuple[Lines, Lines], share: np.ndarray) -> np.ndarray | None:
-    """Where the sheet is within a cell's length of rims that are not along the axes, (rows, columns, 2, 2):
-    the part of a cell's sheet that is, times n nᵀ of the rim's normal n; None without such rims. share: of
-    the sheet in every cell."""
+class ObliqueRims(NamedTuple):
+    """Where the sheet is within a cell's length of rims that are not along the axes: numbers of rows and
+    columns of cells (m,), a cell once for each side that is near; part: of the cell's sheet, (m,), that is
+    near, shared among the sides by their lengths there; normal: of that side, (m, 2), of either sign."""
+
+    rows: np.ndarray
+    columns: np.ndarray
+    part: np.ndarray
+    normal: np.ndarray
+
+
+def oblique_rims(scene: Scene, lines: tuple[Lines, Lines], share: np.ndarray) -> ObliqueRims | None:
+    """Return what is near oblique rims, None without such; share: of the sheet in every cell."""
     import shapely
 
-    x, y = lines
+    (x, y), size = lines, max(scene.sheet.lengths)
     rings = [np.asarray(ring.coords) for ring in (scene.region.exterior, *scene.region.interiors)]
     ends = np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in rings])
     along = ends[:, 1] - ends[:, 0]
-    oblique = np.abs(along).min(axis=1) > COINCIDENT * max(scene.sheet.lengths)
+    oblique = np.abs(along).min(axis=1) > COINCIDENT * size
     if not oblique.any():
         return None
     sides, along = shapely.linestrings(ends[oblique]), along[oblique]
-    near = shapely.line_merge(shapely.union_all(sides)).buffer(np.sqrt(x.mean * y.mean), cap_style="flat")
-    band = scene.region.intersection(near)
-    rows, columns = np.nonzero(shares_of(band, x.at, y.at))
-    pieces = shapely.intersection(band, boxes_of(x.at, y.at)[rows, columns])
-    nearest = along[shapely.STRtree(sides).nearest(shapely.centroid(pieces))]
-    normal = np.stack([-nearest[:, 1], nearest[:, 0]], axis=1) / np.hypot(*nearest.T)[:, None]
-    part = shapely.area(pieces) / (share[rows, columns] * x.widths[columns] * y.widths[rows])
-    found = np.zeros((*share.shape, 2, 2))
-    found[rows, columns] = np.minimum(part, 1.0)[:, None, None] * normal[:, :, None] * normal[:, None, :]
-    return found
+    width = float(np.sqrt(x.mean * y.mean))
+    rim = shapely.line_merge(shapely.union_all(sides))
+    band, boxes = scene.region.intersection(rim.buffer(width, cap_style="flat")), boxes_of(x.at, y.at)
+    near = shares_of(band, x.at, y.at) * (share > 0.0)
+    around = shapely.buffer(boxes[near > 0.0], width, cap_style="square", join_style="mitre")
+    cell, side = shapely.STRtree(sides).query(around)
+    length = shapely.length(shapely.intersection(sides[side], around[cell]))
+    beside = length > COINCIDENT * size
+    cell, side, length = cell[beside], side[beside], length[beside]
+    rows, columns = (part[cell] for part in np.nonzero(near))
+    part = (
+        np.minimum(near[rows, columns] / share[rows, columns], 1.0) * length / np.bincount(cell, length)[cell]
+    )
+    normal = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
+    return ObliqueRims(rows, columns, part, normal[side])
 
 
 Reach = tuple[tuple[str, tuple[tuple[float, float], ...]], ...]

@@ -26,7 +26,7 @@ from typing import Self
 import numpy as np
 
 from lumped import plies
-from lumped.coverage import clamped_stiffness, oblique_rims
+from lumped.coverage import ObliqueRims, clamped_stiffness, oblique_rims
 from lumped.grid_lines import Lines, grid_lines
 from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, require_uniform
 from sheetbench.scenes.cells import NUMBERS
@@ -43,14 +43,14 @@ ROUNDING = 1e-12  # of moduli, for what is 0
 class Section:
     """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m] along x and y,
     free_shear the same where no force shears the other way, per_area (…) [kg/m²]; of cells the dots are
-    (rows, columns); rims: where their oblique rims are (`lumped.coverage.oblique_rims`)."""
+    (rows, columns); rims: the oblique ones, where there are any."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
     free_shear: np.ndarray
     per_area: np.ndarray
-    rims: np.ndarray | None = None
+    rims: ObliqueRims | None = None
 
     @classmethod
     def of(cls, constants: Constants) -> Self:
@@ -74,7 +74,7 @@ class Section:
 
     def each(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
         """With every part of it changed, but for the rims."""
-        return replace(self, **{name: change(getattr(self, name)) for name in PARTS})
+        return type(self)(*(change(getattr(self, name)) for name in PARTS), rims=self.rims)
 
     def __add__(self, other: Section) -> Section:
         return Section(*(getattr(self, name) + getattr(other, name) for name in PARTS))

@@ -35,6 +35,7 @@ NAMES = {  # and what they are
     "coupling_corners": "(f, 4, p) as area_corners",
     "coupling_rest": "(f,) rest area [m2]",
     "coupling_stiffness": "(f, 3) of e1 e2, e1 g, e2 g [N/m]",
+    "coupling_damping": "(f, 3) [N s/m]",
     "rubber_corners": "(r, 4, p) as area_corners",
     "rubber_rest": "(r,) rest area [m2]",
     "rubber_stiffness": "(r, 8) c10, c01, c20, c30, volume [N/m], limit [-], two of the sides [N/m]",

@@ -44,8 +44,8 @@ supports and loads balance at rest.
   strains e1 = (|A|² − |A0|²)/(2 |A0|²), e2 = (|B|² − |B0|²)/(2 |B0|²), g = A·B/a0. E = ½ (k1 e1² + k2 e2² +
   k3 g²) a0. With t = (k1 e1, k2 e2, k3 g) the gradient by A is P = a0 (t1 A/|A0|² + t3 B/a0), by B it is Q
   = a0 (t2 B/|B0|² + t3 A/a0); on corners 1 to 4 it is ½ (−P − Q), ½ (P − Q), ½ (P + Q), ½ (Q − P).
-- kind `coupling`, of fibres: strains as above, E = (k1 e1 e2 + k2 e1 g + k3 e2 g) a0 and t = (k1 e2 + k2 g,
-  k1 e1 + k3 g, k2 e1 + k3 e2).
+- kind `coupling`, of fibres and at oblique rims: strains as above, E = (k1 e1 e2 + k2 e1 g + k3 e2 g) a0 and
+  t = (k1 e2 + k2 g, k1 e1 + k3 g, k2 e1 + k3 e2).
 - kind `rubber`: a membrane of rubber. With A and B as above, q = corner 1 − 2 + 3 − 4, C11 = (|A|² +
   |q|²/12)/|A0|², C22 = (|B|² + |q|²/12)/|B0|², C12 = A·B/a0, T = C11 + C22, D = C11 C22 − C12², x = T + θ
   − 3 and c10, c01, c20, c30, v, limit = k1 … k6 it stores W a0, W = f + c01 (D + θ T − 3) − (c10 + 2 c01)
@@ -64,9 +64,9 @@ supports and loads balance at rest.
 ## Motion
 
 `nodes.csv` has the masses. Dampers resist the rates of what the springs resist: force c d|r|/dt along a
-link, the gradients above with c1 (da/dt)/a0 and (c1 de1/dt, c2 de2/dt, c3 dg/dt) in place of τ and t; of
-rubber those of its small strains, rows of kind `area` and `strain` without stiffness. Every mass is also
-dragged by {rate:g} 1/s × its mass × its velocity.
+link, the gradients above with c1 (da/dt)/a0 and (c1 de1/dt, c2 de2/dt, c3 dg/dt) in place of τ and t, and so
+of the couplings; of rubber those of its small strains, rows of kind `area` and `strain` without stiffness.
+Every mass is also dragged by {rate:g} 1/s × its mass × its velocity.
 
 ## Supports and loads
 

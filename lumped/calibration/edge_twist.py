@@ -63,11 +63,13 @@ def layer_width(thickness: float) -> float:
 def with_edges(
     sheet: Sheet, grid: Grid, springs: SpringSet, grading: Graded = 0.0, cells: Section | None = None
 ) -> tuple[SpringSet, list[str]]:
-    """The springs with `edge_shear`, `strip_shear`, `edge_coupling`; a note for edges where no factor will do.
+    """The springs with `edge_shear`, `strip_shear` and `edge_coupling`, and a note for edges where no factor
+    will do.
 
-    A layer's cell takes −(1 − f) D66/Σ z_k², z_k [m] the heights of the layers. On a graded grid every cell
-    along an edge has the f of the strip of cells that begins with it, or the largest there is. Where cells
-    are finer towards one of two opposite edges each has its own, `far_edge_shear` and so on at the far one; of a strip whose edges are both free, that of the strip and its mirror image together.
+    A layer's cell takes −(1 − f) D̃66/Σ z_k² on γ + r ε_tt, z_k [m] the heights of the layers. On a graded
+    grid every cell along an edge has the f of the strip of cells that begins with it, or the largest there
+    is. Where cells are finer towards one of two opposite edges each has its own, `far_edge_shear` and so on
+    at the far one; of a strip whose edges are both free, that of the strip and its mirror image together.
     """
     lines = grid_lines(sheet, grid, grading)
     notes: list[str] = []
@@ -96,7 +98,8 @@ def _of_edges(
     differ: bool,
     notes: list[str],
 ) -> dict[str, Any]:
-    """Constants of x0 and y0 by name, or of x1 and y1 (`far`); adds to the notes. lost: λ of the cells (rows, columns, 2) [m]; differ: whether they have sections of their own, and each is taken as if all
+    """Constants of x0 and y0 by name, or of x1 and y1 (`far`); adds to the notes. lost: λ of the cells
+    (rows, columns, 2) [m]; differ: whether they have sections of their own, and each is taken as if all
     across the sheet were like it."""
     square = moduli.second_moment(layers) * springs.layer_distance**2
     unequal = constants.varies(springs)
@@ -118,9 +121,7 @@ def _of_edges(
             taken = []
             mirrored = both and skewed
             for place, strip in zip(places, strips, strict=True):
-                width, twisting, shear, shares = (
-                    _with_image(row, mirrored) for row in (widths, *strip[:3])
-                )
+                width, twisting, shear, shares = (_with_image(row, mirrored) for row in (widths, *strip[:3]))
                 factor = edge_factor(
                     len(width), width, twisting, shear, shares, float(along_edge[place]), both
                 )
@@ -158,9 +159,7 @@ def _strip(
 
 
 @lru_cache(maxsize=4096)  # kinds of cells: strips have most in common
-def of_cell(
-    springs: SpringSet, sides: tuple[float, float, float], layers: int
-) -> tuple[list[float], ...]:
+def of_cell(springs: SpringSet, sides: tuple[float, float, float], layers: int) -> tuple[list[float], ...]:
     """D̃66 [N·m] of a cell at edges normal to x and to y, its S along x and y [N/m], the diagonals' share, and
     r at edges normal to x and to y."""
     whole = moduli.of_springs(springs, sides, layers)

@@ -20,46 +20,59 @@ from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.cell_by_cell import Kinds, Sides
 from lumped.calibration.edge_twist import AT_CORNERS, edge_factor, of_cell
+from lumped.coverage import ObliqueRims
+from lumped.moduli import Moduli
 from lumped.sections import Section
 from sheetbench.scenes import SpringSet
 
 STRIP = 12  # cells across a strip whose far edge is not felt
-DIGITS = 9  # to which normals are distinguished
+DIGITS = 12  # to which strips are distinguished
 
 
-def at_oblique_rims(rims: np.ndarray, kinds: Kinds, found: Calibration, own: list[SpringSet]) -> np.ndarray:
-    """Return what the layers' cells take, (rows, columns, 6) [N/m], as `constants.of_strains` has it. rims:
-    as `lumped.coverage.oblique_rims`; own: the springs of each kind of cells."""
-    assert found.cells is not None
-    layers = found.grid[2]
-    square = moduli.second_moment(layers) * found.springs.layer_distance**2
-    taken = np.zeros((*rims.shape[:2], len(constants.RIMS_OWN)))
-    known: dict[tuple[int, bytes], np.ndarray] = {}
-    for row, column in np.argwhere(rims.any(axis=(2, 3))).tolist():
-        part = float(np.trace(rims[row, column]))
-        across = np.round(rims[row, column] / part, DIGITS)
+def at_oblique_rims(
+    rims: ObliqueRims, kinds: Kinds, found: Calibration, own: list[SpringSet]
+) -> tuple[np.ndarray, list[str]]:
+    """Return what the layers' cells take, (rows, columns, 6) [N/m], as `constants.of_strains` has it, and
+    notes. own: the springs of each kind of cells."""
+    layers, lz = found.grid[2], found.springs.layer_distance
+    square = moduli.second_moment(layers) * lz**2
+    taken = np.zeros((*kinds.which.shape, len(constants.RIMS_OWN)))
+    notes: list[str] = []
+    of_kind = [
+        (moduli.of_springs(springs, (*sides, lz), layers), of_cell(springs, (*sides, lz), layers)[2])
+        for springs, (sides, _) in zip(own, kinds.of, strict=True)
+    ]
+    known: dict[tuple[int, float, float], np.ndarray] = {}
+    for row, column, part, (nx, ny) in zip(*(each.tolist() for each in rims), strict=True):
         kind = int(kinds.which[row, column])
-        key = kind, across.tobytes()
-        if key not in known:
-            sides = kinds.of[kind][0]
-            known[key] = _of_cell(own[kind], sides, layers, kinds.of[kind][1], across)
-        taken[row, column] = part * kinds.factor[row, column] / square * known[key]
-    return taken
+        if (key := (kind, nx, ny)) not in known:
+            known[key] = _of_cell(np.array([nx, ny]), *of_kind[kind], *kinds.of[kind], notes)
+        taken[row, column] += part * kinds.factor[row, column] / square * known[key]
+    return taken, notes
 
 
-def _of_cell(springs: SpringSet, sides: Sides, layers: int, section: Section, across: np.ndarray) -> np.ndarray:
+def _of_cell(
+    n: np.ndarray, whole: Moduli, by_diagonals: list[float], sides: Sides, section: Section, notes: list[str]
+) -> np.ndarray:
     """Return −(1 − f) D̃66 times the products of what each strain counts, (6,) [N·m], of a cell all of which
-    is near a rim; across: n nᵀ."""
-    whole = moduli.of_springs(springs, (*sides, springs.layer_distance), layers)
-    n = np.array([math.sqrt(across[0, 0]), math.copysign(math.sqrt(across[1, 1]), across[0, 1])])
+    is near a rim of normal n; whole: of its springs; by_diagonals: the furthest diagonals' share of S."""
     t = np.array([-n[1], n[0]])
-    turned = np.stack([[a[0] * b[0], a[1] * b[1], a[0] * b[1] + a[1] * b[0]] for a, b in ((n, n), (t, t), (n, t))])
-    turned[:2, 2] = 2.0 * n[0] * n[1], 2.0 * t[0] * t[1]
-    bending = turned @ whole.bending @ turned.T
-    twisting, stretch = (form(bending)[0] for form in (sections.twisting, sections.stretch_by_twist))
-    shear, free = (1.0 / (t**2 @ (1.0 / part)) for part in (whole.shear, section.free_shear))
-    by_diagonals = t**2 @ of_cell(springs, (*sides, springs.layer_distance), layers)[2]
-    lost = math.sqrt(twisting / free)
-    factor = edge_factor(STRIP, math.sqrt(sides[0] * sides[1]), twisting, shear, by_diagonals, lost, False)
-    strain = [2.0 * n * t + stretch * t * t, n[0] * t[1] + n[1] * t[0] + stretch * t[0] * t[1]]
-    return constants.rank_one((max(factor, AT_CORNERS) - 1.0) * twisting, *strain[0], strain[1])
+    states = np.array([[*(a * b), a[0] * b[1] + a[1] * b[0]] for a, b in ((n, n), (t, t), (n, t))])
+    bending = states @ whole.bending @ states.T
+    twisting, stretch = (float(form(bending)[0]) for form in (sections.twisting, sections.stretch_by_twist))
+    shear, free = (float(1.0 / (t**2 @ (1.0 / part))) for part in (whole.shear, section.free_shear))
+    strip = (
+        math.sqrt(sides[0] * sides[1]),
+        twisting,
+        shear,
+        float(t**2 @ by_diagonals),
+        math.sqrt(twisting / free),
+    )
+    width, rigidity, sheared, share, lost = (float(f"{each:.{DIGITS}g}") for each in strip)
+    factor = edge_factor(STRIP, width, rigidity, sheared, share, lost, False)
+    if factor is None:
+        notes.append("no twisting stiffness of the cells along an oblique rim makes it right")
+        factor = 1.0
+    strain = 2.0 * n * t + stretch * t * t
+    skew = n[0] * t[1] + n[1] * t[0] + stretch * t[0] * t[1]
+    return constants.rank_one((max(factor, AT_CORNERS) - 1.0) * twisting, *strain, skew)

@@ -27,7 +27,7 @@ def report(method: str, kinds: Kinds, springs: SpringSet) -> Calibration:
 
     Raises BadInput where area springs leave a cell without positive energy.
     """
-    square = all(abs(x - y) < 1e-9 * x for (x, y), _ in kinds.of)
+    square = all(abs(x - y) < ALIKE * x and _alike(section.bending) for (x, y), section in kinds.of)
     worst: dict[str, dict[str, Any]] = {}
     for sides, section, own in _cells(kinds, springs):
         whole = moduli.of_springs(own, (*sides, own.layer_distance), kinds.grid[2])
@@ -57,6 +57,11 @@ def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
     """Moduli of the interior of a sheet's lattice with these springs, alike in all its cells."""
     x, y = grid_lines(sheet, grid)
     return moduli.of_springs(springs, (x.mean, y.mean, springs.layer_distance), grid[2])
+
+
+def _alike(form: np.ndarray) -> bool:
+    """Whether x and y are alike."""
+    return bool(abs(form[0, 0] - form[1, 1]) < ALIKE * form[0, 0])
 
 
 def _cells(kinds: Kinds, springs: SpringSet) -> list[Cell]:

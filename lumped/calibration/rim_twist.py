@@ -23,16 +23,16 @@ from lumped import moduli
 from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration, either
 from lumped.calibration.cell_by_cell import Kinds
-from lumped.calibration.oblique_rims import at_oblique_rims
 from lumped.calibration.edge_twist import AT_CORNERS, MOST, edge_factor, of_cell, with_edges
+from lumped.calibration.oblique_rims import at_oblique_rims
 from sheetbench.scenes import Sheet, SpringSet
 
 ALIKE = 1e-9  # shares of cells that one straight line cuts
 
 
 def with_twist(sheet: Sheet, kinds: Kinds, found: Calibration) -> Calibration:
-    """The calibration with the twist of its edges, and of its rims where cells are absent."""
-    if found.present is None:
+    """The calibration with the twist of its edges, and of its rims where cells are absent or cut."""
+    if found.present is None and (found.cells is None or found.cells.rims is None):
         springs, notes = with_edges(sheet, found.grid, found.springs, found.grading, found.cells)
     else:
         springs, notes = with_rims(kinds, found)
@@ -40,10 +40,10 @@ def with_twist(sheet: Sheet, kinds: Kinds, found: Calibration) -> Calibration:
 
 
 def with_rims(kinds: Kinds, found: Calibration) -> tuple[SpringSet, list[str]]:
-    """The springs of a calibration with absent cells and the twist of their rims, and a note for rims where
-    no factor will do."""
-    assert found.cells is not None and found.present is not None
-    springs, layers, there = found.springs, found.grid[2], found.present
+    """The springs of a calibration with the twist of its cells' rims, and a note for rims where no factor
+    will do."""
+    assert found.cells is not None
+    springs, layers, there = found.springs, found.grid[2], found.cells.per_area > 0.0
     lost = np.broadcast_to(found.cells.layer_width, (*there.shape, 2))
     square = moduli.second_moment(layers) * springs.layer_distance**2
     first = {int(n): np.argwhere((kinds.which == n) & (kinds.factor == 1.0))[0] for n in range(len(kinds.of))}
@@ -72,9 +72,11 @@ def with_rims(kinds: Kinds, found: Calibration) -> tuple[SpringSet, list[str]]:
         factor = max(factors[key], AT_CORNERS) if corner else factors[key]
         return (factor - 1.0) * twisting[axis] * float(kinds.factor[at]) / square
 
-    oblique = None if springs.rubber else found.cells.rims
-    if oblique is not None:
-        rims += at_oblique_rims(oblique, kinds, found, own)
+    near_oblique = np.zeros(there.shape, dtype=bool)
+    if found.cells.rims is not None and not springs.rubber:
+        near_oblique[found.cells.rims.rows, found.cells.rims.columns] = True
+        at_oblique, notes = at_oblique_rims(found.cells.rims, kinds, found, own)
+        rims += at_oblique
     edges: dict[str, list[Any]] = {name: [] for name in constants.EDGES_OWN}
     for axis in (0, 1):
         rows = np.moveaxis(there, 1 - axis, 1)
@@ -85,7 +87,8 @@ def with_rims(kinds: Kinds, found: Calibration) -> tuple[SpringSet, list[str]]:
                 whole = start == 0 and stop == len(row)
                 for cell, outer, far in ((start, 0, ""), (stop - 1, len(row) - 1, "far_")):
                     at = (place, cell) if axis == 0 else (cell, place)
-                    if not _aligned(kinds.factor, at, axis, oblique):
+                    corner = near_oblique[at] and any(_beyond(there, at, 1 - axis))
+                    if corner or not _aligned(kinds.factor, at, axis, near_oblique):
                         continue
                     stretch = of_kind[int(kinds.which[at])][3][axis]
                     if cell != outer:
@@ -111,12 +114,12 @@ def _beyond(there: np.ndarray, at: tuple[int, int], axis: int) -> tuple[bool, bo
     return place == 0 or not along[place - 1], place == len(along) - 1 or not along[place + 1]
 
 
-def _aligned(share: np.ndarray, at: tuple[int, int], axis: int, oblique: np.ndarray | None) -> bool:
+def _aligned(share: np.ndarray, at: tuple[int, int], axis: int, near_oblique: np.ndarray) -> bool:
     """Whether the cell is whole, or cut along the rim that crosses an axis as a neighbour along it is, and
     not near an oblique one."""
     if share[at] > 1.0 - ALIKE:
         return True
-    if oblique is not None and oblique[at].any():
+    if near_oblique[at]:
         return False
     line, place = (share[:, at[1]], at[0]) if axis == 0 else (share[at[0]], at[1])
     beside = line[max(place - 1, 0) : place + 2]

@@ -31,8 +31,16 @@ _MEANINGS = {
     "face_diagonal_shear": "face_shear over a cell's diagonals",
     "edge_shear": "correction to the shear spring of a layer's cells along a free, hinged or held edge",
     "strip_shear": "edge_shear where the opposite edge is free, hinged or held too, by their distance",
+    "edge_coupling": "of the strain along such an edge, which counts with the shear there (no unit)",
     "far_edge_shear": "edge_shear of the edges x1 and y1",
     "far_strip_shear": "strip_shear of the edges x1 and y1",
+    "far_edge_coupling": "edge_coupling of the edges x1 and y1",
+    "rim_shear": "edge_shear of cells at rims of outlines and cutouts",
+    "rim_stretch_x": "the same against their stretching along x",
+    "rim_stretch_y": "the same against their stretching along y",
+    "rim_coupling_xy": "the same of both strains",
+    "rim_coupling_x": "the same of strain along x and shear",
+    "rim_coupling_y": "the same of strain along y and shear",
     "mid_stretch": "strain spring of a mid-surface cell, stretching",
 }
 
@@ -97,8 +105,14 @@ def _edges(calibration: dict[str, Any]) -> str:
     if not shear:
         return ""
     square = second_moment(layers) * calibration["layer_distance"] ** 2
-    (twisting,) = (row["got"] for row in calibration["moduli"] if row["name"] == "D66")
-    cells = np.hstack([*shear.values()]) if isinstance(shear, dict) else shear
-    shares = sorted({number(1.0 + k * square / twisting, ".3f") for k in (np.min(cells), np.max(cells))})
-    share = " to ".join(shares)
-    return f". D66: times {share} in cells along free, hinged and held edges, to match the torsion of a strip"
+    got = {row["name"]: row["got"] for row in calibration["moduli"]}
+    both = [*shear.values()] if isinstance(shear, dict) else [shear, shear]
+    factors: list[float] = []
+    for cells, along in zip(both, ("1", "2"), strict=True):
+        own = got.get(f"D{along}{along}", got["D11"])  # on square cells one value is both's
+        twisting = got["D66"] - got.get(f"D{along}6", 0.0) ** 2 / own
+        factors += [1.0 + float(k) * square / twisting for k in (np.min(cells), np.max(cells))]
+    share = " to ".join(dict.fromkeys(number(each, ".3f") for each in (min(factors), max(factors))))
+    what = "D66 less D16²/D11 or D26²/D22" if "D16" in got else "D66"
+    cells_there = "in cells along free, hinged and held edges"
+    return f". {what}: times {share} {cells_there}, to match the torsion of a strip"

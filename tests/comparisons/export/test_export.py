@@ -57,6 +57,11 @@ DRAWN = HALF.replace(
     patches=[{"shape": ROOT, "young": 5e6}],
 )
 FIBRES = {"young_1": 5e6, "young_2": 1e6, "poisson_12": 0.3, "shear_12": 4e5, "angle": 0.5}
+SKEW = HALF.replace(  # an oblique rim
+    supports=[CLAMP],
+    loads=[PointLoad(at=(0.2, 0.1), force=(0.0, 0.0, 0.02))],
+    outline=[(0.0, 0.0), (0.12, 0.0), (0.2, 0.1), (0.0, 0.1)],
+)
 WOVEN = DRAWN.replace(material={"kind": "orthotropic", "density": 1000.0, **FIBRES}, patches=())
 
 
@@ -138,12 +143,14 @@ def test_matlab_and_numpy_files_hold_the_same(folder):
         *((HALF.replace(material=material), {"method": "hyperelastic"}) for material in RUBBERS),
         (DRAWN, {"grid": (5, 3)}),
         (WOVEN, {"grid": (5, 3)}),
+        (SKEW, {"grid": (5, 3)}),
     ],
-    ids=["curved, graded", "hinged and held", "half, point and edge loads", "uniform", *LAWS, "cut", "woven"],
+    ids=["graded", "hinged and held", "half, point and edge loads", "uniform", *LAWS, "cut", "woven", "skew"],
 )
 def test_numpy_alone_finds_our_displacements(scene, settings):
     lattice = arrays(lumped.describe(scene, spring_set(scene, **{"grid": 3, **settings})))
     assert (lattice["mass"] > 0.0).all()
+    assert lattice["coupling_stiffness"].any() == (scene in (WOVEN, SKEW))
     along = NUMPY["differences"](lattice)
     for u, force, energy in zip(
         *(lattice[f"state_{name}"] for name in ("displacement", "force", "energy")), strict=True
@@ -209,7 +216,8 @@ def test_cpp_steps_to_our_displacements(folder, rubbers, tmp_path):
     program = tmp_path / "read_lattice"
     source = READERS / "read_lattice.cpp"
     subprocess.run([str(COMPILER), "-O1", "-std=c++17", str(source), "-o", str(program)], check=True)
-    others = {"hinged": (HINGED, 3), "cut": (DRAWN, (5, 3)), "woven": (WOVEN, (5, 3))}
+    others = {"hinged": (HINGED, 3)}
+    others |= {name: (scene, (5, 3)) for name, scene in (("cut", DRAWN), ("woven", WOVEN), ("skew", SKEW))}
     for name, (scene, grid) in others.items():
         export(tmp_path / name, scene, spring_set(scene, grid))
     for place in (folder, *(tmp_path / name for name in others), *rubbers):

@@ -1,17 +1,16 @@
 """How a chain's rows carry masses of the edge and its own inertia: two constant linear maps.
 
-The edge is a smooth curve through the chain, whatever the number of masses: a polygon's kinks would bend the
-sheet the more sharply the finer its cells. With arc length s in segments, x_j the joints, t_k the tangents and
-n_k the normals of the segments, and held and shared ends as `lumped.actuators.frames` has them,
+The edge is a smooth curve through the chain's joints, whatever the number of masses: a polygon's kinks would
+bend the sheet the more sharply the finer its cells are. With arc length s in segments, x_j the joints and ends,
+t_k the tangents and n_k the normals of segments,
 
-    X_j = x_j + (t_j − t_{j−1})/24      at joints; at ends that are held X = x, at free ones as at the next joint
-    r(s) = the cubic from X_j to X_{j+1} with slopes m_j,      r(s) + z d(s) = the mass at height z
+    r(s) = the cubic from x_j to x_{j+1} with slopes m_j,      r(s) + z d(s) = the mass at height z
 
-The chord of an arc of angle φ is 1 − φ²/24 as long as the arc: so arcs through X_j are as long as the segments.
-m_j is the slope at j of the polynomial whose means over the two segments on either side are those of r', fewer at
-ends, where a base's tangent stands for a missing one. As r'(s) is a sum of t_k, d(s) is that sum of n_k: it turns
-with the curve. At a corner the director is the corner's. A base in between divides the curve in two, since
-curvatures may differ there; a single free segment is straight.
+m_j is the slope at j of the polynomial whose means over the segments around, two on either side, are those of
+r', t_k; at ends there are fewer, and a base's tangent stands for the missing ones. As r'(s) is a sum of t_k,
+d(s) is that sum of n_k, so that it turns with the curve; at a corner that holds it the director is the corner's.
+A base in between divides the curve in two, since moments may differ there. Arcs are 1 + φ²/24 as long as
+their chords, φ the angle of a joint, an error of the second order as the chain's own.
 
 A segment is a cylinder of the chain's radius a: it has the mass m of a uniform rod, and the rotary inertia
 about its axis as m a²/4 of each director.
@@ -19,8 +18,9 @@ about its axis as m a²/4 of each director.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -44,13 +44,9 @@ def bind(frames: Frames, rows: int, along: np.ndarray, height: np.ndarray) -> Bi
     """The binding of masses at arc length and height over the axis (m,) [m]."""
     count, base = frames.segments, frames.base_joint
     binding, share = np.zeros((len(along), rows)), np.zeros((count, len(along)))
-    tangents = _Curve.of(count, {} if base is None else {base: count}, frames.corner_points)
-    turning = _Curve.of(
-        count,
-        ({} if base is None else {base: count})
-        | {frames.end_point(end): count + 1 + k for k, end in enumerate(frames.corners)},
-        (),
-    )
+    ground = {} if base is None else {base: count}
+    corners = {frames.end_point(end): count + 1 + k for k, end in enumerate(frames.corners)}
+    tangents, normals = _Curve.of(count, ground), _Curve.of(count, ground | corners)
     place = along / frames.length
     arms = np.zeros((len(along), 3))
     for i, (p, z) in enumerate(zip(place, height, strict=True)):
@@ -62,7 +58,7 @@ def bind(frames: Frames, rows: int, along: np.ndarray, height: np.ndarray) -> Bi
         binding[i, joint] = 1.0
         binding[i, 1 : count + 1] += by_tangent[:count]
         binding[i, :count] -= by_tangent[:count]
-        by_normal = turning.slope(p)
+        by_normal = normals.slope(p)
         lever = z / frames.length
         binding[i, frames.points : frames.points + count] += lever * by_normal[:count]
         for k, end in enumerate(frames.corners):
@@ -73,68 +69,52 @@ def bind(frames: Frames, rows: int, along: np.ndarray, height: np.ndarray) -> Bi
 
 @dataclass(frozen=True)
 class _Curve:
-    """Of r, in segments: offsets X_j − x_j, slopes m_j (joints and ends, tangents) and chords X_{j+1} − X_j
-    (segments, tangents), in parts of the tangents of segments, of a base and of corners."""
+    """Slopes m_j of r(s) at joints and ends (segments + 1, tangents), in parts of the tangents of segments, of
+    a base and of corners."""
 
-    offsets: np.ndarray
     slopes: np.ndarray
-    chords: np.ndarray
 
     @classmethod
-    def of(cls, count: int, known: dict[int, int], still: Sequence[int]) -> _Curve:
-        """known: the number of the tangent at joints and ends where it is known; still: others held there."""
-        tangents = max([count, *(number + 1 for number in known.values())]) + 2
-        unit = np.eye(tangents)
-        offsets, slopes = np.zeros((2, count + 1, tangents))
-        chords = np.zeros((count, tangents))
-        bounds = sorted({0, count, *known})
-        for first, last in zip(bounds, bounds[1:], strict=False):
-            inner = range(first + 1, last)
-            for j in inner:
-                offsets[j] = (unit[j] - unit[j - 1]) / 24.0
-            for end, beside in ((first, first + 1), (last, last - 1)):
-                if end not in known and end not in still and beside in inner:
-                    offsets[end] = offsets[beside]
-            chords[first:last] = unit[first:last] + np.diff(offsets[first : last + 1], axis=0)
-            for j in range(first, last + 1):
-                slopes[j] = _slope(j, first, last, chords, {k: unit[n] for k, n in known.items()})
-        return cls(offsets, slopes, chords)
+    def of(cls, count: int, known: Mapping[int, int]) -> _Curve:
+        """known: the numbers of the tangents that joints and ends have of a base or a corner."""
+        slopes = np.zeros((count + 1, max([count, *known.values()]) + 1))
+        for first, last in pairwise(sorted({0, count, *known})):
+            for joint in range(first, last + 1):
+                if joint in known:
+                    slopes[joint, known[joint]] = 1.0
+                    continue
+                around = np.arange(max(first, joint - AROUND), min(last, joint + AROUND))
+                nearby = [end for end in (first, last) if end in known and abs(end - joint) < AROUND]
+                numbers = [*around, *(known[end] for end in nearby)]
+                slopes[joint, numbers] = _weights(around - joint, np.array(nearby) - joint)
+        return cls(slopes)
 
     def place(self, s: float) -> tuple[int, np.ndarray]:
-        """The joint or end before s, and r(s) − x there in parts of the tangents."""
+        """The joint or end j before s, and r(s) − x_j in parts of the tangents."""
         j, xi = self._segment(s)
-        chord, before, after = self.chords[j], self.slopes[j], self.slopes[j + 1]
-        own = xi**2 * (3.0 - 2.0 * xi) * chord
-        return j, self.offsets[j] + own + xi * (1.0 - xi) ** 2 * before - xi**2 * (1.0 - xi) * after
+        found = xi * (1.0 - xi) * ((1.0 - xi) * self.slopes[j] - xi * self.slopes[j + 1])
+        found[j] += xi**2 * (3.0 - 2.0 * xi)
+        return j, found
 
     def slope(self, s: float) -> np.ndarray:
         """r'(s) in parts of the tangents."""
         j, xi = self._segment(s)
-        own = 6.0 * xi * (1.0 - xi) * self.chords[j]
-        return np.asarray(
-            own + (1.0 - xi) * (1.0 - 3.0 * xi) * self.slopes[j] + xi * (3.0 * xi - 2.0) * self.slopes[j + 1]
-        )
+        found = (1.0 - xi) * (1.0 - 3.0 * xi) * self.slopes[j] + xi * (3.0 * xi - 2.0) * self.slopes[j + 1]
+        found[j] += 6.0 * xi * (1.0 - xi)
+        return np.asarray(found)
 
     def _segment(self, s: float) -> tuple[int, float]:
-        j = min(max(int(np.floor(s + 1e-9)), 0), len(self.chords) - 1)
+        j = min(max(int(np.floor(s + 1e-9)), 0), len(self.slopes) - 2)
         return j, s - j
 
 
-def _slope(joint: int, first: int, last: int, chords: np.ndarray, known: dict[int, np.ndarray]) -> np.ndarray:
-    """m at a joint or end between `first` and `last`, from chords around it and known slopes."""
-    if joint in known:
-        return known[joint]
-    around = range(max(first, joint - AROUND), min(last, joint + AROUND))
-    data = [chords[k] for k in around]
-    powers = np.arange(AROUND + len(data))
-    at = [((k + 1.0 - joint) ** (powers + 1) - (k - joint) ** (powers + 1)) / (powers + 1) for k in around]
-    for end, missing in ((first, joint - AROUND < first), (last, joint + AROUND > last)):
-        if end in known and missing:
-            data.append(known[end])
-            at.append(np.asarray(float(end - joint) ** powers))
-    moments = np.array(at)[:, : len(data)]
-    weights = np.linalg.solve(moments.T, np.eye(len(data))[0])
-    return np.asarray(weights @ np.array(data))
+def _weights(means: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """What part its means over the segments that begin at `means` (k,), and its `values` there (v,), have in
+    the value at 0 of a polynomial of k + v terms."""
+    powers = np.arange(len(means) + len(values))
+    of_means = ((means[:, None] + 1.0) ** (powers + 1) - means[:, None] ** (powers + 1.0)) / (powers + 1)
+    moments = np.concatenate([of_means, values[:, None] ** (1.0 * powers)])
+    return np.asarray(np.linalg.solve(moments.T, np.eye(len(powers))[0]))
 
 
 def mass_matrix(frames: Frames, rows: int, chains: Sequence[Chain], beside: np.ndarray) -> np.ndarray:

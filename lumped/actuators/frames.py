@@ -230,11 +230,6 @@ class Frames:
             self.base
         )
 
-    @property
-    def corner_points(self) -> tuple[int, ...]:
-        """The points at the ends that corners hold."""
-        return tuple(self.end_point(end) for end in self.corners)
-
     def end_point(self, end: int) -> int:
         """The point at an end (0 or 1)."""
         return end * self.segments

@@ -1,16 +1,16 @@
 """How a chain's rows carry masses of the edge and its own inertia: two constant linear maps.
 
 The edge is a smooth curve through the chain's joints, whatever the number of masses: a polygon's kinks would
-bend the sheet the more sharply the finer its cells are. With arc length s in segments, x_j the joints and ends,
-t_k the tangents and n_k the normals of segments,
+bend the sheet the more sharply the finer its cells are. With arc length s in segments, x_j the joints and
+ends, t_k the tangents and n_k the normals of segments,
 
     r(s) = the cubic from x_j to x_{j+1} with slopes m_j,      r(s) + z d(s) = the mass at height z
 
 m_j is the slope at j of the polynomial whose means over the segments around, two on either side, are those of
 r', t_k; at ends there are fewer, and a base's tangent stands for the missing ones. As r'(s) is a sum of t_k,
-d(s) is that sum of n_k, so that it turns with the curve; at a corner that holds it the director is the corner's.
-A base in between divides the curve in two, since moments may differ there. Arcs are 1 + φ²/24 as long as
-their chords, φ the angle of a joint, an error of the second order as the chain's own.
+d(s) is that sum of n_k, so that it turns with the curve; at a corner the director is the corner's. A base in
+between divides the curve in two, since moments may differ there. Arcs are 1 + φ²/24 as long as their chords,
+φ the angle of a joint, an error of the second order as the chain's own.
 
 A segment is a cylinder of the chain's radius a: it has the mass m of a uniform rod, and the rotary inertia
 about its axis as m a²/4 of each director.
@@ -69,8 +69,8 @@ def bind(frames: Frames, rows: int, along: np.ndarray, height: np.ndarray) -> Bi
 
 @dataclass(frozen=True)
 class _Curve:
-    """Slopes m_j of r(s) at joints and ends (segments + 1, tangents), in parts of the tangents of segments, of
-    a base and of corners."""
+    """Slopes m_j of r(s) at joints and ends (segments + 1, tangents), in parts of the tangents of segments,
+    of a base and of corners."""
 
     slopes: np.ndarray
 

@@ -117,7 +117,7 @@ def _reduction(
                 for q in range(3):
                     row = 3 * block_rows[b] + q
                     for e in range(t_pointers[row], t_pointers[row + 1]):
-                        # by insertion: the rows come nearly sorted, but of the long columns of actuators' rows
+                        # by insertion: rows come nearly sorted, but in long columns, of actuators
                         place, target = filled, t_columns[e]
                         while filled - begin < LONG and place > begin and to[place - 1] > target:
                             to[place], source[place] = to[place - 1], source[place - 1]

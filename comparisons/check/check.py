@@ -61,7 +61,7 @@ class Check(Answer):
     @cached_property
     def foretold(self) -> list[str]:
         """Error of the lattice, as far as it is known before solving."""
-        known = lumped.polygons(self.scene, scene_grid(self.scene)) if self.scene.actuators else ""
+        known = lumped.polygons(self.scene)
         return [known] if known else []
 
     def document(self) -> dict[str, Any]:

@@ -77,7 +77,8 @@ class Chain:
         self.masses = masses
         rest = lattice.positions[masses]
         inside = rest @ along - start @ along
-        self.binding, self.share = bind(frames, self.rows, inside, rest[:, 2] - self.offset)
+        bound = bind(frames, self.rows, inside, rest[:, 2] - self.offset)
+        self.binding, self.share, self._arms = bound.rows, bound.share, bound.arms
         self.mass = mass_matrix(frames, self.rows, chains, offsets - self.offset)
         self._stiffness = np.array([c.bending_stiffness / frames.length / frames.share for c in chains])
         self.carried = float(self._stiffness.sum(axis=0).max(initial=0.0) / frames.length)
@@ -194,7 +195,8 @@ class Chain:
         count = self.frames.coordinates
         whole = np.where(self.free, 0.0, acting.on_rows + self.binding.T @ acting.on_masses)[:count]
         moment = np.cross(self.frames.rest + acting.y[:count], whole).sum(axis=0)
-        return moment + self._on_ground(acting.y, drive)
+        on_base = np.cross(self._arms, acting.on_masses).sum(axis=0)
+        return moment + on_base + self._on_ground(acting.y, drive)
 
     def _on_ground(self, y: np.ndarray, drive: Drive) -> np.ndarray:
         """Moment (3,) [N·m] of the base on the chain through its joints and constraints."""

@@ -222,6 +222,14 @@ class Frames:
             whole[: self.coordinates, row] |= by_row[c]
         return whole
 
+    @property
+    def base_joint(self) -> int | None:
+        """The joint or end (0 to segments) at which a base is a frame that joints join; None without one."""
+        even = self.segments % 2 == 0
+        return {"start": 0, "end": self.segments, "middle": self.segments // 2 if even else None}.get(
+            self.base
+        )
+
     def end_point(self, end: int) -> int:
         """The point at an end (0 or 1)."""
         return end * self.segments

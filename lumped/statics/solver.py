@@ -323,7 +323,7 @@ def classify(
             None,
             [
                 doubts,
-                polygons(scene, problem.assembly.lattice.grid),
+                polygons(scene),
                 rounded.message if rounded is not None else "",
             ],
         )

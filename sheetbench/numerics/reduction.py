@@ -15,6 +15,8 @@ from numba import njit
 
 from sheetbench.numerics.fronts import Cells
 
+LONG = 512  # entries of a column, from which on they are sorted at the end
+
 
 class BlockPattern(Protocol):
     """Blocks (b,) of a symmetric pattern over n nodes, as in BSR: rows, indices (b,), indptr (n + 1,). cells:
@@ -115,15 +117,19 @@ def _reduction(
                 for q in range(3):
                     row = 3 * block_rows[b] + q
                     for e in range(t_pointers[row], t_pointers[row + 1]):
-                        # by insertion: the rows come nearly sorted
+                        # by insertion: rows come nearly sorted, but in long columns, of actuators
                         place, target = filled, t_columns[e]
-                        while place > begin and to[place - 1] > target:
+                        while filled - begin < LONG and place > begin and to[place - 1] > target:
                             to[place], source[place] = to[place - 1], source[place - 1]
                             weight[place] = weight[place - 1]
                             place -= 1
                         to[place], source[place] = target, 9 * by_column[b] + 3 * q + axis
                         weight[place] = t_values[e] * c_values[at]
                         filled += 1
+        if filled - begin > LONG:
+            order = begin + np.argsort(to[begin:filled], kind="mergesort")
+            to[begin:filled], source[begin:filled] = to[order], source[order]
+            weight[begin:filled] = weight[order]
         for e in range(begin, filled):
             if e == begin or to[e] != to[e - 1]:
                 rows[nonzeros], starts[nonzeros] = to[e], e

@@ -60,7 +60,8 @@ class Chain(Frozen):
     edge: EdgeName
     """The edge it is bound to, which has no support."""
     segments: Annotated[int, Field(ge=1, strict=True)]
-    """Rigid segments, of equal length; they need not coincide with masses."""
+    """Rigid segments, of equal length; the sheet's edge is a smooth curve through their joints in every
+    model, so cells may be shorter or longer."""
     bending_stiffness: Annotated[Positive, Unit("N·m²")]
     """EI of the chain; a joint's stiffness is EI divided by a segment's length."""
     line_density: Annotated[Positive, Unit("kg/m")]

@@ -14,9 +14,10 @@ IDENTIFY = f"identify {TWO} --measured measured.csv"
 SIMULATE = f"simulate {TWO} --lumped 3 --duration 0.01"
 HUGE = "9" * 19
 ROWS = {
-    f"advise {ONE} --tolerance 2": "--tolerance = 2: a fraction",
-    f"advise {ONE} --tolerance 0": "--tolerance = 0",
-    f"advise {ONE} --budget -1": "--budget = -1",
+    f"advise {ONE} --tolerance 2": "tolerance = 2: a fraction",
+    f"advise {ONE} --tolerance 0": "tolerance = 0: a fraction",
+    f"advise {ONE} --budget -1": "budget = -1",
+    f"advise {ONE} --models lumped,solid": "models = 'solid': unknown, choose one of lumped, plate, shell",
     "calibrate": "--young|--poisson|--thickness|--side",
     f"calibrate {TWO} --poisson 0.5": "--poisson|0.5",
     f"calibrate {TWO} --side 18q": "--side|18q",

@@ -117,7 +117,6 @@ ROWS = {
     f"tradeoff {ONE} --workers 2 --scheduler tcp://127.0.0.1:9": "--workers: no effect with --scheduler",
     f"crosscheck {ONE} --duration 0.1 --judges '' --workers 2": "--workers: no effect with --duration",
     f"crosscheck {ONE} --judges '' --meshes 4,8": "--meshes: no effect without external codes",
-    "reproduce --part settling --elements 4": "--elements: no effect without the part tables",
     f"calibrate {ONE} --for newton --loss-factor 0.1 --at 3": "--loss-factor: no effect|newton|stiffness",
     f"calibrate {ONE} --for mujoco --quality 9 --band 1 9": "--quality: no effect with --for mujoco|Maxwell",
     f"identify {ONE} --tensile measured.csv": "SCENE: no effect with --tensile",

@@ -32,7 +32,7 @@ ROWS = {
     f"calibrate {TWO} --grid 3 --for mujoco --for sofa": "--for|--export",
     f"calibrate {TWO} --grid 3 --method central --for bullet --export a": "mujoco",
     f"calibrate {TWO} --grid 3x3x{HUGE}": "grid",
-    "calibrate --young 1e6 --poisson 0.3 --thickness 0.002 --side 0.1 --method auto": "method = auto",
+    "calibrate --young 1e6 --poisson 0.3 --thickness 0.002 --side 0.1 --method auto": "calibration = auto",
     "calibrate --young '2 mm'": "needed is a stress or modulus",
     "calibrate --thickness '2 MPa'": "needed is a length",
     "calibrate --density '1.1 g'": "needed is a density",

@@ -50,8 +50,9 @@ def calibrate(
     along x and y) and density [kg/m³] in place of its own; without a scene those alone, 1000 kg/m³ unless
     given. Text may have a unit, as "2 mm".
     lattice, or its flat keywords: grid, 9 along the shorter side with near-square cells unless given;
-    (nx, ny), (nx, ny, layers). calibration: a name of `lumped.CALIBRATIONS`, consistent unless given, or "auto", as the scene's edges and load have it and as
-    goes with the grading "auto"; the fitted ones train on the scene. k [N/m] and layer_distance [m] are for
+    (nx, ny), (nx, ny, layers). calibration: a name of `lumped.CALIBRATIONS`, consistent unless given, or
+    "auto", as the scene's edges and load have it and as goes with the grading "auto"; the fitted ones train
+    on the scene. k [N/m] and layer_distance [m] are for
     the calibrations that take them. grading: 0, cells of one size, to 1, finest at the edges, or "auto", as
     the scene's layers need. Raises BadInput for what does not exist or go together, and unless `large` for a
     fit that takes more memory than there is.

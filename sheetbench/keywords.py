@@ -1,4 +1,4 @@
-"""Functions of `import sheetbench` as the terminal takes its options: what does not exist is refused by name."""
+"""Functions of `import sheetbench` refuse what does not exist by name, as the terminal does its options."""
 
 from __future__ import annotations
 

@@ -113,8 +113,8 @@ def command(
         from comparisons.codes.setup import setup, squares_of
 
         if damped and (code := CODES.get(simulators[0])) and (why := undamped(code, of.material)):
-            given = zip(DAMPING, (loss_factor, damping_ratio, log_decrement, quality, prony), strict=True)
-            require_effect(f"with --for {code.name}: {why}", dict(given))
+            options = zip(DAMPING, (loss_factor, damping_ratio, log_decrement, quality, prony), strict=True)
+            require_effect(f"with --for {code.name}: {why}", dict(options))
         found = setup(of, simulators[0], squares_of(grid), named=scene is not None)
         with output.open(about=about, variant={"--for": simulators[0]}) as out:
             out.show(found)

@@ -50,8 +50,8 @@ def spectra(
     """Return the spectra of the lattice and of the reference, or of each of several.
 
     masses: how the lattice shares out its mass (`lumped.masses`), as `lumped.modes` has it unless given;
-    about: "flat", or "deformed" under the scene's loads; large: even where one takes more memory than there is;
-    progress: called with what is being done.
+    about: "flat", or "deformed" under the scene's loads; large: even where one takes more memory than
+    there is; progress: called with what is being done.
 
     Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
     that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.

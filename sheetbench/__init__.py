@@ -12,6 +12,7 @@ A function takes a scene, a name or a path, and is loaded when it is first used.
 from __future__ import annotations
 
 from importlib import import_module as _import_module
+from types import FunctionType as _Function
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 if _TYPE_CHECKING:
@@ -98,7 +99,12 @@ def __getattr__(name: str) -> object:
     if name not in __all__:
         raise AttributeError(f"module 'sheetbench' has no attribute {name!r}")
     module = _import_module(_MODULE_OF.get(name, "sheetbench.scenes"))
-    return getattr(module, _NAME_THERE.get(name, name))
+    found = getattr(module, _NAME_THERE.get(name, name))
+    if isinstance(found, _Function) and name in _MODULE_OF:
+        from sheetbench.keywords import in_words
+
+        return in_words(name, found)
+    return found
 
 
 def __dir__() -> list[str]:

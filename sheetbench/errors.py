@@ -49,7 +49,8 @@ def require_effect(why: str, options: Mapping[str, object]) -> None:
     without what, as "without --out".
     """
     for name, value in options.items():
-        if value is not None and value is not False and value != () and value != []:
+        empty = isinstance(value, tuple | list) and not value
+        if not (value is None or value is False or empty):
             raise BadInput(f"{name}: no effect {why}; leave it out")
 
 

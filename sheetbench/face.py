@@ -14,18 +14,20 @@ from comparisons.models.context import in_context, large_in_context
 from comparisons.models.grids import Elements as Count
 from comparisons.models.grids import GridLike
 from comparisons.models.keywords import LatticeKeywords, SpringKeywords, StaticKeywords
-from comparisons.models.resolve import resolve, resolve_each
-from comparisons.models.spec import Elements, Lattice, Spec, lattices, parse, spec_of
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Elements, Lattice, Spec, parse, spec_of
 from comparisons.report.work import silent
-from sheetbench.choices import CALIBRATION, INTEGRATOR, REFERENCE, REFERENCES
-from sheetbench.errors import require_effect
+from sheetbench.choices import INTEGRATOR, REFERENCE, REFERENCES
+from sheetbench.errors import BadInput, require_effect
 from sheetbench.scenes import AnyScene, History, Solution, scene_of
+from sheetbench.scenes.units import amount
 
 if TYPE_CHECKING:
     from comparisons.comparison.answer import Comparison
     from comparisons.motion.comparison_answer import MotionComparison
     from comparisons.runs.campaign import Progress
     from comparisons.tradeoff.answer import Tradeoff
+    from comparisons.tradeoff.motion_answer import DynamicTradeoff
     from lumped import Calibration
 
 
@@ -39,7 +41,6 @@ def calibrate(
     thickness: float | str | None = None,
     side: float | str | Sequence[float | str] | None = None,
     density: float | str | None = None,
-    method: str | None = None,
     large: bool = False,
     **keywords: Unpack[LatticeKeywords],
 ) -> Calibration:
@@ -49,9 +50,9 @@ def calibrate(
     along x and y) and density [kg/m³] in place of its own; without a scene those alone, 1000 kg/m³ unless
     given. Text may have a unit, as "2 mm".
     lattice, or its flat keywords: grid, 9 along the shorter side with near-square cells unless given;
-    (nx, ny), (nx, ny, layers). calibration, or method, another word for it: a name of
-    `lumped.CALIBRATIONS`, consistent unless given, or "auto", as the scene's edges and load have it and as
-    goes with the grading "auto"; the fitted ones train on the scene. k [N/m] and layer_distance [m] are for
+    (nx, ny), (nx, ny, layers). calibration: a name of `lumped.CALIBRATIONS`, consistent unless given, or
+    "auto", as the scene's edges and load have it and as goes with the grading "auto"; the fitted ones train
+    on the scene. k [N/m] and layer_distance [m] are for
     the calibrations that take them. grading: 0, cells of one size, to 1, finest at the edges, or "auto", as
     the scene's layers need. Raises BadInput for what does not exist or go together, and unless `large` for a
     fit that takes more memory than there is.
@@ -61,8 +62,7 @@ def calibrate(
     sides = [side] if isinstance(side, float | int | str | None) else side
     values = {"young": young, "poisson": poisson, "thickness": thickness, "density": density}
     of = subject(scene, {**values, "length_x": sides[0], "length_y": sides[-1]})
-    spec = Lattice.given(lattice, keywords)
-    return calibrate(of, spec if method is None else spec.but(calibration=method), named=scene is not None)
+    return calibrate(of, Lattice.given(lattice, keywords), named=scene is not None)
 
 
 @in_context
@@ -83,6 +83,8 @@ def solve(
     unless `large = True`; a solve that fails is a status.
     """
     spec = parse(model) if isinstance(model, str) else model
+    if not isinstance(spec, Spec):
+        raise BadInput(f"solve: model = {model!r}: a name as 'lumped' or 'shell', or a spec, is needed")
     if settings:
         spec = spec_of(spec.model, {**spec.settings, **settings})
     return solvers.solve(resolve(scene_of(scene), spec))
@@ -91,12 +93,12 @@ def solve(
 @large_in_context
 def simulate(
     scene: AnyScene,
-    duration: float,
+    duration: float | str,
     lattice: Lattice | None = None,
     *,
     integrator: str = INTEGRATOR,
-    step: float | None = None,
-    every: float | None = None,
+    step: float | str | None = None,
+    every: float | str | None = None,
     store: Path | None = None,
     frames: int = 0,
     progress: Callable[[float], None] | None = None,
@@ -112,6 +114,8 @@ def simulate(
     them; progress: called with the time reached.
     """
     model = resolve(scene_of(scene), Lattice.given(lattice, keywords), "motion")
+    duration = amount("duration", duration, "s")
+    step, every = (value and amount(name, value, "s") for name, value in (("step", step), ("every", every)))
     run: dict[str, Any] = {"integrator": integrator, "step": step, "every": every, "store": store}
     run |= {name: value for name, value in (("error", error), ("radius", radius)) if value is not None}
     return solvers.simulate(model, duration, **run, frames=frames, precision=precision, progress=progress)
@@ -134,7 +138,7 @@ def compare(
     lattice: Lattice | None = None,
     reference: Elements | str = REFERENCE,
     *,
-    duration: float,
+    duration: float | str,
     **settings: Any,
 ) -> MotionComparison: ...
 
@@ -145,12 +149,12 @@ def compare(
     lattice: Lattice | None = None,
     reference: Elements | str = REFERENCE,
     *,
-    duration: float | None = None,
+    duration: float | str | None = None,
     elements: Count | None = None,
     law: str | None = None,
     uncertainty: bool | None = None,
     companion: bool = True,
-    others: Sequence[Spec | str] = (),
+    models: Sequence[Spec | str] = (),
     every: float | None = None,
     frames: int = 0,
     large: bool = False,
@@ -161,7 +165,7 @@ def compare(
 
     lattice: a `Lattice`, or its flat keywords: 9 masses along the shorter side unless given. reference: an
     `Elements`, or "plate", "shell" or "solid" with elements, 16 unless given and 8 in motion, and law of
-    strain. uncertainty: find the reference's error bar too. others: models shown beside both. At rest:
+    strain. uncertainty: find the reference's error bar too. models: shown beside both. At rest:
     companion, and symmetry, branch and linear of the lattice, as of
     `comparisons.comparison.comparison.compare`; in motion: every, frames, as of
     `comparisons.motion.comparison.compare_motion`. Raises SceneError for a scene without an answer, BadInput
@@ -174,12 +178,12 @@ def compare(
         statics = {name: keywords.get(name) for name in ("linear", "symmetry", "branch")}
         require_effect("with a duration", {"companion": None if companion else "off", **statics})
         both |= {"uncertainty": uncertainty is not False, "every": every, "frames": frames}
-        both |= {"others": others}
-        return compare_motion(scene, duration, lattice, reference, **both)
+        both |= {"models": models}
+        return compare_motion(scene, amount("duration", duration, "s"), lattice, reference, **both)
     from comparisons.comparison.comparison import compare
 
     require_effect("without a duration", {"every": every, "frames": frames or None})
-    both |= {"uncertainty": uncertainty, "companion": companion, "others": others}
+    both |= {"uncertainty": uncertainty, "companion": companion, "models": models}
     return compare(scene, lattice, reference, **both)
 
 
@@ -188,36 +192,52 @@ def tradeoff(
     scene: AnyScene,
     lattice: Lattice | None = None,
     *,
-    grid: Sequence[GridLike] = (3, 5, 9, 17),
-    calibration: Sequence[str] = (CALIBRATION,),
-    plate: Sequence[int] = (),
-    shell: Sequence[int] = (4, 8, 16),
-    solid: Sequence[int] = (),
+    grid: Sequence[GridLike] | str | None = None,
+    lumped_pair: Sequence[str] | str | None = None,
+    calibration: Sequence[str] | str | None = None,
+    plate: Sequence[Count] | str | None = None,
+    shell: Sequence[Count] | str | None = None,
+    solid: Sequence[Count] | str | None = None,
     models: Sequence[Spec | str] = (),
-    repeats: int = 5,
+    symmetry: bool = False,
+    elements: Count | str | None = None,
+    repeats: int | None = None,
+    duration: float | str | None = None,
+    integrator: Sequence[str] | str | None = None,
     workers: int = 1,
     out: Path | str | None = None,
     large: bool = False,
     progress: Callable[[Progress], None] = silent,
     **keywords: Unpack[SpringKeywords],
-) -> Tradeoff:
-    """Error against time over lattices (grids), references (elements along the shorter side) and others.
+) -> Tradeoff | DynamicTradeoff:
+    """Error against time over lattices (grids), references (elements along the shorter side) and others: at
+    rest, or of the motion over `duration` [s].
 
+    Lists are as the command has them, and have its defaults (`comparisons.tradeoff.usual`): sequences, or
+    text as "3,5,9"; an empty one leaves a model out. lumped_pair: pairs of grids, "5:9", extrapolated.
     lattice, k, layer_distance: what all lattices have; grading: likewise, where the calibration takes one.
-    models: further ones, plug-ins too. repeats: timed solves of every row, at least. out: a folder that keeps
-    the rows, so that the same call goes on where an earlier one was stopped. large: even where a model takes
-    more memory than there is. Rows are computed in processes of their own: a script calls this under
-    `if __name__ == "__main__":`.
+    models: further ones, plug-ins too. symmetry: solve a half or a quarter where scene and grid allow it.
+    elements: of the reference. repeats: timed solves of every row at rest, 5 at least. integrator: of the
+    motion, all unless some are named. out: a folder that keeps the rows, so that the same call goes on where
+    an earlier one was stopped. large: even where a model takes more memory than there is. Rows are computed
+    in processes of their own: a script calls this under `if __name__ == "__main__":`.
     """
     from comparisons.runs.campaign import campaign
-    from comparisons.tradeoff.statics import tradeoff
+    from comparisons.tradeoff.choices import trade
 
-    loaded, usual = scene_of(scene), Lattice.given(lattice, keywords)
-    rows, reasons = resolve_each(loaded, lattices(loaded, grid, calibration, usual), usual.grading)
-    for name, meshes in zip(REFERENCES, (plate, shell, solid), strict=True):
-        rows += [Elements(name, count) for count in meshes]
-    rows += [parse(model) if isinstance(model, str) else model for model in models]
+    _, measure = trade(
+        scene,
+        Lattice.given(lattice, keywords),
+        grid=grid,
+        lumped_pair=lumped_pair,
+        calibration=calibration,
+        meshes=dict(zip(REFERENCES, (plate, shell, solid), strict=True)),
+        models=models,
+        symmetry=symmetry,
+        elements=elements,
+        repeats=repeats,
+        duration=None if duration is None else amount("duration", duration, "s"),
+        integrator=integrator,
+    )
     with campaign(out) as store:
-        return tradeoff(
-            loaded, rows, store, repeats=repeats, workers=workers, reasons=reasons, progress=progress
-        )
+        return measure(store=store, workers=workers, progress=progress)

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any, Unpack
 from comparisons.models.context import large_in_context
 from comparisons.models.keywords import LatticeKeywords, SpringKeywords
 from comparisons.models.resolve import resolve
-from comparisons.models.spec import Lattice
+from comparisons.models.spec import Lattice, items
 from sheetbench.choices import REFERENCE, REFERENCES
-from sheetbench.errors import require_choice
+from sheetbench.errors import require_choice, require_effect
 from sheetbench.scenes import AnyScene, Scene, scene_of
 from sheetbench.scenes.schema import for_editors
 
@@ -61,7 +61,7 @@ def crosscheck(
     plate: Sequence[int] = (8, 12, 16),
     shell: Sequence[int] = (8, 12, 16),
     solid: Sequence[int] = (6, 8, 12),
-    programs: Sequence[str] | None = None,
+    judges: Sequence[str] | str | None = None,
     meshes: Sequence[int] | None = None,
     workers: int = 1,
     out: str | Path | None = None,
@@ -71,7 +71,7 @@ def crosscheck(
     """Solve scenes by every model and by the other finite-element programs that are installed.
 
     grid: masses, plate to solid: elements along the shorter side, rising; none leaves a model out.
-    programs: names of other programs, all that are found unless given; meshes: their elements. out: a folder
+    judges: names of other programs, all that are found unless given; meshes: their elements. out: a folder
     that keeps the rows, so that the same call goes on where an earlier one was stopped.
     """
     from comparisons.crosscheck.candidates import candidates
@@ -85,7 +85,9 @@ def crosscheck(
     usual = Lattice.given(lattice, keywords)
     usual = usual if calibration is None else usual.but(calibration=calibration)
     many = [scenes] if isinstance(scenes, Scene | str | Path) else list(scenes)
-    codes = find_codes(programs)
+    codes = find_codes(items(judges) if isinstance(judges, str) else judges)
+    if not codes:
+        require_effect("without external codes", {"meshes": meshes})
     counts = dict(zip(REFERENCES, map(listed, (plate, shell, solid)), strict=True))
     of_programs = None if meshes is None else listed(meshes)
     models = candidates(listed(grid), usual, counts, codes, of_programs)
@@ -98,7 +100,7 @@ def stability(
     scene: AnyScene,
     lattice: Lattice | None = None,
     *,
-    varied: Sequence[str] | None = None,
+    vary: Sequence[str] | str | None = None,
     reference: str = REFERENCE,
     elements: int = 12,
     workers: int = 1,
@@ -108,7 +110,7 @@ def stability(
 ) -> Stability:
     """Map where each model of a scene holds, degrades, refuses or fails, as its sheet goes to extremes.
 
-    varied: "load", "slenderness", "young", "grid", "damping", "time-step", all unless some are named. out: a
+    vary: "load", "slenderness", "young", "grid", "damping", "time-step", all unless some are named. out: a
     folder that keeps the rows of an interrupted call.
     """
     from comparisons.runs.campaign import campaign
@@ -119,7 +121,7 @@ def stability(
         return measure(
             scene_of(scene),
             store,
-            varied=varied or VARIED,
+            varied=(items(vary) if isinstance(vary, str) else vary) or VARIED,
             lattice=Lattice.given(lattice, keywords),
             reference=reference,
             elements=elements,

@@ -14,20 +14,25 @@ stiffening" where they hold a share of the energy; "large displacements" where t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from math import isfinite
 from typing import Unpack
 
 from comparisons.advice.answer import Advice, Tried
 from comparisons.advice.probing import Probing, Trial
 from comparisons.comparison import strain_law
+from comparisons.comparison.model_error import left_for_grid
 from comparisons.models.context import in_context
 from comparisons.models.keywords import SpringKeywords
 from comparisons.models.resolve import resolve
-from comparisons.models.spec import Lattice, Spec
+from comparisons.models.spec import Lattice, Spec, items
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
+from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, require_static, scene_of
 from sheetbench.scenes.grid import MASSES
+from sheetbench.scenes.units import amount
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
 LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
@@ -37,20 +42,22 @@ STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
 @in_context
 def advise(
     scene: AnyScene,
-    tolerance: float | None = 0.01,
-    budget: float | None = None,
+    tolerance: float | str | None = None,
+    budget: float | str | None = None,
     lattice: Lattice | None = None,
     *,
+    models: Sequence[str] | str | None = None,
     calibration: str | None = None,
     large: bool = False,
     progress: Progress = silent,
     **keywords: Unpack[SpringKeywords],
 ) -> Advice:
-    """Return the cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget`
-    [s].
+    """Return the cheapest model predicted to meet `tolerance` (a fraction, or text as "1 %"; 0.01 unless a
+    budget alone is given), or the most accurate in `budget` [s].
 
-    With both: the cheapest model that meets the tolerance; where it takes longer than the budget, the most
-    accurate one in time, and `succeeded` is false. lattice, calibration, k, layer_distance: springs of
+    models: only these, of "lumped", "plate", "shell". With both limits: the cheapest model that meets the
+    tolerance; where it takes longer than the budget, the most accurate one in time, and `succeeded` is false.
+    lattice, calibration, k, layer_distance: springs of
     lattices that may be chosen beside the usual ones, "auto" as in `comparisons.models.method`; grading: of
     further lattices, a number or "auto" (`comparisons.models.grading`), which makes the calibration "auto"
     too. Models that take more memory than there is are left out unless `large`. progress: called with every
@@ -59,8 +66,10 @@ def advise(
     """
     scene = scene_of(scene)
     require_static(scene)
+    tolerance, budget = _limits(tolerance, budget)
     asked = Lattice.given(lattice, keywords)
-    probing = Probing(scene, asked if calibration is None else asked.but(calibration=calibration))
+    asked = asked if calibration is None else asked.but(calibration=calibration)
+    probing = Probing(scene, asked, items(models) if isinstance(models, str) else models)
     for _ in range(3):
         probing.refine()
     while not probing.reference.usable and probing.refine():
@@ -80,7 +89,7 @@ def advise(
     chosen, message = None, ""
     if tolerance is not None:
         beyond = model >= tolerance
-        chosen = _cheapest(probing, candidates, tolerance if beyond else tolerance - model)
+        chosen = _cheapest(probing, candidates, left_for_grid(tolerance, model))
         if chosen is None:
             message = (
                 f"no model here is within {100 * tolerance:g} % for certain; this is the most accurate one"
@@ -95,15 +104,22 @@ def advise(
                 f"{100 * tolerance:g} % takes longer than {budget:g} s; this is the most accurate in time"
             )
     elif chosen is None:
-        chosen = probing.reference
+        chosen = _nearest(probing, candidates)
     return _advice(probing, tolerance, budget, chosen, message)
 
 
-def checked_tolerance(tolerance: float) -> float:
-    """Return the tolerance. Raises BadInput unless it is a fraction above 0 and below 1."""
-    if not 0.0 < tolerance < 1.0:
-        raise BadInput(f"--tolerance = {tolerance:g}: a fraction between 0 and 1, as 0.01 for one percent")
-    return tolerance
+def _limits(tolerance: float | str | None, budget: float | str | None) -> tuple[float | None, float | None]:
+    """Return tolerance and budget [s] as numbers. Raises BadInput unless the first is a fraction above 0 and
+    below 1 and the second above 0."""
+    seconds = None if budget is None else amount("budget", budget, "s")
+    if seconds is not None and not seconds > 0.0:
+        raise BadInput(f"budget = {seconds:g}: seconds, more than 0")
+    if tolerance is None:
+        return (0.01 if seconds is None else None), seconds
+    share = amount("tolerance", tolerance, "")
+    if not 0.0 < share < 1.0:
+        raise BadInput(f"tolerance = {share:g}: a fraction between 0 and 1, as 0.01 for one percent")
+    return share, seconds
 
 
 def _cheapest(probing: Probing, candidates: list[Spec], tolerance: float) -> Trial | None:
@@ -146,15 +162,25 @@ def _most_accurate(probing: Probing, candidates: list[Spec], budget: float) -> T
     return found
 
 
+def _nearest(probing: Probing, candidates: list[Spec]) -> Trial | None:
+    """Return the trial of least error: the reference, but where that is no candidate."""
+    if probing.models is None or REFERENCE in probing.models:
+        return probing.reference
+    tried = [probing.trials[one] for one in candidates if one in probing.trials]
+    return min((one for one in tried if one.usable), key=probing.error, default=None)
+
+
 def _advice(
     probing: Probing, tolerance: float | None, budget: float | None, chosen: Trial | None, message: str
 ) -> Advice:
     needs, left_out = _effects(probing, chosen, tolerance or 0.01)
+    added = probing.uncertainty + (probing.model_error.value if probing.model_error else 0.0)
     tried = tuple(
         Tried(
             trial.candidate,
             str(trial.solution.status),
             probing.error(trial) if trial.usable else None,
+            probing.error(trial) + added if trial.usable and isfinite(added) else None,
             trial.seconds,
             trial is chosen,
         )

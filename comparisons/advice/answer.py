@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import isfinite
 from shlex import join
 from typing import Annotated, Any
 
-from comparisons.comparison.model_error import ModelError
+from comparisons.comparison.model_error import ModelError, share_of_tolerance
 from comparisons.models.grading import parse_grading
 from comparisons.models.scales import Scales
 from comparisons.models.spec import Elements, Lattice, Spec, counted
@@ -19,11 +20,13 @@ from sheetbench.scenes.summary import few
 
 @dataclass(frozen=True)
 class Tried:
-    """A quick solve: its error is the distance from the finest one, None where it has no answer."""
+    """A quick solve: its error is the distance from the finest one, None where it has no answer; total: with
+    the finest one's bar and model error, what a tolerance is held against."""
 
     spec: Spec
     status: Annotated[str, Column(prose=True)]
     error: Annotated[float | None, PERCENT(".3g")]
+    total: Annotated[float | None, PERCENT(".3g", "in all")]
     solve_seconds: Annotated[float, MILLISECONDS(".2f", "solve")]
     choice: Annotated[bool, Column(words=("yes", ""))] = False
 
@@ -39,7 +42,7 @@ class Tried:
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
-        own = {name: getattr(self, name) for name in ("status", "error", "solve_seconds")}
+        own = {name: getattr(self, name) for name in ("status", "error", "total", "solve_seconds")}
         return {"model": self.spec.model, "settings": self.spec.settings, **own}
 
 
@@ -125,10 +128,14 @@ class Advice(Answer):
         """Return a row per probing solve, the quickest first; the choice is marked. Statuses that are all
         "converged" are for the files alone."""
         rows = sorted(self.tried, key=lambda one: one.solve_seconds)
-        caption = "Quick solves; error: difference from the finest one"
-        fields = ("model", "size", "solve_seconds", "error", "choice", "status")
+        caption = "Quick solves; error: difference from the finest one; in all: with its bar and model error"
+        fields = ("model", "size", "solve_seconds", "error", "total", "choice", "status")
         details = () if any(one.status != "converged" for one in rows) else ("status",)
-        return (Table.of(Tried, rows, caption, "tried", fields=fields, details=details),)
+        text = ""
+        if self.tolerance is not None and isfinite(self.bar):
+            model = self.model.value if self.model else None
+            text = share_of_tolerance(self.tolerance, model, self.bar, "shell")
+        return (Table.of(Tried, rows, caption, "tried", fields=fields, details=details, text=text),)
 
     def notes(self) -> list[str]:
         """Return the advice and its reasons, a sentence a line, and the command that solves the choice."""

@@ -7,6 +7,7 @@ that were not solved follow t = c N^p through the two solved ones nearest in unk
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from statistics import median
@@ -28,7 +29,7 @@ from comparisons.models.symmetry import planes
 from comparisons.report.work import silent
 from comparisons.runs import load
 from sheetbench.choices import CALIBRATION
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grading import Graded, amount
 from sheetbench.scenes.grid import MASSES, near_square
@@ -58,13 +59,21 @@ class Trial:
 class Probing:
     """The solves of a scene so far."""
 
-    def __init__(self, scene: Scene, lattice: Lattice = Lattice()) -> None:  # noqa: B008  # frozen
-        """lattice: springs that lattices may have too, and by how much they may be graded too. Raises
-        BadInput for a grid, where springs and grading are none or contradict each other, and where the first
-        references take too much memory; otherwise the larger models are left out."""
+    def __init__(
+        self,
+        scene: Scene,
+        lattice: Lattice = Lattice(),  # noqa: B008  # frozen
+        models: Sequence[str] | None = None,
+    ) -> None:
+        """lattice: springs that lattices may have too, and by how much they may be graded too; models: that
+        may be chosen, all unless some are named. Raises BadInput for a grid, where springs and grading are
+        none or contradict each other, and where the first references take too much memory; otherwise the
+        larger models are left out."""
         if lattice.grid is not None:
             raise BadInput(f"grid = {counted(lattice.grid)}: is chosen here; leave it out")
-        self.scene = scene
+        for name in models or ():
+            require_choice("models", name, CELLS)
+        self.scene, self.models = scene, models
         resolved = resolve(scene, lattice.but(grid=MASSES), "springs", own=False)
         self.grading, self.method = lattice.grading, resolved.spec.calibration or CALIBRATION
         own = {"calibration": self.method, "k": lattice.k, "layer_distance": lattice.layer_distance}
@@ -104,7 +113,8 @@ class Probing:
         if linear:
             specs += [self.lattice(n, linear=True) for n in CELLS["lumped"]]
             specs += [self.elements("plate", n) for n in CELLS["plate"]]
-        return [one for one in specs if has_room(self.scene, one)]
+        chosen = [one for one in specs if self.models is None or one.model in self.models]
+        return [one for one in chosen if has_room(self.scene, one)]
 
     def graded(self, lattices: list[Lattice]) -> list[Lattice]:
         """Those of these lattices that are to be graded too, as asked or by the scene's layers."""

@@ -64,7 +64,7 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
     known before solving of how far its answer will be off is among the notes. Raises BadInput for a lattice
     that cannot be had, and for a fit that takes more memory than there is.
     """
-    for name, what in (("method", lattice.calibration), ("grading", lattice.grading)):
+    for name, what in (("calibration", lattice.calibration), ("grading", lattice.grading)):
         if what == AUTO and not named:
             raise BadInput(
                 f"{name} = auto: goes by the edges and load of a SCENE; name one, or another {name}"

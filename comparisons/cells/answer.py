@@ -167,6 +167,8 @@ def homogenise(
     that the cell does not have, a scene without an answer at rest, and spacing and hinge of a cell that has
     its own.
     """
+    if isinstance(cell, Scene):
+        raise BadInput("homogenise(scene, cell): the scene comes first")
     scene, given = scene_of(scene), dict(coefficients or {})
     require_plain(scene, "homogenise")
     if isinstance(cell, str):

@@ -32,7 +32,7 @@ def cell_of(
         require_effect(f"on {cell}, which has its own", {"spacing": spacing, "hinge": hinge})
         return from_toml(Path(cell))
     if cell in NAMES and not (isinstance(spacing, float | int) and spacing > 0.0):
-        raise BadInput(f"spacing = {spacing}: the distance of nodes, in metres, is needed")
+        raise BadInput(f"spacing = {str(spacing)[:20]}: the distance of nodes, in metres, is needed")
     if cell == BRICKS and not thickness:
         raise BadInput(f"thickness = {thickness}: of bricks, in metres, is needed")
     return mesh(cell, spacing or 0.0, thickness or 0.0, hinge or "length")

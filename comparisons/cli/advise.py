@@ -13,10 +13,15 @@ def command(
     scene: Scene,
     lattice: SpringOptions,
     tolerance: Annotated[
-        float | None, option("Error allowed; 0.01 unless a budget alone is given.", "FRACTION")
+        float | None,
+        option("Error allowed, as 0.01 or 1%; 0.01 unless a budget alone is given.", "FRACTION", unit=""),
     ] = None,
     budget: Annotated[
         float | None, option("Time allowed for a solve, set-up not included.", "SECONDS", unit="s")
+    ] = None,
+    models: Annotated[
+        str | None,
+        option("Only these: lumped, plate, shell; several with commas. Default: all.", "NAMES"),
     ] = None,
     calibration: Calibration = None,
     large: Large = False,
@@ -29,17 +34,10 @@ def command(
     --k, --layer-distance and --grading are candidates beside the usual ones. Exit status 3 where no model
     meets the tolerance.
     """
-    from comparisons.advice.advisor import advise, checked_tolerance
+    from comparisons.advice.advisor import advise
     from comparisons.comparison.comparison import load_static
-    from sheetbench.errors import BadInput
 
     loaded = load_static(scene)
-    if budget is not None and not budget > 0.0:
-        raise BadInput(f"--budget = {budget:g}: seconds, more than 0")
-    if tolerance is None and budget is None:
-        tolerance = 0.01
-    if tolerance is not None:
-        checked_tolerance(tolerance)
     with output.open(scene=loaded) as out:
-        advice = advise(loaded, tolerance, budget, lattice.spec, calibration=calibration)
+        advice = advise(loaded, tolerance, budget, lattice.spec, models=models, calibration=calibration)
         out.show(replace(advice, called=scene))

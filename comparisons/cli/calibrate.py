@@ -22,12 +22,14 @@ def command(
     sheet: SheetOptions,
     grid: Grid = None,
     grading: Grading = None,
-    method: Annotated[
+    calibration: Annotated[
         str | None,
         option(
             "; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items())
             + f"; auto: by the SCENE, as with --grading auto. Default: {CALIBRATION}.",
             "NAME",
+            "--calibration",
+            "--method",
         ),
     ] = None,
     k: K = None,
@@ -39,7 +41,7 @@ def command(
         option(
             "Parameters, mesh and scene for another code: newton, mujoco, pybullet, genesis, sofa, arcsim, "
             "c-ipc, ppf, openusd; as files with --out. Together with --export: the lattice's springs for "
-            "mujoco or sofa, of a calibration without area springs (--method central).",
+            "mujoco or sofa, of a calibration without area springs (--calibration central).",
             "NAME",
             "--for",
         ),
@@ -93,7 +95,7 @@ def command(
         if len(simulators) > 1:
             raise BadInput("--for: one code at a time, but with --export")
         springs_only = {
-            "--method": method,
+            "--calibration": calibration,
             "--k": k,
             "--layer-distance": layer_distance,
             "--grading": grading,
@@ -111,8 +113,8 @@ def command(
         from comparisons.codes.setup import setup, squares_of
 
         if damped and (code := CODES.get(simulators[0])) and (why := undamped(code, of.material)):
-            given = zip(DAMPING, (loss_factor, damping_ratio, log_decrement, quality, prony), strict=True)
-            require_effect(f"with --for {code.name}: {why}", dict(given))
+            options = zip(DAMPING, (loss_factor, damping_ratio, log_decrement, quality, prony), strict=True)
+            require_effect(f"with --for {code.name}: {why}", dict(options))
         found = setup(of, simulators[0], squares_of(grid), named=scene is not None)
         with output.open(about=about, variant={"--for": simulators[0]}) as out:
             out.show(found)
@@ -120,7 +122,7 @@ def command(
     with output.open(about=about) as out:
         if export is not None and not large:
             require_room(of, Lattice(grid), "--grid")
-        lattice = Lattice(grid, method, k, layer_distance, grading)
+        lattice = Lattice(grid, calibration, k, layer_distance, grading)
         springs = calibrate(of, lattice, scene is not None)
         foretold = scene is not None and k is None and layer_distance is None
         off = expected(of, springs) if foretold else None

@@ -87,7 +87,7 @@ def command(
                 elements=chosen,
                 law=law,
                 uncertainty=not no_uncertainty,
-                others=model or (),
+                models=model or (),
                 frames=FRAMES if output.out is not None else 0,
                 store=out.reserve("runs/"),
             )
@@ -114,7 +114,7 @@ def command(
                 uncertainty=False if no_uncertainty else uncertainty or None,
                 symmetry=symmetry,
                 branch=branch or "path",
-                others=model or (),
+                models=model or (),
             )
         if export is not None:
             out.export(export, loaded, resolve(loaded, lattice.spec).springs)

@@ -86,7 +86,7 @@ def command(
         with output.open(scene=scene, variant={"--duration": duration}) as out:
             others, kept = list(finest.values()), out.reserve("runs/")
             out.show(
-                compare_motion(scene, duration, own, shell_spec, others=others, leave_out=True, store=kept)
+                compare_motion(scene, duration, own, shell_spec, models=others, leave_out=True, store=kept)
             )
         return
     chosen = load_scenes(scenes)

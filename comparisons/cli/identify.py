@@ -82,7 +82,12 @@ def command(
     """
     from sheetbench.errors import BadInput, require_effect
 
-    of_scene = {"SCENE": scene, "--measured": measured, "--unknown": unknown, "--model": model}
+    of_scene: dict[str, object] = {
+        "SCENE": scene,
+        "--measured": measured,
+        "--unknown": unknown,
+        "--model": model,
+    }
     of_scene |= {"--elements": elements, "--law": law, "--offset": offset, **lattice.given()}
     if tensile:
         require_effect("with --tensile", of_scene)

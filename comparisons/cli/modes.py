@@ -50,7 +50,7 @@ def command(
                 lattice.spec,
                 count=count,
                 masses=masses,
-                references=reference or [REFERENCE],
+                reference=reference or REFERENCE,
                 elements=parse_elements(elements),
                 about=about,
             )

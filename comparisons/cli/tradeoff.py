@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from comparisons.cli.options import ClusterOptions, Large, Models, Scene, SpringOptions, Symmetry, option
 from comparisons.cli.output import PictureOptions
-from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
-
-if TYPE_CHECKING:
-    from comparisons.tradeoff.answer import Tradeoff
-    from comparisons.tradeoff.motion_answer import DynamicTradeoff
-
-GRIDS, PAIRS = "3,5,9,17,33", "5:9,9:17"
-MESHES = {"plate": "8", "shell": "2,4,8,12,16", "solid": "2,4,8"}
-MOVING = {"plate": "8", "shell": "2,4,8", "solid": "2,4"}  # with --duration
-USUAL = f"{CALIBRATION},uniform"
+from comparisons.tradeoff.usual import GRIDS, MESHES, MOVING, PAIRS, REPEATS, SPRINGS
+from sheetbench.choices import CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
 
 def _elements(name: str, what: str) -> Any:
@@ -49,7 +40,7 @@ def command(
     calibration: Annotated[
         str | None,
         option(
-            f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. Default: {USUAL}; "
+            f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. Default: {SPRINGS}; "
             "with --duration that of `simulate`.",
             "NAMES",
         ),
@@ -68,7 +59,8 @@ def command(
         ),
     ] = None,
     repeats: Annotated[
-        int | None, option("Least number of timed solves of every row at rest.", "N", show_default="5", min=1)
+        int | None,
+        option("Least number of timed solves of every row at rest.", "N", show_default=str(REPEATS), min=1),
     ] = None,
     duration: Annotated[
         float | None,
@@ -92,45 +84,24 @@ def command(
 
     An empty list leaves a model out: --solid "".
     """
-    from comparisons.comparison.comparison import load_static
-    from comparisons.models.spec import items
-    from comparisons.tradeoff.choices import of_motion, of_statics
-    from sheetbench.errors import require_effect
-    from sheetbench.scenes import load
+    from comparisons.tradeoff.choices import trade
 
-    measure: Callable[..., Tradeoff | DynamicTradeoff]
-    meshes = dict(MESHES if duration is None else MOVING)
-    given = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
-    meshes |= {name: sizes for name, sizes in given.items() if sizes is not None}
-    if duration is not None:
-        statics = {"--symmetry": symmetry, "--lumped-pair": lumped_pair, "--repeats": repeats}
-        require_effect("with --duration", statics)
-        loaded = load(scene)
-        integrators = integrator or ",".join(sorted(INTEGRATORS))
-        measure = of_motion(
-            loaded, duration, grid, calibration, lattice.spec, integrators, meshes, model or (), elements
-        )
-    else:
-        require_effect("without --duration", {"--integrator": integrator})
-        loaded = load_static(scene)
-        calibration = calibration or (USUAL if lattice.k is None else "uniform")
-        if lumped_pair is None:
-            usual = grid is None and not {CALIBRATION, AUTO}.isdisjoint(items(calibration))
-            lumped_pair = PAIRS if usual else ""
-        grids = GRIDS if grid is None else grid
-        measure = of_statics(
-            loaded,
-            grids,
-            calibration,
-            lattice.spec,
-            meshes,
-            models=model or (),
-            symmetry=symmetry,
-            elements=elements,
-            repeats=repeats or 5,
-            of_two=lumped_pair,
-        )
+    loaded, measure = trade(
+        scene,
+        lattice.spec,
+        grid=grid,
+        lumped_pair=lumped_pair,
+        calibration=calibration,
+        meshes=dict(zip(REFERENCES, (plate, shell, solid), strict=True)),
+        models=model or (),
+        symmetry=symmetry,
+        elements=elements,
+        repeats=repeats,
+        duration=duration,
+        integrator=integrator,
+        option="--",
+    )
     with output.open(scene=loaded) as out:
         with out.campaign(campaign) as run:
-            trade = measure(**run)
-        out.show(trade)
+            found = measure(**run)
+        out.show(found)

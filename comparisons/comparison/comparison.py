@@ -40,7 +40,7 @@ def compare(
     law: str | None = None,
     uncertainty: bool | None = None,
     companion: bool = True,
-    others: Sequence[Spec | str] = (),
+    models: Sequence[Spec | str] = (),
     large: bool = False,
     progress: Progress = silent,
     **keywords: Unpack[StaticKeywords],
@@ -59,7 +59,7 @@ def compare(
     meshes too; for plate and shell it is unless False, for others if True. symmetry: solve a half or a
     quarter where scene and grid mirror themselves; solids are solved whole. branch: "path", or "buckled",
     which leaves unstable equilibria along their buckling mode; of lattice and shell.
-    others: models that stand in the table too, plug-ins or our own. A name that is taken is changed. large:
+    models: that stand in the table too, plug-ins or our own. A name that is taken is changed. large:
     even where a model takes more memory than there is. progress: called with what is being done,
     and with every iteration (`comparisons.report.work`).
 
@@ -73,15 +73,15 @@ def compare(
     whole = {"elements": elements, "law": law, "branch": spec.branch, "symmetry": spec.symmetry}
     against = resolve(scene, Elements.given(reference, whole))
     first = resolve(scene, spec)
-    models: dict[str, Resolved[Any]] = {first.spec.model: first, against.spec.model: against}
+    named: dict[str, Resolved[Any]] = {first.spec.model: first, against.spec.model: against}
     left_open = spec.calibration is None and spec.k is None and first.spec.calibration is not None
     if companion and left_open and not scene.drawn_by:
-        models[COMPANION] = resolve(scene, spec.but(calibration="uniform", grading=None))
-    for other in others:
+        named[COMPANION] = resolve(scene, spec.but(calibration="uniform", grading=None))
+    for other in models:
         beside = resolve(scene, parse(other) if isinstance(other, str) else other)
-        models[unlike(shown_name(beside.spec.model), models)] = beside
+        named[unlike(shown_name(beside.spec.model), named)] = beside
     solutions = []
-    for name, model in models.items():
+    for name, model in named.items():
         solutions.append(solve(model, name))
         context().solved(solutions[-1])
     laws = disagreement = ""

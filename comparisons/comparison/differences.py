@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from sheetbench.errors import BadInput
+
 
 def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:
     """Return the error of displacements (n, 3) against a reference's (n, 3), as the module defines it."""
+    displacement, reference = np.asarray(displacement), np.asarray(reference)
+    if displacement.shape != reference.shape:
+        shapes = f"{displacement.shape} against {reference.shape}"
+        raise BadInput(f"error: displacements {shapes}; equal shapes are needed")
     return _ratio(float(np.max(np.abs(displacement - reference))), float(np.max(np.abs(reference))))
 
 

@@ -78,3 +78,28 @@ def model_error(scene: Scene, answer: Solution, law_chosen: bool = False) -> Mod
         strain_law=0.0 if law_chosen or stated else LAW * answer.stretch * (1.0 if solid else membrane**0.5),
         clamp=CLAMP * abs(poisson) / (1.0 - poisson) * slenderness if clamped else 0.0,
     )
+
+
+def left_for_grid(tolerance: float, model_error: float | None) -> float:
+    """Return what is left of a tolerance for the error of a grid or mesh and the reference's own bar, once
+    what the reference leaves out is taken off: all of it where that alone is above the tolerance, which then
+    is met against a converged reference only."""
+    taken = model_error or 0.0
+    return tolerance if taken >= tolerance else tolerance - taken
+
+
+def share_of_tolerance(tolerance: float, model_error: float | None, bar: float | None, reference: str) -> str:
+    """Return in a sentence what model error and bar of a reference take of a tolerance."""
+    allowed, known = _percent(tolerance), 0.0 if bar is None else bar
+    left = left_for_grid(tolerance, model_error) - known
+    if (model_error or 0.0) >= tolerance:
+        return (
+            f"Of {allowed} the {reference}'s model error would take {_percent(model_error or 0.0)}, more "
+            f"than all of it: within {allowed} of a converged {reference} only."
+        )
+    parts = [f"its mesh's bar {_percent(known)}"] if bar is not None else []
+    if model_error:
+        parts.insert(0, f"the {reference}'s model error takes {_percent(model_error)}")
+    if not parts:
+        return ""
+    return f"Of {allowed} {', '.join(parts)}: {_percent(max(left, 0.0))} are left for the grid."

@@ -23,7 +23,7 @@ def require_links(lattice: Description, simulator: str, means: bool) -> None:
         raise BadInput(
             f"--for {simulator}: has springs between two points alone, and these springs have "
             f"{' and '.join(sorted({table.kind for table in lattice.cells}))} springs of cells; "
-            "take --method central"
+            "take --calibration central"
         )
     if not means and held_means(lattice):
         raise BadInput(

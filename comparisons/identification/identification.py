@@ -39,13 +39,14 @@ from comparisons.identification.refinement import GRID_ERROR, mesh_error, refine
 from comparisons.identification.residual_test import explained, runs
 from comparisons.identification.search import Nearest
 from comparisons.identification.starts import Fit, nearest
-from comparisons.identification.unknowns import DAMPING, VISCOUS, Unknown, unknown
+from comparisons.identification.unknowns import DAMPING, VISCOUS, Unknown
+from comparisons.identification.unknowns import unknown as unknown_of
 from comparisons.models.context import context, in_context
 from comparisons.models.grids import Elements as Count
 from comparisons.models.keywords import LatticeKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
-from comparisons.models.spec import Elements, Lattice
+from comparisons.models.spec import Elements, Lattice, items
 from comparisons.report.work import Progress, silent
 from lumped import identifiability
 from sheetbench.choices import REFERENCES
@@ -89,7 +90,7 @@ class _Question:
 def identify(
     scene: AnyScene,
     measured: Measured | Path | str,
-    names: Sequence[str] | str = "young",
+    unknown: Sequence[str] | str = "young",
     lattice: Lattice | None = None,
     *,
     model: str | Elements = Lattice.NAME,
@@ -117,8 +118,8 @@ def identify(
     scene = scene_of(scene)
     require_static(scene)
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
-    names = [names] if isinstance(names, str) else names
-    unknowns = tuple(unknown(scene, name) for name in names)
+    names = items(unknown) if isinstance(unknown, str) else unknown
+    unknowns = tuple(unknown_of(scene, name) for name in names)
     reference, own = None, Lattice.given(lattice, keywords)
     of_reference = {"elements": elements, "law": law}
     if model != Lattice.NAME:

@@ -40,16 +40,18 @@ def spectra(
     lattice: Lattice | None = None,
     *,
     count: int = 10,
-    references: Sequence[str | Elements] = (REFERENCE,),
+    reference: str | Elements | Sequence[str | Elements] = REFERENCE,
     elements: Count | None = None,
     about: str = "flat",
     large: bool = False,
     progress: Progress = silent,
     **keywords: Unpack[ModesKeywords],
 ) -> Spectra:
-    """Return the spectra of the lattice and of each reference; masses: how the lattice shares out its mass
-    (`lumped.masses`), as `lumped.modes` has it unless given; about: "flat", or "deformed" under the scene's
-    loads; large: even where one takes more memory than there is; progress: called with what is being done.
+    """Return the spectra of the lattice and of the reference, or of each of several.
+
+    masses: how the lattice shares out its mass (`lumped.masses`), as `lumped.modes` has it unless given;
+    about: "flat", or "deformed" under the scene's loads; large: even where one takes more memory than
+    there is; progress: called with what is being done.
 
     Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
     that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.
@@ -57,9 +59,10 @@ def spectra(
     require_choice("--about", about, get_args(About))
     around = cast(About, about)
     scene = scene_of(scene)
-    if count < 1:
-        raise BadInput(f"--count = {count}: at least 1")
+    if not isinstance(count, int) or count < 1:
+        raise BadInput(f"--count = {count}: a whole number, at least 1")
     own = resolve(scene, Lattice.given(lattice, keywords), "modes")
+    references = [reference] if isinstance(reference, str | Elements) else reference
     models = [resolve(scene, Elements.given(one, {"elements": elements}), "modes") for one in references]
 
     def starting(model: Resolved[Any]) -> None:

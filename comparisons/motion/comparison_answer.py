@@ -18,13 +18,16 @@ from sheetbench.answers.report import Film, Picture, Write
 from sheetbench.answers.table import NUMBER, PERCENT, SECONDS, Column, Table, number
 from sheetbench.scenes import FieldMesh, History, Scene
 from sheetbench.scenes.measured_history import COMPONENTS
+from sheetbench.scenes.summary import few
 
+DOUBTFUL, SHARE = 0.1, 1.0 / 3.0  # bars of no judge: of itself, of a difference
 WHOLE = ("of", "largest", "rms", "peak", "period", "phase", "decay")  # of two motions' difference
 
 
 @dataclass(frozen=True)
 class DifferenceRow:
-    """How far a motion is from the reference's at a probe, or at all and in its measures."""
+    """How far a motion is from the reference's at a probe, or at all and in its measures; bar: the
+    reference's own, and whether the difference is within it."""
 
     of: str
     probe: str
@@ -34,6 +37,8 @@ class DifferenceRow:
     period: Annotated[float | None, PERCENT("z.2f")] = None
     phase: Annotated[float | None, PERCENT("z.2f")] = None
     decay: Annotated[float | None, NUMBER("z.4f")] = None
+    bar: Annotated[float | None, PERCENT(".2g", "±")] = None
+    within: Annotated[bool | None, Column("within ±")] = None
 
 
 @dataclass(frozen=True)
@@ -81,13 +86,34 @@ class MotionComparison(Answer):
         return {name: one for name, one in self.histories.items() if len(one.extra.get("frames", ()))}
 
     @property
+    def bar(self) -> float | None:
+        """How far the reference may be off, by its mesh and its steps together, as `largest` is measured;
+        None where one of them is not known."""
+        parts = [*self.uncertainty.values()]
+        return sum(part or 0.0 for part in parts) if parts and None not in parts else None
+
+    @property
     def differences(self) -> list[dict[str, Any]]:
-        """Of every other model from the reference."""
-        against, truth = self.reference, self.histories[self.reference]
-        others = (name for name in self.histories if name != against)
-        return [
-            {"of": name, "against": against, **difference(self.histories[name], truth)} for name in others
-        ]
+        """Of every other model from the reference; distinguishable: whether it is above the reference's own
+        bar, None where that is not known."""
+        against, truth, bar = self.reference, self.histories[self.reference], self.bar
+        found = []
+        for name in (name for name in self.histories if name != against):
+            off = difference(self.histories[name], truth)
+            beyond = None if bar is None else bool(off["largest"] > bar)
+            found.append({"of": name, "against": against, **off, "distinguishable": beyond})
+        return found
+
+    @property
+    def doubt(self) -> str:
+        """That the reference is too uncertain to judge by, in a sentence; "" where it is not."""
+        bar, off = self.bar, [one["largest"] for one in self.differences]
+        if bar is None or not off or not (bar > DOUBTFUL or bar > SHARE * max(off)):
+            return ""
+        return (
+            f"The {self.reference} itself is uncertain by {few(100 * bar)} % of its largest displacement: "
+            "use more --elements before judging by it."
+        )
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench compare --duration`: metres, newtons, seconds, joules."""
@@ -105,6 +131,7 @@ class MotionComparison(Answer):
                 },
                 "differences": self.differences,
                 "uncertainty": self.uncertainty,
+                "bar": self.bar,
                 "left_out": self.left_out,
             },
             "solutions": [
@@ -126,7 +153,7 @@ class MotionComparison(Answer):
     def heading(self) -> tuple[str, str, str]:
         end = self.histories[self.reference].time[-1]
         lead = f"motion over {end:g} s; differences are from the {self.reference}"
-        return self.scene.name, self.scene.title, lead
+        return self.scene.name, self.scene.title, f"{self.doubt}\n{lead}" if self.doubt else lead
 
     def tables(self) -> tuple[Table, ...]:
         return _measures(self), _differences(self), _runs(self)
@@ -136,6 +163,14 @@ class MotionComparison(Answer):
         moving = [*self._with_frames.values()]
         film = Film("both", "comparisons.motion.animation:animate", (self.scene, moving))
         return (drawn, film) if self.animate else (drawn,)
+
+    def result(self) -> str:
+        """Return how far every model is from the reference."""
+        bar = "" if self.bar is None else f" ± {few(100 * self.bar)} %"
+        return "; ".join(
+            f"{one['of']}: up to {few(100 * one['largest'])} % off the {self.reference}{bar}"
+            for one in self.differences
+        )
 
     def notes(self) -> list[str]:
         models: dict[str, list[str]] = {}
@@ -184,12 +219,16 @@ def _differences(found: MotionComparison) -> Table:
             off = u[:count] - truth.probes[probe][:count]
             rms = float(np.sqrt(np.mean(np.sum(off**2, axis=1)))) / scale
             rows.append(DifferenceRow(d["of"], probe, float(np.abs(off).max()) / scale, rms))
-        rows.append(DifferenceRow(probe="all", **{k: v for k, v in d.items() if k in WHOLE}))
+        whole = {k: v for k, v in d.items() if k in WHOLE}
+        within = None if found.bar is None else not d["distinguishable"]
+        rows.append(DifferenceRow(probe="all", bar=found.bar, within=within, **whole))
     caption = (
         f"Difference from the {found.reference}: largest and rms over its largest displacement, phase over "
         "its period; decay: difference of the log decrements"
     )
-    return Table.of(DifferenceRow, rows, caption, "differences")
+    details = () if found.uncertainty else ("bar", "within")
+    text = f"±: how far the {found.reference} itself may be off, by mesh and steps" if not details else ""
+    return Table.of(DifferenceRow, rows, caption, "differences", details=details, text=text)
 
 
 def _runs(found: MotionComparison) -> Table:
@@ -209,12 +248,9 @@ def _bars(found: MotionComparison) -> list[str]:
     parts = (f"{number(100 * bar, '.2g')} % {how[name]}" for name, bar in known.items())
     changes = " and ".join(parts)
     notes = [f"{found.reference}: its own motion changes by up to {changes}"]
-    largest, mesh = found.differences[0]["largest"], known.get("mesh")
-    if largest is not None and mesh is not None and largest < mesh:
-        notes.append(
-            f"the lattice is {number(100 * largest, '.2g')} % off, less than what larger elements change: "
-            "use more --elements before judging it"
-        )
+    within = [one["of"] for one in found.differences if one["distinguishable"] is False]
+    if within:
+        notes.append(f"{', '.join(within)}: within the {found.reference}'s own error.")
     return notes
 
 

@@ -82,9 +82,9 @@ class Suite(Answer):
         return {"suite": self.suite}
 
 
-def suite(name: str | None = None) -> Suite:
-    """Return the cases of the reference set, or those of the suite of a name."""
-    return Suite(name)
+def suite(suite: str | None = None) -> Suite:
+    """Return the cases of the reference set, or those of one suite."""
+    return Suite(suite)
 
 
 def _toml(case: Reference) -> str:

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from math import inf
 from typing import Annotated, Any
 
+from comparisons.comparison.model_error import share_of_tolerance
 from comparisons.runs import load
 from comparisons.tradeoff.pareto import cheapest, error_order, front, grouped, order
 from comparisons.tradeoff.row import TradeoffRow
@@ -14,6 +15,8 @@ from sheetbench.answers.report import Picture
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, Unit
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.summary import few
+
+STATED = 0.01  # the tolerance whose parts are said
 
 
 @dataclass(frozen=True)
@@ -105,6 +108,7 @@ class Tradeoff(Answer):
             "reference": {
                 **self.reference.as_dict(),
                 "uncertainty": self.uncertainty,
+                "model_error": self.reference.model_error,
                 "field_uncertainty": self.field_uncertainty,
             },
         }
@@ -136,7 +140,8 @@ class Tradeoff(Answer):
             "probes; field error: root mean square over the sheet. One thread; times on warm code; memory: "
             "growth of the process."
         )
-        return [*self.reasons, *self._cheapest(), explained, *self.warnings]
+        taken = share_of_tolerance(STATED, self.reference.model_error, self.uncertainty, self.reference.model)
+        return [*self.reasons, *self._cheapest(), *filter(None, [taken]), explained, *self.warnings]
 
     def result(self) -> str:
         """The quickest rows within the tolerances, or why there is none."""
@@ -144,7 +149,11 @@ class Tradeoff(Answer):
 
     def _cheapest(self) -> list[str]:
         return cheapest(
-            [r.label for r in self.rows], [r.error for r in self.rows], [r.seconds for r in self.rows]
+            [r.label for r in self.rows],
+            [r.error for r in self.rows],
+            [r.seconds for r in self.rows],
+            bar=inf if self.uncertainty is None else self.uncertainty,
+            model_error=self.reference.model_error,
         )
 
     def complaints(self) -> list[str]:

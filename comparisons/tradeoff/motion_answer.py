@@ -129,7 +129,9 @@ class DynamicTradeoff(Answer):
     def _cheapest(self) -> list[str]:
         names = [f"{row.name} with steps of {milliseconds(row.step or 0.0)}" for row in self.rows]
         seconds = [row.seconds_per_second for row in self.rows]
-        return cheapest(names, [row.error for row in self.rows], seconds, " per simulated second")
+        bar = inf if self.uncertainty is None else self.uncertainty
+        errors = [row.error for row in self.rows]
+        return cheapest(names, errors, seconds, " per simulated second", bar)
 
     def complaints(self) -> tuple[str, ...]:
         return folded([*self.rows, self.reference])

@@ -12,6 +12,7 @@ from math import isfinite
 
 import numpy as np
 
+from comparisons.comparison.model_error import left_for_grid
 from sheetbench.scenes.summary import few, milliseconds
 
 TOLERANCES = (0.05, 0.01, 0.001)  # that are requested most
@@ -32,17 +33,25 @@ def front(errors: Sequence[float | None], seconds: Sequence[float], floor: float
 
 
 def cheapest(
-    names: Sequence[str], errors: Sequence[float | None], seconds: Sequence[float | None], per: str = ""
+    names: Sequence[str],
+    errors: Sequence[float | None],
+    seconds: Sequence[float | None],
+    per: str = "",
+    bar: float = 0.0,
+    model_error: float | None = None,
 ) -> list[str]:
-    """The quickest row within every tolerance that one meets, a sentence each."""
+    """The quickest row that is certainly within every tolerance, a sentence each, by the rule of `advise`:
+    error, the reference's bar and what it leaves out (`comparisons.comparison.model_error`) together."""
     known = [(e, s, name) for e, s, name in zip(errors, seconds, names, strict=True) if e is not None and s]
     notes: dict[str, str] = {}
     for tolerance in TOLERANCES:
-        within = [row for row in known if row[0] <= tolerance]
+        within = [row for row in known if row[0] + bar <= left_for_grid(tolerance, model_error)]
         if within:
+            converged = (model_error or 0.0) >= tolerance
             error, time, name = min(within, key=lambda row: row[1])
             note = f"{name}, {few(100.0 * error)} % off in {milliseconds(time)}{per}."
-            notes.setdefault(note, f"Cheapest within {few(100.0 * tolerance)} %: {note}")
+            of = " of a converged reference" if converged else ""
+            notes.setdefault(note, f"Cheapest within {few(100.0 * tolerance)} %{of}: {note}")
     return list(notes.values())
 
 

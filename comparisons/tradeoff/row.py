@@ -14,7 +14,7 @@ from comparisons.runs.store import Finished
 from sheetbench.scenes import Scene
 
 # in the JSON where they are known
-_OF_AN_ANSWER = ("load_factor", "load_average", "probes", "machine", "versions", "traceback")
+_OF_AN_ANSWER = ("load_factor", "model_error", "load_average", "probes", "machine", "versions", "traceback")
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,8 @@ class TradeoffRow:
 
     A run that ended without an answer has its settings and its status. series: the family whose order is
     looked for; cell_size [m]: where the settings tell; solve_seconds: every sample; error, field_error:
-    fractions; bar: by which the model says that it may be off, likewise; started, finished: UTC.
+    fractions; bar: by which the model says that it may be off, likewise; model_error: what it leaves out on
+    every mesh, of a reference; started, finished: UTC.
     """
 
     model: str
@@ -43,6 +44,7 @@ class TradeoffRow:
     error: float | None = None
     field_error: float | None = None
     bar: float | None = None
+    model_error: float | None = None
     load_factor: float | None = None
     probes: Mapping[str, Any] | None = None
     load_average: float | None = None

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison.comparison import error
+from comparisons.comparison.model_error import model_error
 from comparisons.external import plugins
 from comparisons.models.context import running
 from comparisons.models.resolve import resolve
@@ -86,6 +87,7 @@ def measure(
         "solve_seconds": {"median": statistics.median(samples), "samples": samples},
         "setup_seconds": solution.setup_seconds,
         "peak_memory_bytes": memory,
+        "model_error": None if (left_out := model_error(requested, solution)) is None else left_out.value,
         "bar": None if solution.bar is None else error(probes + solution.bar(points), probes),
         "probes": dict(zip(requested.probes, probes, strict=True)),
         "field": solution.displacement(field_points(requested)[0]),

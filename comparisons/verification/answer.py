@@ -98,9 +98,9 @@ class Verification(Answer):
         return (Picture("locking", compose, (rows,), formats=("png",)),) if rows else ()
 
 
-def verify(cases: Sequence[str] | None = None) -> Verification:
+def verify(case: Sequence[str] | str | None = None) -> Verification:
     """Check the references against published values, all cases unless some are named.
 
     The answer's `succeeded` says whether all pass. Raises BadInput for a case that does not exist.
     """
-    return Verification(list(run(cases)))
+    return Verification(list(run([case] if isinstance(case, str) else case)))

@@ -38,7 +38,7 @@ from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
 from sheetbench.clock import now
-from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.errors import BadInput, NoEquilibrium, require_effect
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
@@ -101,6 +101,13 @@ def solve(
     require_static(scene := scene_of(scene))
     if linear and scene.actuators:
         raise BadInput("linear = True: actuators turn with the sheet; solve without")
+    beyond = {"branch": branch if branch != "path" else None, "near": near}
+    if linear:
+        require_effect(
+            "with linear = True", {**beyond, "precision": precision if precision != "double" else None}
+        )
+    elif branch != "path" or weights != "tributary":
+        require_effect("with another branch than path or other weights than tributary", {"near": near})
     began = now()
     compile_kernels()
     calibration = calibration or default(scene)

@@ -36,6 +36,8 @@ def load(scene: str | Path) -> Scene:
     Raises SceneError, in one line that names the file, the key, the value and what is allowed. Warns
     (Implausible) of what can be solved and is hardly meant.
     """
+    if not isinstance(scene, str | Path):
+        raise SceneError(f"scene = {str(scene)[:40]}: a Scene, a name of the catalogue or a path is needed")
     known = catalogue()
     path = known.get(str(scene)) or Path(scene)
     try:

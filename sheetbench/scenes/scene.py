@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
+from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -16,7 +17,7 @@ from warnings import warn
 import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 
-from sheetbench.errors import Implausible
+from sheetbench.errors import Implausible, SceneError
 from sheetbench.scenes import corners, region, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion
 from sheetbench.scenes.air import Air
@@ -140,6 +141,11 @@ class Scene(Frozen):
 
         Probes that nobody chose go with the sheet's outline. Raises SceneError for what makes no sense.
         """
+        parts = (self, self.sheet, self.material)
+        keys = [*LISTS.values(), *(key for part in parts for key in type(part).model_fields)]
+        for key in values:
+            if key not in keys and (near := get_close_matches(key, keys, 1)):
+                raise SceneError(f"replace: {key}: unknown key; did you mean {near[0]}?")
         for part in ("sheet", "material"):
             kind = type(getattr(self, part))
             own = {key: values.pop(key) for key in list(values) if key in kind.model_fields}

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from functools import cache
 from math import pi
+from numbers import Real
 from typing import Any
 
 from sheetbench.errors import BadInput
@@ -163,3 +164,16 @@ def _named(dimension: Dimension, unit: str) -> str:
 def _called(unit: str) -> str:
     name = NAMES.get(unit, (f"quantity in {unit}", ""))[0]
     return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
+
+
+def amount(name: str, value: float | str, unit: str) -> float:
+    """Return a number in an SI unit, or a quantity as people write it, of an argument by its name. Raises
+    BadInput for anything else."""
+    if isinstance(value, str):
+        try:
+            return quantity(value, unit)
+        except BadInput as error:
+            raise BadInput(f"{name} = {value!r}: {error}") from None
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise BadInput(f"{name} = {value!r}: a number{f' [{unit}]' if unit else ''} is needed")
+    return float(value)

@@ -46,7 +46,7 @@ def test_the_published_study_keeps_its_methods_in_their_order():
     [
         ("compare", "calibration", choices.CALIBRATIONS),
         ("compare", "reference", choices.REFERENCES),
-        ("calibrate", "method", choices.CALIBRATIONS),
+        ("calibrate", "calibration", choices.CALIBRATIONS),
         ("identify", "calibration", choices.CALIBRATIONS),
         ("modes", "calibration", choices.CALIBRATIONS),
         ("modes", "masses", choices.MASSES),

@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from commands import run
 
 import fem_reference
 import lumped
 import sheetbench as sb
-from comparisons.tradeoff import statics
+from comparisons.tradeoff import choices
 
 NAME = "one-edge-clamped"
 HEAVY = ["numpy", "scipy", "pydantic", "numba", "skfem", "meshio", "pyvista", "vtkmodules", "matplotlib"]
@@ -121,12 +122,43 @@ def test_grids_are_numbers_or_tuples():
 
 def test_a_trade_off_is_asked_in_lists(tmp_path, monkeypatch):
     asked: list[Any] = []
-    monkeypatch.setattr(statics, "tradeoff", lambda scene, candidates, store, **_: asked.extend(candidates))
-    out = tmp_path / "kept"
-    sb.tradeoff(NAME, grid=(3, (5, 7)), calibration=("consistent", "uniform"), shell=(4,), out=out)
+    monkeypatch.setattr(choices, "tradeoff", lambda scene, candidates, store, **_: asked.extend(candidates))
+    out, none = tmp_path / "kept", {"plate": (), "solid": ""}
+    sb.tradeoff(NAME, grid=(3, (5, 7)), calibration=("consistent", "uniform"), shell=(4,), out=out, **none)
     assert [one.settings.get("grid") for one in asked] == [[3, 3, 2], [5, 7, 2], [3, 3, 2], [5, 7, 2], None]
     assert [one.model for one in asked] == 4 * ["lumped"] + ["shell"]
     assert (out / "campaign.sqlite").is_file()
+
+
+def test_a_trade_off_has_the_commands_defaults(monkeypatch):
+    asked: dict[str, list[Any]] = {"command": [], "function": []}
+
+    def listed(name):
+        def tradeoff(scene, candidates, store, **_):
+            asked[name].extend(candidates)
+            raise sb.BadInput("enough")
+
+        monkeypatch.setattr(choices, "tradeoff", tradeoff)
+
+    listed("function")
+    with pytest.raises(sb.BadInput, match="enough"):
+        sb.tradeoff(NAME)
+    listed("command")
+    assert run("tradeoff", NAME, "--quiet") == 2
+    assert asked["function"] == asked["command"] and len(asked["command"]) > 15
+
+
+def test_a_trade_off_of_a_motion_is_asked_in_lists(monkeypatch):
+    asked: dict[str, Any] = {}
+
+    def moved(scene, duration, *, lattices, others, store, **settings):
+        asked.update(duration=duration, lattices=lattices, others=others, **settings)
+
+    monkeypatch.setattr(choices, "dynamic_tradeoff", moved)
+    sb.tradeoff(NAME, duration="50 ms", grid=(5,), integrator=("esdirk",), plate="", shell=(2,), solid=())
+    assert asked["duration"] == 0.05 and asked["integrators"] == ["esdirk"]
+    assert [one.label for one in asked["lattices"]] == ["lumped grid 5"]
+    assert [one.label for one in asked["others"]] == ["shell elements 2"]
 
 
 def test_a_saved_scene_holds_every_digit(tmp_path):

@@ -54,15 +54,72 @@ def test_the_other_functions_return_what_their_verbs_report_on(tmp_path):
     sb.export("one-edge-clamped", tmp_path / "lattice", grid=3)
     assert sb.report(tmp_path) == tmp_path / "report.html" and (tmp_path / "report.html").is_file()
     with pytest.raises(sb.BadInput, match="nosuch"):
-        sb.stability("one-edge-clamped", varied=["nosuch"])
+        sb.stability("one-edge-clamped", vary="nosuch")
     with pytest.raises(sb.BadInput, match="nosuch"):
         sb.verify(["nosuch"])
     with pytest.raises(sb.BadInput, match="nosuch"):
         sb.score(tmp_path / "a.csv", "nosuch")
-    cross = sb.crosscheck("one-edge-clamped", grid=(3, 5), plate=(2, 3), shell=(), solid=(), programs=())
+    cross = sb.crosscheck("one-edge-clamped", grid=(3, 5), plate=(2, 3), shell=(), solid=(), judges=())
     assert {name: len(found) for name, found in cross.convergences.items()} == {"one-edge-clamped": 2}
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.py")), ids=lambda path: path.stem)
 def test_examples_import_the_package_alone(path):
     assert not re.search(r"^(from|import) comparisons", path.read_text(encoding="utf-8"), re.M)
+
+
+SCENE = sb.load("one-edge-clamped")
+WRONG = {
+    "a keyword of none": (
+        lambda: sb.compare(SCENE, gird=5),
+        "compare: no keyword 'gird'; .*did you mean grid",
+    ),
+    "the older name": (lambda: sb.stability(SCENE, varied=["load"]), "did you mean vary"),
+    "one too many": (lambda: sb.calibrate(SCENE, grid=3, lumped=3), "lumped and grid are one"),
+    "a missing one": (lambda: sb.compare(), "compare: missing a required argument: 'scene'"),
+    "an inner one": (lambda: sb.cell("equilateral", SCENE), "spacing = Scene"),
+    "the wrong order": (lambda: sb.homogenise("equilateral", SCENE), "the scene comes first"),
+    "a list": (lambda: sb.advise(SCENE, tolerance=[1]), r"tolerance = \[1\]: a number is needed"),
+    "a length": (lambda: sb.simulate(SCENE, "2 mm", grid=3), "duration = '2 mm': '2 mm' is a length"),
+    "shapes": (lambda: sb.error([[1, 2, 3]], [[1, 2]]), "equal shapes"),
+    "a key of a part": (lambda: SCENE.replace(yung=1e6), "yung: unknown key; did you mean young"),
+    "no scene": (lambda: sb.compare(3), "scene = 3: a Scene, a name of the catalogue or a path"),
+    "no model": (lambda: sb.solve(SCENE, 5), "model = 5: a name as 'lumped'"),
+    "no number": (lambda: sb.modes(SCENE, count="3", grid=3), "count = 3: a whole number"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_a_wrong_argument_is_refused_in_the_terminals_words(case):
+    ask, said = WRONG[case]
+    with pytest.raises(sb.BadInput, match=said):
+        ask()
+
+
+def test_an_option_has_one_name_in_command_and_function():
+    """By the functions' signatures; what an option lists once a flag is a list."""
+    from comparisons.cli.app import verb_group
+
+    other = {"model": "models", "lumped": "grid", "for": "", "tensile": "", "toml": "", "export": ""}
+    other |= {"wait": "", "scheduler": "", "retry": "", "animate": "", "measured": "measured"}
+    of_terminal = {"json", "overwrite", "figure", "no_pictures", "quiet", "help", "out", "no_uncertainty"}
+    for verb in (
+        "compare",
+        "tradeoff",
+        "crosscheck",
+        "stability",
+        "modes",
+        "linearise",
+        "advise",
+        "verify",
+        "suite",
+    ):
+        known = inspect.signature(getattr(sb, verb)).parameters
+        for option in verb_group().commands[verb].params:
+            name = option.name
+            if option.param_type_name != "option" or name in of_terminal or not other.get(name, name):
+                continue
+            assert other.get(name, name) in known or name in (*WIDER, *known), (verb, name)
+
+
+WIDER = {"large", "duration"}  # `crosscheck --duration` is `compare` with models of its own

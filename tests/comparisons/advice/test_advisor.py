@@ -1,6 +1,7 @@
 """The advisor: what it chooses and leaves out."""
 
 import json
+import re
 import shlex
 from dataclasses import replace
 from functools import cache
@@ -18,6 +19,7 @@ from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice, Spec, spec_of
+from comparisons.tradeoff.pareto import cheapest
 from fem_reference.pulled_strip import pulled
 from fem_reference.verification.strain_laws import stress
 from sheetbench import scenes
@@ -234,3 +236,39 @@ def test_an_unstable_scene_gets_no_choice_but_the_reason():
     advice = advise(upright, 0.01)  # a sheet that stands on its edge and is too heavy to
     assert advice.choice is None and not advice.succeeded
     assert "unstable" in advice.message
+
+
+def test_one_rule_says_what_a_tolerance_is_held_against():
+    """Error, bar and model error together, as a column and in a sentence; the cheapest of the table."""
+    advice = advise("two-edges-clamped", "1 %")
+    assert advice.tolerance == 0.01 and advice.model is not None
+    for row in advice.tried:
+        assert row.total == pytest.approx(row.error + advice.bar + advice.model.value)
+    (table,) = advice.tables()
+    taken = r"model error takes 0\.\d+ %, its mesh's bar 0\.\d+ %: 0\.\d+ % are left for the grid\."
+    assert re.fullmatch(f"Of 1 % the shell's {taken}", table.text)
+    within = [row for row in advice.tried if row.total <= 0.01]
+    assert min(within, key=lambda row: row.solve_seconds).choice
+    (tight,) = advise("two-edges-clamped", 0.5 * advice.model.value).tables()
+    assert "more than all of it: within" in tight.text and "of a converged shell only" in tight.text
+
+
+def test_the_trade_off_has_the_same_rule():
+    """0.92 % off are within 1 % but for what the reference leaves out."""
+    names, errors, seconds = ("coarse", "fine"), (0.0092, 0.003), (1e-3, 1e-2)
+    assert cheapest(names, errors, seconds) == ["Cheapest within 5 %: coarse, 0.92 % off in 1 ms."]
+    (of_five, of_one) = cheapest(names, errors, seconds, bar=0.0, model_error=0.002)
+    assert of_five.startswith("Cheapest within 5 %: coarse") and of_one.startswith(
+        "Cheapest within 1 %: fine"
+    )
+    (converged,) = cheapest(("finest",), (5e-4,), (1.0,), model_error=0.06)
+    assert converged.startswith("Cheapest within 5 % of a converged reference: finest")
+
+
+def test_models_may_be_named():
+    lattice = advise("two-edges-clamped", 0.01, models="lumped")
+    assert lattice.succeeded and lattice.choice.model == "lumped"
+    assert lattice.error + lattice.bar + lattice.model.value <= 0.01
+    hopeless = advise("two-edges-clamped", 1.05 * lattice.model.value, models=["lumped"])
+    assert not hopeless.succeeded and hopeless.choice.model == "lumped"
+    assert "no model here is within" in hopeless.reason

@@ -14,9 +14,10 @@ IDENTIFY = f"identify {TWO} --measured measured.csv"
 SIMULATE = f"simulate {TWO} --lumped 3 --duration 0.01"
 HUGE = "9" * 19
 ROWS = {
-    f"advise {ONE} --tolerance 2": "--tolerance = 2: a fraction",
-    f"advise {ONE} --tolerance 0": "--tolerance = 0",
-    f"advise {ONE} --budget -1": "--budget = -1",
+    f"advise {ONE} --tolerance 2": "tolerance = 2: a fraction",
+    f"advise {ONE} --tolerance 0": "tolerance = 0: a fraction",
+    f"advise {ONE} --budget -1": "budget = -1",
+    f"advise {ONE} --models lumped,solid": "models = 'solid': unknown, choose one of lumped, plate, shell",
     "calibrate": "--young|--poisson|--thickness|--side",
     f"calibrate {TWO} --poisson 0.5": "--poisson|0.5",
     f"calibrate {TWO} --side 18q": "--side|18q",
@@ -31,7 +32,7 @@ ROWS = {
     f"calibrate {TWO} --grid 3 --for mujoco --for sofa": "--for|--export",
     f"calibrate {TWO} --grid 3 --method central --for bullet --export a": "mujoco",
     f"calibrate {TWO} --grid 3x3x{HUGE}": "grid",
-    "calibrate --young 1e6 --poisson 0.3 --thickness 0.002 --side 0.1 --method auto": "method = auto",
+    "calibrate --young 1e6 --poisson 0.3 --thickness 0.002 --side 0.1 --method auto": "calibration = auto",
     "calibrate --young '2 mm'": "needed is a stress or modulus",
     "calibrate --thickness '2 MPa'": "needed is a length",
     "calibrate --density '1.1 g'": "needed is a density",
@@ -116,7 +117,6 @@ ROWS = {
     f"tradeoff {ONE} --workers 2 --scheduler tcp://127.0.0.1:9": "--workers: no effect with --scheduler",
     f"crosscheck {ONE} --duration 0.1 --judges '' --workers 2": "--workers: no effect with --duration",
     f"crosscheck {ONE} --judges '' --meshes 4,8": "--meshes: no effect without external codes",
-    "study reproduction --part settling --elements 4": "--elements: no effect without the part tables",
     f"calibrate {ONE} --for newton --loss-factor 0.1 --at 3": "--loss-factor: no effect|newton|stiffness",
     f"calibrate {ONE} --for mujoco --quality 9 --band 1 9": "--quality: no effect with --for mujoco|Maxwell",
     f"identify {ONE} --tensile measured.csv": "SCENE: no effect with --tensile",

@@ -118,7 +118,7 @@ def test_sofas_scene_has_what_it_names():
 
 
 def test_what_they_do_not_have_is_refused(tmp_path, capsys):
-    with pytest.raises(BadInput, match="area and strain springs of cells; take --method central"):
+    with pytest.raises(BadInput, match="area and strain springs of cells; take --calibration central"):
         to_mjcf(described(CORNER, method="consistent"), CORNER)
     with pytest.raises(BadInput, match="hold the mean of their layers"):
         to_sofa(described(HINGED, 3), HINGED)

@@ -57,11 +57,11 @@ def test_a_model_that_refuses_is_left_out_before_anything_moves(tmp_path):
     )
     model = f"{file}:Still"
     found = compare_motion(
-        SWING, 0.002, grid=2, elements=1, others=[model], leave_out=True, uncertainty=False
+        SWING, 0.002, grid=2, elements=1, models=[model], leave_out=True, uncertainty=False
     )
     assert found.document()["motion"]["left_out"] == {model: "still: nothing moves"}
     with pytest.raises(BadInput, match="still: nothing moves"):
-        compare_motion(SWING, 0.002, others=[model])
+        compare_motion(SWING, 0.002, models=[model])
 
 
 @pytest.mark.parametrize(

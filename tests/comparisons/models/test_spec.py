@@ -47,7 +47,7 @@ def test_a_reference_is_a_spec_or_its_name_and_keywords():
     points = both.scene.probe_points()
     assert np.array_equal(answer.displacement(points), both.reference.displacement(points))
     assert [
-        one.model for one in sb.compare("one-edge-clamped", sb.Lattice(3), spec, others=["plate"]).solutions
+        one.model for one in sb.compare("one-edge-clamped", sb.Lattice(3), spec, models=["plate"]).solutions
     ]
 
 

@@ -89,12 +89,23 @@ def test_the_reference_has_a_bar_by_mesh_and_by_step():
     assert 0.0 < both.uncertainty["step"] < both.uncertainty["mesh"] < 0.2
     notes = both.report().notes
     assert "% with elements twice as large" in notes[0] and "% with steps twice as long" in notes[0]
-    nearer = both.differences[0]["largest"] < both.uncertainty["mesh"]
-    assert any("more --elements" in note for note in notes) == nearer
     good = replace(both, uncertainty={"mesh": 1e-6, "step": 1e-6})
-    poor = replace(both, uncertainty={"mesh": 0.5, "step": 1e-6})
-    assert not any("--elements" in note for note in good.report().notes)
-    assert any("--elements" in note for note in poor.report().notes)
+    poor = replace(both, uncertainty={"mesh": 0.5, "step": 0.01})
+    assert good.differences[0]["distinguishable"] and not poor.differences[0]["distinguishable"]
+    shown = [one.report() for one in (good, poor)]
+    for report, within in zip(shown, (False, True), strict=True):
+        table = next(one for one in report.tables if one.name == "differences")
+        assert table.rows[-1][-2:] == (
+            pytest.approx(report.document["motion"]["bar"]),
+            "yes" if within else "no",
+        )
+        assert ("lumped: within the shell's own error." in report.notes) == within
+    assert shown[1].lead.startswith("The shell itself is uncertain by 51 % of its largest displacement")
+    assert shown[0].lead.startswith("motion over")
+    near = replace(both, uncertainty={"mesh": 0.5 * both.differences[0]["largest"], "step": 0.0})
+    assert near.doubt and near.differences[0]["distinguishable"]
+    unknown = replace(both, uncertainty={"mesh": None, "step": 1e-6})
+    assert unknown.bar is None and unknown.differences[0]["distinguishable"] is None and not unknown.doubt
 
 
 def test_the_command_prints_and_writes_a_motion(tmp_path, capsys):

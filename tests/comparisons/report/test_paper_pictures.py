@@ -75,7 +75,7 @@ def composed(scene, comparison):
         for ratio in (1e-5, 0.1)
     ]
     linear = linearise(scene, grid=3)
-    swings = spectra(scene, count=4, grid=3, references=["plate"], elements=2)
+    swings = spectra(scene, count=4, grid=3, reference="plate", elements=2)
     return {
         "probes": partial(probes_figure.compose, comparison),
         "history": partial(moving.compose, history, scene.title, {}),

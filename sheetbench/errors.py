@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+FOREIGN = 160  # characters: what was said first is mostly the reason
+
 
 class BadInput(ValueError):
     """An option, argument or file that cannot be used as given."""
@@ -40,6 +42,12 @@ class Implausible(UserWarning):
 def printable(text: str) -> str:
     """The text with its control characters written out, so that none of a file's reaches a terminal."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+def foreign(said: object) -> str:
+    """What another program, library or file says, an error too, in one line of FOREIGN characters at most."""
+    text = printable(" ".join(str(said).split())) or type(said).__name__
+    return text if len(text) <= FOREIGN else f"{text[: FOREIGN - 1]}…"
 
 
 def require_choice(option: str, value: str, choices: Iterable[str]) -> None:

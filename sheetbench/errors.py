@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
+FOREIGN = 160  # characters: what was said first is mostly the reason
+
 
 class BadInput(ValueError):
     """An option, argument or file that cannot be used as given."""
@@ -52,6 +54,12 @@ def require_effect(why: str, options: Mapping[str, object]) -> None:
         empty = isinstance(value, tuple | list) and not value
         if not (value is None or value is False or empty):
             raise BadInput(f"{name}: no effect {why}; leave it out")
+
+
+def foreign(said: object) -> str:
+    """What another program, library or file says, an error too, in one line of FOREIGN characters at most."""
+    text = printable(" ".join(str(said).split())) or type(said).__name__
+    return text if len(text) <= FOREIGN else f"{text[: FOREIGN - 1]}…"
 
 
 def require_choice(option: str, value: str, choices: Iterable[str]) -> None:

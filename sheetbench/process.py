@@ -17,6 +17,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
+from sheetbench.errors import foreign
+
 ONE_THREAD = dict.fromkeys(
     (
         "OMP_NUM_THREADS",
@@ -96,7 +98,7 @@ def run(
     if stopped == LATE:
         stopped = f"no answer within {seconds:g} s"
     lines = complaint.decode("utf-8", "replace").strip().splitlines()
-    return Ended(process.returncode, answer, lines[-1] if lines else "", stopped, took)
+    return Ended(process.returncode, answer, foreign(lines[-1]) if lines else "", stopped, took)
 
 
 def _hear(process: subprocess.Popen[bytes], until: float, most: int) -> tuple[bytes, bytes, str]:
@@ -158,5 +160,5 @@ def output_of(command: Sequence[str], folder: Path, limit: float, fine: Collecti
         reason = f"stopped: {ended.stopped}"
     elif ended.code < 0:
         reason = f"ended by signal {-ended.code}"
-    lines = [" ".join(line.split()) for line in output.splitlines() if "error" in line.lower()]
-    raise Failed(f"{reason}: {lines[-1][:200]}" if lines else reason)
+    lines = [line for line in output.splitlines() if "error" in line.lower()]
+    raise Failed(f"{reason}: {foreign(lines[-1])}" if lines else reason)

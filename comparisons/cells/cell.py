@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, foreign
 
 Place = tuple[int, int, int]  # node, periods along the first and the second
 HINGES: Mapping[str, Callable[[float, float], float]] = {
@@ -137,7 +137,7 @@ def from_toml(path: Path) -> Cell:
         name, hinge = data.get("name", path.stem), data.get("hinge", "")
         return Cell(name, periods, nodes, triangles, hinge, springs, bricks)
     except (OSError, tomllib.TOMLDecodeError, KeyError, ValueError, TypeError, IndexError) as error:
-        raise BadInput(f"{path}: is no cell: {error}") from None
+        raise BadInput(f"{path}: is no cell: {foreign(error)}") from None
 
 
 def _moved(place: Place, origin: Place) -> Place:

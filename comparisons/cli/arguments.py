@@ -61,7 +61,9 @@ def with_defaults(
     try:
         tables = tomllib.loads(Path(FILE).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise Refused(f"{FILE}: cannot be read: {' '.join(str(error).split())}") from None
+        from sheetbench.errors import foreign
+
+        raise Refused(f"{FILE}: cannot be read: {foreign(error)}") from None
     for name, table in tables.items():
         if name not in verbs or not isinstance(table, dict):
             raise Refused(f"{FILE}: {name}: a table of a verb is needed, as [compare]")

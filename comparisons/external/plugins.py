@@ -29,7 +29,7 @@ from types import ModuleType
 from typing import Any, Protocol, runtime_checkable
 
 from comparisons.external.program import PREFIX, Program
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes import History, Scene, Solution
 
 GROUP = "sheetbench.models"
@@ -85,8 +85,7 @@ def plugin(name: str) -> Model:
     try:
         model = _loaded(name)
     except (Exception, SystemExit) as error:  # whatever it does on import, the user learns whose it is
-        reason = str(error) or type(error).__name__
-        raise BadInput(f"model = '{name}': the plug-in cannot be loaded: {reason}") from None
+        raise BadInput(f"model = '{name}': the plug-in cannot be loaded: {foreign(error)}") from None
     if not isinstance(model, Model):
         raise BadInput(f"model = '{name}': the plug-in lacks a name, settings or solve(scene, settings)")
     if not re.fullmatch(r"\w[\w.+-]*", str(model.name)):

@@ -7,7 +7,7 @@ always there; on standard output it answers with one JSON object:
     status    "converged", or another of `scenes.Status`
     probes    {name: [ux, uy, uz]} in metres, of every probe of the scene
     and, if it likes, solve_seconds (else the whole run counts), unknowns, iterations, load_factor, reactions
-    {edge: [Fx, Fy, Fz]}, label, message
+    {edge: [Fx, Fy, Fz]} of what the scene holds, label, message
 
 Exit status 2 with a line on standard error refuses a scene, as bad input. Any other that is not 0, a signal,
 no answer within the time, too much of it, or one that cannot be read is the status `failed` with what
@@ -27,10 +27,11 @@ from typing import Any
 import numpy as np
 
 from comparisons.external import memory
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, foreign
 from sheetbench.process import run
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.quantities import LARGEST
+from sheetbench.scenes.supports import named
 
 PREFIX = "exec:"
 SETTINGS = {"seconds": 60.0, "memory_mb": None}  # the limits; all others are the program's own
@@ -112,9 +113,12 @@ def _read(scene: Scene, answer: bytes) -> dict[str, Any]:
     read = {"probes": {name: _vector(probes[name], f"probes.{name}") for name in scene.probes}}
     reactions = document.get("reactions") or {}
     edges = dict(reactions) if isinstance(reactions, dict) else {}
+    held = dict.fromkeys([*named(scene.supports), *(actuator.held_as for actuator in scene.actuators)])
+    if strange := [edge for edge in edges if edge not in held]:
+        raise BadInput(f"reactions: {foreign(', '.join(strange))}: the scene holds {', '.join(held)}")
     forces = {"reactions": {edge: _vector(force, f"reactions.{edge}") for edge, force in edges.items()}}
     numbers = {name: _number(document[name], name) for name in NUMBERS if document.get(name) is not None}
-    texts = {name: str(document[name]) for name in ("label", "message") if document.get(name)}
+    texts = {name: foreign(document[name]) for name in ("label", "message") if document.get(name)}
     return {**read, **forces, **numbers, **texts, "status": status}
 
 

@@ -29,7 +29,7 @@ from comparisons.measured.c3d import read_markers
 from comparisons.measured.columns import Columns, Row, read_columns
 from comparisons.measured.ply import read_points
 from comparisons.measured.start import require_flat_start
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes import Scene, Sheet
 
 PLACE = ("x", "y")
@@ -210,8 +210,7 @@ def _cloud(path: Path, sheet: Sheet) -> Surface:
     except BadInput:
         raise
     except Exception as error:  # VTK's reader has no error of its own for a damaged file
-        reason = str(error) or type(error).__name__
-        raise BadInput(f"{path}: cannot be read as a point cloud: {reason}") from None
+        raise BadInput(f"{path}: cannot be read as a point cloud: {foreign(error)}") from None
     finite = np.isfinite(points).all(axis=1)
     if not finite.all():
         raise BadInput(f"{path}: point {int(np.argmin(finite))} is not finite")

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes.units import quantity
 
 
@@ -35,7 +35,7 @@ def read_markers(path: Path) -> Markers:
         labels = tuple(map(str, point["LABELS"]["value"]))
         position = np.asarray(content["data"]["points"][:3], dtype=float).transpose(1, 2, 0)
     except (OSError, RuntimeError, KeyError, IndexError) as error:
-        raise BadInput(f"{path}: cannot be read as C3D: {error}") from None
+        raise BadInput(f"{path}: cannot be read as C3D: {foreign(error)}") from None
     if not (rate > 0.0 and position.size):
         raise BadInput(f"{path}: no markers over time in it")
     scale = quantity(f"1 {unit}", "m")

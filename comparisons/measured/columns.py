@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from math import isfinite, nan
 from pathlib import Path
 
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes.quantities import LARGEST
 from sheetbench.scenes.reading import read_text
 from sheetbench.scenes.units import quantity
@@ -122,7 +122,7 @@ def _parsed(path: Path, kept: list[tuple[int, str]], separator: str) -> Iterator
         except StopIteration:
             return
         except csv.Error as error:
-            raise BadInput(f"{path}, line {kept[reader.line_num - 1][0]}: {error}") from None
+            raise BadInput(f"{path}, line {kept[reader.line_num - 1][0]}: {foreign(error)}") from None
         yield kept[reader.line_num - 1][0], cells
 
 
@@ -131,7 +131,7 @@ def _name(path: Path, cell: str) -> tuple[str, float]:
     name, bracket, rest = cell.strip().lower().partition("[")
     unit = rest.removesuffix("]").strip().replace("μ", "µ")  # the Greek letter for the micro sign
     if bracket and unit not in UNITS:
-        raise BadInput(f"{path}: column {cell.strip()}: unknown unit; write one of {', '.join(UNITS)}")
+        raise BadInput(f"{path}: column {foreign(cell)}: unknown unit; write one of {', '.join(UNITS)}")
     return name.strip(), UNITS[unit] if bracket else 1.0
 
 
@@ -160,7 +160,7 @@ def _quantity(path: Path, cell: str, units: Mapping[str, str]) -> tuple[str, flo
     try:
         return name, quantity(f"1 {unit}", units[name])
     except BadInput as error:
-        raise BadInput(f"{path}: column {cell.strip()}: {error}") from None
+        raise BadInput(f"{path}: column {foreign(cell)}: {error}") from None
 
 
 def _decimal_comma(path: Path, parsed: list[tuple[int, list[str]]]) -> bool:

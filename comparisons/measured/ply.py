@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, foreign
 
 TYPES = {
     **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"},
@@ -58,7 +58,7 @@ def read_points(path: Path) -> np.ndarray:
             raise BadInput(f"it ends after {len(rows)} of {vertices.count} points")
         return np.stack([rows[axis].astype(float) for axis in "xyz"], axis=1)
     except (ValueError, KeyError, IndexError, TypeError, OverflowError, MemoryError) as error:
-        raise BadInput(f"{path}: a damaged PLY file: {error}") from None
+        raise BadInput(f"{path}: a damaged PLY file: {foreign(error)}") from None
 
 
 def _header(lines: list[str]) -> tuple[str, list[Element]]:

@@ -14,7 +14,7 @@ from pydantic import AfterValidator, TypeAdapter, ValidationError
 from typing_extensions import TypedDict
 
 from comparisons.runs.folder import MANIFEST
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, foreign
 
 LARGEST = 64_000_000  # bytes of a file that a page reads
 LONGEST = 255  # bytes of a file's name
@@ -81,5 +81,5 @@ def manifest(folder: Path) -> dict[str, Any]:
         place = ".".join(map(str, first["loc"]))
         raise BadInput(f"{place}: {first['msg']}" if place else first["msg"]) from None
     except (OSError, ValueError, RecursionError) as error:
-        raise BadInput(" ".join(str(error).split())[:160]) from None
+        raise BadInput(foreign(error)) from None
     return dict(found)

@@ -17,7 +17,7 @@ from typing import Any
 from comparisons.pages.manifests import LARGEST, manifest
 from comparisons.runs import store
 from comparisons.runs.folder import MANIFEST
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes import Scene
 
 OURS = ("report.html", MANIFEST, store.FILE)
@@ -62,8 +62,7 @@ class Study:
         try:
             return Scene.model_validate(data)
         except (BadInput, ValueError) as error:
-            reason = " ".join(str(error).split())
-            self.troubles.append(f"{self.place}: its scene cannot be read: {reason[:200]}")
+            self.troubles.append(f"{self.place}: its scene cannot be read: {foreign(error)}")
             return None
 
     @property
@@ -133,8 +132,7 @@ class Study:
         except RecursionError:
             self.troubles.append(f"{self.named(name)}: damaged, nested too deeply")
         except (Exception, SystemExit) as error:  # readers of meshes raise and exit as they like
-            why = " ".join(str(error).split())[:160] or type(error).__name__
-            self.troubles.append(f"{self.named(name)}: damaged, cannot be read: {why}")
+            self.troubles.append(f"{self.named(name)}: damaged, cannot be read: {foreign(error)}")
         return None
 
     def attempt(self, what: str, made: Callable[[], Any]) -> Any:
@@ -144,7 +142,7 @@ class Study:
             return made()
         except Exception as error:  # the document may hold anything
             self.troubles.append(
-                f"{self.named(what)}: cannot be shown: {type(error).__name__}: {error}"[:240]
+                f"{self.named(what)}: cannot be shown: {type(error).__name__}: {foreign(error)}"
             )
         return None
 
@@ -222,5 +220,5 @@ def _manifest(folder: Path, place: str, troubles: list[str]) -> Mapping[str, Any
     try:
         return manifest(folder)
     except BadInput as error:
-        troubles.append(f"{place}/{MANIFEST}".lstrip("/") + f": damaged, cannot be read: {error}")
+        troubles.append(f"{place}/{MANIFEST}".lstrip("/") + f": damaged, cannot be read: {foreign(error)}")
         return {}

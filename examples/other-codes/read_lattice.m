@@ -101,6 +101,7 @@ function u = equilibrium(lattice, along, steps)
   [n, holds, p] = deal(size(lattice.positions, 1), numel(lattice.hold_axis), size(lattice.hold_masses, 2));
   places = double(lattice.hold_axis) * n + double(lattice.hold_masses) + 1;
   held = sparse(repmat((1:holds)', 1, p), places, 1 / p, holds, 3 * n);
+  fprintf('statics of %d masses, load in %d step(s)\n', n, steps);
   [u, push, h] = deal(zeros(3 * n, 1), zeros(holds, 1), 1e-7 * max(lattice.link_rest_length));
   force_at = @(u) reshape(gradient_of(lattice, along, reshape(u, n, 3)), [], 1);
   for part = (1:steps) / steps

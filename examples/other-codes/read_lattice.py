@@ -7,6 +7,8 @@ import sys
 
 import numpy as np
 
+LARGEST = 1500  # masses
+
 
 def differences(lattice):
     """Matrices that take positions (n, 3) to the vectors that springs see: along links, across cells."""
@@ -91,11 +93,43 @@ def faces(lattice, along, x, g):
     return 0.5 * np.sum(k * shear**2 * a0)
 
 
+def neighbours(along):
+    """Which masses (n, n) share a spring, and groups of masses of which no two have one in common."""
+    pairs = [abs(each) if kind == "link" else sum(map(abs, each))
+             for kind, each in along.items() if not kind.endswith("_warp")]
+    near = sum(touched.T @ touched for touched in pairs) > 0
+    alone, groups, left = near @ near, [], list(range(len(near)))
+    while left:
+        group = []
+        for mass in left:
+            if not alone[mass, group].any():
+                group.append(mass)
+        groups, left = [*groups, group], [mass for mass in left if mass not in group]
+    return near, groups
+
+
+def stiffness(lattice, along, shared, u, force, h):
+    """The tangent (3 n, 3 n) [N/m] by differences; the masses of a group move together."""
+    (near, groups), n = shared, len(u)
+    found = np.zeros((n, 3, n, 3))
+    for group in groups:
+        for axis in range(3):
+            moved = u.copy()
+            moved[group, axis] += h
+            ahead = (gradient(lattice, along, moved)[1] - force) / h
+            found[:, :, group, axis] = near[:, None, group] * ahead[:, :, None]
+    return found.reshape(3 * n, 3 * n)
+
+
 def equilibrium(lattice, along, steps=1):
     """Displacements (n, 3) at rest: Newton, the tangent by differences, supports by multipliers.
 
     The load comes in `steps`, in twice as many where Newton does not converge.
     """
+    if len(lattice["positions"]) > LARGEST:
+        sys.exit(f"dense tangents, for {LARGEST} masses at most: write a lattice of a smaller --grid")
+    print(f"statics of {len(lattice['positions'])} masses, load in {steps} step(s)", file=sys.stderr)
+    shared = neighbours(along)
     n, holds = len(lattice["positions"]), len(lattice["hold_axis"])
     held = np.zeros((holds, n, 3))
     for row, masses in enumerate(lattice["hold_masses"]):
@@ -104,10 +138,11 @@ def equilibrium(lattice, along, steps=1):
     u, push, h = np.zeros(3 * n), np.zeros(holds), 1e-7 * lattice["link_rest_length"].max()
     for part in np.arange(1, steps + 1) / steps:
         for _ in range(20):
-            near = np.vstack([u, u + h * np.eye(3 * n)]).reshape(-1, n, 3)
-            force, *ahead = (gradient(lattice, along, v)[1].ravel() for v in near)
-            tangent = np.block([[(ahead - force).T / h, held.T], [held, np.zeros((holds, holds))]])
-            unbalanced = part * lattice["load"].ravel() - force - held.T @ push
+            at = u.reshape(n, 3)
+            force = gradient(lattice, along, at)[1]
+            springs = stiffness(lattice, along, shared, at, force, h)
+            tangent = np.block([[springs, held.T], [held, np.zeros((holds, holds))]])
+            unbalanced = part * lattice["load"].ravel() - force.ravel() - held.T @ push
             missing = part * lattice["hold_displacement"] - held @ u
             step = np.linalg.solve(tangent, np.concatenate([unbalanced, missing]))
             u, push = u + step[: 3 * n], push + step[3 * n :]

@@ -9,7 +9,7 @@ from warnings import warn
 
 from pydantic import ValidationError
 
-from sheetbench.errors import BadInput, Implausible, SceneError
+from sheetbench.errors import BadInput, Implausible, SceneError, foreign
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.reading import read_text
 from sheetbench.scenes.refusals import did_you_mean, in_one_line
@@ -47,11 +47,11 @@ def load(scene: str | Path) -> Scene:
         hint = f"did you mean {near}?" if near else f"those are {', '.join(known)}"
         raise SceneError(f"{scene}: no such file, and no catalogue scene of that name; {hint}") from None
     except (OSError, UnicodeDecodeError) as error:
-        raise SceneError(f"{scene}: cannot be read as text: {error}") from None
+        raise SceneError(f"{scene}: cannot be read as text: {foreign(error)}") from None
     except BadInput as error:
         raise SceneError(str(error)) from None
     except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{scene}: not a TOML file: {error}") from None
+        raise SceneError(f"{scene}: not a TOML file: {foreign(error)}") from None
     except RecursionError:
         raise SceneError(f"{scene}: not a scene: tables or lists within each other without end") from None
     except ValueError:  # from `int`, which TOMLDecodeError does not cover

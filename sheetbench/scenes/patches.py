@@ -156,14 +156,17 @@ def _disjoint(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float
     import shapely
 
     pieces: list[tuple[Any, dict[str, float]]] = []
-    covered = shapely.Polygon()
     for patch in patches:
         new = patch.shape.area
-        both = [(area.intersection(new), {**own, **patch.own}) for area, own in pieces]
-        rest = [(area.difference(new), own) for area, own in pieces]
-        pieces = [*both, *rest, (new.difference(covered), patch.own)]
-        pieces = [(area, own) for area, own in pieces if area.area > 0.0]
-        covered = covered.union(new)
+        touched = shapely.intersects(new, np.array([area for area, _ in pieces], dtype=object))
+        met = [piece for piece, touches in zip(pieces, touched, strict=True) if touches]
+        both = [(area.intersection(new), {**own, **patch.own}) for area, own in met]
+        rest = [
+            (area.difference(new) if touches else area, own)
+            for (area, own), touches in zip(pieces, touched, strict=True)
+        ]
+        alone = new.difference(shapely.union_all([area for area, _ in met]))
+        pieces = [(area, own) for area, own in [*both, *rest, (alone, patch.own)] if area.area > 0.0]
     yield from pieces
 
 

@@ -5,6 +5,7 @@ What lies on a shape's boundary belongs to it. A region is one piece that is con
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -44,12 +45,11 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
             raise ValueError("cutout 1: beside sheet.mesh; the holes of a sheet with a mesh are the mesh's")
         plan = sheet.mesh.area
     neck = NECK * min(sheet.lengths)
-    for number, cutout in enumerate(cutouts, start=1):
-        left = plan.difference(cutout.shape.area)
-        name = f"cutout {number}.shape: {cutout.shape.in_words()}"
-        if left.area >= plan.area * (1.0 - COINCIDENT):
-            raise ValueError(f"{name}: no part of it is on what is left of the sheet")
-        plan = left
+    if (number := _idle(plan, cutouts)) is not None:
+        words = f"cutout {number + 1}.shape: {cutouts[number].shape.in_words()}"
+        raise ValueError(f"{words}: no part of it is on what is left of the sheet")
+    if cutouts:
+        plan = plan.difference(shapely.union_all([cutout.shape.area for cutout in cutouts]))
     inner = plan.buffer(-0.5 * neck)
     if (count := 0 if inner.is_empty else shapely.get_num_geometries(inner)) != 1:
         drawn = "sheet.mesh: it covers" if sheet.mesh is not None else "sheet.outline: it encloses"
@@ -59,6 +59,24 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
     if plan.geom_type != "Polygon":  # slivers beside it
         plan = max(plan.geoms, key=lambda part: part.area)
     return plan
+
+
+def _idle(plan: Polygon, cutouts: Sequence[Cutout]) -> int | None:
+    """Return the first cutout, from 0, that takes nothing from what those before it leave of a plan."""
+    import shapely
+
+    areas = np.array([cutout.shape.area for cutout in cutouts])
+    tree = shapely.STRtree(areas)
+    for number, area in enumerate(areas):
+        taken = plan.intersection(area)
+        before = tree.query(area)
+        before = np.sort(before[before < number])
+        # from the last on: it is the nearest of a row, and leaves few others to be asked
+        while len(before := before[shapely.intersects(taken, areas[before])]):
+            taken, before = taken.difference(areas[before[-1]]), before[:-1]
+        if taken.area <= COINCIDENT * plan.area:
+            return number
+    return None
 
 
 def nearest(plan: Polygon, point: PlanPoint) -> PlanPoint:
@@ -112,11 +130,19 @@ def edge_length(scene: Scene, edge: str, where: Shape | None = None) -> float:
     return sum(stop - start for start, stop in edge_parts(scene, edge, where))
 
 
+def common(plan: Polygon, area: Any) -> Any:
+    """The part of a plan in an area; of a plan with many holes it is soon known where that is all of it."""
+    import shapely
+
+    shapely.prepare(plan)
+    return area if plan.contains(area) else plan.intersection(area)
+
+
 def area_in(scene: Scene, shape: Shape | None) -> float:
     """Area [m²] of the sheet in a shape, or of all of it."""
     if not scene.pierced and shape is None:
         return scene.sheet.length_x * scene.sheet.length_y
-    return float((scene.region if shape is None else scene.region.intersection(shape.area)).area)
+    return float((scene.region if shape is None else common(scene.region, shape.area)).area)
 
 
 def resultant(scene: Scene, load: AnyLoad, length: float | None = None) -> np.ndarray:
@@ -187,20 +213,28 @@ def misplaced(scene: Scene) -> str:
 
 def _disconnected(scene: Scene) -> str:
     """Why supports that hold the same part of the sheet cannot both be obeyed; "" where all can."""
-    from shapely import LineString
+    import shapely
 
-    named_supports = list(named(scene.supports).items())
-    for i, (name, one) in enumerate(named_supports):
-        shape = place(one)
-        if shape is None:
-            continue
-        for j, (other_name, other) in enumerate(named_supports):
-            beside = place(other)
-            if j == i or (beside is not None and j < i) or one.motion == other.motion:
-                continue
-            held: Any = beside.area if beside is not None else LineString(scene.sheet.edge_ends(other.edge))
-            if held.intersects(shape.area):
-                return f"{name} and {other_name} move the same part of the sheet differently"
+    supports = named(scene.supports)
+    names, shapes = list(supports), [place(support) for support in supports.values()]
+    motions: list[Any] = []
+    which = []  # of them each makes
+    for support in supports.values():
+        if support.motion not in motions:
+            motions.append(support.motion)
+        which.append(motions.index(support.motion))
+    if len(motions) < 2:
+        return ""
+    move, on_edge = np.array(which), np.array([shape is None for shape in shapes])
+    ends = (support.edge for support in supports.values() if place(support) is None)
+    lines = iter([shapely.LineString(scene.sheet.edge_ends(edge)) for edge in ends])
+    held = np.array([next(lines) if shape is None else shape.area for shape in shapes])
+    tree = shapely.STRtree(held)
+    for i in np.flatnonzero(~on_edge):
+        others = np.sort(tree.query(held[i]))
+        others = others[(move[others] != move[i]) & (on_edge[others] | (others > i))]
+        if (met := others[shapely.intersects(held[i], held[others])]).size:
+            return f"{names[i]} and {names[met[0]]} move the same part of the sheet differently"
     return ""
 
 

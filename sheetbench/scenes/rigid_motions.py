@@ -9,7 +9,7 @@ import numpy as np
 
 from sheetbench.errors import SceneError
 from sheetbench.scenes.actuators import Chain
-from sheetbench.scenes.region import Cutout, region
+from sheetbench.scenes.region import Cutout, common, region
 from sheetbench.scenes.sheet import EDGES, Sheet
 from sheetbench.scenes.supports import Support, held_axes, holds_tilt, place
 
@@ -36,23 +36,24 @@ def free_rigid_motions(scene: Scene) -> list[str]:
 @lru_cache(maxsize=64)
 def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutout, ...]) -> tuple[str, ...]:
     """Names of the rigid motions that supports leave free: computed at every solve of a scene."""
+    import shapely
+
     centre = np.array([sheet.length_x / 2, sheet.length_y / 2, 0.0])
     scale = max(sheet.lengths)
-    rows = [np.zeros(6)]
+    rows = [np.zeros((6, 6))]
+    plan = region(sheet, cutouts) if any(place(support) is not None for support in supports) else None
     for support in supports:
-        shape = place(support)
-        if shape is None:
-            ends = sheet.edge_ends(support.edge)
+        shape, axes = place(support), list(held_axes(support))
+        if plan is None or shape is None:
+            ends = np.array(sheet.edge_ends(support.edge))
         else:
-            ends = region(sheet, cutouts).intersection(shape.area).convex_hull.exterior.coords
-        for end in ends:
-            arm = (np.array([*end, 0.0]) - centre) / scale
-            velocity = np.hstack([np.eye(3), -_cross_matrix(arm)])
-            rows.extend(velocity[axis] for axis in held_axes(support))
+            ends = shapely.get_coordinates(common(plan, shape.area).convex_hull)
+        arms = (np.column_stack([ends, np.zeros(len(ends))]) - centre) / scale
+        velocities = np.concatenate([np.broadcast_to(np.eye(3), (len(arms), 3, 3)), _turned(arms)], axis=2)
+        rows.append(velocities[:, axes].reshape(-1, 6))
         if holds_tilt(support):
-            turned = np.hstack([np.zeros((3, 3)), -_cross_matrix(np.array([0.0, 0.0, 1.0]))])
-            rows.extend(turned[axis] for axis in held_axes(support))
-    _, singular, motions = np.linalg.svd(np.array(rows))
+            rows.append(np.hstack([np.zeros((3, 3)), _turned(np.array([0.0, 0.0, 1.0]))])[axes])
+    _, singular, motions = np.linalg.svd(np.concatenate(rows), full_matrices=False)
     rank = int(np.sum(singular > ROUND_OFF))
     free = motions[rank:]
     fixed = np.eye(6) - free.T @ free  # what of a motion is not free
@@ -86,5 +87,6 @@ def require_static(scene: Scene) -> None:
         )
 
 
-def _cross_matrix(v: np.ndarray) -> np.ndarray:
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+def _turned(arm: np.ndarray) -> np.ndarray:
+    """Matrices (…, 3, 3) of θ ↦ θ × arm (…, 3)."""
+    return np.cross(np.eye(3), arm[..., None, :], axisa=-1, axisb=-1, axisc=-1).swapaxes(-1, -2)

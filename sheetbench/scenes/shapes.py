@@ -86,7 +86,7 @@ class Shape(Frozen):
             radius = self.circle.radius * sqrt(angle / sin(angle))
             x, y = self.circle.centre
             turns = [angle * n for n in range(CIRCLE_SIDES)]
-            return shapely.Polygon([(x + radius * cos(a), y + radius * sin(a)) for a in turns])
+            return shapely.polygons(np.array([(x + radius * cos(a), y + radius * sin(a)) for a in turns]))
         return shapely.Polygon(self.polygon)
 
     def contains(self, points: np.ndarray) -> np.ndarray:

@@ -107,6 +107,8 @@ def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(program, tmp_path, 
     ("lines", "said"),
     [
         (["exit 7"], "exit status 7"),
+        ([says({**ANSWER, "reactions": {"y9": [0, 0, 1]}})], "reactions: y9: the scene holds x0"),
+        ([says({**ANSWER, "reactions": {"y9" * 999: [0, 0, 1]}})], "reactions: y9y9"),
         (["yes"], "more than 16 MB of answer"),
         ([says([1, 2])], "not a JSON object"),
         ([says({"probes": {"P1": [0, 0, 0]}})], "probes: P2, P3, P4 missing"),

@@ -1,0 +1,98 @@
+"""Scenes of a thousand parts: read within seconds of the processor."""
+
+from time import process_time
+
+import numpy as np
+import pytest
+
+from sheetbench.scenes import Scene, SceneError, free_rigid_motions
+from sheetbench.scenes.patches import mass_of
+
+SIDE = 0.5
+LIMIT = 8.0  # s of the processor; one shape at a time took 20 s and more
+ROOT = {"kind": "clamped", "edge": "x0"}
+
+
+def scene(**parts):
+    sheet = {"length_x": SIDE, "length_y": SIDE, "thickness": 0.002}
+    material = {"young": 1e6, "poisson": 0.4, "density": 1000.0}
+    gravity = {"acceleration": (0.0, 0.0, -9.81)}
+    return Scene(
+        **{
+            "name": "many",
+            "sheet": sheet,
+            "material": material,
+            "gravity": gravity,
+            "support": [ROOT],
+            **parts,
+        }
+    )
+
+
+def circles(count, share, shift=0.0):
+    """So many circles on a square grid, of a share of its spacing as their radius."""
+    across = int(np.ceil(np.sqrt(count)))
+    places = 0.02 + shift + 0.46 * np.arange(across) / across
+    centres = [(x, y) for y in places for x in places][:count]
+    return [{"circle": {"centre": at, "radius": share * 0.46 / across}} for at in centres]
+
+
+def row(count):
+    """So many circles, each moved a little beside the one before."""
+    return [{"circle": {"centre": (0.1 + 0.3 * i / count, 0.2), "radius": 0.01}} for i in range(count)]
+
+
+def hold(shapes, **more):
+    return [{"kind": "clamped", "where": shape, **more} for shape in shapes]
+
+
+LIFTED = {"motion": {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.001]]}}
+BETWEEN = circles(1000, 0.1, shift=0.23 / 32)
+MANY = {
+    "cutouts": lambda: scene(cutout=[{"shape": shape} for shape in circles(1000, 0.3)]),
+    "cutouts upon each other": lambda: scene(cutout=[{"shape": shape} for shape in row(1000)]),
+    "supports upon each other": lambda: scene(support=[ROOT, *hold(row(3000))]),
+    "supports beside cutouts": lambda: scene(
+        cutout=[{"shape": shape} for shape in circles(1000, 0.2)],
+        support=[*hold(BETWEEN[::2]), *hold(BETWEEN[1::2], **LIFTED)],
+    ),
+    "patches": lambda: scene(patch=[{"shape": shape, "young": 2e6} for shape in circles(1000, 0.3)]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("parts", MANY)
+def test_a_thousand_parts_take_seconds(parts):
+    began = process_time()
+    many = MANY[parts]()
+    assert not free_rigid_motions(many) and mass_of(many) > 0.0
+    assert process_time() - began < LIMIT
+
+
+def test_of_many_the_first_that_is_wrong_is_named():
+    shapes = circles(1000, 0.3)
+    with pytest.raises(SceneError, match=r"cutout 1001\.shape: circle .* no part of it is on what is left"):
+        scene(cutout=[{"shape": shape} for shape in [*shapes, shapes[500]]])
+    small = [{"rectangle": {"x": (0.1 + a, 0.1 + b), "y": (0.1, 0.2)}} for a, b in ((0, 0.05), (0.05, 0.1))]
+    both = {"rectangle": {"x": (0.12, 0.18), "y": (0.12, 0.18)}}
+    with pytest.raises(SceneError, match=r"cutout 3\.shape"):  # within the two before it
+        scene(cutout=[{"shape": shape} for shape in (*small, both)])
+    assert scene(cutout=[{"shape": shape} for shape in (both, *small)]).region.area == pytest.approx(0.24)
+    with pytest.raises(SceneError, match="support 7 and support 1001 move the same part of the sheet"):
+        scene(support=[*hold(shapes), *hold([shapes[6]], **LIFTED)])
+    with pytest.raises(SceneError, match="support 1 and x0 move the same part of the sheet"):
+        edge = {"rectangle": {"x": (0.0, 0.1), "y": (0.0, 0.1)}}
+        scene(support=[*hold([edge], **LIFTED), ROOT])
+
+
+def test_a_patch_upon_others_has_the_constants_of_all():
+    left, right, upon = (
+        {"rectangle": {"x": x, "y": (0.1, 0.2)}} for x in ((0.1, 0.2), (0.2, 0.3), (0.15, 0.25))
+    )
+    patches = [
+        {"shape": left, "density": 2000.0},
+        {"shape": right, "density": 3000.0},
+        {"shape": upon, "thickness": 0.004},
+    ]
+    square = 0.1 * 0.1
+    expected = 0.002 * (1000.0 * (0.25 - 2 * square) + 5000.0 * square) + 0.002 * 5000.0 * square / 2
+    assert mass_of(scene(patch=patches)) == pytest.approx(expected, rel=1e-9)

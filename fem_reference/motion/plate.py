@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -17,8 +18,8 @@ from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of
 from sheetbench.errors import BadInput
-from sheetbench.numerics.direct import DirectSolver, solve_free
-from sheetbench.scenes import EdgeMotion, FieldMesh, Scene
+from sheetbench.numerics.direct import DirectSolver
+from sheetbench.scenes import EdgeMotion, FieldMesh, Scene, Status
 
 
 class MovingPlate(Moving):
@@ -56,9 +57,8 @@ class MovingPlate(Moving):
         self._basis = identity(size, format="csc")[:, self._free]
         self.load(scene, lambda alone: loads.of_scene(alone, plan))
 
-    def start(self) -> np.ndarray:
-        stiffness = self._whole(0.0, 0.0)
-        return self.placed(solve_free(stiffness, np.zeros_like(self._values), self._values, self._free), 0.0)
+    def equilibrium(self, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
+        return plate.equilibrium(scene, self._plate)
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         return np.where(self._held, self._values + self._shift(time, rate=False), q)

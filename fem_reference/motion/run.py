@@ -84,7 +84,7 @@ class Run:
                 self._sample(motion, after)
                 motion = after
                 self.progress(motion.time)
-            if end < last:
+            if end < last and self.model.jumps(end):
                 motion = self._begin(end, self.model.placed(motion.q, end), motion.v)
         return Status.CONVERGED, ""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -24,8 +25,8 @@ from fem_reference.surface.mesh import Elements, Plan, divisions, field_mesh, me
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import add_blocks
-from sheetbench.scenes import FieldMesh, Scene
-from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
+from sheetbench.scenes import FieldMesh, Scene, Status
+from sheetbench.scenes.kinematics import MovedEdge
 
 
 class MovingShell(MovingElements):
@@ -63,11 +64,10 @@ class MovingShell(MovingElements):
         moved = structure.supports.moved.values()
         self._edges = [(d.edge, d.nodes, d.points) for d in moved if isinstance(d.edge, MovedEdge)]
 
-    def start(self) -> np.ndarray:
-        state = self._structure.rest()
-        if bent_or_tilted(self.still.supports, self.still.sheet):
-            state, _, _ = trace_on(self.still, self._structure)
-        return self.placed(np.append(state.change, state.aside), 0.0)
+    def equilibrium(self, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
+        structure, _ = discretise(self._plan, scene, law=self.settings["law"])
+        state, status, notes = trace_on(scene, structure)
+        return np.append(state.change, state.aside), status, notes
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         supports = self._structure.supports

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from fem_reference.motion.plate import refuse_edge_motions
 from fem_reference.motion.rods import MovingRods, components_of
 from fem_reference.solid.element import Bricks, tangent
 from fem_reference.solid.rods import on_columns
-from fem_reference.solid.statics import discretise, plan_mesh
+from fem_reference.solid.statics import discretise, judge, plan_mesh
 from fem_reference.solid.supports import components, vectors
 from fem_reference.solving.equilibrium import trace
 from fem_reference.surface import loads, rod
@@ -23,8 +24,7 @@ from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import FieldMesh, Scene
-from sheetbench.scenes.kinematics import bent_or_tilted
+from sheetbench.scenes import FieldMesh, Scene, Status
 
 
 class MovingSolid(MovingElements):
@@ -50,9 +50,8 @@ class MovingSolid(MovingElements):
         self.settings: dict[str, Any] = {"elements": list(counts), "grading": grading, "layers": layers}
         self.settings |= {"law": law, "clamp": clamp}
         self.conservative = law == STRAIN_LAW
-        self._structure = structure = discretise(
-            plan_mesh(scene, counts, grading), self.still, layers, law, clamp
-        )
+        self._mesh = plan_mesh(scene, counts, grading)
+        self._structure = structure = discretise(self._mesh, self.still, layers, law, clamp)
         self._columns, self.element = structure.columns, structure.bricks
         self._shape = self._columns.positions.shape
         self.nodes, self.unknowns = self._shape[0], structure.unknowns
@@ -76,11 +75,13 @@ class MovingSolid(MovingElements):
         self.carry(MovingRods(scene, bound, components_of, size, places))
         self.load(scene, lambda alone: loads.of_scene(alone, plan))
 
-    def start(self) -> np.ndarray:
-        if not bent_or_tilted(self.still.supports, self.still.sheet):
-            return self.placed(np.zeros(self.size), 0.0)
-        path = trace(self._structure, DirectSolver(self._structure.symmetric))
-        return self.placed(np.append(path.state.displacement, path.state.aside), 0.0)
+    def equilibrium(self, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
+        structure = discretise(
+            self._mesh, scene, self.settings["layers"], self.settings["law"], self.settings["clamp"]
+        )
+        path = trace(structure, DirectSolver(structure.symmetric))
+        status, notes, _ = judge(scene, structure, path, self.settings["law"])
+        return np.append(path.state.displacement, path.state.aside), status, notes
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         target = self._structure.supports.target(1.0) + self._shift(time, rate=False)

@@ -9,9 +9,9 @@ relative to the largest displacement so far, or to a tenth of where the forces a
 taken by dampers and put in by loads and supports are h Σ bᵢ Pᵢ. What supports prescribe is taken as it is
 prescribed, at every stage.
 
-Steps may be longer than the distance of samples. Between the ends of one the motion is the polynomial of fifth
-degree with their displacements, velocities and accelerations, û, v̂ and â, and then, as stiff springs magnify
-what it misses, the solution of
+Steps may be longer than the distance of samples. Between the ends of one the motion is the polynomial of
+fifth degree with their displacements, velocities and accelerations, û, v̂ and â, and then, as stiff springs
+magnify what it misses, the solution of
 
     M (â + c₂ (u − û)) + f(u, v̂ + c₁ (u − û), t) = 0,   c₁ = 1/(γh),   c₂ = c₁²,
 

@@ -112,10 +112,17 @@ class Newton:
             if u is not None:
                 return u
         key = (equation.mass_coefficient, equation.damping_coefficient)
-        return self.solve(key, lambda u: self._residual(equation, u), lambda u: self._blocks(equation, u), guess, tolerance=small)
+        return self.solve(
+            key,
+            lambda u: self._residual(equation, u),
+            lambda u: self._blocks(equation, u),
+            guess,
+            tolerance=small,
+        )
 
     def correct(self, equation: StepEquation, guess: np.ndarray, times: int) -> np.ndarray:
-        """A guess of u corrected so many times with the factors at hand; the guess where that leads nowhere."""
+        """A guess of u corrected so many times with the factors at hand, or as it is where that leads
+        nowhere."""
         u, problem = np.array(guess), self._system.problem
         if self._compiled is not None and self._factored is not None:
             base = equation.base_u, equation.base_v

@@ -55,6 +55,7 @@ class Run:
     ):
         self._system, self._method, self._plan, self._sampling = system, method, plan, sampling
         self._kept, self._shown, self._drawn = kept, shown, drawn
+        self._kinks = system.kinks if plan.adapts else _apart(system.kinks, plan.every / plan.steps)
         self._dense = method if plan.adapts and isinstance(method, DenseIntegrator) else None
         self._progress = progress if progress is not None else lambda time: None
 
@@ -131,8 +132,8 @@ class Run:
         if self._dense is not None:
             whole = reached.samples // SAMPLES_PER_CHECKPOINT + 1
             goal = min(whole * SAMPLES_PER_CHECKPOINT, plan.samples) * plan.every
-        kinks, now = self._system.kinks, reached.state.time
-        ahead = kinks[kinks > now + 1e-9 * plan.every][:1]
+        now = reached.state.time
+        ahead = self._kinks[self._kinks > now + 1e-9 * plan.every][:1]
         return float(min([goal, *ahead])) - now
 
     def _whole(self, at_most: float, steps: int) -> bool:
@@ -166,3 +167,10 @@ class Run:
         content |= {f"method_{k}": v for k, v in self._method.memory().items() if v is not None}
         energies = [reached.dissipated, reached.work, reached.largest, reached.origin]
         self._kept.checkpoint({**content, "energies": energies})
+
+
+def _apart(kinks: np.ndarray, step: float) -> np.ndarray:
+    """The kinks farther from each other than a fixed step [s]: a table with more samples than there are steps
+    has no corner to step onto."""
+    gaps = np.concatenate([[np.inf], np.diff(kinks), [np.inf]])
+    return kinks[np.minimum(gaps[:-1], gaps[1:]) > step]

@@ -172,5 +172,5 @@ class Run:
 def _apart(kinks: np.ndarray, step: float) -> np.ndarray:
     """The kinks farther from each other than a fixed step [s]: a table with more samples than there are steps
     has no corner to step onto."""
-    gaps = np.concatenate([[np.inf], np.diff(kinks), [np.inf]])
-    return kinks[np.minimum(gaps[:-1], gaps[1:]) > step]
+    gaps = np.diff(kinks, prepend=-np.inf, append=np.inf)
+    return kinks[np.minimum(gaps[:-1], gaps[1:])[: len(kinks)] > step]

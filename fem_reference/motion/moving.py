@@ -32,7 +32,7 @@ from fem_reference.solving.stability import require_stable
 from fem_reference.surface.loads import Follower
 from sheetbench.errors import NoEquilibrium
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import FieldMesh, Scene, Status
+from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
 from sheetbench.scenes.motion import NO_START, at_start, let_go, starts_flat
 from sheetbench.scenes.supports import held_axes, named
 
@@ -66,7 +66,8 @@ class Energies(NamedTuple):
 class Moving(ABC):
     """A reference in motion: N coordinates q [m, -] of n plan nodes, unknowns x; times in s, forces in N.
 
-    conservative: whether the law of strain is linear in Green's strain. sheet_mass: what `damping_rate` acts
+    conservative: whether the law of strain is linear in Green's strain; any_strain: whether it is meant for
+    large strains. sheet_mass: what `damping_rate` acts
     on, without the mass of the chains, `rods`.
     """
 
@@ -74,6 +75,7 @@ class Moving(ABC):
     model: str
     settings: dict[str, Any]
     conservative: bool
+    any_strain: bool = False
     mass: csr_matrix
     sheet_mass: csr_matrix
     rods: MovingRods
@@ -95,6 +97,11 @@ class Moving(ABC):
             for name, s in named(scene.supports).items()
             if s.motion is not None
         ]
+
+    @property
+    def longest(self) -> float:
+        """The sheet's longer side [m]."""
+        return max(self._scene.sheet.lengths)
 
     def carry(self, rods: MovingRods) -> None:
         """Take up the chains, once the sheet has its mass."""
@@ -193,6 +200,18 @@ class Moving(ABC):
     @abstractmethod
     def following(self, q: np.ndarray, load: Follower) -> np.ndarray:
         """Forces (N,) of a follower load."""
+
+    def inside_out(self, q: np.ndarray) -> str:
+        """A sentence on the element that has turned inside out, "" for none."""
+        return ""
+
+    @abstractmethod
+    def stretch(self, q: np.ndarray) -> float:
+        """How far the sheet is strained, as `beyond` takes it."""
+
+    def beyond(self, stretch: float) -> str:
+        """A clause where the law of strain does not hold that far, else ""."""
+        return "" if self.any_strain else outside_model(self._scene, stretch)
 
     @abstractmethod
     def elastic(self, q: np.ndarray) -> float:

@@ -13,13 +13,14 @@ from fem_reference.motion.relaxation import Strained
 from fem_reference.motion.rods import MovingRods
 from fem_reference.plate import statics as plate
 from fem_reference.plate.rods import PlateRods
+from fem_reference.plate.validity import TURN_LIMIT, strained
 from fem_reference.surface import loads, rod
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of
 from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import EdgeMotion, FieldMesh, Scene, Status
+from sheetbench.scenes import EdgeMotion, FieldMesh, Scene, Status, outside_model
 
 
 class MovingPlate(Moving):
@@ -90,6 +91,14 @@ class MovingPlate(Moving):
             return sheet
         flat = np.zeros(self._held.size)
         return (sheet + self.rods.matrix(self.rods.tangent(flat, flat, 0.0, by_a, by_v))).tocsr()
+
+    def stretch(self, q: np.ndarray) -> float:
+        return strained(self._plate.elements, q)
+
+    def beyond(self, stretch: float) -> str:
+        if stretch > TURN_LIMIT:
+            return f"slopes, turns or twice the strain of {stretch:.3g}, beyond 1: linear theory ends before"
+        return outside_model(self._scene, 0.0)
 
     def solver(self) -> DirectSolver:
         return DirectSolver()

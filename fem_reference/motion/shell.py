@@ -17,6 +17,7 @@ from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise, trace_on
 from fem_reference.shell.structure import UP
+from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import loads, rod
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.loads import Follower
@@ -46,6 +47,7 @@ class MovingShell(MovingElements):
         self._plan = mesh_of(scene, counts, graded)
         self._structure, self._nodes = discretise(self._plan, self.still, law=law)
         structure = self._structure
+        self.any_strain = structure.element.stands_any_strain
         self.element, self._on, self.nodes = structure.element, structure.element_nodes, structure.count
         turns = np.concatenate([structure.supports.director, structure.rods.held])
         self._held = np.concatenate([structure.supports.position, np.tile(turns, (3, 1)).T])
@@ -119,6 +121,13 @@ class MovingShell(MovingElements):
         """Along directors that are free M ü + g is what keeps them unit vectors."""
         return np.where(self._held.ravel(), exerted, 0.0)
 
+    def inside_out(self, q: np.ndarray) -> str:
+        fault = inverted(self._structure, self._state(q))
+        return "" if fault is None else fault.message
+
+    def stretch(self, q: np.ndarray) -> float:
+        return membrane_strain(self._structure, self._state(q))
+
     def tangent(
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
     ) -> csr_matrix:
@@ -176,5 +185,8 @@ class MovingShell(MovingElements):
         return q.reshape(-1, 3)[self.nodes :] + self._upright
 
     def _frames(self, q: np.ndarray) -> np.ndarray:
+        return self._structure.frames(self._state(q))
+
+    def _state(self, q: np.ndarray) -> State:
         vectors, cut = q.reshape(-1, 3), 2 * self.nodes
-        return self._structure.frames(State(vectors[:cut].reshape(2, -1, 3), vectors[cut:]))
+        return State(vectors[:cut].reshape(2, -1, 3), vectors[cut:])

@@ -15,9 +15,9 @@ magnify what it misses, the solution of
 
     M (â + c₂ (u − û)) + f(u, v̂ + c₁ (u − û), t) = 0,   c₁ = 1/(γh),   c₂ = c₁²,
 
-which lies in equilibrium along stiff directions and on the polynomial along soft ones. Energies are polynomials through the stages' powers (`tableau.CUMULATIVE`). Steps end
-where something changes its course: a load's history, a support's motion. No chains: their constraints would
-lower the order.
+which lies in equilibrium along stiff directions and on the polynomial along soft ones. Energies are
+polynomials through the stages' powers (`tableau.CUMULATIVE`). Steps end where something changes its course: a
+load's history, a support's motion. No chains: their constraints would lower the order.
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ from lumped.dynamics.integrator import Advance, DenseIntegrator, Samples, StepFa
 from lumped.dynamics.system import State, System
 from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.runs.schedule import require_error
 
 ERROR = 3e-5  # of a step
 FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
@@ -58,10 +59,7 @@ class Esdirk(DenseIntegrator):
     def __init__(self, system: System, step: float, error: float = ERROR, fixed: bool = True):
         if system.coupling is not None:
             raise BadInput("integrator = 'esdirk': does not take chains; choose another integrator")
-        if not 0.0 < error < 1.0:
-            raise BadInput(
-                f"error = {error:g}: of a step, relative to the displacement, lies between 0 and 1"
-            )
+        require_error(error)
         super().__init__(system, step)
         self._fixed, self._first, self._error = fixed, step, error
         self._newton = Newton(system, STEP_TOLERANCE, STALE)

@@ -35,14 +35,15 @@ from fem_reference.shell import inertia
 from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
 from fem_reference.solid import supports as column_supports
+from fem_reference.solving.stability import require_stable
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.clock import now
-from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.errors import BadInput
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import About, AnyScene, Scene, Status, require_static, scene_of
+from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.modes import NaturalModes
 
 REACH = 0.375  # of the grading
@@ -213,8 +214,7 @@ def _shell_deformed(
     if structure.followers:
         raise BadInput("--about = deformed: pressure and edge moments follow the sheet: it has no modes then")
     state, status, notes = shell.trace_on(scene, structure)
-    if status is not Status.CONVERGED:
-        raise NoEquilibrium(f"shell: {status}: {'; '.join([*notes, status.advice])}")
+    require_stable("shell", status, notes)
     stiffness, _ = structure.system(state, structure.forces(state, 1.0), 1.0, mixed=False)
     basis = inertia.Basis(structure).at(structure.frames(state))
     whole = inertia.mass(structure, inertia.products(structure, scene))

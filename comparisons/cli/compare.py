@@ -43,6 +43,10 @@ def command(
     duration: Annotated[
         float | None, option("Compare the motion over this time, from rest.", "S", unit="s")
     ] = None,
+    every: Annotated[
+        float | None,
+        option("With --duration: time between samples. Default: 1/100 of the lowest period.", "S", unit="s"),
+    ] = None,
     animate: Annotated[
         bool, option("With --duration and --out: draw both sheets moving, side by side.")
     ] = False,
@@ -76,7 +80,7 @@ def command(
             output.require_pictures("--animate")
         moving = scenes.load(scene)
         chosen = None if elements is None else parse_elements(elements)
-        with output.open(scene=moving, variant={"--duration": duration, **models}) as out:
+        with output.open(scene=moving, variant={"--duration": duration, "--every": every, **models}) as out:
             for name in ("lumped", reference, "difference") if output.out is not None else ():
                 out.reserve(f"{name}/")
             both = compare_motion(
@@ -88,11 +92,14 @@ def command(
                 law=law,
                 uncertainty=not no_uncertainty,
                 models=model or (),
+                every=every,
                 frames=FRAMES if output.out is not None else 0,
                 store=out.reserve("runs/"),
             )
             out.show(replace(both, animate=animate))
         return
+    if every is not None:
+        raise BadInput("--every: needs --duration, how long the sheet is to move")
     if animate:
         raise BadInput("--animate: needs --duration, how long the sheet is to move")
     loaded = load_static(scene)

@@ -16,6 +16,7 @@ def installed_parts() -> str:
     from comparisons.external.installed import find_codes
     from comparisons.report import amounts, offscreen
     from comparisons.runs import load, manifest
+    from sheetbench import sources
     from sheetbench.numerics import pardiso
 
     machine, busy, free = manifest.machine(), load.average(), memory.available()
@@ -23,7 +24,7 @@ def installed_parts() -> str:
     codes = [f"{one.code.called} {one.version or 'not here'}" for one in find_codes()]
     mkl = "MKL PARDISO" if pardiso.library() else "no MKL PARDISO"
     lines = {
-        "sheetbench": f"{manifest.version()}, source {manifest.source()}, in {Path(__file__).parents[2]}",
+        "sheetbench": f"{sources.version()}, source {sources.source()}, in {Path(__file__).parents[2]}",
         "Python": f"{machine['python']} on {machine['system']}, {machine['architecture']}",
         "processor": f"{machine['processor']} ({binding.get_host_cpu_name()}), {machine['cpu_count']} cores, "
         f"load {'unknown' if busy is None else f'{busy:.3g}'}",

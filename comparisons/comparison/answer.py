@@ -11,6 +11,7 @@ round-off, a number is not finite, or one of the two models did not reach the fu
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
@@ -32,6 +33,7 @@ from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import Table
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.summary import few
+from sheetbench.scenes.supports import named
 from sheetbench.scenes.words import sheet_in_words
 
 ROUND_OFF = 1e-9  # of the largest displacement at a probe
@@ -208,11 +210,13 @@ class Comparison(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         """Displacement at the probes, the reference first; cost and error; forces of the supports."""
-        return (*self.printed(), self._reactions())
+        return self._displacements(), self._costs(), self._reactions()
 
     def printed(self) -> tuple[Table, ...]:
-        """Return all tables but the forces of the supports."""
-        return self._displacements(), self._costs()
+        """Return all tables, of supports' forces those of supports that are moved: the pull of the sheet."""
+        moved = {name for name, support in named(self.scene.supports).items() if support.motion is not None}
+        moved |= {motion.held_as for motion in self.scene.motions().values()}
+        return self._displacements(), self._costs(), *([self._reactions(moved)] if moved else [])
 
     def _displacements(self) -> Table:
         off = {(d.probe, d.of): d.relative for d in self.differences}
@@ -242,8 +246,14 @@ class Comparison(Answer):
         )  # fmt: skip
         return Table.of(CostRow, rows, "Cost and error of each model", "models", text="; ".join(self.busy))
 
-    def _reactions(self) -> Table:
-        found = sorted((edge, s.model, s.reactions[edge]) for s in self.solutions for edge in s.reactions)
+    def _reactions(self, of: Collection[str] | None = None) -> Table:
+        """Of all supports, or of those named."""
+        found = sorted(
+            (edge, s.model, force)
+            for s in self.solutions
+            for edge, force in s.reactions.items()
+            if of is None or edge in of
+        )
         rows = (ReactionRow(edge, model, _named("F", force)) for edge, model, force in found)
         return Table.of(ReactionRow, rows, "Force of each support on the sheet", "reactions")
 

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from comparisons.export.arrays import NAMES
-from comparisons.runs.manifest import version
 from sheetbench.answers.escape import markdown
 from sheetbench.scenes import Scene
 from sheetbench.scenes.words import in_words
+from sheetbench.sources import version
 
 if TYPE_CHECKING:
     from lumped import Calibration, Description

@@ -94,6 +94,8 @@ def refusal_of_motion(scene: Scene) -> str:
         return "its steps in time have no dampers: leave damping_time, damping_rate and relaxation out"
     if scene.air is not None:
         return "its steps in time have no drag: leave [air] out"
+    if scene.initial is not None:
+        return "it starts flat: leave [initial] out"
     if any(load.history is not None for load in loads):
         return "loads with a history are not handed over"
     if scene.motions() or bent_or_tilted(scene.supports, scene.sheet):

@@ -123,7 +123,7 @@ class MotionComparison(Answer):
             "motion": {
                 "time": truth.time,
                 "probes": {name: history.probes for name, history in self.histories.items()},
-                "energies": {name: history.energies for name, history in self.histories.items()},
+                "energies": {name: history.accounts for name, history in self.histories.items()},
                 "reactions": {name: history.reactions for name, history in self.histories.items()},
                 "measures": {
                     name: measured_alike(history, truth)[0].as_dict()

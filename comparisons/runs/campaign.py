@@ -29,11 +29,11 @@ from typing import Any, TypedDict
 
 from comparisons.runs import interrupts
 from comparisons.runs.executors import Pool, Watched, processes, single_threaded
-from comparisons.runs.manifest import source, version
 from comparisons.runs.store import FILE, Finished, Store
 from sheetbench.answers.files import plain
 from sheetbench.errors import BadInput
 from sheetbench.files import only_writer
+from sheetbench.sources import source, version
 
 # Tasks by the names that rows are kept under, so that moving a file loses no result.
 TASKS = {

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from comparisons.runs import manifest
+from sheetbench import sources
 
 SCATTER = 2.0  # largest over smallest sample of one time
 
@@ -21,7 +22,7 @@ def average() -> float | None:
 
 def conditions() -> dict[str, Any]:
     """Return what a measured time depends on, ready for JSON: load, machine, versions."""
-    versions = {"sheetbench": manifest.version(), **manifest.versions()}
+    versions = {"sheetbench": sources.version(), **manifest.versions()}
     return {"load_average": average(), "machine": manifest.machine(), "versions": versions}
 
 

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import platform
 import re
-from collections.abc import Mapping
 from datetime import UTC, datetime
 from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons", "studies")  # the last in a checkout
+from sheetbench.sources import source, version
 
 
 def record(command: list[str]) -> dict[str, Any]:
@@ -35,28 +33,6 @@ def made_with() -> str:
         f"sheetbench {version()}, Python {made['python']}, {made['processor']}, "
         f"{made['cpu_count']} processors, {today}."
     )
-
-
-def version() -> str:
-    """Return the installed version of sheetbench."""
-    return metadata.version("sheetbench")
-
-
-@cache
-def source() -> str:
-    """Return a digest of every Python file of the packages: a result is of this code and no other."""
-    root = Path(__file__).parents[2]
-    paths = [path for package in PACKAGES for path in (root / package).rglob("*.py")]
-    files = {path.relative_to(root).as_posix(): path for path in paths}
-    return digest(files)
-
-
-def digest(files: Mapping[str, Path]) -> str:
-    """Sixteen digits that follow from the files' names and contents."""
-    total = hashlib.sha256()
-    for name, path in sorted(files.items()):
-        total.update(f"{name}\0{hashlib.sha256(path.read_bytes()).hexdigest()}\n".encode())
-    return total.hexdigest()[:16]
 
 
 @cache

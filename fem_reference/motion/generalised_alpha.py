@@ -31,6 +31,7 @@ ROUNDED = 1e-13  # correction, relative to the displacement
 CORRECTIONS = 12
 QUICK = 0.1  # a correction's share of the one before, up to which factors are kept
 HALVED = 6  # times, a fixed step that fails
+LEAST = 1e-8  # of the sheet's longer side: no displacement counts as smaller
 SMALLEST = 1e-9  # step, relative to the run
 
 
@@ -54,7 +55,7 @@ class GeneralisedAlpha:
         self._factor: Factor | None = None
         self._solver = model.solver()
         self._largest, self._local = (
-            1e-9,
+            LEAST * model.longest,
             1.0,
         )  # displacement [m], and the last step's error over that allowed
         self.factorisations = self.rejected = self.failed = 0

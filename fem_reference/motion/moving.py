@@ -15,7 +15,7 @@ Their tangent leaves out how B changes with the shape, which is of the order of 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -28,10 +28,15 @@ from fem_reference.motion.relaxation import Memory, Strained
 from fem_reference.motion.rods import MovingRods, at_rest
 from fem_reference.shell.element import Element, weighed
 from fem_reference.solid.element import Bricks
+from fem_reference.solving.stability import require_stable
 from fem_reference.surface.loads import Follower
+from sheetbench.errors import NoEquilibrium
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import FieldMesh, Scene
+from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
+from sheetbench.scenes.motion import NO_START, at_start, let_go, starts_flat
 from sheetbench.scenes.supports import held_axes, named
+
+ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
 
 Loaded = tuple[np.ndarray, list[Follower]]  # dead nodal forces (n, 3) and follower loads
 
@@ -61,7 +66,8 @@ class Energies(NamedTuple):
 class Moving(ABC):
     """A reference in motion: N coordinates q [m, -] of n plan nodes, unknowns x; times in s, forces in N.
 
-    conservative: whether the law of strain is linear in Green's strain. sheet_mass: what `damping_rate` acts
+    conservative: whether the law of strain is linear in Green's strain; any_strain: whether it is meant for
+    large strains. sheet_mass: what `damping_rate` acts
     on, without the mass of the chains, `rods`.
     """
 
@@ -69,6 +75,7 @@ class Moving(ABC):
     model: str
     settings: dict[str, Any]
     conservative: bool
+    any_strain: bool = False
     mass: csr_matrix
     sheet_mass: csr_matrix
     rods: MovingRods
@@ -79,7 +86,9 @@ class Moving(ABC):
         self.memory = Memory(scene.material.branches)
         supports = tuple(support.model_copy(update={"motion": None}) for support in scene.supports)
         self.still = at_rest(scene.replace(loads=(), gravity=None, supports=supports))
+        self._scene = scene
         self._air = scene.air
+        self._edge_motions = scene.motions().values()
         self.tau, self.alpha = scene.material.dashpot_time, scene.material.damping_rate
         self.dead: list[tuple[np.ndarray, Factor]] = []
         self.followers: list[tuple[Follower, Factor]] = []
@@ -89,6 +98,11 @@ class Moving(ABC):
             if s.motion is not None
         ]
 
+    @property
+    def longest(self) -> float:
+        """The sheet's longer side [m]."""
+        return max(self._scene.sheet.lengths)
+
     def carry(self, rods: MovingRods) -> None:
         """Take up the chains, once the sheet has its mass."""
         self.rods, self.sheet_mass = rods, self.mass
@@ -96,8 +110,8 @@ class Moving(ABC):
             self.mass = (self.mass + rods.mass()).tocsr()
 
     def load(self, scene: Scene, loaded: Callable[[Scene], Loaded]) -> None:
-        """Take up a scene's loads; loaded: what a scene with one of them has."""
-        for alone, factor in single_loads(scene):
+        """Take up a scene's loads but for those let go at the start; loaded: what a scene with one has."""
+        for alone, factor in single_loads(let_go(scene)):
             nodal, followers = loaded(alone)
             dead = self.on_coordinates(nodal) + self.rods.weight(alone)
             self.dead += [(dead, factor)] if dead.any() else []
@@ -111,9 +125,27 @@ class Moving(ABC):
             out[np.ix_(edges[edge][0], np.array(axes))] = value[list(axes)]
         return out
 
-    @abstractmethod
+    def jumps(self, time: float) -> bool:
+        """Whether what is prescribed changes its velocity at once."""
+        slopes = [(course.slope(time), course.slope(time, before=True)) for _, _, course in self._motions]
+        turned = any(time in motion.time for motion in self._edge_motions)
+        return turned or any(np.abs(a - b).max() > ROUNDED * np.abs([a, b]).max() for a, b in slopes)
+
     def start(self) -> np.ndarray:
-        """q (N,) at t = 0: flat, or as supports alone bend the sheet."""
+        """q (N,) at t = 0: flat, or the equilibrium to start from (`sheetbench.scenes.motion`). Raises
+        NoEquilibrium where there is no stable one."""
+        if starts_flat(self._scene):
+            return self.placed(np.zeros(self.mass.shape[0]), 0.0)
+        q, status, notes = self.equilibrium(at_start(self._scene))
+        try:
+            require_stable(self.model, status, notes)
+        except NoEquilibrium as error:
+            raise NoEquilibrium(f"{NO_START}: {error}") from None
+        return self.placed(q, 0.0)
+
+    @abstractmethod
+    def equilibrium(self, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
+        """q (N,) under the full load of a scene, of this one's sheet; how the path there ended, and notes."""
 
     @abstractmethod
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
@@ -168,6 +200,18 @@ class Moving(ABC):
     @abstractmethod
     def following(self, q: np.ndarray, load: Follower) -> np.ndarray:
         """Forces (N,) of a follower load."""
+
+    def inside_out(self, q: np.ndarray) -> str:
+        """A sentence on the element that has turned inside out, "" for none."""
+        return ""
+
+    @abstractmethod
+    def stretch(self, q: np.ndarray) -> float:
+        """How far the sheet is strained, as `beyond` takes it."""
+
+    def beyond(self, stretch: float) -> str:
+        """A clause where the law of strain does not hold that far, else ""."""
+        return "" if self.any_strain else outside_model(self._scene, stretch)
 
     @abstractmethod
     def elastic(self, q: np.ndarray) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,13 +13,14 @@ from fem_reference.motion.relaxation import Strained
 from fem_reference.motion.rods import MovingRods
 from fem_reference.plate import statics as plate
 from fem_reference.plate.rods import PlateRods
+from fem_reference.plate.validity import TURN_LIMIT, strained
 from fem_reference.surface import loads, rod
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of
 from sheetbench.errors import BadInput
-from sheetbench.numerics.direct import DirectSolver, solve_free
-from sheetbench.scenes import EdgeMotion, FieldMesh, Scene
+from sheetbench.numerics.direct import DirectSolver
+from sheetbench.scenes import EdgeMotion, FieldMesh, Scene, Status, outside_model
 
 
 class MovingPlate(Moving):
@@ -56,9 +58,8 @@ class MovingPlate(Moving):
         self._basis = identity(size, format="csc")[:, self._free]
         self.load(scene, lambda alone: loads.of_scene(alone, plan))
 
-    def start(self) -> np.ndarray:
-        stiffness = self._whole(0.0, 0.0)
-        return self.placed(solve_free(stiffness, np.zeros_like(self._values), self._values, self._free), 0.0)
+    def equilibrium(self, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
+        return plate.equilibrium(scene, self._plate)
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         return np.where(self._held, self._values + self._shift(time, rate=False), q)
@@ -90,6 +91,14 @@ class MovingPlate(Moving):
             return sheet
         flat = np.zeros(self._held.size)
         return (sheet + self.rods.matrix(self.rods.tangent(flat, flat, 0.0, by_a, by_v))).tocsr()
+
+    def stretch(self, q: np.ndarray) -> float:
+        return strained(self._plate.elements, q)
+
+    def beyond(self, stretch: float) -> str:
+        if stretch > TURN_LIMIT:
+            return f"slopes, turns or twice the strain of {stretch:.3g}, beyond 1: linear theory ends before"
+        return outside_model(self._scene, 0.0)
 
     def solver(self) -> DirectSolver:
         return DirectSolver()

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,11 +18,20 @@ from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.runs.columns import Part, width
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
+from sheetbench.runs.watch import GROWN, Watch
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.history import ENERGIES
 from sheetbench.scenes.motion import kinks
 
 MOST_STEPS = 10**6
+
+
+class Fault(NamedTuple):
+    """What ends a run at a time [s]: the status and a sentence."""
+
+    status: Status
+    time: float
+    message: str
 
 
 class Sampling:
@@ -65,6 +74,7 @@ class Run:
     samples: int = 0  # taken
     steps: int = 0
     spent: np.ndarray = field(default_factory=lambda: np.zeros(2))
+    watch: Watch = field(default_factory=Watch)
 
     def finish(self) -> tuple[Status, str]:
         """Go on to the end, or to the last step that could be made: how it ended."""
@@ -81,12 +91,13 @@ class Run:
                 self.steps += 1
                 if self.steps >= MOST_STEPS:
                     return Status.STEP_LIMIT, f"at {motion.time:.6g} s: {MOST_STEPS} steps were not enough"
-                self._sample(motion, after)
+                if fault := self._sample(motion, after):
+                    return fault.status, f"at {fault.time:.6g} s {fault.message}"
                 motion = after
                 self.progress(motion.time)
-            if end < last:
+            if end < last and self.model.jumps(end):
                 motion = self._begin(end, self.model.placed(motion.q, end), motion.v)
-        return Status.CONVERGED, ""
+        return self.watch.ending(self.model.beyond(self.watch.stretch))
 
     def _goal(self, end: float) -> float:
         """Where the next step ends at most [s]: at the next sample with chains, whose firm stiffnesses make
@@ -102,6 +113,7 @@ class Run:
             self._sample(motion, motion)
             return motion
         self.samples, self.steps = int(checkpoint["done"]), int(checkpoint["steps"])
+        self.watch = Watch.recall(checkpoint["watch"])
         self.spent, self.resumed_from = checkpoint["spent"], float(checkpoint["time"])
         self.method.recall({name: checkpoint[f"method_{name}"].item() for name in self.method.memory()})
         motion = Motion(self.resumed_from, **{f.name: checkpoint[f.name] for f in fields(Motion)[1:]})
@@ -115,8 +127,8 @@ class Run:
         self.spent[1] += 0.5 * float(motion.v @ (mass @ motion.v) - v @ (mass @ v))
         return motion
 
-    def _sample(self, start: Motion, end: Motion) -> None:
-        """Take the samples of a step, and a checkpoint after every so many."""
+    def _sample(self, start: Motion, end: Motion) -> Fault | None:
+        """Take the samples of a step, and a checkpoint after every so many; what is wrong with one."""
         h, every, first = end.time - start.time, self.schedule.every, self.samples
         spent = self.model.spent(start, end) if h else np.zeros(2)
         while self.samples <= self.schedule.samples:
@@ -125,7 +137,10 @@ class Run:
                 break
             motion = between(start, end, time) if h else end
             so_far = self.spent + spent * ((motion.time - start.time) / h if h else 0.0)
-            self.kept.sample(self.sampling.row(time, motion, so_far))
+            row = self.sampling.row(time, motion, so_far)
+            if fault := self._fault(motion, row):
+                return fault
+            self.kept.sample(row)
             if self.samples in self.shown:
                 self.kept.frame(self.model.displacement(motion.q))
             self.samples += 1
@@ -134,7 +149,23 @@ class Run:
             self.method.forget()
             content: dict[str, Any] = {f"method_{k}": v for k, v in self.method.memory().items()}
             content |= vars(end) | {"done": self.samples, "steps": self.steps, "spent": self.spent}
-            self.kept.checkpoint(content)
+            self.kept.checkpoint(content | {"watch": self.watch.memory()})
+        return None
+
+    def _fault(self, motion: Motion, row: np.ndarray) -> Fault | None:
+        """What makes a sample worthless; sound ones the watch takes."""
+        grown = float(self.watch.grown(row[None])[0])
+        if not np.isfinite(grown):
+            return Fault(Status.NON_FINITE, motion.time, "a number overflowed: use smaller steps")
+        if inverted := self.model.inside_out(motion.q):
+            return Fault(Status.INVERTED, motion.time, inverted)
+        if grown > GROWN:
+            text = f"the energy has grown from nothing, by {100.0 * grown:.3g} % of the largest"
+            return Fault(Status.DIVERGED, motion.time, f"{text}: use smaller steps")
+        self.watch.take(row[None])
+        stretch = self.model.stretch(motion.q)
+        self.watch.strained(motion.time, stretch, bool(self.model.beyond(stretch)))
+        return None
 
 
 def between(start: Motion, end: Motion, time: float) -> Motion:

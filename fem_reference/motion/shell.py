@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise, trace_on
 from fem_reference.shell.structure import UP
+from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import loads, rod
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.loads import Follower
@@ -24,8 +26,8 @@ from fem_reference.surface.mesh import Elements, Plan, divisions, field_mesh, me
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import add_blocks
-from sheetbench.scenes import FieldMesh, Scene
-from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
+from sheetbench.scenes import FieldMesh, Scene, Status
+from sheetbench.scenes.kinematics import MovedEdge
 
 
 class MovingShell(MovingElements):
@@ -45,6 +47,7 @@ class MovingShell(MovingElements):
         self._plan = mesh_of(scene, counts, graded)
         self._structure, self._nodes = discretise(self._plan, self.still, law=law)
         structure = self._structure
+        self.any_strain = structure.element.stands_any_strain
         self.element, self._on, self.nodes = structure.element, structure.element_nodes, structure.count
         turns = np.concatenate([structure.supports.director, structure.rods.held])
         self._held = np.concatenate([structure.supports.position, np.tile(turns, (3, 1)).T])
@@ -63,11 +66,10 @@ class MovingShell(MovingElements):
         moved = structure.supports.moved.values()
         self._edges = [(d.edge, d.nodes, d.points) for d in moved if isinstance(d.edge, MovedEdge)]
 
-    def start(self) -> np.ndarray:
-        state = self._structure.rest()
-        if bent_or_tilted(self.still.supports, self.still.sheet):
-            state, _, _ = trace_on(self.still, self._structure)
-        return self.placed(np.append(state.change, state.aside), 0.0)
+    def equilibrium(self, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
+        structure, _ = discretise(self._plan, scene, law=self.settings["law"])
+        state, status, notes = trace_on(scene, structure)
+        return np.append(state.change, state.aside), status, notes
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         supports = self._structure.supports
@@ -118,6 +120,13 @@ class MovingShell(MovingElements):
     def of_supports(self, exerted: np.ndarray) -> np.ndarray:
         """Along directors that are free M ü + g is what keeps them unit vectors."""
         return np.where(self._held.ravel(), exerted, 0.0)
+
+    def inside_out(self, q: np.ndarray) -> str:
+        fault = inverted(self._structure, self._state(q))
+        return "" if fault is None else fault.message
+
+    def stretch(self, q: np.ndarray) -> float:
+        return membrane_strain(self._structure, self._state(q))
 
     def tangent(
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
@@ -176,5 +185,8 @@ class MovingShell(MovingElements):
         return q.reshape(-1, 3)[self.nodes :] + self._upright
 
     def _frames(self, q: np.ndarray) -> np.ndarray:
+        return self._structure.frames(self._state(q))
+
+    def _state(self, q: np.ndarray) -> State:
         vectors, cut = q.reshape(-1, 3), 2 * self.nodes
-        return self._structure.frames(State(vectors[:cut].reshape(2, -1, 3), vectors[cut:]))
+        return State(vectors[:cut].reshape(2, -1, 3), vectors[cut:])

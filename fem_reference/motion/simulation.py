@@ -1,7 +1,8 @@
 """Motion of a reference from rest: a scene in, a `scenes.History` out.
 
 Gravity, loads and commands act from t = 0 on, loads scaled by their histories. The sheet starts flat and at
-rest; with a curved support or a tilted clamp, in the shape that supports alone give it. Steps are as long as
+rest; with a curved support or a tilted clamp, in the shape that supports alone give it; with `[initial]` in
+that of statics (`sheetbench.scenes.motion`). Steps are as long as
 their error allows; samples lie within them, cubic in time between their ends.
 """
 
@@ -29,7 +30,7 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.runs.columns import split
-from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, sample_count
+from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, require_error, sample_count
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import AnyScene, History, Scene, require_no_branches, scene_of
 from sheetbench.scenes.quantities import require_positive
@@ -68,7 +69,8 @@ def simulate(
     stopped goes on from there. progress: called with the time reached. options: the model's own, `elements`
     among them.
 
-    Raises BadInput for a model that does not move, what a model cannot move, and for a folder that holds
+    Raises NoEquilibrium where the shape to start from is no stable equilibrium, BadInput for a model that
+    does not move, what a model cannot move, an error not below 0.1, and for a folder that holds
     another run, that another process writes to, or whose files are damaged. A step that fails is halved;
     `settings["failed_steps"]` says how many.
 
@@ -78,8 +80,9 @@ def simulate(
     (<Status.CONVERGED: 'converged'>, 0.01)
     """
     require_moving(scene_of(scene), model)
-    for name, value in {"duration": duration, "step": step, "every": every, "error": error}.items():
+    for name, value in {"duration": duration, "step": step, "every": every}.items():
         require_positive(name, value, "s")
+    require_error(error)
     began = now()
     requested = scene_of(scene)
     require_choice("integrator", integrator, INTEGRATORS)

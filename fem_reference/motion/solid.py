@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,19 +13,20 @@ from fem_reference.motion.moving import MovingElements
 from fem_reference.motion.plate import refuse_edge_motions
 from fem_reference.motion.rods import MovingRods, components_of
 from fem_reference.solid.element import Bricks, tangent
+from fem_reference.solid.materials import LAWS
 from fem_reference.solid.rods import on_columns
-from fem_reference.solid.statics import discretise, plan_mesh
+from fem_reference.solid.statics import discretise, judge, plan_mesh
 from fem_reference.solid.supports import components, vectors
 from fem_reference.solving.equilibrium import trace
 from fem_reference.surface import loads, rod
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions
+from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import FieldMesh, Scene
-from sheetbench.scenes.kinematics import bent_or_tilted
+from sheetbench.scenes import FieldMesh, Scene, Status
 
 
 class MovingSolid(MovingElements):
@@ -49,10 +51,9 @@ class MovingSolid(MovingElements):
         self.label = f"solid {counts[0]} × {counts[1]} × {layers}"
         self.settings: dict[str, Any] = {"elements": list(counts), "grading": grading, "layers": layers}
         self.settings |= {"law": law, "clamp": clamp}
-        self.conservative = law == STRAIN_LAW
-        self._structure = structure = discretise(
-            plan_mesh(scene, counts, grading), self.still, layers, law, clamp
-        )
+        self.conservative, self.any_strain = law == STRAIN_LAW, LAWS[law].stands_any_strain
+        self._mesh = plan_mesh(scene, counts, grading)
+        self._structure = structure = discretise(self._mesh, self.still, layers, law, clamp)
         self._columns, self.element = structure.columns, structure.bricks
         self._shape = self._columns.positions.shape
         self.nodes, self.unknowns = self._shape[0], structure.unknowns
@@ -76,11 +77,13 @@ class MovingSolid(MovingElements):
         self.carry(MovingRods(scene, bound, components_of, size, places))
         self.load(scene, lambda alone: loads.of_scene(alone, plan))
 
-    def start(self) -> np.ndarray:
-        if not bent_or_tilted(self.still.supports, self.still.sheet):
-            return self.placed(np.zeros(self.size), 0.0)
-        path = trace(self._structure, DirectSolver(self._structure.symmetric))
-        return self.placed(np.append(path.state.displacement, path.state.aside), 0.0)
+    def equilibrium(self, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
+        structure = discretise(
+            self._mesh, scene, self.settings["layers"], self.settings["law"], self.settings["clamp"]
+        )
+        path = trace(structure, DirectSolver(structure.symmetric))
+        status, notes, _ = judge(scene, structure, path, self.settings["law"])
+        return np.append(path.state.displacement, path.state.aside), status, notes
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         target = self._structure.supports.target(1.0) + self._shift(time, rate=False)
@@ -128,6 +131,15 @@ class MovingSolid(MovingElements):
         onto = self._structure.onto_rods(self._bases)
         on_rods = onto.swapaxes(1, 2) @ self.rods.tangent(q, v, time, by_a, by_v) @ onto
         return self._structure.pattern.matrix(stiffness, on_rods)
+
+    def inside_out(self, q: np.ndarray) -> str:
+        ratio = self.element.volume_ratio(self.gather(q))
+        return "a brick has turned inside out: use more elements" if np.any(ratio <= 0.0) else ""
+
+    def stretch(self, q: np.ndarray) -> float:
+        return largest_stretch(
+            self._structure.mid_surface(0.0), self._structure.mid_surface(self._on_sheet(q))
+        )
 
     def solver(self) -> DirectSolver:
         return DirectSolver(not self.followers)

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -135,27 +135,13 @@ def _solved(
     """own: whether the mesh has an outline of its own, in place of the scene's sheet."""
     begin = now()
     plate = Plate.on(mesh)
-    along = rod.of_scene(scene, plate.plan)
-    rods = PlateRods.on(on_surface(along, len(plate.nodes)), len(plate.nodes))
-    supports, held, fields = constrain(scene, plate, hard_edges, along)
-    free = np.flatnonzero(~np.concatenate([held.ravel(), rods.held]))
-    u = np.concatenate([fields.ravel(), np.zeros(len(rods.held))])
-    force = rods.force(u.size)
-    force[: fields.size] += nodal_forces(scene, plate).ravel()
+    posed = _pose(scene, plate, hard_edges)
+    rods, supports = posed.rods, posed.supports
     ready = now()
-
-    status, notes = Status.CONVERGED, tuple[str, ...]()
-    with one_blas_thread():
-        stiffness = stiffness_matrix(scene, plate, section, rods)
-        try:
-            u = solve_free(stiffness, force, u, free)
-        except SingularMatrixError as error:
-            status, notes = Status.SINGULAR, (str(error),)
+    solved, status, notes = _solve(scene, plate, posed, section)
     done = now()
-    solved = Solved(stiffness, force, u, free)
-    if status is Status.CONVERGED:
-        of_plate = section or section_at(scene, plate.plan.corners)
-        status, notes = judge(scene, plate.elements, of_plate, u, stiffness, free)
+    u, free = solved.u, solved.free
+    fields = u[: 5 * len(plate.nodes)]
 
     fields, nodal = u[: fields.size].reshape(-1, 5), solved.unbalanced[: fields.size].reshape(-1, 5)
     couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])  # e_z × what holds the tilts
@@ -188,6 +174,50 @@ def _solved(
         balance=None if singular else balance(scene, surface, rods, solved, reactions, edges),
         remarks=notes,
     )
+
+
+class _Posed(NamedTuple):
+    """What a plate is solved for: forces, values where held, and the free ones of all unknowns (N,)."""
+
+    supports: Supports
+    rods: PlateRods
+    force: np.ndarray
+    u: np.ndarray
+    free: np.ndarray
+
+
+def equilibrium(scene: Scene, plate: Plate) -> tuple[np.ndarray, Status, Sequence[str]]:
+    """The unknowns (N,) under the full load, the status and notes."""
+    solved, status, notes = _solve(scene, plate, _pose(scene, plate))
+    return solved.u, status, notes
+
+
+def _pose(scene: Scene, plate: Plate, hard_edges: tuple[str, ...] = ()) -> _Posed:
+    along = rod.of_scene(scene, plate.plan)
+    rods = PlateRods.on(on_surface(along, len(plate.nodes)), len(plate.nodes))
+    supports, held, fields = constrain(scene, plate, hard_edges, along)
+    free = np.flatnonzero(~np.concatenate([held.ravel(), rods.held]))
+    u = np.concatenate([fields.ravel(), np.zeros(len(rods.held))])
+    force = rods.force(u.size)
+    force[: fields.size] += nodal_forces(scene, plate).ravel()
+    return _Posed(supports, rods, force, u, free)
+
+
+def _solve(
+    scene: Scene, plate: Plate, posed: _Posed, section: Section | None = None
+) -> tuple[Solved, Status, tuple[str, ...]]:
+    u, force, free = posed.u, posed.force, posed.free
+    status, notes = Status.CONVERGED, tuple[str, ...]()
+    with one_blas_thread():
+        stiffness = stiffness_matrix(scene, plate, section, posed.rods)
+        try:
+            u = solve_free(stiffness, force, u, free)
+        except SingularMatrixError as error:
+            status, notes = Status.SINGULAR, (str(error),)
+    if status is Status.CONVERGED:
+        of_plate = section or section_at(scene, plate.plan.corners)
+        status, notes = judge(scene, plate.elements, of_plate, u, stiffness, free)
+    return Solved(stiffness, force, u, free), status, notes
 
 
 def section_stiffness(scene: Scene, plate: Plate, section: Section | None = None) -> dict[str, np.ndarray]:

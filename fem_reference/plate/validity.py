@@ -56,6 +56,13 @@ def judge(
     return Status.CONVERGED, ()
 
 
+def strained(elements: PlateElements, solution: np.ndarray) -> float:
+    """The largest slope, turn, or double the strain along x or y, of the unknowns (5 n,): linear theory ends
+    at 1 of each."""
+    stretch = _mean_stretch(elements, _nodal(elements, elements.membrane, solution))
+    return max(largest_turn(elements, solution), 2.0 * stretch)
+
+
 def largest_turn(elements: PlateElements, solution: np.ndarray) -> float:
     """The largest of directors' changes, slopes and turns in the plane."""
     fields = solution[elements.unknowns].reshape(len(elements.nodes), NODES, 5)

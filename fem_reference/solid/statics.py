@@ -28,7 +28,7 @@ from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.structure import Forces, SolidStructure, State
 from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.path import Progress
+from fem_reference.solving.path import Path, Progress
 from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.borders import borders_of
@@ -107,13 +107,7 @@ def _solved(
     done = now()
 
     columns, displacement = structure.columns, path.state.displacement
-    status, notes = path.status, path.notes
-    if status is Status.CONVERGED and structure.inside_out(path.state):
-        status, notes = Status.INVERTED, ["a brick has turned inside out"]
-    stretch = largest_stretch(*(structure.mid_surface(at) for at in (0.0, displacement)))
-    outside = "" if LAWS[law].stands_any_strain else outside_model(scene, stretch)
-    if outside and status is not Status.NON_FINITE:
-        status, notes = Status.STRAIN_OUTSIDE_MODEL, [outside, *notes]
+    status, notes, stretch = judge(scene, structure, path, law)
     forces = structure.forces(path.state, path.load_factor)
     middle = (columns.positions + displacement)[:, columns.layers]
     held = Held(columns.about_middle(displacement, forces.residual), middle)
@@ -140,6 +134,21 @@ def _solved(
         remarks=(*notes, *limit_notes(law, scene.material, status)),
         stretch=stretch,
     )
+
+
+def judge(
+    scene: Scene, structure: SolidStructure, path: Path[State, Forces], law: str
+) -> tuple[Status, list[str], float]:
+    """The status and notes of a path that has ended, and by how much the mid-surface stretched: bricks inside
+    out, strains beyond the law."""
+    status, notes = path.status, path.notes
+    if status is Status.CONVERGED and structure.inside_out(path.state):
+        status, notes = Status.INVERTED, ["a brick has turned inside out"]
+    stretch = largest_stretch(*(structure.mid_surface(at) for at in (0.0, path.state.displacement)))
+    outside = "" if LAWS[law].stands_any_strain else outside_model(scene, stretch)
+    if outside and status is not Status.NON_FINITE:
+        status, notes = Status.STRAIN_OUTSIDE_MODEL, [outside, *notes]
+    return status, notes, stretch
 
 
 def _on_edges(structure: SolidStructure, state: State, forces: Forces, middle: np.ndarray) -> list[OnEdge]:

@@ -3,8 +3,11 @@ symmetric, by its real eigenvalues (see `sheetbench.numerics.stability`)."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from fem_reference.solving.path import Path
 from fem_reference.solving.structure import Forces, State
+from sheetbench.errors import NoEquilibrium
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.scenes import Status
 
@@ -31,3 +34,9 @@ def stability(path: Path[State, Forces]) -> tuple[Status, str]:
     if negative:
         return Status.UNSTABLE, f"the tangent has {negative} negative eigenvalues"
     return Status.CONVERGED, ""
+
+
+def require_stable(model: str, status: Status, notes: Sequence[str]) -> None:
+    """Raise NoEquilibrium unless a path ended in a stable equilibrium that the model knows."""
+    if status is not Status.CONVERGED:
+        raise NoEquilibrium(f"{model}: {status}: {'; '.join([*notes, status.advice])}")

@@ -30,7 +30,6 @@ from sheetbench.scenes.motion import kinks
 from sheetbench.scenes.supports import named
 from sheetbench.scenes.tables import PiecewiseCurve
 
-
 ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
 
 

@@ -11,6 +11,7 @@ from sheetbench.errors import BadInput
 
 SAMPLES_PER_PERIOD = 100
 SAMPLES_PER_CHECKPOINT = 50
+LARGEST_ERROR = 0.1  # of a step, relative to the largest displacement
 MOST_SAMPLES = 10**7  # that any run keeps: gigabytes
 
 
@@ -40,6 +41,15 @@ class Schedule:
             return list(range(frames))
         frame_spacing = self.first / (frames - 1)
         return sorted({round(i * frame_spacing) for i in range(int(self.samples / frame_spacing + 1e-9) + 1)})
+
+
+def require_error(error: float) -> None:
+    """Raise BadInput for an error of a step with which no motion is left to see."""
+    if not 0.0 < error < LARGEST_ERROR:
+        raise BadInput(
+            f"error = {error:g}: of a step, relative to the largest displacement, lies between 0 and "
+            f"{LARGEST_ERROR:g}"
+        )
 
 
 def sample_count(duration: float, spacing: float, whole: bool) -> int:

@@ -1,11 +1,11 @@
 """Where a run's samples go: to memory, or to a folder that grows while the run goes on and can be resumed.
 
-A folder holds `run.json` (its settings, and how it is sampled), `samples.bin` (rows of float64, one a
-sample), `frames.bin` (displacements (rows, 3) float64, one a frame) and `checkpoint.npz`. Those that are not
-appended to are replaced as a whole. The checkpoint counts the bytes of the others and holds their CRC-32.
-Rows after it are dropped on resuming and computed again, so that a resumed run gives the same file to the
-last bit. Memory does not grow with the duration. A folder has one writer at a time; links in it are not
-followed.
+A folder holds `run.json` (its settings, version and source of the code, and how it is sampled),
+`samples.bin` (rows of float64, one a sample), `frames.bin` (displacements (rows, 3) float64, one a frame) and
+`checkpoint.npz`. Those that are not appended to are replaced as a whole. The checkpoint counts the bytes of
+the others and holds their CRC-32. Rows after it are dropped on resuming and computed again, so that a resumed
+run gives the same file to the last bit; a run of other code is not gone on with. Memory does not grow with
+the duration. A folder has one writer at a time; links in it are not followed.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ import numpy as np
 
 from sheetbench.errors import BadInput
 from sheetbench.files import NOT_FOLLOWED, only_writer, whole, writing
+from sheetbench.sources import source, version
 
 APPENDED = ("samples", "frames")
 CHECKSUM = "{}_crc32"  # in the checkpoint, of what it counts of a file
@@ -65,14 +66,16 @@ class MemoryStore:
 class FolderStore:
     """Samples in a folder, open while it is entered.
 
-    asked: JSON-able description of the run. plan: how the run there is sampled, None in a new folder.
+    asked: JSON-able description of the run, beside which the code is noted. plan: how the run there is
+    sampled, None in a new folder.
     Entering raises BadInput for a folder of another run, one that another process writes to or that cannot be
     written, and for damaged files.
     """
 
     def __init__(self, folder: Path, width: int, rows: int, asked: dict[str, Any]):
         self.folder, self._width, self._rows = folder, width, rows
-        self._asked = json.loads(json.dumps(asked))
+        code = {"version": version(), "source": source()}
+        self._asked = json.loads(json.dumps({**asked, **code}))
         self._held = ExitStack()
         self._checksums = dict.fromkeys(APPENDED, 0)
         self.plan: dict[str, Any] | None = None
@@ -165,6 +168,12 @@ class FolderStore:
         except (OSError, ValueError, TypeError, LookupError) as error:
             raise self._damaged(path, f"is damaged ({error})") from None
         other = [name for name in {**asked, **self._asked} if asked.get(name) != self._asked.get(name)]
+        if other and set(other) <= {"version", "source"}:
+            raise BadInput(
+                f"{self.folder}: holds a run that another state of sheetbench's code began "
+                f"({asked.get('version')}, source {asked.get('source')}), which this one does not go on "
+                "with; choose another folder or remove this one"
+            )
         if other:
             raise BadInput(
                 f"{self.folder}: holds another run (of another {', '.join(other)}); choose another folder or "

@@ -78,6 +78,18 @@ class History(Answer):
         total: np.ndarray = e["kinetic"] + e["elastic"] + e["potential"] + e["dissipated"] - e["work"]
         return total
 
+    @property
+    def numerical(self) -> np.ndarray:
+        """Energy (n,) [J] that the rule of integration has taken since the start, < 0 where it gave some: by
+        how much the balance has fallen."""
+        total: np.ndarray = (self.balance[0] - self.balance) if len(self.time) else self.balance
+        return total
+
+    @property
+    def accounts(self) -> dict[str, np.ndarray]:
+        """The energies with what the rule takes, none where they are not known."""
+        return {**self.energies, "numerical": self.numerical} if self.energies else {}
+
     def heading(self) -> tuple[str, str, str]:
         """What was run, by which integrator."""
         return f"History of {self.label}, {self.integrator}", f"{self.status}", f"{self.steps} steps"
@@ -97,7 +109,7 @@ class History(Answer):
             "label": self.label,
             "settings": self.settings,
             "resumed_from": self.resumed_from,
-            "energies": self.energies,
+            "energies": self.accounts,
             "reactions": self.reactions,
             "actuators": self.actuators,
         }
@@ -174,7 +186,7 @@ class History(Answer):
         for name, u in self.probes.items():
             columns += [Column(f"{name}.{component}", "m") for component in COMPONENTS]
             values += list(u.T)
-        known = {**self.energies, "balance": self.balance} if self.energies else {}
+        known = {**self.accounts, "balance": self.balance} if self.energies else {}
         for name, energy in known.items():
             columns.append(Column(name, "J"))
             values.append(energy)
@@ -204,7 +216,7 @@ class History(Answer):
         forces = {
             f"reaction {name}": (("time", "axis"), f, {"units": "N"}) for name, f in self.reactions.items()
         }
-        energies = {name: ("time", energy, {"units": "J"}) for name, energy in self.energies.items()}
+        energies = {name: ("time", energy, {"units": "J"}) for name, energy in self.accounts.items()}
         return xarray.Dataset(
             {"displacement": (("probe", "time", "axis"), moved, {"units": "m"}), **energies, **forces},
             {"time": ("time", self.time, {"units": "s"}), "probe": [*self.probes], "axis": [*"xyz"]},

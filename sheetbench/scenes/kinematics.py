@@ -23,6 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.scenes.actuators import EdgeMotion
+from sheetbench.scenes.quantities import Vector3
 from sheetbench.scenes.sheet import EDGES, Sheet
 from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, named
 from sheetbench.scenes.tables import PiecewiseLinear
@@ -107,6 +108,12 @@ class MovedEdge:
         turn = _turn(load_factor * self._rotation.at(time))
         turned = (points - self._middle) @ turn[:, :2].T
         return Placed(load_factor * self._displacement.at(time) + turned, turn)
+
+    def pose(self, time: float) -> tuple[Vector3, Vector3]:
+        """Displacement [m] of the edge's middle and rotation vector [rad] at a time [s]."""
+        x, y, z = self._displacement.at(time).tolist()
+        a, b, c = self._rotation.at(time).tolist()
+        return (x, y, z), (a, b, c)
 
     def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Displacement (k, 3) [m] and change of director (3,), to first order in the load factor, at 1."""

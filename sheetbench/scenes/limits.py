@@ -27,7 +27,10 @@ _VISCOUS = (
 _CONTACT = "contact is not modelled, neither with other bodies nor of the sheet with itself"
 _STRESS_FREE = "the flat sheet is free of stress: pre-stretch and residual stress are not modelled"
 _FLAT = "the sheet is flat where nothing acts on it: a curved rest shape is not modelled"
-_FROM_REST = "motion starts from the flat sheet at rest; `history` makes loads come and go"
+_FROM_REST = (
+    'motion starts at rest, from the flat sheet or, with [initial] shape = "static", from the equilibrium '
+    "under loads, of which those with hold = true are let go at t = 0; `history` makes loads come and go"
+)
 _HEAT = "heat, swelling and growth are not modelled"
 _FLUID = "of a fluid there is the drag of still air, [air]; no flow, lift or mass that moves along"
 _FIELDS = "magnetic and electric forces are not modelled; give the loads that they make"
@@ -48,7 +51,7 @@ _WORDS = {
     _STRESS_FREE: "prestretch pre_stretch prestrain pre_strain prestress pre_stress pretension "
     "residual_stress initial_stress initial_strain",
     _FLAT: "rest_shape rest_curvature natural_curvature initial_curvature",
-    _FROM_REST: "initial initial_state initial_displacement initial_velocity velocity release",
+    _FROM_REST: "initial_state initial_displacement initial_velocity velocity release",
     _HEAT: "temperature thermal thermal_expansion expansion swelling growth",
     _FLUID: "fluid water wind lift added_mass buoyancy aerodynamics",
     _FIELDS: "magnetic magnetisation magnetization electric voltage charge",

@@ -4,7 +4,7 @@ before and the last one after. Without one it acts in full from t = 0 on. Static
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -14,7 +14,21 @@ from sheetbench.scenes.sheet import EdgeName
 from sheetbench.scenes.tables import Loading
 
 
-class PointLoad(Loading):
+class _Load(Loading):
+    hold: bool = Field(default=False, kw_only=True)
+    """Whether it holds the sheet only until a motion starts, which lets it go at t = 0: with [initial]
+    shape = "static". Statics have it as any other load."""
+
+    @model_validator(mode="after")
+    def _holds_steadily(self) -> Self:
+        if self.hold and self.history is not None:
+            raise ValueError(
+                "hold = true: it acts in full until t = 0 and no longer; leave hold or history out"
+            )
+        return self
+
+
+class PointLoad(_Load):
     """A dead force at a point of the mid-surface."""
 
     kind: Literal["point"] = Field(default="point", kw_only=True)
@@ -24,7 +38,7 @@ class PointLoad(Loading):
     """Along x, y and z; it keeps its direction while the sheet moves."""
 
 
-class EdgeLoad(Loading):
+class EdgeLoad(_Load):
     """A dead force and a moment along an edge."""
 
     kind: Literal["edge"] = Field(default="edge", kw_only=True)
@@ -44,7 +58,7 @@ class EdgeLoad(Loading):
         return self
 
 
-class AreaLoad(Loading):
+class AreaLoad(_Load):
     """A dead force on the whole sheet, or on a part of it."""
 
     kind: Literal["area"] = Field(default="area", kw_only=True)
@@ -54,7 +68,7 @@ class AreaLoad(Loading):
     """The part that is loaded; the whole sheet unless given."""
 
 
-class Pressure(Loading):
+class Pressure(_Load):
     """A follower pressure on the whole sheet, or on a part of it."""
 
     kind: Literal["pressure"] = Field(default="pressure", kw_only=True)

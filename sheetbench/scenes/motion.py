@@ -1,9 +1,23 @@
-"""What a scene's words mean for a motion: when something changes its course."""
+"""What a scene's words mean for a motion: where it starts, what is let go then, when something changes its
+course.
+
+A motion starts at rest. Unless `[initial]` says otherwise nothing but the supports has acted on the sheet: it
+is flat, or as bent and tilted supports shape it. With `shape = "static"` it is in the equilibrium under all
+that acts at t = 0, and the loads with `hold = true` are let go then.
+"""
 
 from __future__ import annotations
 
+from typing import TypeVar
+
+from sheetbench.scenes.actuators import Chain, EdgeMotion
+from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
 from sheetbench.scenes.scene import Scene
-from sheetbench.scenes.tables import OverTime
+from sheetbench.scenes.supports import AnySupport, Motion
+from sheetbench.scenes.tables import FactorTable, Loading, OverTime, PiecewiseLinear
+
+Loaded = TypeVar("Loaded", bound=Loading)
+NO_START = "the motion would start from no stable equilibrium"
 
 
 def kinks(scene: Scene) -> list[float]:
@@ -16,3 +30,56 @@ def kinks(scene: Scene) -> list[float]:
     commands = (getattr(actuator, "curvature", None) for actuator in scene.actuators)
     tables += [command for command in commands if isinstance(command, OverTime)]
     return sorted({time for table in tables if table is not None for time in table.time})
+
+
+def let_go(scene: Scene) -> Scene:
+    """The scene without the loads that hold the sheet until the motion starts."""
+    return scene.replace(loads=tuple(load for load in scene.loads if not load.hold))
+
+
+def starts_flat(scene: Scene) -> bool:
+    """Whether no equilibrium has to be found for the start."""
+    return scene.initial is None and not bent_or_tilted(scene.supports, scene.sheet)
+
+
+def at_start(scene: Scene) -> Scene:
+    """The statics in whose equilibrium a motion starts: supports and moved edges where they are at t = 0;
+    with `[initial]` loads and commands as they are then, else none."""
+    static = scene.initial is not None
+    return scene.replace(
+        initial=None,
+        gravity=scene.gravity and _now(scene.gravity) if static else None,
+        loads=tuple(_now(load).replace(hold=False) for load in scene.loads) if static else (),
+        supports=tuple(_placed(support) for support in scene.supports),
+        actuators=tuple(
+            _moved(one, scene) if isinstance(one, EdgeMotion) else _bent(one, static)
+            for one in scene.actuators
+        ),
+    )
+
+
+def _now(load: Loaded) -> Loaded:
+    if load.history is None:
+        return load
+    factor = float(PiecewiseLinear(load.history.time, load.history.factor).at(0.0))
+    return load.replace(history=FactorTable(time=(0.0,), factor=(factor,)))
+
+
+def _placed(support: AnySupport) -> AnySupport:
+    if support.motion is None:
+        return support
+    place = tuple(support.motion.course.at(0.0).tolist())
+    return support.replace(motion=Motion(time=(0.0,), displacement=(place,)))
+
+
+def _bent(chain: Chain, static: bool) -> Chain:
+    if not static:
+        return chain.replace(curvature=0.0)
+    if not isinstance(chain.curvature, OverTime):
+        return chain
+    return chain.replace(curvature=float(chain.curvatures().at(0.0)[0]))
+
+
+def _moved(motion: EdgeMotion, scene: Scene) -> EdgeMotion:
+    displacement, rotation = MovedEdge(motion, scene.sheet).pose(0.0)
+    return motion.replace(time=(0.0,), displacement=(displacement,), rotation=(rotation,))

@@ -98,7 +98,9 @@ def _one(node: dict[str, Any], schema: dict[str, Any]) -> str:
         entries = value(node["items"], schema)
         noun = next((noun for noun in ("list", "number") if noun in entries), entries)
         return f"list of {entries.replace(noun, f'{noun}s', 1)}"
-    words = {"number": "number", "integer": "whole number", "string": "text"}[node["type"]]
+    words = {"number": "number", "integer": "whole number", "string": "text", "boolean": "true or false"}[
+        node["type"]
+    ]
     return " ".join([words, ", ".join(_bounds(node))]).strip()
 
 
@@ -112,7 +114,7 @@ def _bounds(node: dict[str, Any]) -> Iterator[str]:
 def _shown(default: Any) -> str:
     if default is None or default == [] or default == "":
         return "–"
-    return f'"{default}"' if isinstance(default, str) else str(default)
+    return f'"{default}"' if isinstance(default, str) else str(default).lower()
 
 
 def _users(name: str, schema: dict[str, Any]) -> list[str]:

@@ -21,6 +21,7 @@ from sheetbench.errors import Implausible, SceneError
 from sheetbench.scenes import corners, region, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion
 from sheetbench.scenes.air import Air
+from sheetbench.scenes.initial import Initial
 from sheetbench.scenes.layers import Layer, misfit
 from sheetbench.scenes.loads import AreaLoad, Load
 from sheetbench.scenes.material import Material
@@ -77,6 +78,8 @@ class Scene(Frozen):
     """Forces, moments and pressures, which add up."""
     actuators: tuple[Actuator, ...] = ()
     """What moves edges that have no support."""
+    initial: Initial | None = Field(default=None, kw_only=True)
+    """The shape that a motion starts from; without this table nothing but the supports shapes the sheet."""
     springs: SpringTable | None = None
     """The lattice's own spring constants, as `sheetbench calibrate --toml` writes them; no other model reads
     them. Where cells differ, on a graded grid, a constant is a list of rows of cells from y0 to y1, each from
@@ -134,6 +137,9 @@ class Scene(Frozen):
         yield "patch ", mismatched(self.patches, self.material)
         law = None if self.springs is None else self.material.law
         yield "springs: ", law and f"of a material with law = '{law}' they are calibrated; leave one out"
+        held = next((n for n, load in enumerate(self.loads, start=1) if load.hold), 0)
+        alone = 'has no effect without [initial] shape = "static", which lets the load go at t = 0'
+        yield f"load {held}.hold = true: ", alone if held and self.initial is None else None
         yield from corners.conflicts(self.actuators, self.supports, self.sheet)
 
     def replace(self, **values: Any) -> Scene:

@@ -82,6 +82,7 @@ def _offered(sheet: Sheet, edge: str) -> list[tuple[str, dict[str, Any]]]:
         ("[[load]]", {"kind": "edge", "edge": edge, "force_per_length": [0.0, 0.0, 0.1]}),
         ("[[load]]", {"kind": "pressure", "value": 1.0, "history": rising}),
         ("[[actuator]]", {"kind": "chain", "edge": edge, **chain, "curvature": 4.0}),
+        ("[initial]", {"shape": "static"}),
         ("[probes]", {"centre": middle, "corner": corner}),
     ]
 

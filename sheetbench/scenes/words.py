@@ -63,6 +63,10 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         sentences.append((where, f"{_support(support, sheet)}{inside}"))
     sentences += [(f"load {n}", _load(load, scene)) for n, load in enumerate(scene.loads, start=1)]
     sentences += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
+    if scene.initial is not None:
+        gone = ", ".join(str(n) for n, load in enumerate(scene.loads, start=1) if load.hold)
+        then = f"; load {gone} is let go then" if gone else ""
+        sentences.append(("start", f"in motion from the equilibrium under all that acts at t = 0{then}"))
     if scene.springs is not None:
         sentences.append(
             ("springs", "the lattice takes the scene's own constants instead of calibrated ones")

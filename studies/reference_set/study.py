@@ -23,12 +23,13 @@ import lumped
 from comparisons.comparison.comparison import error
 from comparisons.motion.comparison import LONGER
 from comparisons.motion.measures import largest
-from comparisons.runs.manifest import machine, version
+from comparisons.runs.manifest import machine
 from comparisons.scoring.cases import FREQUENCIES, Case, cases
 from comparisons.scoring.reference import LICENCE, VERSION, document
 from fem_reference.uncertainty import coarser, estimate, mesh_size, solve_with_bar
 from sheetbench.answers.files import plain
 from sheetbench.scenes import History, Scene, Status
+from sheetbench.sources import version
 
 ELEMENTS, ACROSS = 24, 8  # of the shell along the shorter side; of strips four times as long as wide
 CURVES = 20  # likewise: along edges that let twist go a layer decides when a strip buckles

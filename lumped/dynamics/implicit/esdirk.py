@@ -9,20 +9,20 @@ relative to the largest displacement so far, or to a tenth of where the forces a
 taken by dampers and put in by loads and supports are h Σ bᵢ Pᵢ. What supports prescribe is taken as it is
 prescribed, at every stage.
 
-Steps may be longer than the distance of samples. Between the ends of one the motion is the polynomial of fifth
-degree with their displacements, velocities and accelerations, û, v̂ and â, and then, as stiff springs magnify
-what it misses, the solution of
+Steps may be longer than the distance of samples. Between the ends of one the motion is the polynomial of
+fifth degree with their displacements, velocities and accelerations, û, v̂ and â, and then, as stiff springs
+magnify what it misses, the solution of
 
     M (â + c₂ (u − û)) + f(u, v̂ + c₁ (u − û), t) = 0,   c₁ = 1/(γh),   c₂ = c₁²,
 
-which lies in equilibrium along stiff directions and on the polynomial along soft ones, to two corrections
-with the step's factors. Energies are polynomials through the stages' powers (`tableau.CUMULATIVE`). Steps end
-where something changes its course: a load's history, a support's motion. No chains: their constraints would
-lower the order.
+which lies in equilibrium along stiff directions and on the polynomial along soft ones. Energies are
+polynomials through the stages' powers (`tableau.CUMULATIVE`). Steps end where something changes its course: a
+load's history, a support's motion. No chains: their constraints would lower the order.
 """
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -36,17 +36,17 @@ from lumped.dynamics.integrator import Advance, DenseIntegrator, Samples, StepFa
 from lumped.dynamics.system import State, System
 from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.runs.schedule import require_error
 
 ERROR = 3e-5  # of a step
 FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
 LEAST = 1e-6  # of the sheet's side: no error is asked to be smaller beside it
 FIRST = 0.05  # first step over the time in which the first acceleration goes as far
 STEP_TOLERANCE = 1e-11  # last correction of a fixed step relative to the sheet's side
-SHARE = 0.3  # last correction of an adaptive step relative to the error it may have
+SHARE = 0.3  # last correction of an adaptive step relative to the error it may have, or to the default one
 STALE = (
     1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
 )
-CORRECTED = 2  # times, a state within a step
 KEEP_FACTORS_UP_TO = 12  # corrections of a step's stages up to which the next one keeps the factors: two each
 
 
@@ -59,10 +59,7 @@ class Esdirk(DenseIntegrator):
     def __init__(self, system: System, step: float, error: float = ERROR, fixed: bool = True):
         if system.coupling is not None:
             raise BadInput("integrator = 'esdirk': does not take chains; choose another integrator")
-        if not 0.0 < error < 1.0:
-            raise BadInput(
-                f"error = {error:g}: of a step, relative to the displacement, lies between 0 and 1"
-            )
+        require_error(error)
         super().__init__(system, step)
         self._fixed, self._first, self._error = fixed, step, error
         self._newton = Newton(system, STEP_TOLERANCE, STALE)
@@ -95,9 +92,8 @@ class Esdirk(DenseIntegrator):
         shortest = 1e-6 * min(self.step, at_most)
         while True:
             h = at_most if self._fixed else at_most / np.ceil(at_most / self.step - 1e-9)
-            allowed = self._error * self._largest
             try:
-                stages = self._stages(state, h, None if self._fixed else SHARE * allowed)
+                stages = self._stages(state, h, None if self._fixed else self._enough)
             except (StepFailed, SingularMatrixError) as failure:
                 if self._fixed or h < shortest:
                     raise StepFailed(str(failure)) from None
@@ -117,6 +113,11 @@ class Esdirk(DenseIntegrator):
             self._largest = largest
             break
         return self._advance(state, stages, h)
+
+    @property
+    def _enough(self) -> float:
+        """The last correction of an adaptive step's equations [m]."""
+        return SHARE * min(self._error, ERROR) * self._largest
 
     def _begin(self, state: State) -> None:
         """What the error is relative to before anything has moved, and the first step [s]: parts of how far
@@ -238,8 +239,9 @@ class Esdirk(DenseIntegrator):
             if maxwell is not None and start is not None:
                 maxwell.stage(start, self._relaxed(weights[i]), 0.0)
             equation = StepEquation(time, u[i] - a[i] / c1**2, v[i] - a[i] / c1, c1**2, c1)
-            u[i] = self._newton.correct(equation, u[i], CORRECTED)
-            a[i] = self._newton.state(equation, u[i])[1]
+            with suppress(StepFailed, SingularMatrixError):  # the polynomial it is then
+                u[i] = self._newton.solve_equation(equation, u[i], self._enough)
+                a[i] = self._newton.state(equation, u[i])[1]
             if maxwell is not None and start is not None:
                 memories[i] = memory = maxwell.after(u[i])
                 taken[i] -= maxwell.stored(memory) - maxwell.stored(start)

@@ -112,21 +112,13 @@ class Newton:
             if u is not None:
                 return u
         key = (equation.mass_coefficient, equation.damping_coefficient)
-        return self.solve(key, lambda u: self._residual(equation, u), lambda u: self._blocks(equation, u), guess, tolerance=small)
-
-    def correct(self, equation: StepEquation, guess: np.ndarray, times: int) -> np.ndarray:
-        """A guess of u corrected so many times with the factors at hand; the guess where that leads nowhere."""
-        u, problem = np.array(guess), self._system.problem
-        if self._compiled is not None and self._factored is not None:
-            base = equation.base_u, equation.base_v
-            by = equation.mass_coefficient, equation.damping_coefficient
-            external = self._system.external(u, equation.time)
-            self._compiled.iterate(u, base, by, external, 0.0, np.inf, times)
-        elif self._factor is not None:
-            for _ in range(times):
-                u = u + problem.expand(self._factor.solve(-problem.reduce(self._residual(equation, u))))
-        far = float(np.abs(u - guess).max())
-        return u if far <= problem.size else guess
+        return self.solve(
+            key,
+            lambda u: self._residual(equation, u),
+            lambda u: self._blocks(equation, u),
+            guess,
+            tolerance=small,
+        )
 
     def _residual(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
         """Inertia and internal less external forces (size, 3) [N]."""

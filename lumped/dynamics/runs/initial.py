@@ -8,31 +8,27 @@ from lumped.calibration import Calibration
 from lumped.dynamics.explicit.projection import Projection
 from lumped.dynamics.system import State, System
 from lumped.lattice import Weights
-from lumped.statics.solver import build_problem, solve_path
-from sheetbench.scenes import Chain
-from sheetbench.scenes.kinematics import bent_or_tilted
-from sheetbench.scenes.supports import AnySupport, Motion
+from lumped.statics.solver import build_problem, stable_equilibrium
+from sheetbench.errors import NoEquilibrium
+from sheetbench.scenes import Scene
+from sheetbench.scenes.motion import NO_START, at_start, starts_flat
 
 
-def _at_the_start(support: AnySupport) -> AnySupport:
-    """The support where it is at t = 0."""
-    if support.motion is None:
-        return support
-    place = support.motion.course.at(0.0)
-    motion = Motion(time=(0.0,), displacement=(tuple(place.tolist()),))
-    return support.replace(motion=motion)
+def initial_state(
+    system: System, calibration: Calibration, weights: Weights, scene: Scene | None = None
+) -> State:
+    """At rest, flat or in the equilibrium that the scene starts from (`sheetbench.scenes.motion`), with the
+    acceleration that loads and commands give it at once. scene: the system's with the loads that it lets go.
 
-
-def initial_state(system: System, calibration: Calibration, weights: Weights) -> State:
-    """At rest: flat, or in the shape that curved supports and tilted clamps give an unloaded sheet; with the
-    acceleration that loads and commands give it at once."""
-    u = system.place(0.0)
-    scene = system.scene
-    if bent_or_tilted(scene.supports, scene.sheet):
-        slack = tuple(a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators)
-        held = tuple(_at_the_start(support) for support in scene.supports)
-        unloaded = scene.replace(gravity=None, loads=(), actuators=slack, supports=held)
-        u = solve_path(unloaded, build_problem(unloaded, calibration, weights), "path").state.u
+    Raises NoEquilibrium where there is no stable one.
+    """
+    u, scene = system.place(0.0), system.scene if scene is None else scene
+    if not starts_flat(scene):
+        still = at_start(scene)
+        try:
+            u = stable_equilibrium(still, build_problem(still, calibration, weights)).u
+        except NoEquilibrium as error:
+            raise NoEquilibrium(f"{NO_START}: {error}") from None
     memory = None if system.maxwell is None else system.maxwell.at_rest(u)
     v = system.place_rate(0.0)
     v = v if system.moving else np.zeros_like(u)

@@ -7,7 +7,7 @@ if it had never stopped; hence integrators forget there what they keep only for 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -21,21 +21,20 @@ from lumped.statics.faults import Fault
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT
 from sheetbench.runs.store import FolderStore, MemoryStore
+from sheetbench.runs.watch import Watch
 from sheetbench.scenes import Status
 
 
 @dataclass
 class Reached:
-    """How far a run has come: samples after the start, steps, energies [J] dissipated and put in since, the
-    largest of any kind at a sample, and the total at the start."""
+    """How far a run has come: samples after the start, steps, energies [J] dissipated and put in since."""
 
     state: State
     samples: int = 0
     steps: int = 0
     dissipated: float = 0.0
     work: float = 0.0
-    largest: float = 0.0
-    origin: float = 0.0
+    watch: Watch = field(default_factory=Watch)
 
 
 class Run:
@@ -55,6 +54,7 @@ class Run:
     ):
         self._system, self._method, self._plan, self._sampling = system, method, plan, sampling
         self._kept, self._shown, self._drawn = kept, shown, drawn
+        self._kinks = system.kinks if plan.adapts else _apart(system.kinks, plan.every / plan.steps)
         self._dense = method if plan.adapts and isinstance(method, DenseIntegrator) else None
         self._progress = progress if progress is not None else lambda time: None
 
@@ -66,13 +66,16 @@ class Run:
             self.reached = Reached(start)
             samples = Samples.of(start)
             rows = self._sampling.rows(samples)
-            self.reached.origin = float(rows[0, 1:4].sum())
+            watchdog.check_samples(self._system, samples, rows, self.reached.watch)
             self._keep(rows, samples.u, 0)
             return
         u, v, a = (checkpoint[name] for name in ("u", "v", "a"))
         state = State(float(checkpoint["time"]), u, v, a, checkpoint.get("memory"))
-        energies = (float(energy) for energy in checkpoint["energies"])
-        self.reached = Reached(state, int(checkpoint["done"]), int(checkpoint["steps"]), *energies)
+        dissipated, work = checkpoint["energies"].tolist()
+        watch = Watch.recall(checkpoint["watch"])
+        self.reached = Reached(
+            state, int(checkpoint["done"]), int(checkpoint["steps"]), dissipated, work, watch
+        )
         own = {k.removeprefix("method_"): v for k, v in checkpoint.items() if k.startswith("method_")}
         self._method.recall(own)
         self._progress(state.time)
@@ -85,7 +88,7 @@ class Run:
             if fault is not None:
                 return fault.status, fault.message
             self._progress(self.reached.state.time)
-        return Status.CONVERGED, ""
+        return watchdog.ending(self._system, self.reached.watch)
 
     def _step_to_sample(self) -> Samples | Fault:
         """Steps to the next sample; the samples that the last of them reached or passed."""
@@ -131,8 +134,8 @@ class Run:
         if self._dense is not None:
             whole = reached.samples // SAMPLES_PER_CHECKPOINT + 1
             goal = min(whole * SAMPLES_PER_CHECKPOINT, plan.samples) * plan.every
-        kinks, now = self._system.kinks, reached.state.time
-        ahead = kinks[kinks > now + 1e-9 * plan.every][:1]
+        now = reached.state.time
+        ahead = self._kinks[self._kinks > now + 1e-9 * plan.every][:1]
         return float(min([goal, *ahead])) - now
 
     def _whole(self, at_most: float, steps: int) -> bool:
@@ -141,12 +144,10 @@ class Run:
 
     def _sample(self, samples: Samples) -> Fault | None:
         reached, rows = self.reached, self._sampling.rows(samples)
-        largest = np.maximum(reached.largest, np.maximum.accumulate(np.abs(rows[:, 1:6]).max(axis=1)))
-        sound, fault = watchdog.check_samples(self._system, samples, rows, reached.origin, largest)
+        sound, fault = watchdog.check_samples(self._system, samples, rows, reached.watch)
         kept = sound + (fault is not None and fault.status is not Status.NON_FINITE)
         self._keep(rows[:kept], samples.u[:sound], reached.samples + 1)
         reached.samples += sound
-        reached.largest = float(largest[-1])
         if fault is None and reached.samples % SAMPLES_PER_CHECKPOINT == 0:
             self._checkpoint()
         return fault
@@ -164,5 +165,12 @@ class Run:
         content |= {"memory": state.memory} if state.memory is not None else {}
         content |= {"done": reached.samples, "steps": reached.steps}
         content |= {f"method_{k}": v for k, v in self._method.memory().items() if v is not None}
-        energies = [reached.dissipated, reached.work, reached.largest, reached.origin]
-        self._kept.checkpoint({**content, "energies": energies})
+        content |= {"energies": [reached.dissipated, reached.work], "watch": reached.watch.memory()}
+        self._kept.checkpoint(content)
+
+
+def _apart(kinks: np.ndarray, step: float) -> np.ndarray:
+    """The kinks farther from each other than a fixed step [s]: a table with more samples than there are steps
+    has no corner to step onto."""
+    gaps = np.diff(kinks, prepend=-np.inf, append=np.inf)
+    return kinks[np.minimum(gaps[:-1], gaps[1:])[: len(kinks)] > step]

@@ -1,8 +1,9 @@
 """Dynamics of a lattice from rest: a scene and springs in, a `scenes.History` out.
 
 Gravity, loads and commands act from t = 0 on, loads scaled by their histories. The sheet starts flat and at
-rest; with a curved support or a tilted clamp it starts in the shape that the supports alone give it. Samples
-are evenly spaced; steps divide their distance.
+rest; with a curved support or a tilted clamp it starts in the shape that the supports alone give it, with
+`[initial]` in that of statics (`sheetbench.scenes.motion`). Samples are evenly spaced; steps divide their
+distance.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ from sheetbench.runs.columns import split
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import AnyScene, History, scene_of
 from sheetbench.scenes.grading import as_settings
+from sheetbench.scenes.motion import let_go
 from sheetbench.scenes.quantities import require_positive
 
 
@@ -69,7 +71,8 @@ def simulate(
     precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
     `error`).
 
-    Raises BadInput for an unknown integrator, a step above the limit of an explicit one, more than ten
+    Raises NoEquilibrium where the shape to start from is no stable equilibrium, BadInput for an unknown
+    integrator, a step above the limit of an explicit one, more than ten
     million default steps of it; for a folder that cannot be written to, that another process writes to, that
     holds another run, or whose files are damaged.
 
@@ -87,9 +90,10 @@ def simulate(
     began = now()
     scene = scene_of(scene)
     calibration = calibration or default(scene)
-    system = System(scene, build_problem(scene, calibration, weights, precision))
+    moving = let_go(scene)
+    system = System(moving, build_problem(moving, calibration, weights, precision))
     integrator, why = resolve_integrator(integrator, system, options)
-    start = initial_state(system, calibration, weights)
+    start = initial_state(system, calibration, weights, scene)
     limit = INTEGRATORS[integrator].limit(system, start.u)
     plan = plan_run(system, calibration, limit, duration, step, integrator, every)
     sampling = Sampling(system)

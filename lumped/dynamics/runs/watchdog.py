@@ -1,9 +1,6 @@
 """What ends a run early: numbers that overflow, energy from nowhere, cells inside out, stagnation.
 
-Looked at in every sample. The balance of energies, kinetic + elastic + potential + dissipated − work, is
-constant in an exact run; a growth of it by as much as the energy that goes round is a divergence. Less than
-that is an error of the steps, which the energies of the answer tell, and no fault. What is wrong is reported
-with the time, the place on the sheet and what to change.
+Looked at in every sample. What is wrong is reported with the time, the place on the sheet and what to change.
 """
 
 from __future__ import annotations
@@ -13,43 +10,48 @@ import numpy as np
 from lumped.dynamics.integrator import Samples
 from lumped.dynamics.system import State, System
 from lumped.statics.faults import Fault, broken, fastest
-from sheetbench.scenes import Status
+from lumped.statics.solver import STRETCH, link_stretch
+from sheetbench.runs.watch import GROWN, Watch
+from sheetbench.scenes import Status, outside_model
 
-GROWN = 1.0  # energy from nowhere, relative to the energy that went round, that counts as divergence
 MOST_STEPS = 100_000  # of an adaptive integrator between two samples
 
 
 def check_samples(
-    system: System, samples: Samples, rows: np.ndarray, origin: float, largest: np.ndarray
+    system: System, samples: Samples, rows: np.ndarray, watch: Watch
 ) -> tuple[int, Fault | None]:
-    """Return how many samples are sound before the first that is not, and what is wrong with that one.
-
-    rows: of the samples; origin: the balance at the start [J]; largest: the energy so far (k,) [J].
-    """
-    finite = np.isfinite(rows).all(axis=1)
-    with np.errstate(invalid="ignore"):
-        gained = rows[:, 1:5].sum(axis=1) - rows[:, 5] - origin
-        sound = int(np.argmin(np.append(finite & (gained <= GROWN * largest), False)))
+    """Return how many samples are sound before the first that is not, and what is wrong with that one; rows:
+    of the samples, whose sound ones the watch takes."""
+    grown = watch.grown(rows)
+    sound = int(np.argmin(np.append(grown <= GROWN, False)))
     before, fault = broken(system.assembly, samples.u[:sound])
+    watch.take(rows[:before])
+    if not system.assembly.any_strain:
+        for time, u in zip(samples.time[:before].tolist(), samples.u[:before], strict=True):
+            links = system.assembly.links
+            stretch = link_stretch(links, links.elongations(u))
+            watch.strained(time, stretch, bool(outside_model(system.scene, stretch)))
     if fault is not None:
         return before, Fault(fault.status, f"at {samples.time[before]:.6g} s {fault.message}")
     if sound == len(rows):
         return sound, None
-    state = samples.state(sound)
-    if finite[sound]:
-        return sound, energy_grows(system, state, gained[sound], largest[sound])
-    where = fastest(system.assembly.lattice, state.v)
-    text = f"at {state.time:.6g} s a number overflowed, first at {where}: use smaller steps"
+    state, lattice = samples.state(sound), system.assembly.lattice
+    if np.isfinite(grown[sound]):
+        text = (
+            f"at {state.time:.6g} s the energy has grown from nothing, by {100.0 * grown[sound]:.3g} % of "
+            f"the largest, fastest at {fastest(lattice, state.v)}: use smaller steps"
+        )
+        return sound, Fault(Status.DIVERGED, text)
+    text = (
+        f"at {state.time:.6g} s a number overflowed, first at {fastest(lattice, state.v)}: use smaller steps"
+    )
     return sound, Fault(Status.NON_FINITE, text)
 
 
-def energy_grows(system: System, state: State, gained: float, round_about: float) -> Fault | None:
-    """Whether a run has gained energy [J] from nowhere, beside the energy that went round in it [J]."""
-    if gained <= GROWN * round_about:
-        return None
-    where = fastest(system.assembly.lattice, state.v)
-    note = f"at {state.time:.6g} s the energy grows from nothing, fastest at {where}: use smaller steps"
-    return Fault(Status.DIVERGED, note)
+def ending(system: System, watch: Watch) -> tuple[Status, str]:
+    """The status of a run that came to its end, and what there is to say."""
+    strained = not system.assembly.any_strain
+    return watch.ending(outside_model(system.scene, watch.stretch, STRETCH) if strained else "")
 
 
 def stagnates(state: State, taken: int) -> Fault | None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import meshio
 import numpy as np
 import pytest
-from commands import run
+from commands import json_of, run
 
 import sheetbench as sb
 from comparisons.motion.comparison import compare_motion
@@ -188,3 +188,9 @@ def test_an_undamped_sheet_is_said_not_to_settle():
     swinging = sb.simulate("one-edge-clamped", 0.02, grid=3)
     assert any("does not settle" in note for note in swinging.notes())
     assert not any("settle" in note for note in sb.simulate("two-edges-settling", 0.02, grid=3).notes())
+
+
+def test_samples_lie_as_far_apart_as_requested(capsys):
+    motion = ["compare", "two-edges-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty"]
+    told = json_of(capsys, *motion, "--duration", "0.02", "--every", "0.005")
+    assert told["motion"]["time"] == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02])

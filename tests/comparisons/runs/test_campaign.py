@@ -16,9 +16,9 @@ from limits import at_most
 
 from comparisons.runs import campaign as runs_campaign
 from comparisons.runs.campaign import TASKS, Progress, Run, campaign, carry_out, execute, function
-from comparisons.runs.manifest import digest, source
 from comparisons.runs.store import FILE, Finished
 from sheetbench.errors import BadInput
+from sheetbench.sources import digest, source
 from studies.stability import STUDIES
 
 pytestmark = pytest.mark.smoke

@@ -1,4 +1,4 @@
-"""How well runs keep their energy by default, between steps too, where supports move and loads come and go."""
+"""How well runs keep their energy by default, between steps too: supports that move, loads that come."""
 
 import numpy as np
 import pytest
@@ -65,8 +65,8 @@ def test_samples_within_long_steps_hold_no_more_energy_than_those_at_the_ends_of
 
 
 def test_a_support_that_speeds_up_pulls_its_own_masses_along():
-    """At the start nothing else moves: the reaction is their mass times the course's second derivative; Gregory's rule
-    gives an edge 5/12 of a column."""
+    """At the start nothing else moves: the reaction is their mass times the course's second derivative.
+    Gregory's rule gives an edge 5/12 of a column."""
     scene = moved()
     springs = lumped.calibrate(scene.sheet, scene.material, grid=5)
     history = lumped.simulate(scene, springs, 0.001)

@@ -1,6 +1,7 @@
 """The folder of a run in time: resuming after a kill, damage, one writer, a full disk, memory."""
 
 import contextlib
+import json
 import os
 import shutil
 import tracemalloc
@@ -242,3 +243,13 @@ def test_memory_does_not_grow_with_the_duration(tmp_path):
     # objects whose number levels off: half of what samples would take tells the two apart
     assert peak(0.8) < peak(0.1) + 90_000
     assert (tmp_path / "0.8" / "samples.bin").stat().st_size > 150_000
+
+
+@pytest.mark.parametrize("key", ["version", "source"])
+def test_a_run_that_other_code_began_is_not_gone_on_with(kept, key):
+    folder, _, again = kept
+    run = json.loads((folder / "run.json").read_text())
+    run["asked"][key] = "another"
+    (folder / "run.json").write_text(json.dumps(run))
+    with pytest.raises(BadInput, match="another state of sheetbench's code began"):
+        again()

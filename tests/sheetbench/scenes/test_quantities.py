@@ -198,7 +198,7 @@ def test_an_implausible_scene_made_in_python_is_warned_of_where_it_is_written():
         ("[[hole]]\nx = 1\n[probes]", "hole"),
         ("[[laminate]]\nx = 1\n[probes]", "laminate"),
         ("[contact]\n[probes]", "contact"),
-        ("[initial]\nx = 1\n[probes]", "initial"),
+        ("[initial_state]\nx = 1\n[probes]", "initial_state"),
         ('[[load]]\nkind = "magnetic"\n[probes]', "magnetic"),
     ],
 )

@@ -1,0 +1,80 @@
+"""What the samples of any run are watched for: energy from nowhere, strains beyond the model.
+
+The balance, kinetic + elastic + potential + dissipated − work, is constant in an exact run. A growth by more
+than GROWN of the energy that goes round ends the run; a departure either way by more than TOLD of it is
+reported. Losses are what the rule of integration takes (`History.numerical`) and end no run. Strains beyond a
+model's limits end none either: the run that came to them says so, and from when on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import astuple, dataclass
+from typing import Self
+
+import numpy as np
+
+from sheetbench.answers.table import number
+from sheetbench.scenes import Status
+
+GROWN = 0.1
+TOLD = 0.01
+
+
+@dataclass
+class Watch:
+    """origin: the balance at the start [J]; largest: energy of any kind at a sample so far [J]; off: the
+    largest departure of the balance so far [J]; stretch: the largest so far, or what else a model measures
+    strains by; since: when that first was beyond the model [s]."""
+
+    origin: float = np.nan
+    largest: float = 0.0
+    off: float = 0.0
+    stretch: float = 0.0
+    since: float = np.nan
+
+    def strained(self, time: float, stretch: float, beyond: bool) -> None:
+        """Note how far the sheet is strained at a sample."""
+        self.stretch = max(self.stretch, stretch)
+        if beyond and np.isnan(self.since):
+            self.since = time
+
+    def grown(self, rows: np.ndarray) -> np.ndarray:
+        """Energy from nowhere at samples (k,), over the largest until then; nan where that is no number.
+        rows: (k, 6 or more), time, kinetic, elastic, potential and dissipated energy, work."""
+        with np.errstate(invalid="ignore", over="ignore"):
+            balance = rows[:, 1:5].sum(axis=1) - rows[:, 5]
+            origin = balance[0] if np.isnan(self.origin) else self.origin
+            largest = np.maximum(self.largest, np.maximum.accumulate(np.abs(rows[:, 1:6]).max(axis=1)))
+            gained = (balance - origin) / np.where(largest > 0.0, largest, 1.0)
+        return np.where(np.isfinite(rows).all(axis=1), gained, np.nan)
+
+    def take(self, rows: np.ndarray) -> None:
+        """Go on past sound samples."""
+        if not len(rows):
+            return
+        balance = rows[:, 1:5].sum(axis=1) - rows[:, 5]
+        if np.isnan(self.origin):
+            self.origin = float(balance[0])
+        self.largest = max(self.largest, float(np.abs(rows[:, 1:6]).max()))
+        self.off = max(self.off, float(np.abs(balance - self.origin).max()))
+
+    def ending(self, outside: str) -> tuple[Status, str]:
+        """The status of a run that came to its end, and what there is to say; outside: a clause on the
+        strains that went farthest beyond the model."""
+        told = [f"from {number(self.since, '.4g')} s on {outside}"] if outside else []
+        if self.largest > 0.0 and self.off > TOLD * self.largest:
+            share = number(100.0 * self.off / self.largest, ".2g")
+            told.append(
+                f"the energy balance is off by {share} % of the largest energy at some sample: energies are "
+                "good to no more; smaller steps (--error, --step) keep it better"
+            )
+        return Status.STRAIN_OUTSIDE_MODEL if outside else Status.CONVERGED, "; ".join(told)
+
+    def memory(self) -> np.ndarray:
+        """What a resumed run needs."""
+        return np.array(astuple(self))
+
+    @classmethod
+    def recall(cls, memory: np.ndarray) -> Self:
+        """Take up what `memory` gave."""
+        return cls(*memory.tolist())

@@ -163,9 +163,9 @@ class Law(NamedTuple):
             return Response(1.0 + none[..., 0], none, _outer(none, none))
         return _power(strain, -material.poisson / (1.0 - material.poisson))
 
-    def shear(self, material: Material, strain: np.ndarray) -> Response:
-        """Return t²/j² (…) of that thickness and its derivatives (`slant`)."""
-        return _power(strain, -2.0 / (1.0 - material.poisson))
+    def shear(self, material: Material, strain: np.ndarray) -> tuple[Response, Response]:
+        """Return t² (…) of that thickness and j², with their derivatives (`slant`)."""
+        return _power(strain, -2.0 * material.poisson / (1.0 - material.poisson)), _power(strain, 2.0)
 
 
 LAWS = {

@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from sheetbench.scenes.quantities import Frozen, Number, Unit
 
-INSTANT = 1e-9  # s, that a sum of time steps may lack of the moment it stands for
+INSTANT = 1e-9  # of a table's span, that a sum of time steps may lack of the moment it stands for
 
 
 class PiecewiseLinear:
@@ -19,6 +19,7 @@ class PiecewiseLinear:
 
     def __init__(self, time: Sequence[float], values: Sequence[float] | Sequence[Sequence[float]]):
         self._time, self._values = np.array(time, dtype=float), np.array(values, dtype=float)
+        self._instant = INSTANT * np.ptp(self._time)
         spacing = np.diff(self._time).reshape(-1, *(1,) * (self._values.ndim - 1))
         outside = np.zeros_like(self._values[:1])
         self._slopes = np.concatenate([outside, np.diff(self._values, axis=0) / spacing, outside])
@@ -36,7 +37,7 @@ class PiecewiseLinear:
 
     def slope(self, time: float | np.ndarray) -> np.ndarray:
         """Its derivative [1/s] from a time [s] on."""
-        return np.asarray(self._slopes[np.searchsorted(self._time, time + INSTANT, side="right")])
+        return np.asarray(self._slopes[np.searchsorted(self._time, time + self._instant, side="right")])
 
 
 class OverTime(Frozen):

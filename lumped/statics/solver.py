@@ -108,7 +108,9 @@ def solve(
             "precision; leave out precision, branch and near"
         )
     if near is not None and (branch != "path" or weights != "tributary"):
-        raise BadInput("near: with branch = 'path' and weights = 'tributary' alone; others begin at the flat sheet")
+        raise BadInput(
+            "near: with branch = 'path' and weights = 'tributary' alone; others begin at the flat sheet"
+        )
     began = now()
     compile_kernels()
     calibration = calibration or default(scene)

@@ -172,9 +172,12 @@ def test_a_path_whose_inertia_is_not_known_is_held_to_no_branch(monkeypatch, mod
     their number for 0, and the path for one that keeps to its branch."""
     monkeypatch.setattr("lumped.statics.solver.worth", lambda *_: 40)
     monkeypatch.setattr(equilibrium, "worth", lambda *_: 40)
+
     def solved():
         scene = load("one-edge-clamped")
-        springs = lumped.calibrate(scene.sheet, scene.material, (7, 6))  # whose factors no other test has kept
+        springs = lumped.calibrate(
+            scene.sheet, scene.material, (7, 6)
+        )  # whose factors no other test has kept
         return lumped.solve(scene, springs) if model == "lumped" else fem_reference.solve(scene, elements=4)
 
     monkeypatch.setattr(direct, "SignedFactors", without_factors)

@@ -170,9 +170,7 @@ def test_shear_of_the_faces_alone_makes_no_rubber():
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
 def test_an_answer_is_kept_and_sent_between_processes(model):
     scene = scenes.load("two-edges-clamped")
-    found = (
-        lumped.solve(scene) if model == "lumped" else fem_reference.solve(scene, model, elements=2)
-    )
+    found = lumped.solve(scene) if model == "lumped" else fem_reference.solve(scene, model, elements=2)
     again = pickle.loads(pickle.dumps(found))
     points = scene.probe_points()
     assert (again.displacement(points) == found.displacement(points)).all()

@@ -12,6 +12,7 @@ round-off, a number is not finite, or one of the two models did not reach the fu
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -132,7 +133,7 @@ class Comparison(Answer):
         u = solution.displacement(self.scene.probe_points())
         return error(u + self.bars[solution.model], u)
 
-    @property
+    @cached_property
     def model_error(self) -> ModelError | None:
         """What the reference leaves out of the sheet on every mesh, where that is known."""
         return model_error(self.scene, self.reference, self.law_chosen)

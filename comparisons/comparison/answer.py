@@ -24,7 +24,7 @@ from comparisons.comparison.differences import error, relative
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.comparison.rows import CostRow, Difference, ProbeRow, ReactionRow
-from comparisons.models.expected_error import ExpectedError
+from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
 from comparisons.report.plan import plan_mesh
 from comparisons.report.vtk import write_mesh
@@ -49,7 +49,7 @@ class Comparison(Answer):
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
     reference's mesh leaves uncertain, where that was requested; laws: a sentence where lattice and reference
     have laws of strain that differ by more. disagreement: a sentence where both are at rest and far apart.
-    expected: the error to expect of the chosen lattice's grid, where an estimate holds. several: whether more
+    expected: the error to expect of the chosen lattice's grid, or why none is told. several: whether more
     than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:
     sentences on times taken on a busy machine. law_chosen: the reference's law of strain, by the user.
     """
@@ -60,7 +60,7 @@ class Comparison(Answer):
     bar: ErrorBar | None = None
     laws: str = ""
     disagreement: str = ""
-    expected: ExpectedError | None = None
+    expected: ExpectedError | NoEstimate | None = None
     several: bool = False
     other_branch: bool = False
     busy: tuple[str, ...] = ()
@@ -185,7 +185,8 @@ class Comparison(Answer):
             **solution.document(self.scene),
             **({"branch": branch} if (branch := self.branch(solution)) else {}),
             **({"uncertainty": bar} if bar else {}),
-            **({"expected_error": expected.as_dict()} if expected else {}),
+            **({"expected_error": expected.as_dict()} if isinstance(expected, ExpectedError) else {}),
+            **({"no_estimate": expected.reason} if isinstance(expected, NoEstimate) else {}),
         }
 
     def heading(self) -> tuple[str, str, str]:
@@ -222,11 +223,19 @@ class Comparison(Answer):
         rows = (
             CostRow(
                 s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds, self.error(s),
-                s.status_text,
+                self._foretold(s), s.status_text,
             )
             for s in self.solutions
         )  # fmt: skip
         return Table.of(CostRow, rows, "Cost and error of each model", "models", text="; ".join(self.busy))
+
+    def _foretold(self, solution: Solution) -> str:
+        """Return the grid error that the chosen lattice is told to have, or why none is."""
+        if solution is not self.solutions[0] or self.expected is None:
+            return ""
+        if isinstance(self.expected, NoEstimate):
+            return str(self.expected)
+        return f"{few(100.0 * self.expected.value)} %"
 
     def _reactions(self) -> Table:
         found = sorted((edge, s.model, s.reactions[edge]) for s in self.solutions for edge in s.reactions)
@@ -285,7 +294,7 @@ class Comparison(Answer):
         return [
             " · ".join(solution.label for solution in self.solutions),
             *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
-            *([f"{self.solutions[0].model}: {self.expected}"] if self.expected else []),
+            *([f"{self.solutions[0].model}: {told}"] if isinstance(told := self.expected, ExpectedError) else []),
             *self._bar_notes(),
             f"off by: |u − {ref}| / |{ref}| at the probe. "
             f"error: largest component of u − {ref} over the probes / largest component of {ref}."

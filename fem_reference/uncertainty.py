@@ -62,9 +62,8 @@ class Uncertainty:
     """Answers f₁ (n, k) with their bars; sizes: mesh sizes, the finest first.
 
     order: observed, nan where there is none; bar: U; trusted: the order made sense, or nothing changed;
-    converging: whether the field, in root mean square, changes less between the two finer meshes than between
-    the two coarser, or not at all: then its bar is as good as those that `study coverage` counts, whatever single
-    components do.
+    converging: whether the field, in root mean square, changes less between the two finer meshes than
+    between the two coarser, or not at all, whatever single components do.
     """
 
     sizes: tuple[float, ...]

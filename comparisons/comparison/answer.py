@@ -12,8 +12,7 @@ round-off, a number is not finite, or one of the two models did not reach the fu
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from functools import cached_property
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -290,11 +289,11 @@ class Comparison(Answer):
 
     def notes(self) -> list[str]:
         """Return the models, what was chosen for them, error bars, and what the percentages mean."""
-        ref = f"u_{self.reference.model}"
+        ref, first = f"u_{self.reference.model}", self.solutions[0].model
         return [
             " · ".join(solution.label for solution in self.solutions),
             *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
-            *([f"{self.solutions[0].model}: {told}"] if isinstance(told := self.expected, ExpectedError) else []),
+            *([f"{first}: {self.expected}"] if isinstance(self.expected, ExpectedError) else []),
             *self._bar_notes(),
             f"off by: |u − {ref}| / |{ref}| at the probe. "
             f"error: largest component of u − {ref} over the probes / largest component of {ref}."

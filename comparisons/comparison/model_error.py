@@ -1,12 +1,12 @@
 """The model error of a reference, on every mesh: bounds for thickness, law of strain and clamps.
 
-thickness   (1.2 + 1.3 ν²) (h/a)², a the shorter side, 1.2 = 1/κ: shear-deformable plates and shells differ from
-            the solid by terms of that order (Koiter, Proc. Kon. Ned. Ak. Wet. B73 (1970) 169–195), the part
-            with ν for the normal stress at clamps that no shell has: a plate of h/a 0.12 and ν 0.45 clamped
+thickness   (1.2 + 1.3 ν²) (h/a)², a the shorter side, 1.2 = 1/κ: shear-deformable plates and shells differ
+            from the solid by terms of that order (Koiter, Proc. Kon. Ned. Ak. Wet. B73 (1970) 169–195), the
+            part with ν for the normal stress at clamps that no shell has: a plate of h/a 0.12 and ν 0.45 clamped
             all around is 2.0 % off bricks whose faces are held in the mean; nothing for a solid
 strain law  1.7 times what Biot's and neo-Hooke's laws would move the probes by, to first order
-            (`fem_reference.shell.other_laws`; 0.6 to 1.64 of that is what they do move them by, on sheets near
-            folds too). Where that is not known, of a solid and of sheets that are not the same all over,
+            (`fem_reference.shell.other_laws`; 0.6 to 1.64 times that is what ten of eleven sheets' moved by,
+            near folds too). Where that is not known, of a solid and of sheets that are not the same all over,
             2.3 ε √m, ε the largest stretch, m the share of stretching in the energy: at one force
             St Venant–Kirchhoff's and neo-Hooke's sheets differ by 2.3 ε of a stretch (1.5 and −0.77 of
             `comparisons.comparison.strain_law`). Nothing where the user has chosen the law or the material

@@ -119,9 +119,8 @@ def expected_error(
     masses = " × ".join(str(n) for n in finer[:2])
     if not converges(lattice, finer):
         large = prod(finer[:2]) > MOST
-        return NoEstimate(
-            f"{masses} masses would be needed" if large else "these springs do not tend to the sheet on finer grids"
-        )
+        needed = f"{masses} masses would be needed"
+        return NoEstimate(needed if large else "these springs do not tend to the sheet on finer grids")
     if not resolves(scene, finer):
         return NoEstimate("the load bends the sheet within a cell or two, on a finer grid too")
     fine = solve(lattice.but(grid=finer))
@@ -130,14 +129,15 @@ def expected_error(
     if fine.status is not Status.CONVERGED:
         return NoEstimate(f"on {masses} masses the lattice is {fine.status}")
     if len(fine.snaps) != len(solution.snaps):
-        return NoEstimate(f"on {masses} masses the sheet snaps {len(fine.snaps)} times, here {len(solution.snaps)}")
+        snaps = f"the sheet snaps {len(fine.snaps)} times, here {len(solution.snaps)}"
+        return NoEstimate(f"on {masses} masses {snaps}")
     points = scene.probe_points()
     ratio = prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
     stretch = largest_stretch(scene, fine, finer)
     value = estimate(solution.displacement(points), fine.displacement(points), ratio, stretch)
     if value is None:
         return NoEstimate(
-            f"on {masses} masses the answer is the same, too far away, or differs by less than laws of strain would"
+            f"on {masses} masses the answer is the same, too far away, or laws of strain would differ by more"
         )
     return ExpectedError(value, finer, fine.solve_seconds)
 

@@ -80,7 +80,8 @@ def rubber(energy: Energy, poisson: float, strain: np.ndarray) -> Response:
     bulk, c01 = energy.volume(poisson), energy.c01
     at_rest = energy.c10 + 2.0 * c01  # ½ m
     change, trace = _change_of_determinant(strain), 2.0 * (strain[..., 0] + strain[..., 1])  # of C
-    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):  # inside out: not a number, which ends the step
+    # inside out: not a number, which ends the step
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         logarithm = np.log1p(change)
         thinning = _thinning(energy, bulk, trace, logarithm)  # c − 1
         of_volume = 0.5 * (logarithm + np.log1p(thinning))  # ln J

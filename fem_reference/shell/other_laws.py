@@ -5,9 +5,9 @@ tangent at the equilibrium
 
     K δu = −Bᵀ δs
 
-moves it to the other law's, to first order. It weighs the strains by what they do to the displacement at the
-probes: a peak of stretch in a corner next to nothing, a stretch that carries the sheet all of it, and near a fold,
-where K is soft, more than any strain would let expect.
+moves it to the other law's, to first order. It weighs the strains by what they do to the displacement at
+the probes: a peak of stretch in a corner next to nothing, a stretch that carries the sheet all of it, and
+near a fold, where K is soft, more than any strain would let expect.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ SAME = 1e-6  # residual, relative to the forces, up to which the answer's state 
 
 
 def shift(scene: Scene, answer: Solution) -> float | None:
-    """Return how far the shells of `OTHERS` are from a shell's answer, whichever is farther, as a share of the
-    largest displacement at the scene's probes; None where that cannot be told: of sheets that are not the same
-    all over, actuators, sections and meshes of the caller's own, and sheets solved by halves."""
+    """Return how far the shells of `OTHERS` are from a shell's answer, whichever is farther, as a share of
+    the largest displacement at the scene's probes; None where that cannot be told: of sheets that are not the
+    same all over, actuators, sections and meshes of the caller's own, and sheets solved by halves."""
     settings = answer.settings
     whole = {"elements", "graded", "law"} == set(settings) and settings["law"] == STRAIN_LAW
     if not whole or not scene.uniform or scene.actuators or len(scene.probe_points()) == 0:

@@ -1,10 +1,10 @@
 """Energy of transverse shear in a sheet that is stretched and thins, over κ G h, with its derivatives.
 
-A sheet of the thickness t whose director leans by the angle φ is sheared by t tan φ: the thickness is measured
-along the normal, as the area's change asks for it, and a director that leans is longer. It stores
-½ t² tan² φ, which is what neo-Hooke's law has in that shear, and is steeper the farther it leans; ½ t² sin² φ,
-of a director that keeps its length, is flat at 90° and beyond 45° lets all of an edge's shear gather in one
-row of elements. With γ = φ,α·d of the unit director and the sheet's C = 1 + 2E in its plane
+A sheet of the thickness t whose director leans by the angle φ is sheared by t tan φ: the thickness is
+measured along the normal, as the area's change asks for it, and a director that leans is longer. It stores
+½ t² tan² φ, which is what neo-Hooke's law has in that shear, and is steeper the farther it leans.
+½ t² sin² φ, of a director that keeps its length, is flat at 90° and beyond 45° lets all of an edge's shear
+gather in one row of elements. With γ = φ,α·d of the unit director and the sheet's C = 1 + 2E in its plane
 sin² φ = γᵀ C⁻¹ γ:
 
     W = ½ t² T,   T = Q/(j² − Q),   Q = γᵀ (j² C⁻¹) γ,   j² = det C.

@@ -24,7 +24,8 @@ def stability(path: Path[State, Forces]) -> tuple[Status, str]:
             if found is None:
                 return (
                     Status.CONVERGED,
-                    "stability not known: the tangent's eigenvalues nearest to zero were not found, or its determinant tells of others below",
+                    "stability not known: the tangent's eigenvalues nearest to zero were not found, or its "
+                    "determinant tells of others below",
                 )
             negative, zero = found, 0
     except SingularMatrixError as error:

@@ -36,8 +36,8 @@ def buckling_loads(scene: AnyScene, calibration: Calibration, count: int = 1) ->
     problem = build_problem(scene, calibration)
     if problem.loads.follow or not problem.conservative or scene.actuators:
         raise BadInput(
-            f"scene '{scene.name}': buckling loads are of dead loads and central springs: pressure and edge moments "
-            "follow the sheet, and actuators and springs of a per-direction law have no energy"
+            f"scene '{scene.name}': buckling loads are of dead loads and central springs: pressure and edge "
+            "moments follow the sheet, and actuators and springs of a per-direction law have no energy"
         )
     rest = at_rest(problem)
     n = problem.system.unknowns

@@ -91,8 +91,8 @@ def solve(
     from flat. progress: called once an iteration.
 
     Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators, for `near`
-    of another grid, and for options that have no effect beside linear or near. Every other outcome is a status; where the full load was not reached, the last
-    converged load is kept and `load_factor` says which.
+    of another grid, and for options that have no effect beside linear or near. Every other outcome is a
+    status; where the full load was not reached, the last converged load is kept and `load_factor` says which.
 
     >>> import lumped
     >>> solution = lumped.solve("two-edges-clamped")
@@ -104,8 +104,8 @@ def solve(
         raise BadInput("linear = True: actuators turn with the sheet; solve without")
     if linear and (precision != "double" or branch != "path" or near is not None):
         raise BadInput(
-            "linear = True: one step with the flat sheet's tangent has no branch, no start and no force in single "
-            "precision; leave out precision, branch and near"
+            "linear = True: one step with the flat sheet's tangent has no branch, no start and no force in "
+            "single precision; leave out precision, branch and near"
         )
     if near is not None and (branch != "path" or weights != "tributary"):
         raise BadInput(
@@ -209,7 +209,8 @@ def solve_path(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         if why and (spent or unheld) and reached is not None and problem.fault is None:
             here = f"small load steps end at load factor {state.load_factor:.4g}, after {more} factorisations"
             notes.append(
-                f"{why if unheld else here}: this equilibrium, which large ones led to, may be on another branch"
+                f"{why if unheld else here}: this equilibrium, which large ones led to, may be on another "
+                "branch"
             )
             state, why = refine(problem, reached, 1.0), ""
     while why and problem.fault is None and problem.descends and len(snaps) < SNAPS:

@@ -66,8 +66,8 @@ class Factor:
         backward_error: float = np.inf,
         more: Count = lambda: None,
     ):
-        """solve: x with A x = b, as the factors have it; backward_error: what that is known to be below; more:
-        called once a further factorisation that is made of the matrix."""
+        """solve: x with A x = b, as the factors have it; backward_error: what that is known to be below;
+        more: called once a further factorisation that is made of the matrix."""
         self.matrix, self.inertia = matrix, inertia
         self._solve, self._backward_error, self._more = solve, backward_error, more
 
@@ -81,8 +81,8 @@ class Factor:
         return None if self.inertia is None else self.inertia.negative
 
     def negative_real(self) -> int | None:
-        """Real eigenvalues below zero of an unsymmetric matrix (`stability`), among those nearest to zero; None
-        if they are not found, or the determinant's sign tells that there are others."""
+        """Real eigenvalues below zero of an unsymmetric matrix (`stability`), among those nearest to zero;
+        None if they are not found, or the determinant's sign tells that there are others."""
         found = nearest_to_zero(self.matrix, self._solve)
         if found is None:
             return None

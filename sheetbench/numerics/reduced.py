@@ -146,7 +146,8 @@ class ReducedSystem:
         return product.reshape(u.shape)
 
     def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
-        """Factors of Tᵀ K T; more: as of `DirectSolver.factor`. Raises SingularMatrixError when there are none."""
+        """Factors of Tᵀ K T; more: as of `DirectSolver.factor`. Raises SingularMatrixError where there
+        are none."""
         if self.band is not None:
             factors = banded.stored(blocks, self.band)
             if banded.factor(factors, self.unknowns, self.band.width):

@@ -6,8 +6,8 @@ here, whatever their real part: flutter is a matter of masses and dampers, which
 
 Of a large matrix those nearest to zero are found, of which a path that begins stable crosses zero with the
 first. One that is below zero and far away, behind softer stable ones, is not among them; but det K = Π λ, and
-complex pairs being positive its sign tells whether the number of all is odd. Where that and the count disagree
-nothing is known. Two that are far away are not seen.
+complex pairs being positive its sign tells whether the number of all is odd. Where that and the count
+disagree nothing is known. Two that are far away are not seen.
 Source: Bolotin, Nonconservative Problems of the Theory of Elastic Stability (1963).
 """
 

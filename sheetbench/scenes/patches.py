@@ -185,8 +185,8 @@ def mass_of(scene: Scene) -> float:
 
 
 def mass_over_stiffness(scene: Scene) -> float:
-    """ρ/E [s²/m²] of the sheet as a whole: its mass over the integral of its membrane's stiffness E h, as if a
-    taper's thickness were the sheet's."""
+    """ρ/E [s²/m²] of the sheet as a whole: its mass over the integral of its membrane's stiffness E h, as
+    if a taper's thickness were the sheet's."""
     sheet, rest = of_sheet(scene), area_in(scene, None)
     mass = stiffness = 0.0
     for area, own in _disjoint(scene.patches):

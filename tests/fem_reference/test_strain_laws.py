@@ -78,7 +78,7 @@ def test_elements_through_the_thickness_are_energies_with_their_tangents(law, rn
 
 @pytest.mark.parametrize("shear", [1e-4, 0.3, 1.0, 3.0])
 def test_a_neo_hookean_face_that_slides_stores_what_simple_shear_does(shear):
-    """½ G γ² of I₁ = 3 + γ², whatever γ: the clamp of a balloon. The director stands, the mid-surface rises."""
+    """½ G γ² of I₁ = 3 + γ², whatever γ: at a balloon's clamp the director stands, the surface rises."""
     of, law = material("neo-hookean", 0.4999999), LAWS["neo-hookean"]
     strain, leaning = np.array([0.5 * shear**2, 0.0, 0.0]), np.array([shear, 0.0])
     stretched = float(law.response(of, strain).energy) / shear_modulus(of)

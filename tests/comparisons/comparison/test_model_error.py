@@ -156,9 +156,12 @@ CORNER = Scene(
 )
 
 
-@pytest.mark.parametrize("scene", [ARCH, CORNER, load("two-edges-clamped"), load("curved-edge")], ids=lambda s: s.name)
+LOADED = [ARCH, CORNER, load("two-edges-clamped"), load("curved-edge")]
+
+
+@pytest.mark.parametrize("scene", LOADED, ids=lambda scene: scene.name)
 def test_the_law_of_strain_is_weighed_where_the_probes_answer_comes_from(scene):
-    """The largest stretch, in a corner, had said up to thirteen times as much, and near a fold a fifth."""
+    """The largest stretch, in a corner, had said eight times as much."""
     shell, *others = (
         fem_reference.solve(scene, elements=6, law=law)
         for law in ("st-venant-kirchhoff", "biot", "neo-hookean")

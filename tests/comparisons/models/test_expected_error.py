@@ -144,7 +144,7 @@ def test_frequencies_about_the_deformed_sheet_have_theirs(name):
 
 
 def test_where_none_is_told_the_reason_stands_beside_the_error():
-    """Cells wider than the layer in which the weight bends a thin sheet: no estimate was a cell left blank."""
+    """Cells wider than the layer in which the weight bends a thin sheet: the table said nothing."""
     found = compare(SCENE.replace(young="0.6 MPa", thickness=0.0005), grid=5, elements=4)
     reason = found.document()["solutions"][0]["no_estimate"]
     assert "bends the sheet within a cell" in reason

@@ -121,8 +121,7 @@ def test_the_sign_of_the_determinant_is_that_of_its_permutations_and_pivots():
 
 @pytest.mark.parametrize("value", [5.0, 4000.0])
 def test_factorisations_under_pressure_are_counted_once_each(monkeypatch, value):
-    """All that are made of a tangent: by fronts, of what they do not solve by a library, for the determinant's
-    sign."""
+    """All that are made of a tangent: by fronts, of what they do not solve by a library, for det's sign."""
     asked = scene(loads=[{"kind": "pressure", "value": value}])
     springs, made = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5)), []
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from fem_reference.defaults import with_defaults
 from sheetbench.choices import REFERENCE, REFERENCES, STRAIN_LAWS
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, Iteration, Solution, scene_of
@@ -48,10 +49,7 @@ def solve(
     (<Status.CONVERGED: 'converged'>, array([[-0.0004, -0.0004, -0.0135]]))
     """
     scene = scene_of(scene)
-    if scene.material.law is not None and "law" in options(model):
-        requested.setdefault("law", scene.material.law)
-    if scene.sheet.mesh is not None and "graded" in options(model):
-        requested.setdefault("graded", False)
+    requested = with_defaults(scene, options(model), requested)
     check(model, requested)
     if "progress" in _parameters(model):
         requested["progress"] = progress

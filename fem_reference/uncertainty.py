@@ -61,7 +61,9 @@ ROUNDING = 1e-9  # of the largest answer
 class Uncertainty:
     """Answers f₁ (n, k) with their bars; sizes: mesh sizes, the finest first.
 
-    order: observed, nan where there is none; bar: U; trusted: the order made sense, or nothing changed.
+    order: observed, nan where there is none; bar: U; trusted: the order made sense, or nothing changed;
+    converging: whether the field, in root mean square, changes less between the two finer meshes than
+    between the two coarser, or not at all, whatever single components do.
     """
 
     sizes: tuple[float, ...]
@@ -70,6 +72,7 @@ class Uncertainty:
     order: np.ndarray
     bar: np.ndarray
     trusted: np.ndarray
+    converging: bool
 
     @property
     def error(self) -> float:
@@ -154,11 +157,13 @@ def estimate(
     rounding = spread <= ROUNDING * np.max(np.abs(fine), initial=0.0)
     largest = own_order - BY_LAYER * layers[0].share
     if len(answers) == 2:
-        order, trusted = np.full(fine.shape, np.nan), rounding
+        order, trusted, converging = np.full(fine.shape, np.nan), rounding, bool(rounding.all())
         of_field, own, neighbours = min(ASSUMED_ORDER, largest), CAUTION, 0.0
         change = step / (ratio**of_field - 1.0)
     else:
-        order = _observed(step, answers[1] - answers[2], ratio, sizes[2] / sizes[1])
+        before = answers[1] - answers[2]
+        converging = bool(np.linalg.norm(step) < np.linalg.norm(before) or rounding.all())
+        order = _observed(step, before, ratio, sizes[2] / sizes[1])
         order[rounding] = np.nan
         trusted = rounding | (order >= LEAST_ORDER)
         of_field, own, neighbours = min(_median(order[~rounding]), largest), 1.0, NEIGHBOURS
@@ -172,6 +177,7 @@ def estimate(
         order=order,
         bar=np.where(rounding, spread, bar),
         trusted=trusted,
+        converging=converging,
     )
 
 

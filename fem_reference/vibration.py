@@ -25,11 +25,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from inspect import signature
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from fem_reference.defaults import with_defaults
 from fem_reference.plate import statics as plate
 from fem_reference.shell import inertia
 from fem_reference.shell import statics as shell
@@ -39,6 +41,7 @@ from fem_reference.solving.stability import require_stable
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.eigenmodes import lowest_modes
@@ -107,7 +110,8 @@ def modes(
     about: the flat, stress-free sheet, or its equilibrium under the scene's loads (the shell only; no
     actuators, no follower loads).
 
-    options: the model's own; of plate and shell `section`, as in their `solve`, and `graded`, whether they
+    options: the model's own; of shell and solid the `law` of strain, that of the scene's rubber unless given,
+    of plate and shell `section`, as in their `solve`, and `graded`, whether they
     are divided finer towards the edges (they are by default).
 
     Raises BadInput for an unknown model or a count that the mesh cannot give, NoEquilibrium where there is
@@ -128,6 +132,7 @@ def modes(
             raise BadInput("--about = deformed: of the references the shell alone, and without actuators")
     scene = scene.replace(actuators=())
     at_rest = _shell_deformed if about == "deformed" else REST_STATES[model]
+    options = with_defaults(scene, signature(at_rest).parameters, options)
     along_x, along_y = divisions(scene.sheet, elements)
     with one_blas_thread():
         rest = at_rest(scene, (along_x, along_y), **options)
@@ -192,25 +197,33 @@ def _plate_at_rest(
 
 
 def _shell_at_rest(
-    scene: Scene, elements: tuple[int, int], section: Section | None = None, graded: bool = True
+    scene: Scene,
+    elements: tuple[int, int],
+    section: Section | None = None,
+    graded: bool = True,
+    law: str = STRAIN_LAW,
 ) -> RestState:
     """The tangent of the shell that nothing holds or loads; the last two fields turn the director."""
     bare = scene.replace(supports=(), loads=(), actuators=(), gravity=None)
-    structure, _ = shell.discretise(mesh_of(scene, elements, graded, REACH), bare, section)
+    structure, _ = shell.discretise(mesh_of(scene, elements, graded, REACH), bare, section, law)
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
     return _plate_at_rest(scene, elements, graded=graded)._replace(stiffness=stiffness)
 
 
 def _shell_deformed(
-    scene: Scene, elements: tuple[int, int], section: Section | None = None, graded: bool = True
+    scene: Scene,
+    elements: tuple[int, int],
+    section: Section | None = None,
+    graded: bool = True,
+    law: str = STRAIN_LAW,
 ) -> RestState:
     """The shell about its equilibrium, on its free unknowns alone: displacements u and rotations β of
     directors, δd = T β, with K = ∂R/∂(u, β) at full load, geometric stiffness and dead loads' part included,
     and M = ∫ ρh N_i N_j on u, ∫ ρh³/12 N_i N_j T_iᵀ T_j on β. Raises BadInput for loads that follow the
     sheet, NoEquilibrium where there is no stable equilibrium under the full load."""
     mesh = mesh_of(scene, elements, graded, REACH)
-    structure, _ = shell.discretise(mesh, scene, section)
+    structure, _ = shell.discretise(mesh, scene, section, law)
     if structure.followers:
         raise BadInput("--about = deformed: pressure and edge moments follow the sheet: it has no modes then")
     state, status, notes = shell.trace_on(scene, structure)
@@ -234,11 +247,12 @@ def _solid_at_rest(
     layers: int = 1,
     clamp: str = "shell-like",
     grading: str = "edges",
+    law: str = STRAIN_LAW,
 ) -> RestState:
-    """The tangent of the solid that nothing holds or loads; both laws have the same."""
+    """The tangent of the solid that nothing holds or loads."""
     bare = scene.replace(supports=(), loads=(), actuators=(), gravity=None)
     mesh = solid.plan_mesh(scene, elements, grading)
-    structure = solid.discretise(mesh, bare, layers)
+    structure = solid.discretise(mesh, bare, layers, law)
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
     columns = structure.columns

@@ -20,7 +20,7 @@ pytestmark = pytest.mark.smoke
 ROOT = Path(__file__).parent.parent
 GROUND = ("sheetbench.scenes", "sheetbench.choices", "sheetbench.files", "sheetbench.kernels")
 GROUND += ("sheetbench.numerics", "sheetbench.clock", "sheetbench.errors", "sheetbench.answers")
-GROUND += ("sheetbench.process", "sheetbench.runs")
+GROUND += ("sheetbench.process", "sheetbench.runs", "sheetbench.heap")
 ALLOWED = {
     "sheetbench/answers": {"sheetbench.answers", "sheetbench.errors", "sheetbench.files"},
     "sheetbench/runs": {"sheetbench.errors", "sheetbench.files", "sheetbench.runs"},

@@ -89,4 +89,5 @@ def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
     def answer(spec: Lattice) -> Solution:
         return solve(resolve(scene, spec))
 
-    return expected_error(scene, lattice, answer(lattice), answer)
+    found = expected_error(scene, lattice, answer(lattice), answer)
+    return found if isinstance(found, ExpectedError) else None

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import asdict, dataclass
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,7 @@ from comparisons.comparison.differences import error, relative
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.comparison.rows import CostRow, Difference, ProbeRow, ReactionRow
-from comparisons.models.expected_error import ExpectedError
+from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
 from comparisons.report.plan import plan_mesh
 from comparisons.report.vtk import write_mesh
@@ -50,7 +50,7 @@ class Comparison(Answer):
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
     reference's mesh leaves uncertain, where that was requested; laws: a sentence where lattice and reference
     have laws of strain that differ by more. disagreement: a sentence where both are at rest and far apart.
-    expected: the error to expect of the chosen lattice's grid, where an estimate holds. several: whether more
+    expected: the error to expect of the chosen lattice's grid, or why none is told. several: whether more
     than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:
     sentences on times taken on a busy machine. law_chosen: the reference's law of strain, by the user.
     """
@@ -61,7 +61,7 @@ class Comparison(Answer):
     bar: ErrorBar | None = None
     laws: str = ""
     disagreement: str = ""
-    expected: ExpectedError | None = None
+    expected: ExpectedError | NoEstimate | None = None
     several: bool = False
     other_branch: bool = False
     busy: tuple[str, ...] = ()
@@ -134,7 +134,7 @@ class Comparison(Answer):
         u = solution.displacement(self.scene.probe_points())
         return error(u + self.bars[solution.model], u)
 
-    @property
+    @cached_property
     def model_error(self) -> ModelError | None:
         """What the reference leaves out of the sheet on every mesh, where that is known."""
         return model_error(self.scene, self.reference, self.law_chosen)
@@ -186,7 +186,8 @@ class Comparison(Answer):
             **solution.document(self.scene),
             **({"branch": branch} if (branch := self.branch(solution)) else {}),
             **({"uncertainty": bar} if bar else {}),
-            **({"expected_error": expected.as_dict()} if expected else {}),
+            **({"expected_error": expected.as_dict()} if isinstance(expected, ExpectedError) else {}),
+            **({"no_estimate": expected.reason} if isinstance(expected, NoEstimate) else {}),
         }
 
     def result(self) -> str:
@@ -199,7 +200,8 @@ class Comparison(Answer):
             return f"{solution.label}: not comparable" + "".join(
                 f", {one.model} {one.status}" for one in ended
             )
-        expected = f", expected {few(100 * self.expected.value)} %" if self.expected is not None else ""
+        known = isinstance(self.expected, ExpectedError)
+        expected = f", expected {few(100 * self.expected.value)} %" if known else ""
         own = expected if solution is self.solutions[0] else ""
         bar = "" if self.bar is None else f" ± {few(100 * self.bar.error)} %"
         return f"{solution.label}: {few(100 * off)} % off {self.reference.label}{bar}{own}"
@@ -240,11 +242,19 @@ class Comparison(Answer):
         rows = (
             CostRow(
                 s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds, self.error(s),
-                s.status_text,
+                self._foretold(s), s.status_text,
             )
             for s in self.solutions
         )  # fmt: skip
         return Table.of(CostRow, rows, "Cost and error of each model", "models", text="; ".join(self.busy))
+
+    def _foretold(self, solution: Solution) -> str:
+        """Return the grid error that the chosen lattice is told to have, or why none is."""
+        if solution is not self.solutions[0] or self.expected is None:
+            return ""
+        if isinstance(self.expected, NoEstimate):
+            return str(self.expected)
+        return f"{few(100.0 * self.expected.value)} %"
 
     def _reactions(self, of: Collection[str] | None = None) -> Table:
         """Of all supports, or of those named."""
@@ -305,11 +315,11 @@ class Comparison(Answer):
 
     def notes(self) -> list[str]:
         """Return the models, what was chosen for them, error bars, and what the percentages mean."""
-        ref = f"u_{self.reference.model}"
+        ref, first = f"u_{self.reference.model}", self.solutions[0].model
         return [
             " · ".join(solution.label for solution in self.solutions),
             *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
-            *([f"{self.solutions[0].model}: {self.expected}"] if self.expected else []),
+            *([f"{first}: {self.expected}"] if isinstance(self.expected, ExpectedError) else []),
             *self._bar_notes(),
             f"off by: |u − {ref}| / |{ref}| at the probe. "
             f"error: largest component of u − {ref} over the probes / largest component of {ref}."

@@ -74,7 +74,7 @@ class ErrorBar:
             "probes": dict(zip(self.names, found.bar, strict=True)),
             "orders": dict(zip(self.names, found.order, strict=True)),
             "extrapolated": dict(zip(self.names, found.extrapolated, strict=True)),
-            "trusted": bool(found.trusted.all()),
+            "trusted": found.converging,
             "solve_seconds": self.solve_seconds,
             "method": METHOD,
         }

@@ -71,6 +71,16 @@ class ExpectedError:
         return {**vars(self), "grid": list(self.grid), "reason": self.reason}
 
 
+@dataclass(frozen=True)
+class NoEstimate:
+    """Why there is none."""
+
+    reason: str
+
+    def __str__(self) -> str:
+        return f"no estimate: {self.reason}"
+
+
 def finer_grid(grid: Grid) -> Grid:
     """Return the grid whose answer the estimate compares with: 1.5 times as many cells, at least
     FINEST_COARSE."""
@@ -96,27 +106,40 @@ def resolves(scene: Scene, grid: Grid) -> bool:
 
 def expected_error(
     scene: Scene, lattice: Lattice, solution: Solution, solve: Callable[[Lattice], Solution | None]
-) -> ExpectedError | None:
-    """Return the grid error to expect of a lattice's solution of a scene, None where none is given (see
-    above).
+) -> ExpectedError | NoEstimate:
+    """Return the grid error to expect of a lattice's solution of a scene, or why none is given (see above).
 
     lattice: what was solved, resolved; solve: answers the finer lattice, None where that takes too much
     memory.
     """
     if solution.status is not Status.CONVERGED:
-        return None
+        return NoEstimate(f"the lattice is {solution.status}")
     grid = scene_grid(scene, lattice.grid)
     finer = finer_grid(grid)
-    if not (converges(lattice, finer) and resolves(scene, finer)):
-        return None
+    masses = " × ".join(str(n) for n in finer[:2])
+    if not converges(lattice, finer):
+        large = prod(finer[:2]) > MOST
+        needed = f"{masses} masses would be needed"
+        return NoEstimate(needed if large else "these springs do not tend to the sheet on finer grids")
+    if not resolves(scene, finer):
+        return NoEstimate("the load bends the sheet within a cell or two, on a finer grid too")
     fine = solve(lattice.but(grid=finer))
-    if fine is None or fine.status is not Status.CONVERGED or len(fine.snaps) != len(solution.snaps):
-        return None
+    if fine is None:
+        return NoEstimate(f"{masses} masses take too much memory")
+    if fine.status is not Status.CONVERGED:
+        return NoEstimate(f"on {masses} masses the lattice is {fine.status}")
+    if len(fine.snaps) != len(solution.snaps):
+        snaps = f"the sheet snaps {len(fine.snaps)} times, here {len(solution.snaps)}"
+        return NoEstimate(f"on {masses} masses {snaps}")
     points = scene.probe_points()
     ratio = prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
     stretch = largest_stretch(scene, fine, finer)
     value = estimate(solution.displacement(points), fine.displacement(points), ratio, stretch)
-    return None if value is None else ExpectedError(value, finer, fine.solve_seconds)
+    if value is None:
+        return NoEstimate(
+            f"on {masses} masses the answer is the same, too far away, or laws of strain would differ by more"
+        )
+    return ExpectedError(value, finer, fine.solve_seconds)
 
 
 def estimate(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float) -> float | None:

@@ -24,6 +24,7 @@ from typing import Any, Protocol, runtime_checkable
 from urllib.parse import urlsplit
 
 from sheetbench.errors import BadInput
+from sheetbench.heap import keep_freed_memory
 from sheetbench.process import ONE_THREAD
 
 PATIENCE = 15.0  # s without anybody to carry out a run
@@ -207,6 +208,7 @@ class Cluster(Executor):
 def _join(stopped: Connection) -> None:
     """End this worker as soon as its parent has ended or closed the other end of `stopped`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    keep_freed_memory()
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_follow, args=([parent.sentinel, stopped],), daemon=True).start()

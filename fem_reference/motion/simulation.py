@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from fem_reference.defaults import with_defaults
 from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.generalised_alpha import ERROR, GeneralisedAlpha
 from fem_reference.motion.moving import Moving
@@ -86,8 +87,7 @@ def simulate(
     began = now()
     requested = scene_of(scene)
     require_choice("integrator", integrator, INTEGRATORS)
-    if requested.material.law is not None and "law" in signature(MODELS[model]).parameters:
-        options.setdefault("law", requested.material.law)
+    options = with_defaults(requested, signature(MODELS[model]).parameters, options)
     moving = MODELS[model](requested, **options)
     spacing = every or _lowest_period(requested) / SAMPLES_PER_PERIOD
     count = sample_count(duration, spacing, whole=every is not None)

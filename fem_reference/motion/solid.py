@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from fem_reference.motion.rods import MovingRods, components_of
 from fem_reference.solid.element import Bricks, tangent
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.rods import on_columns
-from fem_reference.solid.statics import discretise, judge, plan_mesh
+from fem_reference.solid.statics import discretise, inspected, judge, plan_mesh
 from fem_reference.solid.supports import components, vectors
 from fem_reference.solving.equilibrium import trace
 from fem_reference.surface import loads, rod
@@ -81,7 +82,7 @@ class MovingSolid(MovingElements):
         structure = discretise(
             self._mesh, scene, self.settings["layers"], self.settings["law"], self.settings["clamp"]
         )
-        path = trace(structure, DirectSolver(structure.symmetric))
+        path = trace(structure, DirectSolver(structure.symmetric), partial(inspected, structure))
         status, notes, _ = judge(scene, structure, path, self.settings["law"])
         return np.append(path.state.displacement, path.state.aside), status, notes
 

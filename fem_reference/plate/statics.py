@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -164,7 +165,7 @@ def _solved(
         iterations=1,
         setup_seconds=ready - begin,
         solve_seconds=done - ready,
-        sample=lambda points: plate.sample(fields[:, :3], points),
+        sample=partial(plate.sample, fields[:, :3]),
         reactions=reactions,
         energies={**by_part, "rod": rods.energy(u)} if scene.actuators else by_part,
         mesh=field_mesh(plate.nodes, plate.elements.nodes, fields[:, :3], director, **of_rods),

@@ -7,7 +7,7 @@ the thickness give
     s = ∫∫ ∇eᵀ S(e) dζ dA,   D = ∫∫ ∇eᵀ ∂S/∂e ∇e + S·∇∇e dζ dA,   ∇e = ((1 + ζ κ ∇tᵀ) T_m, ζ t T_b)
 
 with T what makes Cartesian strains of the sampled ones (`element.cartesian`). Transverse shear γ, of a
-director that has the length t, stores ½ κ G h t² γᵀ C⁻¹ γ (`slant`). With St Venant–Kirchhoff's law t and C
+director that leans by φ, stores ½ κ G h t² tan² φ (`slant`). With St Venant–Kirchhoff's law t and C
 are 1, and these are the stresses of `Element`.
 """
 
@@ -146,7 +146,7 @@ class HyperelasticElement(Element):
         leaning = np.einsum("egak,ek->ega", self.slanted, strain[:, SHEAR])
         if not self.law.stands_any_strain:
             return linear(leaning)
-        return slant(self.law.shear(self.material, stretch), stretch, leaning)
+        return slant(*self.law.shear(self.material, stretch), stretch, leaning)
 
     @property
     def _shear(self) -> np.ndarray:

@@ -80,7 +80,8 @@ def rubber(energy: Energy, poisson: float, strain: np.ndarray) -> Response:
     bulk, c01 = energy.volume(poisson), energy.c01
     at_rest = energy.c10 + 2.0 * c01  # ½ m
     change, trace = _change_of_determinant(strain), 2.0 * (strain[..., 0] + strain[..., 1])  # of C
-    with np.errstate(invalid="ignore", divide="ignore"):  # inside out: not a number, which ends the step
+    # inside out: not a number, which ends the step
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         logarithm = np.log1p(change)
         thinning = _thinning(energy, bulk, trace, logarithm)  # c − 1
         of_volume = 0.5 * (logarithm + np.log1p(thinning))  # ln J
@@ -163,9 +164,9 @@ class Law(NamedTuple):
             return Response(1.0 + none[..., 0], none, _outer(none, none))
         return _power(strain, -material.poisson / (1.0 - material.poisson))
 
-    def shear(self, material: Material, strain: np.ndarray) -> Response:
-        """Return t²/j² (…) of that thickness and its derivatives (`slant`)."""
-        return _power(strain, -2.0 / (1.0 - material.poisson))
+    def shear(self, material: Material, strain: np.ndarray) -> tuple[Response, Response]:
+        """Return t² (…) of that thickness and j², with their derivatives (`slant`)."""
+        return _power(strain, -2.0 * material.poisson / (1.0 - material.poisson)), _power(strain, 2.0)
 
 
 LAWS = {

@@ -9,6 +9,7 @@ and follower loads. Rotations may be large; the weight has no couple on the dire
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -197,7 +198,7 @@ def _solution(
         iterations=sum(one.path.factorisations for one in runs),
         setup_seconds=sum(one.setup_seconds for one in runs),
         solve_seconds=sum(one.solve_seconds for one in runs),
-        sample=lambda points: interpolate(mesh, on, displacement, points),
+        sample=partial(interpolate, mesh, on, displacement),
         reactions=structure.supports.reactions(forces.residual[0]),
         energies=structure.energies(path.state) | of_rods,
         mesh=field_mesh(run.nodes, on, displacement, director, **fields),

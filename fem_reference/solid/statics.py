@@ -15,6 +15,7 @@ units.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,7 @@ from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.structure import Forces, SolidStructure, State
 from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.path import Path, Progress
+from fem_reference.solving.path import Fault, Path, Progress
 from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.borders import borders_of
@@ -103,7 +104,7 @@ def _solved(
     structure = discretise(mesh, scene, layers, law, clamp)
     solver = DirectSolver(structure.symmetric)
     ready = now()
-    path = trace(structure, solver, progress=progress)
+    path = trace(structure, solver, partial(inspected, structure), progress=progress)
     done = now()
 
     columns, displacement = structure.columns, path.state.displacement
@@ -123,7 +124,7 @@ def _solved(
         iterations=path.factorisations,
         setup_seconds=ready - begin,
         solve_seconds=done - ready,
-        sample=lambda points: columns.sample(displacement, points),
+        sample=partial(columns.sample, displacement),
         reactions=structure.supports.reactions(forces.residual, path.load_factor),
         energies=structure.energies(path.state) | of_rods,
         mesh=columns.field_mesh(displacement),
@@ -139,16 +140,20 @@ def _solved(
 def judge(
     scene: Scene, structure: SolidStructure, path: Path[State, Forces], law: str
 ) -> tuple[Status, list[str], float]:
-    """The status and notes of a path that has ended, and by how much the mid-surface stretched: bricks inside
-    out, strains beyond the law."""
+    """The status and notes of a path that has ended, and by how much the mid-surface stretched: strains beyond
+    the law."""
     status, notes = path.status, path.notes
-    if status is Status.CONVERGED and structure.inside_out(path.state):
-        status, notes = Status.INVERTED, ["a brick has turned inside out"]
     stretch = largest_stretch(*(structure.mid_surface(at) for at in (0.0, path.state.displacement)))
     outside = "" if LAWS[law].stands_any_strain else outside_model(scene, stretch)
     if outside and status is not Status.NON_FINITE:
         status, notes = Status.STRAIN_OUTSIDE_MODEL, [outside, *notes]
     return status, notes, stretch
+
+
+def inspected(structure: SolidStructure, path: Path[State, Forces]) -> Fault | None:
+    """Return why a step of the path is given up: a brick that has turned inside out."""
+    inside_out = structure.inside_out(path.state)
+    return Fault(Status.INVERTED, "a brick has turned inside out: use more elements") if inside_out else None
 
 
 def _on_edges(structure: SolidStructure, state: State, forces: Forces, middle: np.ndarray) -> list[OnEdge]:

@@ -91,8 +91,8 @@ class SolidStructure:
 
     @property
     def symmetric(self) -> bool:
-        """Whether the tangent is: follower loads make it unsymmetric."""
-        return not self.followers
+        """Whether the tangent is: follower loads make it unsymmetric, unless they have a potential."""
+        return all(load.conservative for load in self.followers)
 
     def rest(self) -> State:
         """Flat and free of stress."""

@@ -42,9 +42,16 @@ def worth(path: Path[State, Forces]) -> int:
     return min(DEARER * taken, FACTORISATIONS) if taken > DOUBTFUL else 0
 
 
+class UnknownInertia(StepFailed):
+    """Nothing tells whether a load step has left its branch."""
+
+
 def negatives(factor: Factor | None) -> int:
-    """Negative eigenvalues of a factorised tangent; 0 where they are not known."""
-    return factor.inertia.negative if factor is not None and factor.inertia is not None else 0
+    """Negative eigenvalues of a factorised tangent. Raises UnknownInertia where they are not known."""
+    if factor is None or factor.inertia is None:
+        reason = "the path cannot be held to its branch: the tangent's factors do not tell the inertia"
+        raise UnknownInertia(Status.STEP_LIMIT, reason, 0.0)
+    return factor.inertia.negative
 
 
 def continuous(

@@ -22,7 +22,7 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 
 from __future__ import annotations
 
-from fem_reference.solving.careful import continuous, negatives, worth
+from fem_reference.solving.careful import UnknownInertia, continuous, negatives, worth
 from fem_reference.solving.newton import FIRST_REACH, TOLERANCE, Predictor, Start, newton
 from fem_reference.solving.path import (
     FACTORISATIONS,
@@ -86,6 +86,8 @@ def trace(
                 path.state, path.load_factor, path.factor = structure.rest(), 0.0, None
                 path.limit = path.factorisations + more
                 ended = _follow(path, inspect, careful)
+                if isinstance(ended, UnknownInertia):
+                    path.notes.append(f"{ended}: this equilibrium may be on another")
                 if reached is None and path.load_factor == 0.0:  # which says less than large steps did
                     path.state, path.load_factor, ended = stuck
                     careful = False
@@ -104,7 +106,7 @@ def trace(
                     continue
             ended = _give_up(path, ended, tried)
         if ended is not None and reached is not None:
-            if path.load_factor > 0.0:
+            if path.load_factor > 0.0 and not isinstance(ended, UnknownInertia):
                 here = f"small load steps end at load factor {path.load_factor:.4g}"
                 left = f", after {more} factorisations" if path.factorisations >= path.limit else ""
                 path.notes.append(
@@ -159,6 +161,8 @@ def _follow(
             if careful:
                 negative = negatives(first.factor) if negative is None else negative
                 found, longest = continuous(path, first, state, negative, TOLERANCE)
+        except UnknownInertia as failure:
+            return failure
         except StepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
             rested = path.load_factor == 0.0  # no limit point is there, however far the first step

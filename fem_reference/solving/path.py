@@ -50,8 +50,11 @@ class Path(Generic[State, Forces]):
 
     def factored(self, matrix: csr_matrix) -> Factor:
         """The factors of a matrix, counted. Raises SingularMatrixError."""
+        self._count()
+        return self.solver.factor(matrix, self._count)
+
+    def _count(self) -> None:
         self.factorisations += 1
-        return self.solver.factor(matrix)
 
     def tangent(self, state: State, load_factor: float) -> csr_matrix:
         """The true tangent at a state: with its own stresses, none extrapolated."""

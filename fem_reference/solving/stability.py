@@ -25,7 +25,11 @@ def stability(path: Path[State, Forces]) -> tuple[Status, str]:
         else:
             found = path.factored(path.tangent(path.state, path.load_factor)).negative_real()
             if found is None:
-                return Status.CONVERGED, "stability not known: no eigenvalues of the tangent were found"
+                return (
+                    Status.CONVERGED,
+                    "stability not known: the tangent's eigenvalues nearest to zero were not found, or its "
+                    "determinant tells of others below",
+                )
             negative, zero = found, 0
     except SingularMatrixError as error:
         return Status.SINGULAR, str(error)

@@ -70,7 +70,7 @@ class AllFamilies:
         self.links = along[0]
         self.link_geometry = [(each.nodes, each.offset, each.rest_length) for each in along]
         self.conservative = all(family.conservative for family in families)
-        self.any_strain = any(isinstance(each, Cells) and each.law.any_strain for each in families)
+        self.any_strain = any(isinstance(each, Cells) and each.law is RUBBER for each in families)
 
     @cached_property
     def link_stiffness(self) -> np.ndarray:

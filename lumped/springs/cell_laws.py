@@ -108,7 +108,7 @@ class Law:
     12 13 23, and of s, 14 24 34 44; extrapolate: (δg and s, g, area, that, stress, constants, their rate) →
     what a linearisation predicts, and of_extrapolated: (δg and s, g, that, it) → that and the stress;
     mean_stress: (of two states, g, area, constants) → the stress whose work is the energy stored; measures:
-    3, or 4 with s; any_strain: whether it means something at any strain; parts: (stiffness (c, 4 or 7),
+    3, or 4 with s; parts: (stiffness (c, 4 or 7),
     other constants, area) → constants of each kind that `ENERGIES` names, (c, n); examples: constants of a
     cell of 1 × 1 m to test it by."""
 
@@ -119,7 +119,6 @@ class Law:
     extrapolate: Callable[..., Any]
     of_extrapolated: Callable[..., Any]
     measures: int
-    any_strain: bool
     parts: Callable[..., dict[str, np.ndarray]]
     examples: tuple[tuple[float, ...], ...]
 
@@ -154,7 +153,6 @@ AREA_AND_STRAINS = Law(
     laws.extrapolated_area_and_strains,
     laws.area_and_strains_of_extrapolated,
     3,
-    False,
     lambda k, _others, _area: {"area": k[:, :1], "strain": k[:, 1:4], "coupling": k[:, 4:]},
     ((-30.0, 200.0, 150.0, 80.0, 60.0, -50.0, 40.0),),
 )
@@ -166,7 +164,6 @@ RUBBER = Law(
     _linear(laws.stiffness_of_rubber),
     _itself,
     4,
-    True,
     _parts_of_rubber,
     (  # neo-hookean, mooney-rivlin, yeoh, gent
         (164.0, 132.0, 140.0, 87.0, 50.0, 0.0, 0.0, 0.0, 900.0, 0.0, 68.0, 60.0, -13.0),
@@ -183,7 +180,6 @@ FACE = Law(
     _linear(stiffness_of_face),
     _itself,
     3,
-    True,
     lambda _stiffness, others, area: {"face": others * area[:, None]},
     ((0.0, 0.0, 0.0, 25.0, 25.0),),
 )

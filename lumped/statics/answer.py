@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from lumped.calibration import Calibration
+from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
 from lumped.statics.balance import balance
 from lumped.statics.equilibrium import State
@@ -59,10 +61,10 @@ def solution(
         iterations=problem.factorisations,
         setup_seconds=seconds[0],
         solve_seconds=seconds[1],
-        sample=lambda points: MidSurface(lattice, points).of(u),
+        sample=partial(_sampled, lattice, u),
         reactions=reactions,
         energies=energies,
-        mesh=LatticeMesh(lambda: field_mesh(assembly, u, on_masses, linear)),
+        mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, linear)),
         history=tuple(problem.history),
         load_factor=state.load_factor,
         actuators=wrenches,
@@ -70,6 +72,10 @@ def solution(
         snaps=outcome.snaps,
         remarks=outcome.notes,
     )
+
+
+def _sampled(lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
+    return MidSurface(lattice, points).of(u)
 
 
 def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float]]:

@@ -12,6 +12,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from lumped.calibration import Calibration
 from lumped.statics.equilibrium import at_rest, follow
 from lumped.statics.solver import build_problem
+from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, SceneError, require_static, scene_of
 
 SMALL_LOAD = 1e-4  # share of the full load that the change of the tangent is taken over, first
@@ -21,7 +22,8 @@ def buckling_loads(scene: AnyScene, calibration: Calibration, count: int = 1) ->
     """The `count` lowest positive buckling load factors of a scene's loads, (count,).
 
     Meant for loads that leave the sheet flat. The state of small load is refined once, to a hundredth of
-    the first estimate. Raises SceneError when nothing stops a rigid motion or no load factor is positive.
+    the first estimate. Raises SceneError when nothing stops a rigid motion or no load factor is positive,
+    BadInput for what has no energy: loads that follow the sheet, springs per direction.
 
     >>> import lumped
     >>> from sheetbench.scenes import load
@@ -32,16 +34,24 @@ def buckling_loads(scene: AnyScene, calibration: Calibration, count: int = 1) ->
     scene = scene_of(scene)
     require_static(scene)
     problem = build_problem(scene, calibration)
+    if problem.loads.follow or not problem.conservative or scene.actuators:
+        raise BadInput(
+            f"scene '{scene.name}': buckling loads are of dead loads and central springs: pressure and edge "
+            "moments follow the sheet, and actuators and springs of a per-direction law have no energy"
+        )
     rest = at_rest(problem)
     n = problem.system.unknowns
     stiffness = problem.system.matrix(rest.blocks)
     inverse = LinearOperator((n, n), matvec=rest.factor.solve, dtype=float)
     small = SMALL_LOAD
     for _ in range(2):
-        loaded, why = follow(problem, rest, small)
-        if why:
-            raise SceneError(f"scene '{scene.name}': no equilibrium at {small:g} of the load: {why}")
-        softening = -(problem.system.matrix(loaded.blocks) - stiffness) / loaded.load_factor
+        tangents = []
+        for share in (small, -small):
+            loaded, why = follow(problem, rest, share)
+            if why:
+                raise SceneError(f"scene '{scene.name}': no equilibrium at {share:g} of the load: {why}")
+            tangents.append(problem.system.matrix(loaded.blocks))
+        softening = -(tangents[0] - tangents[1]) / (2.0 * small)
         start = np.random.default_rng(0).standard_normal(n)
         per_load = eigsh(
             softening, k=count, M=stiffness, Minv=inverse, which="LA", v0=start, return_eigenvectors=False

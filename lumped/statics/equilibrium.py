@@ -74,6 +74,8 @@ def follow(
     step = step or target - start.load_factor
     shortest = abs(step) * limits.SHORTEST_STEP
     while abs(target - state.load_factor) > 1e-12:
+        if careful and state.negative is None:
+            return state, HELD_TO_NOTHING
         step = np.sign(target - state.load_factor) * min(abs(step), abs(target - state.load_factor))
         predicted = predictor(problem, state, step)
         farthest = float(np.abs(predicted).max())
@@ -116,13 +118,18 @@ def _require_continuous(problem: Problem, start: State, end: State, predicted: n
     miss = float(np.abs(end.u - start.u - predicted).max())
     if miss > max(min(limits.CONTINUOUS * length, limits.MISS * side), limits.IDLE_CORRECTION * side):
         raise StepFailed("the path folds")
-    if (end.negative or 0) > (start.negative or 0) and length > limits.BRANCHING * side:
+    if end.negative is None or start.negative is None:
+        raise StepFailed(HELD_TO_NOTHING)
+    if end.negative > start.negative and length > limits.BRANCHING * side:
         raise StepFailed("the path loses stability")
     if miss == 0.0:
         return limits.GROWTH * length
     square = length**2 / miss  # a miss grows with the square of the step
     reached = limits.SAFE * limits.CONTINUOUS * square, (limits.SAFE * limits.MISS * side * square) ** 0.5
     return float(min(limits.GROWTH * length, *reached))
+
+
+HELD_TO_NOTHING = "the path cannot be held to its branch: the tangent's factors do not tell the inertia"
 
 
 def predictor(problem: Problem, state: State, step: float) -> np.ndarray:

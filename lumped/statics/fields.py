@@ -32,8 +32,11 @@ class LatticeMesh(FieldMesh):
     def __getattr__(self, name: str) -> Any:
         if name not in FieldMesh.__dataclass_fields__:
             raise AttributeError(name)
-        self.__dict__.update(vars(self.__dict__.pop("_make")()))
+        self.__dict__.update(vars(self.__dict__["_make"]()))  # which stays: several threads may look at once
         return self.__dict__[name]
+
+    def __reduce__(self) -> tuple[type[FieldMesh], tuple[Any, ...]]:
+        return FieldMesh, tuple(getattr(self, name) for name in FieldMesh.__dataclass_fields__)
 
 
 def field_mesh(assembly: Assembly, u: np.ndarray, reactions: np.ndarray, linear: bool = False) -> FieldMesh:

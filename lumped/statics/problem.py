@@ -136,9 +136,12 @@ class Problem:
         return blocks
 
     def factor(self, blocks: np.ndarray) -> Factor:
-        """Factors of the reduced tangent; every call counts."""
+        """Factors of the reduced tangent; every one made counts."""
+        self._count()
+        return self.system.factor(blocks, self._count)
+
+    def _count(self) -> None:
         self.factorisations += 1
-        return self.system.factor(blocks)
 
     def negative(self, factor: Factor) -> int | None:
         """Eigenvalues below zero of the factored tangent (real ones, when it is unsymmetric), on motions
@@ -147,7 +150,6 @@ class Problem:
             return None if factor.negative is None else factor.negative - self.multipliers
         if self.multipliers:
             return None
-        self.factorisations += 1
         return factor.negative_real()
 
     def prescribed(self, load_factor: float) -> np.ndarray:

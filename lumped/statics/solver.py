@@ -23,6 +23,7 @@ from lumped.statics.arc import limit_point
 from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import descend, disturbed
 from lumped.statics.equilibrium import (
+    HELD_TO_NOTHING,
     State,
     StepFailed,
     at_rest,
@@ -89,9 +90,9 @@ def solve(
     this one on this grid, to be sought from first; where that leads to no stable one, and with actuators,
     from flat. progress: called once an iteration.
 
-    Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators and for
-    `near` of another grid. Every other outcome is a status; where the full load was not reached, the last
-    converged load is kept and `load_factor` says which.
+    Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators, for `near`
+    of another grid, and for options that have no effect beside linear or near. Every other outcome is a
+    status; where the full load was not reached, the last converged load is kept and `load_factor` says which.
 
     >>> import lumped
     >>> solution = lumped.solve("two-edges-clamped")
@@ -201,10 +202,13 @@ def solve_path(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
     if careful:
         reached, limit = None if why else state.u, problem.factorisations + more
         state, why = follow(problem, at_rest(problem), careful=True, limit=limit)
-        if why and problem.factorisations > limit and reached is not None and problem.fault is None:
+        unheld = why == HELD_TO_NOTHING
+        spent = problem.factorisations > limit
+        if why and (spent or unheld) and reached is not None and problem.fault is None:
+            here = f"small load steps end at load factor {state.load_factor:.4g}, after {more} factorisations"
             notes.append(
-                f"small load steps end at load factor {state.load_factor:.4g}, after {more} factorisations: "
-                "this equilibrium, which large ones led to, may be on another branch"
+                f"{why if unheld else here}: this equilibrium, which large ones led to, may be on another "
+                "branch"
             )
             state, why = refine(problem, reached, 1.0), ""
     while why and problem.fault is None and problem.descends and len(snaps) < SNAPS:

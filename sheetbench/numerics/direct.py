@@ -11,7 +11,7 @@ Solutions are refined, their residuals checked.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,7 +23,7 @@ from sheetbench.numerics.banded import BACKWARD_ERROR
 from sheetbench.numerics.fronts import Fronts
 from sheetbench.numerics.multifrontal import NoFactorsError, SignedFactors
 from sheetbench.numerics.saddle_point import ROUNDED, minimal_residual
-from sheetbench.numerics.stability import nearest_to_zero, negative_real
+from sheetbench.numerics.stability import nearest_to_zero, negative_real, odd_below_zero
 
 rslab: Any
 try:
@@ -33,6 +33,7 @@ except ImportError:  # SciPy always works
 
 Matrix = Any  # by rows or, where it is symmetric or so by pattern, by columns
 Solve = Callable[[np.ndarray], np.ndarray]
+Count = Callable[[], None]
 
 CHOLESKY = (
     1e-14  # backward error of a positive definite matrix's factors, which need no pivots (Higham 2002, 10.1)
@@ -58,11 +59,17 @@ class Factor:
     """One factorisation. inertia: None where it is not known, and of unsymmetric matrices."""
 
     def __init__(
-        self, matrix: Matrix, solve: Solve, inertia: Inertia | None = None, backward_error: float = np.inf
+        self,
+        matrix: Matrix,
+        solve: Solve,
+        inertia: Inertia | None = None,
+        backward_error: float = np.inf,
+        more: Count = lambda: None,
     ):
-        """solve: x with A x = b, as the factors have it; backward_error: what that is known to be below."""
+        """solve: x with A x = b, as the factors have it; backward_error: what that is known to be below;
+        more: called once a further factorisation that is made of the matrix."""
         self.matrix, self.inertia = matrix, inertia
-        self._solve, self._backward_error = solve, backward_error
+        self._solve, self._backward_error, self._more = solve, backward_error, more
 
     @cached_property
     def _largest(self) -> float:
@@ -74,9 +81,16 @@ class Factor:
         return None if self.inertia is None else self.inertia.negative
 
     def negative_real(self) -> int | None:
-        """Real eigenvalues below zero of an unsymmetric matrix (`stability`); None if they are not found."""
+        """Real eigenvalues below zero of an unsymmetric matrix (`stability`), among those nearest to zero;
+        None if they are not found, or the determinant's sign tells that there are others."""
         found = nearest_to_zero(self.matrix, self._solve)
-        return None if found is None else negative_real(found)
+        if found is None:
+            return None
+        count = negative_real(found)
+        if len(found) == self.matrix.shape[0]:
+            return count
+        self._more()
+        return count if odd_below_zero(self.matrix) == bool(count % 2) else None
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
         """x (n,) with A x = b, refined once where its backward error exceeds `enough`. Raises
@@ -124,8 +138,8 @@ class SymmetricPartFactor(Factor):
     then has a negative real part. They are corrected (`saddle_point`), and where that does not serve those of
     the matrix itself are made."""
 
-    def __init__(self, matrix: Matrix, solve: Solve, otherwise: Callable[[], Factor]):
-        super().__init__(matrix, solve)
+    def __init__(self, matrix: Matrix, solve: Solve, otherwise: Callable[[], Factor], more: Count):
+        super().__init__(matrix, solve, more=more)
         self._otherwise = otherwise
         self._other: Factor | None = None
 
@@ -139,6 +153,7 @@ class SymmetricPartFactor(Factor):
             x, miss = minimal_residual(self.matrix, self._solve, b, max(enough, ROUNDED))
             if miss <= BACKWARD_ERROR:
                 return x
+            self._more()
             self._other = self._otherwise()
         return self._other.solve(b, enough)
 
@@ -167,8 +182,9 @@ class DirectSolver:
         digits of what later ones solve depend on it."""
         self._analysis = None
 
-    def factor(self, matrix: Matrix) -> Factor:
-        """Factors of a matrix (n, n) that has the pattern of the first one given.
+    def factor(self, matrix: Matrix, more: Count = lambda: None) -> Factor:
+        """Factors of a matrix (n, n) that has the pattern of the first one given; more: called once a further
+        factorisation that these, or what is asked of them later, take.
 
         Raises SingularMatrixError on a zero pivot or an entry that is not finite.
         """
@@ -181,10 +197,12 @@ class DirectSolver:
                     inertia = Inertia(n - factors.negative, factors.negative, 0)
                     return Factor(matrix, factors.solve, inertia, np.inf if factors.negative else CHOLESKY)
                 if factors.negative == 0:
-                    return SymmetricPartFactor(matrix, factors.solve, lambda: self._by_library(matrix))
+                    otherwise = partial(self._by_library, matrix, more)
+                    return SymmetricPartFactor(matrix, factors.solve, otherwise, more)
+                more()
             except NoFactorsError:
                 pass  # the pivots of others may do
-        return self._by_library(matrix)
+        return self._by_library(matrix, more)
 
     def _symmetric_part(self, matrix: Matrix) -> np.ndarray:
         """The data of (A + Aᵀ)/2, whose pattern is that of A."""
@@ -194,16 +212,16 @@ class DirectSolver:
         part: np.ndarray = 0.5 * (matrix.data + matrix.data[self._transposed])
         return part
 
-    def _by_library(self, matrix: Matrix) -> Factor:
+    def _by_library(self, matrix: Matrix, more: Count) -> Factor:
         if not np.isfinite(_largest(matrix)):
             raise SingularMatrixError("an entry of the matrix is not finite")
         columns = _columns(matrix, self.symmetric)
         try:
-            return self._analysed(matrix, columns)
+            return self._analysed(matrix, columns, more)
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from None
 
-    def _analysed(self, matrix: Matrix, columns: sp.csc_array) -> Factor:
+    def _analysed(self, matrix: Matrix, columns: sp.csc_array, more: Count) -> Factor:
         if self._analysis is None:
             if self.symmetric and pardiso.library() is not None:
                 self._analysis = pardiso.Analysis(columns)
@@ -211,8 +229,9 @@ class DirectSolver:
                 self._analysis = rslab.analyze(columns, path="ldlt" if self.symmetric else "lu")
         if self._analysis is not None:
             factors = self._analysis.factor(columns)
-            return Factor(matrix, factors.solve, Inertia(*factors.inertia) if self.symmetric else None)
-        return _superlu(matrix, columns) if self.symmetric else Factor(matrix, splu(columns).solve)
+            inertia = Inertia(*factors.inertia) if self.symmetric else None
+            return Factor(matrix, factors.solve, inertia, more=more)
+        return _superlu(matrix, columns) if self.symmetric else Factor(matrix, splu(columns).solve, more=more)
 
 
 def solve_free(matrix: sp.csr_matrix, force: np.ndarray, u: np.ndarray, free: np.ndarray) -> np.ndarray:

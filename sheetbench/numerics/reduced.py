@@ -13,7 +13,15 @@ import numpy as np
 import scipy.sparse as sp
 
 from sheetbench.numerics import banded
-from sheetbench.numerics.direct import CHOLESKY, DirectSolver, Factor, Inertia, SingularMatrixError, checked
+from sheetbench.numerics.direct import (
+    CHOLESKY,
+    Count,
+    DirectSolver,
+    Factor,
+    Inertia,
+    SingularMatrixError,
+    checked,
+)
 from sheetbench.numerics.fronts import Cells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
 from sheetbench.numerics.reduction import BlockPattern, Reduction, reduction
@@ -137,15 +145,16 @@ class ReducedSystem:
         product: np.ndarray = full @ u.ravel()
         return product.reshape(u.shape)
 
-    def factor(self, blocks: np.ndarray) -> Factor:
-        """Factors of Tᵀ K T. Raises SingularMatrixError when there are none."""
+    def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
+        """Factors of Tᵀ K T; more: as of `DirectSolver.factor`. Raises SingularMatrixError where there
+        are none."""
         if self.band is not None:
             factors = banded.stored(blocks, self.band)
             if banded.factor(factors, self.unknowns, self.band.width):
                 return BandedFactor(self.band, blocks, factors)
         matrix = self.matrix(blocks)
         if self._saddle is None:
-            return self._solver.factor(matrix)
+            return self._solver.factor(matrix, more)
         if not np.isfinite(matrix.data).all():
             raise SingularMatrixError("an entry of the matrix is not finite")
         close_by, augmented = self._saddle.quasi_definite(matrix)

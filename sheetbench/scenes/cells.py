@@ -63,6 +63,14 @@ class Constants:
         return self.density * self.thickness
 
     @property
+    def stretching(self) -> Any:
+        """E h [N/m], with √(E₁ E₂) of plies: a measure of the membrane's stiffness."""
+        if self.plies:
+            each = ((ply.young_1 * ply.young_2) ** 0.5 * (ply.high - ply.low) for ply in self.plies)
+            return sum(each) * self.thickness
+        return self.young * self.thickness
+
+    @property
     def rotary_per_area(self) -> Any:
         """Rotary inertia of the normal per area [kg]."""
         if self.plies:

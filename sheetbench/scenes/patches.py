@@ -187,6 +187,19 @@ def mass_of(scene: Scene) -> float:
     return float(np.diff(y) @ per_area @ np.diff(x))
 
 
+def mass_over_stiffness(scene: Scene) -> float:
+    """ρ/E [s²/m²] of the sheet as a whole: its mass over the integral of its membrane's stiffness E h, as
+    if a taper's thickness were the sheet's."""
+    sheet, rest = of_sheet(scene), area_in(scene, None)
+    mass = stiffness = 0.0
+    for area, own in _disjoint(scene.patches):
+        constants, size = sheet.arrays(()), scene.region.intersection(area).area
+        _put(constants, own)
+        rest -= size
+        mass, stiffness = mass + size * constants.per_area, stiffness + size * constants.stretching
+    return float((mass + rest * sheet.per_area) / (stiffness + rest * sheet.stretching))
+
+
 def sides_of(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     """x and y [m], rising, of the patches' sides along the axes, of those within the sheet's edges."""
     places = []

@@ -1,6 +1,7 @@
 """Beyond which strains a linear law of stress and strain, and so a linear spring, means nothing.
 
-weight   ρ g a/E, the strain of a sheet of longer side a that hangs by its own weight: above 0.05
+weight   ρ g a/E, the strain of a sheet of longer side a that hangs by its own weight: above 0.05; ρ/E is its
+         mass over its membrane stiffness, the means of layers, patches and tapers
 stretch  the largest elongation that a model finds in its answer, wherever it looks for it: above one half
 
 One rule for every model; where a model looks is its own affair.
@@ -10,6 +11,8 @@ from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING
+
+from sheetbench.scenes.patches import mass_over_stiffness
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
@@ -22,8 +25,8 @@ def weight_strain(scene: Scene) -> float:
     """ρ g a/E under the last of the weight."""
     if scene.gravity is None:
         return 0.0
-    weight = scene.material.density * math.hypot(*scene.gravity.last_acceleration)
-    return weight * max(scene.sheet.lengths) / scene.material.young
+    pull = math.hypot(*scene.gravity.last_acceleration) * max(scene.sheet.lengths)
+    return mass_over_stiffness(scene) * pull
 
 
 def outside_model(scene: Scene, stretch: float, what: str = "the mid-surface stretched by") -> str:

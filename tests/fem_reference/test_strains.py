@@ -75,3 +75,34 @@ def test_every_model_sees_that_it_is_stretched_by_more_than_half(model):
 
 def test_a_law_for_large_strains_is_not_judged_as_a_linear_one():
     assert solved(hanging(0.2), "solid", law="neo-hookean").status is Status.CONVERGED
+
+
+def made_of(young=200e9, **changed):
+    """A sheet under its weight, of a stiff material unless layers or patches have their own."""
+    material = {"young": young, "poisson": 0.3, "density": 1000.0}
+    gravity = {"acceleration": [0.0, 0.0, -9.81]}
+    sheet = {"length_x": 1.0, "length_y": 1.0, "thickness": 0.08}
+    scene = {"name": "made", "sheet": sheet, "material": material, "gravity": gravity} | changed
+    return Scene.model_validate(scene | {"support": [{"kind": "clamped", "edge": "x0"}]})
+
+
+def test_the_weight_strain_is_that_of_the_layers_and_patches():
+    """One soft sheet written in three ways, and a laminate of two plies: the mean density over the mean E."""
+    soft = {"young": 1e5, "poisson": 0.3}
+    alone = weight_strain(made_of(1e5))
+    layers = [{"thickness": 0.08, **soft}]
+    everywhere = {"rectangle": {"x": [0.0, 1.0], "y": [0.0, 1.0]}}
+    assert alone == pytest.approx(9.81e-2)
+    assert weight_strain(made_of(layer=layers)) == pytest.approx(alone)
+    patches = [{"shape": everywhere, "young": 1e5}]
+    assert weight_strain(made_of(patch=patches)) == pytest.approx(alone)
+    heavy = {"thickness": 0.02, "young": 3e5, "poisson": 0.3, "density": 3000.0}
+    three = weight_strain(made_of(layer=[heavy, {"thickness": 0.04, **soft}, heavy]))
+    assert three == pytest.approx(2000.0 * 9.81 / 2e5)
+
+
+def test_a_soft_layer_over_a_stiff_material_is_outside_the_model():
+    layers = [{"thickness": 0.08, "young": 1e5, "poisson": 0.3}]
+    scene = made_of(layer=layers)
+    for found in (lumped.solve(scene), solved(scene, "shell")):
+        assert found.status is Status.STRAIN_OUTSIDE_MODEL

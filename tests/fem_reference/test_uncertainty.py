@@ -204,3 +204,14 @@ def test_it_is_off_when_not_wanted_and_for_the_solid_unless_wanted(by_mesh):
     without = compare("one-edge-clamped", calibration="consistent", uncertainty=False)
     assert "uncertainty" not in without.document()["solutions"][1]
     assert {d.distinguishable for d in without.differences} == {None}
+
+
+def test_a_field_that_converges_is_trusted_whatever_a_small_component_does():
+    """Drawn sheets' bars held and none was trusted: one of a dozen components swings by a thousandth."""
+    coarse, middle, fine = (np.array([[1.0 + size**2, -2.0]]) for size in (1.0, 0.75, 0.5))
+    swing = 1e-3 * np.array([[0.0, 1.0]])
+    found = estimate([fine - swing, middle + swing, coarse - swing], [0.5, 0.75, 1.0])
+    assert found.converging and not found.trusted.all()
+    assert not estimate([coarse, fine, middle], [0.5, 0.75, 1.0]).converging
+    assert not estimate([fine, middle], [0.5, 0.75]).converging
+    assert estimate([fine, fine, fine], [0.5, 0.75, 1.0]).converging

@@ -48,7 +48,7 @@ def comparison(scene):
     truth = reference.displacement(scene.probe_points())
     share = np.array([0.02, 0.02, 0.02, 0.2])[:, None]
     same = np.ones_like(truth)
-    bar = Uncertainty((1.0, 2.0), truth, truth, 2.0 * same, np.abs(truth) * share, same > 0.0)
+    bar = Uncertainty((1.0, 2.0), truth, truth, 2.0 * same, np.abs(truth) * share, same > 0.0, True)
     lattice = solution(scene, size=-0.011)
     return Comparison(scene, (lattice, reference), ErrorBar(bar, tuple(scene.probes), (16, 8), 0.1))
 

@@ -141,7 +141,7 @@ def test_the_arch_is_the_elastica(arch):
 
 
 def test_a_matrix_that_is_singular_ends_the_creep_with_that_status(arch, monkeypatch):
-    def factor(self, matrix):
+    def factor(self, *matrix):
         raise SingularMatrixError("the matrix is singular")
 
     monkeypatch.setattr(DirectSolver, "factor", factor)

@@ -7,6 +7,7 @@ import pytest
 import scipy.sparse as sp
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
+from scipy.sparse.linalg import splu
 
 import fem_reference
 import lumped
@@ -15,8 +16,10 @@ from fem_reference.solving.careful import BRANCHING, DEARER
 from fem_reference.solving.structure import Structure
 from lumped.statics import solver
 from lumped.statics.continuation import trace
-from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status
+from sheetbench.numerics import direct
+from sheetbench.numerics.direct import DirectSolver, Factor
+from sheetbench.numerics.multifrontal import NoFactorsError
+from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status, load
 
 STRIP = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
 SOFT = Material(young=5e6, poisson=0.0, density=1100.0)
@@ -161,3 +164,32 @@ def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, mod
     found = solve(pulled(300.0), model)
     assert found.status is Status.CONVERGED and found.load_factor == 1.0
     assert "after 20 factorisations" in found.message and "another branch" in found.message
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+def test_a_path_whose_inertia_is_not_known_is_held_to_no_branch(monkeypatch, model):
+    """Where nothing tells the number of negative eigenvalues, a careful path ends at once and says so; it
+    took their number for 0, and the path for one that keeps to its branch."""
+    monkeypatch.setattr("lumped.statics.solver.worth", lambda *_: 40)
+    monkeypatch.setattr(equilibrium, "worth", lambda *_: 40)
+
+    def solved():
+        scene = load("one-edge-clamped")
+        springs = lumped.calibrate(
+            scene.sheet, scene.material, (7, 6)
+        )  # whose factors no other test has kept
+        return lumped.solve(scene, springs) if model == "lumped" else fem_reference.solve(scene, elements=4)
+
+    monkeypatch.setattr(direct, "SignedFactors", without_factors)
+    monkeypatch.setattr(direct, "rslab", None)
+    monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
+    monkeypatch.setattr(direct, "_superlu", lambda matrix, columns: Factor(matrix, splu(columns).solve))
+    found = solved()
+    monkeypatch.undo()
+    usual = solved()
+    assert any("held to its branch" in note for note in found.remarks)
+    assert found.displacement([(0.1, 0.1)]) == pytest.approx(usual.displacement([(0.1, 0.1)]), rel=1e-6)
+
+
+def without_factors(*_):
+    raise NoFactorsError

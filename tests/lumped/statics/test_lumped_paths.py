@@ -1,13 +1,18 @@
 """Buckling, stable branches and paths through limit points."""
 
+import pickle
 import re
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import fem_reference
 import lumped
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, Held, Material, PointLoad, Pressure, Scene, Sheet, Status
 
 SIDE, THICKNESS, YOUNG, POISSON = 0.2, 0.001, 1e7, 0.3
@@ -128,3 +133,57 @@ def test_a_rubber_balloon_stops_at_its_limit_point_and_says_so():
     assert found.status is Status.DIVERGED and high - low < 2e-3 * high
     path = lumped.trace(scene, calibration, until=lambda _, at: at["centre"][2] > 0.075)
     assert path.negative[-1] == 1 and low - 1e-3 < path.load_factors.max() < high
+
+
+def test_buckling_loads_are_of_dead_loads_alone():
+    scene = compressed(1.0).replace(loads=[{"kind": "pressure", "value": 1.0}])
+    with pytest.raises(BadInput, match="follow the sheet"):
+        lumped.buckling_loads(scene, springs(5))
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"linear": True, "precision": "single"}, "linear = True: .*leave out precision"),
+        ({"linear": True, "branch": "stable"}, "linear = True: .*leave out precision, branch"),
+        ({"linear": True, "near": np.zeros((50, 3))}, "leave out precision, branch and near"),
+        ({"branch": "stable", "near": np.zeros((50, 3))}, "near: with branch = 'path'"),
+        ({"weights": "full", "near": np.zeros((50, 3))}, "near: with .* weights = 'tributary' alone"),
+    ],
+)
+def test_an_option_that_has_no_effect_is_refused(options, said):
+    with pytest.raises(BadInput, match=said):
+        lumped.solve("one-edge-clamped", **options)
+
+
+def test_shear_of_the_faces_alone_makes_no_rubber():
+    """The springs of a [springs] table with face_shear: the other cells stay linear, and are judged so."""
+    scene = scenes.load("one-edge-clamped")
+    given = lumped.calibrate(scene.sheet, scene.material, 5)
+    sheared = given.with_constant("face_shear", 1e-3)
+    alone, beside = (lumped.solve(scene, each) for each in (given, sheared))
+    assert beside.status is alone.status is Status.CONVERGED
+    heavy = scene.replace(young=3e4)
+    assert lumped.solve(heavy, sheared).status is Status.STRAIN_OUTSIDE_MODEL
+
+
+@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
+def test_an_answer_is_kept_and_sent_between_processes(model):
+    scene = scenes.load("two-edges-clamped")
+    found = lumped.solve(scene) if model == "lumped" else fem_reference.solve(scene, model, elements=2)
+    again = pickle.loads(pickle.dumps(found))
+    points = scene.probe_points()
+    assert (again.displacement(points) == found.displacement(points)).all()
+    assert (again.mesh.point_data["displacement"] == found.mesh.point_data["displacement"]).all()
+
+
+def test_several_threads_look_at_an_answers_mesh_at_once():
+    mesh, together = lumped.solve("two-edges-clamped").mesh, threading.Barrier(4)
+
+    def look(_):
+        together.wait()
+        return mesh.points
+
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(look, range(4)))
+    assert all((each == mesh.points).all() for each in found)

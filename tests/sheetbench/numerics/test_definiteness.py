@@ -12,7 +12,7 @@ from lumped.statics.equilibrium import StepFailed
 from sheetbench.numerics import direct
 from sheetbench.numerics.direct import DirectSolver, Factor, SymmetricPartFactor
 from sheetbench.numerics.fronts import Cells, fronts_of
-from sheetbench.numerics.stability import nearest_to_zero, negative_real
+from sheetbench.numerics.stability import nearest_to_zero, negative_real, odd_below_zero
 
 
 @pytest.fixture
@@ -93,3 +93,47 @@ def test_a_solve_that_starts_at_its_own_answer_stays_there():
     found = lumped.solve(asked, springs)
     again = lumped.solve(asked, springs, near=found.mesh.point_data["displacement"])
     assert again.history[0].residual < 1e-9
+
+
+def far_below_zero():
+    """Twenty soft eigenvalues before one of −1000; unsymmetric."""
+    values = np.concatenate([1e-3 * np.arange(1.0, 21.0), np.arange(1.0, 40.0), [-1000.0]])
+    return sp.csc_array(np.diag(values) + np.diag(np.full(59, 1e-4), 1))
+
+
+@pytest.mark.parametrize("library", ["rslab", "superlu"])
+def test_a_negative_eigenvalue_behind_the_nearest_ones_is_not_taken_for_stability(monkeypatch, library):
+    if library == "superlu":
+        monkeypatch.setattr(direct, "rslab", None)
+    matrix, made = far_below_zero(), []
+    factor = DirectSolver(symmetric=False).factor(matrix, lambda: made.append(1))
+    assert factor.negative_real() is None and len(made) == 1
+    assert DirectSolver(symmetric=False).factor(abs(matrix)).negative_real() == 0
+
+
+def test_the_sign_of_the_determinant_is_that_of_its_permutations_and_pivots():
+    random = np.random.default_rng(3)
+    for n in (1, 2, 5, 40):
+        matrix = random.standard_normal((n, n))
+        assert odd_below_zero(sp.csr_array(matrix)) == (np.linalg.det(matrix) < 0.0)
+    assert odd_below_zero(sp.csc_array((3, 3))) is None
+
+
+@pytest.mark.parametrize("value", [5.0, 4000.0])
+def test_factorisations_under_pressure_are_counted_once_each(monkeypatch, value):
+    """All that are made of a tangent: by fronts, of what they do not solve by a library, for det's sign."""
+    asked = scene(loads=[{"kind": "pressure", "value": value}])
+    springs, made = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5)), []
+
+    def counted(function):
+        def called(*arguments, **keywords):
+            made.append(function.__name__)
+            return function(*arguments, **keywords)
+
+        return called
+
+    lumped.solve(asked, springs)
+    monkeypatch.setattr(direct, "SignedFactors", counted(direct.SignedFactors))
+    monkeypatch.setattr(direct, "odd_below_zero", counted(direct.odd_below_zero))
+    monkeypatch.setattr(DirectSolver, "_by_library", counted(DirectSolver._by_library))
+    assert lumped.solve(asked, springs).iterations == len(made) > 0

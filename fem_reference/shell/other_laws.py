@@ -1,0 +1,69 @@
+"""How far another law of strain would move a shell, from its equilibrium under St Venant–Kirchhoff's.
+
+The laws are alike at small strain, so that their stresses differ by δs of second order in it, and with K the
+tangent at the equilibrium
+
+    K δu = −Bᵀ δs
+
+moves it to the other law's, to first order. It weighs the strains by what they do to the displacement at
+the probes: a peak of stretch in a corner next to nothing, a stretch that carries the sheet all of it, and
+near a fold, where K is soft, more than any strain would let expect.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fem_reference.shell.element import forces_of
+from fem_reference.shell.hyperelastic import HyperelasticElement
+from fem_reference.shell.laws import LAWS
+from fem_reference.shell.state import State
+from fem_reference.shell.statics import discretise
+from fem_reference.shell.structure import UP
+from fem_reference.surface.location import interpolate
+from fem_reference.surface.mesh import mesh_of
+from sheetbench.choices import STRAIN_LAW
+from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
+from sheetbench.numerics.threads import one_blas_thread
+from sheetbench.scenes import Scene, Solution
+
+OTHERS = ("biot", "neo-hookean")
+SAME = 1e-6  # residual, relative to the forces, up to which the answer's state is that of the mesh rebuilt
+
+
+def shift(scene: Scene, answer: Solution) -> float | None:
+    """Return how far the shells of `OTHERS` are from a shell's answer, whichever is farther, as a share of
+    the largest displacement at the scene's probes; None where that cannot be told: of sheets that are not the
+    same all over, actuators, sections and meshes of the caller's own, and sheets solved by halves."""
+    settings = answer.settings
+    whole = {"elements", "graded", "law"} == set(settings) and settings["law"] == STRAIN_LAW
+    if not whole or not scene.uniform or scene.actuators or len(scene.probe_points()) == 0:
+        return None
+    with one_blas_thread():
+        mesh = mesh_of(scene, tuple(settings["elements"]), settings["graded"])
+        structure, nodes = discretise(mesh, scene)
+        fields = answer.mesh.point_data
+        if fields["displacement"].shape != (len(nodes), 3):
+            return None
+        state = State(np.array([fields["displacement"], fields["director"] - UP]), structure.rest().aside)
+        forces = structure.forces(state, 1.0)
+        if not structure.imbalance(state, forces) <= SAME * forces.size:
+            return None
+        matrix, _ = structure.system(state, forces, 1.0, mixed=False)
+        strain = structure.element.strain(structure.gather(state.change))
+        corners = structure.element.reference[:, :9, :2]
+        moved = [np.zeros(1)]
+        try:
+            factor = DirectSolver(structure.symmetric, fronts=structure.fronts).factor(matrix)
+            for law in OTHERS:
+                other = HyperelasticElement.of(corners, scene.material, scene.sheet.thickness, LAWS[law])
+                change = structure.scatter(forces_of(forces.vectors, other.stress(strain) - forces.stress))
+                couple = np.einsum("nc,nck->nk", change[structure.count :], forces.frames)
+                step = -factor.solve(structure.of_unknowns(change[: structure.count], couple))
+                after = structure.advance(state, forces, 1.0, step).change[0] - state.change[0]
+                moved.append(interpolate(mesh, structure.element_nodes, after, scene.probe_points()))
+        except SingularMatrixError:
+            return None
+    largest = np.abs(answer.displacement(scene.probe_points())).max()
+    farthest = max(float(np.abs(each).max()) for each in moved)
+    return farthest / float(largest) if largest > 0.0 and np.isfinite(farthest) else None

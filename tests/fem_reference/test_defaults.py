@@ -1,0 +1,45 @@
+"""What a scene decides where nobody does: the same law and mesh in statics, modes and motion."""
+
+import pytest
+
+import fem_reference
+import lumped
+from sheetbench.scenes import Scene
+
+RUBBER = {"law": "neo-hookean", "young": "0.5 MPa", "poisson": 0.45, "density": 1000.0}
+
+
+def pulled(**material):
+    """A strip stretched by more than a half."""
+    return Scene.model_validate(
+        {
+            "name": "pulled",
+            "sheet": {"length_x": 0.1, "length_y": 0.05, "thickness": 0.002},
+            "material": RUBBER | material,
+            "support": [{"kind": "clamped", "edge": "x0"}],
+            "load": [{"kind": "edge", "edge": "x1", "force_per_length": [300.0, 0.0, 0.0]}],
+        }
+    )
+
+
+@pytest.mark.parametrize("model", ["shell", "solid"])
+def test_statics_modes_and_motion_take_the_rubbers_law(model):
+    scene = pulled()
+    statics = fem_reference.solve(scene, model, elements=(2, 1))
+    modes = fem_reference.modes(scene, model, (2, 1), 2)
+    motion = fem_reference.simulate(scene, model, 1e-3, elements=(2, 1))
+    assert [found.settings["law"] for found in (statics, modes, motion)] == 3 * ["neo-hookean"]
+    chosen = fem_reference.modes(scene, model, (2, 1), 2, law="st-venant-kirchhoff")
+    assert chosen.settings["law"] == "st-venant-kirchhoff"
+    assert modes.frequencies == pytest.approx(chosen.frequencies, rel=1e-6)  # at rest all laws are alike
+
+
+def test_modes_about_a_stretched_strip_are_those_of_its_rubber():
+    """Those of the linear law, which it had, are 8 % higher."""
+    rubber, linear = (
+        fem_reference.modes(scene, "shell", 4, 3, about="deformed").frequencies
+        for scene in (pulled(), pulled(law=None))
+    )
+    lattice = lumped.modes(pulled(), count=3, about="deformed").frequencies
+    assert lattice == pytest.approx(rubber, rel=5e-3)
+    assert linear[0] > 1.05 * rubber[0]

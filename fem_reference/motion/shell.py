@@ -49,11 +49,11 @@ class MovingShell(MovingElements):
         turns = np.concatenate([structure.supports.director, structure.rods.held])
         self._held = np.concatenate([structure.supports.position, np.tile(turns, (3, 1)).T])
         self._upright = np.concatenate([np.tile(UP, (self.nodes, 1)), structure.rods.own])
-        by_place, self._on_turns = products = inertia.products(structure, scene)
+        plan = Plan(self._plan, self._on, self._nodes)
+        by_place, self._on_turns = products = inertia.products(structure, scene, plan)
         self.mass = inertia.mass(structure, products)
         self._on_places = np.einsum("eij,ab->eiajb", by_place, np.eye(3)).reshape(-1, 27, 27)
         self.unknowns, self._basis = structure.unknowns, inertia.Basis(structure)
-        plan = Plan(self._plan, self._on, self._nodes)
 
         def bound(alone: Scene) -> BoundRods:
             return on_surface(rod.of_scene(alone, plan), self.nodes)

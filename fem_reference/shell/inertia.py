@@ -6,19 +6,24 @@ import numpy as np
 from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
 
 from fem_reference.shell.structure import ShellStructure
+from fem_reference.surface import carried
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import constants_of
+from fem_reference.surface.mesh import Plan
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import Scene
 
 
-def products(structure: ShellStructure, scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """∫ ρh N_i N_j dA [kg] and ∫ ρh³/12 N_i N_j dA [kg m²], (m, 9, 9) each."""
+def products(structure: ShellStructure, scene: Scene, plan: Plan) -> tuple[np.ndarray, np.ndarray]:
+    """∫ ρh N_i N_j dA [kg] and ∫ ρh³/12 N_i N_j dA [kg m²], (m, 9, 9) each, with what the payloads add."""
     value, of = AT_GAUSS[0], constants_of(scene, structure.element.reference[:, :9, :2])
     by_place, by_turn = (
         np.asarray(np.einsum("eg,gi,gj->eij", part * structure.element.areas, value, value))
         for part in (of.per_area, of.rotary_per_area)
     )
+    payloads = carried.of_scene(scene, plan)
+    by_place[payloads.elements] += payloads.by_place
+    by_turn[payloads.elements] += payloads.by_turn
     return by_place, by_turn
 
 

@@ -29,6 +29,8 @@ PARTS = {  # of a scene's text: below [sheet], below [material], and tables
     "pressed": ("", "", '[[load]]\nkind = "pressure"\nvalue = 20.0\n' + WHERE % "0.05, 0.09"),
     "pulled": ("", "", '[[load]]\nkind = "edge"\nedge = "x1"\nforce_per_length = [1.0, 0.0, 0.2]\n'
                + WHERE % "0.1, 0.12"),
+    "payload": ("", "", '[[mass]]\nat = [0.11, 0.03]\nmass = "5 g"\n'),
+    "spread": ("", "", '[[mass]]\nmass = "5 g"\n' + WHERE % "0.03, 0.07"),
     "laid": ("", "", '[[load]]\nkind = "area"\nforce_per_area = [0.0, 0.0, 10.0]\n'),
 }  # fmt: skip
 KINDS = (
@@ -36,7 +38,7 @@ KINDS = (
     ("outline", "hole", "notch"),
     ("taper", "stiff", "thick"),
     ("edge", "gripper"),
-    ("pressed", "pulled", "laid"),
+    ("pressed", "pulled", "laid", "payload", "spread"),
 )
 SMALL, CAMPAIGN = "--lumped 5 --elements 2", "--workers 1 --quiet"
 VERBS = (

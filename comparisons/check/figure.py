@@ -1,4 +1,4 @@
-"""The picture of a scene before anything is solved: its plan, with patches, supports, loads, payloads and probes."""
+"""The picture of a scene before anything is solved: plan, patches, supports, loads, payloads and probes."""
 
 from __future__ import annotations
 

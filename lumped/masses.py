@@ -49,7 +49,7 @@ from typing import Literal
 import numpy as np
 import scipy.sparse as sp
 
-from lumped.carried import point_masses, rotary_masses
+from lumped.carried import point_masses
 from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from lumped.sections import Section
@@ -104,19 +104,17 @@ def mass_matrix(
 ) -> sp.coo_array:
     """The masses and what neighbours share, (n, n) [kg], alike for motions along x, y and z; its entries add
     up to the mass of the sheet and of its payloads. Raises BadInput as `masses`."""
-    carried = rotary_masses(scene, lattice)
     if distribution != "higher-order" or cells is not None:
         own = masses(scene, lattice, distribution, cells)  # type: ignore[arg-type]  # refuses higher-order
-        return sp.coo_array(sp.dia_array((own[None], [0]), shape=carried.shape) + carried)
-    own = point_masses(scene, lattice)
-    carried = carried + sp.dia_array((own[None], [0]), shape=carried.shape)
+        return sp.dia_array((own[None], [0]), shape=2 * (lattice.mass_count,)).tocoo()
     x, y = (
         _corrected(lines, axis, lattice.twisting, _free(scene, lattice))
         for axis, lines in zip("xy", lattice.lines, strict=True)
     )
     per_area = scene.material.density * scene.sheet.thickness
     sheet = per_area * sp.kron(sp.kron(y, x), _across(scene.sheet.thickness, lattice))
-    return sp.coo_array(sheet + carried)
+    own = point_masses(scene, lattice)
+    return sp.coo_array(sheet + sp.dia_array((own[None], [0]), shape=sheet.shape))
 
 
 def _across(thickness: float, lattice: Lattice) -> np.ndarray:

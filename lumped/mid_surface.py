@@ -13,8 +13,6 @@ as loads do it among the four next to it (order 1).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 import scipy.sparse as sp
 
@@ -51,7 +49,7 @@ class MidSurface:
     def _near_rims(self, lattice: Lattice, present: np.ndarray, points: np.ndarray, order: int) -> None:
         """Nodes and shares on a lattice with absent cells, cell by cell of the points'."""
         x, y = lattice.lines
-        own = [cells_at(lattice, point)[0] for point in points]
+        own = [_own_cell(lattice, present, point) for point in points]
         most = (order + 1) ** 2 if order == 1 else (2 * REACH + 2) ** 2
         self._nodes = np.zeros((len(points), most, lattice.grid[2]), dtype=int)
         self._share = np.zeros((len(points), most, 3))
@@ -93,20 +91,19 @@ class MidSurface:
         return out
 
 
-def cells_at(lattice: Lattice, point: Sequence[float]) -> list[tuple[int, int]]:
-    """Rows and columns of the cells present in which, or on whose rims, a plan point [m] lies. Raises
-    BadInput where there is none."""
+def _own_cell(lattice: Lattice, present: np.ndarray, point: np.ndarray) -> tuple[int, int]:
+    """Row and column of the cell present in which, or on whose rim, a plan point [m] lies. Raises BadInput
+    where there is none."""
     (column, x), (row, y) = (lines.index(c) for c, lines in zip(point, lattice.lines, strict=True))
-    rows, columns = (len(lines.widths) for lines in reversed(lattice.lines))
-    present = np.ones((rows, columns), dtype=bool) if lattice.present is None else lattice.present
     near = [
-        (int(row + j), int(column + i))
+        (row + j, column + i)
         for j in (0, *([-1] if y < ON_LINE else [1] if y > 1.0 - ON_LINE else []))
         for i in (0, *([-1] if x < ON_LINE else [1] if x > 1.0 - ON_LINE else []))
     ]
-    if found := [(j, i) for j, i in near if 0 <= j < rows and 0 <= i < columns and present[j, i]]:
-        return found
-    raise BadInput(f"point {[float(c) for c in point]} m: there is no sheet, by its outline or a cutout")
+    for j, i in near:
+        if 0 <= j < present.shape[0] and 0 <= i < present.shape[1] and present[j, i]:
+            return int(j), int(i)
+    raise BadInput(f"point {point.tolist()} m: there is no sheet, by its outline or a cutout")
 
 
 def _connected(present: np.ndarray, cell: tuple[int, int], reach: int) -> tuple[np.ndarray, np.ndarray]:

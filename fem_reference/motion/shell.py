@@ -134,8 +134,7 @@ class MovingShell(MovingElements):
         of_elements, share = frames[self._on], by_a + self.alpha * by_v
         blocks = np.zeros(slots.shape)
         blocks[:, :27, :27] = share * self._on_places
-        turned = np.einsum("eica,ejcb->eiajb", of_elements, of_elements)
-        turned *= share * self._on_turns[:, :, None, :, None]
+        turned = share * np.einsum("eica,ejcb,ceij->eiajb", of_elements, of_elements, self._on_turns)
         blocks[:, 27:, 27:] = turned.reshape(-1, 18, 18)
         for follower, factor in [*self.followers, *self.drag(v, by_v)]:
             on = follower.elements

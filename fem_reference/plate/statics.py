@@ -217,7 +217,7 @@ def mass_matrix(scene: Scene, plate: Plate) -> csr_matrix:
     products = np.einsum("imq,qa,qb->imab", np.array([moved] * 3 + [turned] * 2), values, values)
     payloads = carried.of_scene(scene, plate.plan)
     products[:3, payloads.elements] += payloads.by_place
-    products[3:, payloads.elements] += payloads.by_turn
+    products[3:, payloads.elements] += payloads.by_turn[:2]
     return _assemble(plate, np.einsum("imab,ij->maibj", products, np.eye(5)))
 
 

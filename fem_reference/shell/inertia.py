@@ -15,7 +15,8 @@ from sheetbench.scenes import Scene
 
 
 def products(structure: ShellStructure, scene: Scene, plan: Plan) -> tuple[np.ndarray, np.ndarray]:
-    """∫ ρh N_i N_j dA [kg] and ∫ ρh³/12 N_i N_j dA [kg m²], (m, 9, 9) each, with what the payloads add."""
+    """∫ ρh N_i N_j dA (m, 9, 9) [kg] and, of the directors' x, y and z, ∫ ρh³/12 N_i N_j dA (3, m, 9, 9)
+    [kg m²], with what the payloads add."""
     value, of = AT_GAUSS[0], constants_of(scene, structure.element.reference[:, :9, :2])
     by_place, by_turn = (
         np.asarray(np.einsum("eg,gi,gj->eij", part * structure.element.areas, value, value))
@@ -23,15 +24,18 @@ def products(structure: ShellStructure, scene: Scene, plan: Plan) -> tuple[np.nd
     )
     payloads = carried.of_scene(scene, plan)
     by_place[payloads.elements] += payloads.by_place
-    by_turn[payloads.elements] += payloads.by_turn
-    return by_place, by_turn
+    by_axis = np.tile(by_turn, (3, 1, 1, 1))
+    by_axis[:, payloads.elements] += payloads.by_turn
+    return by_place, by_axis
 
 
 def mass(structure: ShellStructure, products: tuple[np.ndarray, np.ndarray]) -> csr_matrix:
     """Consistent mass of all vectors' components (3 (2 n + q),); rods have none."""
     pattern = Pattern(structure.element_nodes, size=structure.count)
     none = csr_matrix((3 * len(structure.rods.own),) * 2)
-    return block_diag([*(kron(pattern.matrix(part), np.eye(3)) for part in products), none], format="csr")
+    by_place, by_turn = products
+    turning = sum(kron(pattern.matrix(by_turn[axis]), np.diag(row)) for axis, row in enumerate(np.eye(3)))
+    return block_diag([kron(pattern.matrix(by_place), np.eye(3)), turning, none], format="csr")
 
 
 class Basis:

@@ -18,7 +18,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from lumped.actuators import Drive
-from lumped.carried import rotary_masses
+from lumped.carried import pairs_of, rotary_masses
 from lumped.dynamics.damping import Damping
 from lumped.dynamics.maxwell import Maxwell
 from lumped.masses import masses
@@ -63,9 +63,9 @@ class System:
         own = self.assembly.pattern.diagonal[: lattice.mass_count]
         mass_blocks[own] = self.lattice_mass[:, None, None] * np.eye(3)
         bodies = rotary_masses(scene, lattice)
-        self._bodies = self.assembly.pattern.slots(*bodies.coords), bodies.data[:, None, None] * np.eye(3)
-        self.shared_mass = bool(bodies.nnz)
-        np.add.at(mass_blocks, *self._bodies)
+        self._bodies = self.assembly.pattern.slots(*pairs_of(bodies)), bodies.data
+        self.shared_mass = bool(len(bodies.data))
+        mass_blocks[self._bodies[0]] += bodies.data
         if self.coupling is not None:
             self._chain_mass = self.coupling.mass_blocks()[:, None, None] * np.eye(3)
             np.add.at(mass_blocks, self.assembly.coupling_slots, self._chain_mass)
@@ -233,7 +233,7 @@ class System:
         blocks = self.assembly.tangent(u, stresses, share, both, inertia)
         self.problem.loads.add_tangent(u, stiffness, blocks, time)
         if self.shared_mass:
-            np.add.at(blocks, self._bodies[0], mass * self._bodies[1])
+            blocks[self._bodies[0]] += mass * self._bodies[1]
         if not self.problem.conservative or self.coupling is not None:
             others = np.zeros_like(blocks)
             if not self.problem.conservative:

@@ -1,13 +1,14 @@
 """A payload on the sheet: a body at a point, or a mass spread evenly over a part of it.
 
-It has weight under gravity and inertia in motion, and no stiffness. A body with the principal moments of
-inertia I about its point is, moving with the sheet, what its second moments P are on the position φ:
+It has weight under gravity and inertia in motion, and no stiffness. A body turns with the director d of the
+sheet at its point, at first e_z: with its moments of inertia I about x and y, ω = d × ḋ,
 
-    T = ½ m |φ̇|² + ½ (Pxx |φ̇,x|² + Pyy |φ̇,y|² + Pzz |ḋ|²),    Pxx = ½ (Iyy + Izz − Ixx), …
+    T = ½ m |φ̇|² + ½ (Iyy ḋ_x² + Ixx ḋ_y² + max(Ixx, Iyy) ḋ_z²)
 
-with the director d: a point X, Y, Z of the body is at φ + X φ,x + Y φ,y + Z d. All of it is linear in the
-coordinates, so that the mass matrix is constant however far the sheet turns. Source: the kinetic energy of a
-rigid body by its second moments; e.g. Wittenburg, Dynamics of Multibody Systems, 2008, 3.3.
+of small turns from the flat sheet, and of any turn of a body that is round about its normal, Ixx = Iyy, or
+that turns about the axis of the larger one alone. Being of constant coefficients in the coordinates it leaves
+the mass matrix constant. Of Izz nothing is taken: a point of a sheet has no couple about its normal. Source:
+the kinetic energy of a rigid body; e.g. Wittenburg, Dynamics of Multibody Systems, 2008, 3.3.
 """
 
 from __future__ import annotations
@@ -25,8 +26,6 @@ from sheetbench.scenes.shapes import Shape
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
 
-ROUNDING = 1e-9  # of the largest moment of inertia
-
 
 class Mass(Frozen):
     """A payload: a body at a point of the mid-surface, or a mass spread evenly over a part of it."""
@@ -40,32 +39,22 @@ class Mass(Frozen):
     inertia: Annotated[tuple[NonNegative, NonNegative, NonNegative], Unit("kg·m²")] | None = Field(
         default=None, kw_only=True
     )
-    """Moments of inertia about x, y and z through the point `at`, of a body that turns with the sheet there;
-    without them it is a point."""
+    """Moments of inertia about x, y and z through the point `at`, of a body that turns with the sheet's
+    normal there; that about z, the normal, takes no part. Without them it is a point."""
 
     @model_validator(mode="after")
     def _consistent(self) -> Mass:
         if (self.at is None) == (self.where is None):
             raise ValueError("give one of at, a point [x, y], and where, a part of the sheet")
-        if self.inertia is None:
-            return self
-        if self.at is None:
+        if self.inertia is not None and self.at is None:
             raise ValueError("inertia: is of a body at a point; with where leave it out")
-        if min(self._unrounded) < -ROUNDING * max(self.inertia):
-            given = f"inertia = {list(self.inertia)} kg·m²"
-            raise ValueError(f"{given}: no body has these; none is more than the sum of the two others")
         return self
 
     @property
-    def second_moments(self) -> tuple[float, float, float]:
-        """∫ X², ∫ Y² and ∫ Z² dm [kg m²] about the point."""
-        x, y, z = (max(0.0, moment) for moment in self._unrounded)
-        return x, y, z
-
-    @property
-    def _unrounded(self) -> tuple[float, float, float]:
-        x, y, z = self.inertia or (0.0, 0.0, 0.0)
-        return 0.5 * (y + z - x), 0.5 * (x + z - y), 0.5 * (x + y - z)
+    def of_director(self) -> np.ndarray:
+        """What resists the components of ḋ, (3,) [kg m²]."""
+        x, y, _ = self.inertia or (0.0, 0.0, 0.0)
+        return np.array([y, x, max(x, y)])
 
 
 def carried(scene: Scene) -> float:

@@ -76,9 +76,3 @@ def weights(scene: Scene) -> tuple[PointLoad | AreaLoad, ...]:
         spread = AreaLoad(force_per_area=(x / area, y / area, z / area), where=payload.where)
         found.append(spread.replace(history=scene.gravity.history))
     return tuple(found)
-
-
-def weighed(scene: Scene) -> Scene:
-    """Return the scene with its payloads' weight in place of them, which at rest is the same: for programs
-    that know loads and no payloads."""
-    return scene.replace(masses=(), loads=(*scene.loads, *weights(scene))) if scene.masses else scene

@@ -8,10 +8,13 @@ import fem_reference
 import lumped
 from comparisons.external.bricks import Bricks, forces
 from comparisons.external.calculix.deck import deck
+from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.felupe import MODEL as FELUPE
+from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.kratos.problem import Triangles, problem
 from comparisons.external.mujoco import MODEL as MUJOCO
 from sheetbench.scenes import AreaLoad, Gravity, Material, PointLoad, Scene, Sheet, Status, dead_force
+from sheetbench.scenes.parameters import parameter, put
 
 LENGTH, WIDTH, THICK, YOUNG, DENSITY, TIP = 0.2, 0.02, 0.003, 2e6, 1100.0, 5e-3
 BEAM = DENSITY * LENGTH * WIDTH * THICK  # kg
@@ -245,3 +248,21 @@ def test_a_judge_answers_a_payload_as_a_force(judge):
     assert all(one.status is Status.CONVERGED for one in found)
     # MuJoCo stops within 1e-4 of the side, on another way there
     assert np.allclose(*(ending(scenes[0], one) for one in found), rtol=0.0, atol=2e-4 * LENGTH)
+
+
+@pytest.mark.parametrize("judge", [CALCULIX, KRATOS], ids=lambda judge: judge.name)
+def test_a_judge_of_motions_refuses_what_it_has_no_inertia_for(judge):
+    scene = strip(body(), loads=())
+    assert "[[mass]]" in judge.refusal_of_motion(scene, judge.settings)
+    assert "[[mass]]" not in judge.refusal_of_motion(scene.replace(masses=()), judge.settings)
+
+
+@pytest.mark.parametrize("name", ["mass1", "young"])
+def test_the_lattices_sensitivity_to_a_payload_is_that_of_its_answers(name):
+    scene = strip(body(), young=1e8)
+    own, points = springs(scene, (11, 3)), np.array([[LENGTH, WIDTH / 2.0]])
+    found = lumped.sensitivity(scene, own, [name], points).derivatives[name][0]
+    value = parameter(scene, name).value
+    changed = [put(scene, name, value * (1.0 + by)) for by in (1e-3, -1e-3)]
+    up, down = (lumped.solve(one, springs(one, (11, 3))).displacement(points)[0] for one in changed)
+    assert np.allclose(found, (up - down) / (2e-3 * value), rtol=1e-4, atol=1e-6 * np.abs(found).max())

@@ -30,10 +30,10 @@ if TYPE_CHECKING:
 class Mass(Frozen):
     """A payload: a body at a point of the mid-surface, or a mass spread evenly over a part of it."""
 
-    at: Annotated[PlanPoint, Unit("m")] | None = None
-    """Plan point [x, y] of the undeformed sheet where it is; or `where`."""
     mass: Annotated[Positive, Unit("kg")]
     """Of the whole payload; it weighs under gravity and is inert in motion."""
+    at: Annotated[PlanPoint, Unit("m")] | None = None
+    """Plan point [x, y] of the undeformed sheet where it is; or `where`."""
     where: Shape | None = None
     """In place of `at`: the part of the sheet over which it is spread evenly, in the mid-surface."""
     inertia: Annotated[tuple[NonNegative, NonNegative, NonNegative], Unit("kg·m²")] | None = Field(

@@ -161,8 +161,9 @@ def sheet_in_words(sheet: Sheet, material: Material) -> str:
 def _payload(payload: Mass, sheet: Sheet) -> str:
     if payload.at is None:
         return f"{1e3 * payload.mass:.3g} g, spread evenly{_in(payload.where)}"
-    moments = ", ".join(f"{1e7 * moment:.3g}" for moment in payload.inertia or ())
-    turning = f", moments of inertia {moments} g·cm² about x, y, z" if moments else ""
+    x, y, z = (1e7 * moment for moment in payload.inertia or (0.0, 0.0, 0.0))
+    turning = f", moments of inertia {x:.3g} and {y:.3g} g·cm² about x and y" if x or y else ""
+    turning += ", of that about z, the sheet's normal, nothing is taken" if z else ""
     place = f"{_point(payload.at)} mm{_on_edges(payload.at, sheet)}"
     return f"{1e3 * payload.mass:.3g} g at {place}{turning}"
 

@@ -73,8 +73,8 @@ def document(found: Outcome) -> Any:
 def in_balance(answer: dict[str, Any], summed: bool = True) -> None:
     """What is called converged is in balance, by its own word and, summed, by that of reactions and loads.
 
-    The sum is taken from the document alone: weight of the sheet, its payloads and chains, points, edges; where a
-    pressure follows the sheet its own word must do.
+    The sum is taken from the document alone: weight of the sheet, its payloads and chains, points, edges;
+    where a pressure follows the sheet its own word must do.
     """
     asked = answer["scene"]
     for solution in answer["solutions"]:

@@ -134,7 +134,8 @@ class MovingShell(MovingElements):
         of_elements, share = frames[self._on], by_a + self.alpha * by_v
         blocks = np.zeros(slots.shape)
         blocks[:, :27, :27] = share * self._on_places
-        turned = share * np.einsum("eica,ejcb,ceij->eiajb", of_elements, of_elements, self._on_turns)
+        weighed = np.einsum("ceij,ejcb->eicjb", self._on_turns, of_elements)
+        turned = share * np.einsum("eica,eicjb->eiajb", of_elements, weighed)
         blocks[:, 27:, 27:] = turned.reshape(-1, 18, 18)
         for follower, factor in [*self.followers, *self.drag(v, by_v)]:
             on = follower.elements

@@ -18,7 +18,8 @@ sheet on 16 × 16 elements the largest error, against 64 × 64, falls from 0.31 
 (two) of even elements to 0.05 and 0.09 %; graded over all elements it is 0.04 and 0.14 %, more on coarse
 meshes.
 
-Masses: plate and shell, ρh on the displacements and ρh³/12 on the director's rotations; solid, ρ. SI units.
+Masses: plate and shell, ρh on the displacements and ρh³/12 on the director's rotations; solid, ρ; and
+payloads, on the mid-surface and the director (`surface.carried`). SI units.
 """
 
 from __future__ import annotations
@@ -38,9 +39,10 @@ from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
 from fem_reference.solid import supports as column_supports
 from fem_reference.solving.stability import require_stable
+from fem_reference.surface import carried
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section
-from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from fem_reference.surface.mesh import Elements, Plan, divisions, mesh_of
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
@@ -223,14 +225,16 @@ def _shell_deformed(
     and M = ∫ ρh N_i N_j on u, ∫ ρh³/12 N_i N_j T_iᵀ T_j on β. Raises BadInput for loads that follow the
     sheet, NoEquilibrium where there is no stable equilibrium under the full load."""
     mesh = mesh_of(scene, elements, graded, REACH)
-    structure, _ = shell.discretise(mesh, scene, section, law)
+    structure, nodes = shell.discretise(mesh, scene, section, law)
     if structure.followers:
         raise BadInput("--about = deformed: pressure and edge moments follow the sheet: it has no modes then")
     state, status, notes = shell.trace_on(scene, structure)
     require_stable("shell", status, notes)
     stiffness, _ = structure.system(state, structure.forces(state, 1.0), 1.0, mixed=False)
     basis = inertia.Basis(structure).at(structure.frames(state))
-    whole = inertia.mass(structure, inertia.products(structure, scene))
+    whole = inertia.mass(
+        structure, inertia.products(structure, scene, Plan(mesh, structure.element_nodes, nodes))
+    )
 
     def sample(shape: np.ndarray, points: np.ndarray) -> np.ndarray:
         number = structure.number[:, :3]
@@ -270,7 +274,7 @@ def _solid_at_rest(
 
     return RestState(
         stiffness=(basis.T @ stiffness @ basis).tocsr(),
-        mass=(basis.T @ structure.mass() @ basis).tocsr(),
+        mass=(basis.T @ structure.mass(carried.of_scene(scene, columns.plan)) @ basis).tocsr(),
         held=supports.held.reshape(len(columns.plan.nodes), -1),
         rigid=np.array(rigid).T,
         sample=sample,

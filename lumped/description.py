@@ -118,6 +118,8 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     if scene.actuators:
         raise BadInput("export: actuators are not springs between masses; export a scene without them")
     require_no_branches(scene.material, "an exported lattice")
+    if any(payload.inertia is not None for payload in scene.masses):
+        raise BadInput("mass.inertia: an exported lattice has masses alone, which neighbours do not share")
     if scene.air is not None:
         raise BadInput("air: an exported lattice has no drag; leave [air] out")
     problem = build_problem(scene, calibration)

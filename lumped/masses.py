@@ -49,6 +49,7 @@ from typing import Literal
 import numpy as np
 import scipy.sparse as sp
 
+from lumped.carried import point_masses
 from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from lumped.sections import Section
@@ -63,8 +64,16 @@ Inertia = Distribution | Literal["higher-order"]
 def masses(
     scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: Section | None = None
 ) -> np.ndarray:
-    """Mass of every lumped mass, (n,) [kg]; they add up to the sheet's. cells: what they are made of where
-    they differ, of whose masses each corner has a quarter.
+    """Mass of every lumped mass, (n,) [kg], with what it takes of the payloads (`lumped.carried`); see
+    `sheet_masses`."""
+    return sheet_masses(scene, lattice, distribution, cells) + point_masses(scene, lattice)
+
+
+def sheet_masses(
+    scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: Section | None = None
+) -> np.ndarray:
+    """The sheet's part of every lumped mass, (n,) [kg]; they add up to the sheet's. cells: what they are
+    made of where they differ, of whose masses each corner has a quarter.
 
     Raises BadInput for an unknown distribution, and for one that is not tributary of cells that differ.
     """
@@ -94,7 +103,7 @@ def mass_matrix(
     scene: Scene, lattice: Lattice, distribution: Inertia, cells: Section | None = None
 ) -> sp.coo_array:
     """The masses and what neighbours share, (n, n) [kg], alike for motions along x, y and z; its entries add
-    up to the sheet's mass. Raises BadInput as `masses`."""
+    up to the mass of the sheet and of its payloads. Raises BadInput as `masses`."""
     if distribution != "higher-order" or cells is not None:
         own = masses(scene, lattice, distribution, cells)  # type: ignore[arg-type]  # refuses higher-order
         return sp.dia_array((own[None], [0]), shape=2 * (lattice.mass_count,)).tocoo()
@@ -103,7 +112,9 @@ def mass_matrix(
         for axis, lines in zip("xy", lattice.lines, strict=True)
     )
     per_area = scene.material.density * scene.sheet.thickness
-    return sp.coo_array(per_area * sp.kron(sp.kron(y, x), _across(scene.sheet.thickness, lattice)))
+    sheet = per_area * sp.kron(sp.kron(y, x), _across(scene.sheet.thickness, lattice))
+    own = point_masses(scene, lattice)
+    return sp.coo_array(sheet + sp.dia_array((own[None], [0]), shape=sheet.shape))
 
 
 def _across(thickness: float, lattice: Lattice) -> np.ndarray:

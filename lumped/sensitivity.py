@@ -40,7 +40,7 @@ from sheetbench.scenes.parameters import FIBRES, parameter, put
 STEP = 1e-4  # of a parameter, for the difference of residuals
 CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
 STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
-PATCH = "patch"  # with which names of a patch's constants begin
+PATCH, PAYLOAD = "patch", "mass"  # with which names of a patch's constants begin, and those of payloads
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,7 @@ def _changed(
 
 
 def _of_scene(name: str) -> bool:
-    return name in (*CALIBRATED_FROM, "density") or name.startswith((*STEP_OF, PATCH))
+    return name in (*CALIBRATED_FROM, "density") or name.startswith((*STEP_OF, PATCH, PAYLOAD))
 
 
 def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibration]:

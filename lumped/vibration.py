@@ -14,6 +14,7 @@ import scipy.sparse as sp
 
 from lumped import spring_constants as constants
 from lumped.calibration import Calibration, default
+from lumped.carried import pairs_of, rotary_masses
 from lumped.lattice import Lattice
 from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
@@ -97,7 +98,8 @@ def modes(
         raise BadInput(f"count = {count}: 1 to {unknowns - rigid} on this lattice")
     shared = distribution or usual_masses(calibration)
     inertia = mass_matrix(scene, problem.assembly.lattice, shared, calibration.cells)
-    mass = sp.csc_array(transform.T @ sp.kron(inertia, sp.eye_array(3)) @ transform)
+    bodies = rotary_masses(scene, problem.assembly.lattice)
+    mass = sp.csc_array(transform.T @ (sp.kron(inertia, sp.eye_array(3)) + bodies) @ transform)
     blocks = problem.assembly.tangent(at)
     stiffness = problem.system.matrix(blocks)
     wanted, shift = count + rigid, _shift(scene)
@@ -105,6 +107,7 @@ def modes(
     def factor() -> Factor:
         shifted, shared = blocks.copy(), problem.assembly.pattern.slots(*inertia.coords)
         shifted[shared] -= shift * inertia.data[:, None, None] * np.eye(3)
+        shifted[problem.assembly.pattern.slots(*pairs_of(bodies))] -= shift * bodies.data
         return problem.factor(shifted)
 
     with one_blas_thread():

@@ -44,6 +44,7 @@ if _TYPE_CHECKING:
         Hinged,
         History,
         Implausible,
+        Mass,
         Material,
         PointLoad,
         Pressure,
@@ -81,11 +82,11 @@ _NAME_THERE = {"cell": "cell_of", "modes": "spectra"}
 
 __all__ = [
     "BadInput", "Cell", "Chain", "Clamped", "Curved", "Displacements", "EdgeLoad", "EdgeMotion", "Elements",
-    "External", "Gravity", "Held", "Hinged", "History", "Implausible", "Lattice", "LatticePair", "Material",
-    "PointLoad", "Pressure", "Scene", "SceneError", "Sheet", "Solution", "Status", "Symmetric", "advise",
-    "calibrate", "catalogue", "cell", "check", "compare", "crosscheck", "error", "export", "homogenise",
-    "identify", "linearise", "load", "modes", "report", "reproduce", "scenes", "schema", "score",
-    "simulate", "solve", "stability", "suite", "tradeoff", "verify",
+    "External", "Gravity", "Held", "Hinged", "History", "Implausible", "Lattice", "LatticePair", "Mass",
+    "Material", "PointLoad", "Pressure", "Scene", "SceneError", "Sheet", "Solution", "Status", "Symmetric",
+    "advise", "calibrate", "catalogue", "cell", "check", "compare", "crosscheck", "error", "export",
+    "homogenise", "identify", "linearise", "load", "modes", "report", "reproduce", "scenes", "schema",
+    "score", "simulate", "solve", "stability", "suite", "tradeoff", "verify",
 ]  # fmt: skip
 
 

@@ -215,6 +215,7 @@ SHAPED = {
     "load.where": {"loads": [{"kind": "pressure", "value": 1.0, "where": CUT[0]["shape"]}]},
     "load.where on an edge": {"loads": [{"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 1.0),
         "moment_per_length": 0.01} | {"where": {"rectangle": {"x": (0.15, 0.188), "y": (0.0, 0.08)}}}]},
+    "mass.where": {"masses": [{"mass": 0.1, "where": CUT[0]["shape"]}]},
     'load.kind = "area"': {"loads": [{"kind": "area", "force_per_area": (0.0, 0.0, 1.0)}]},
 }  # fmt: skip
 

@@ -9,7 +9,19 @@ import pytest
 from commands import one_line, run
 
 from sheetbench import scenes
-from sheetbench.scenes import Chain, Clamped, EdgeLoad, Held, Hinged, Material, PointLoad, Scene, Sheet, load
+from sheetbench.scenes import (
+    Chain,
+    Clamped,
+    EdgeLoad,
+    Held,
+    Hinged,
+    Mass,
+    Material,
+    PointLoad,
+    Scene,
+    Sheet,
+    load,
+)
 from sheetbench.scenes.reference import markdown
 from sheetbench.scenes.schema import for_editors, json_schema
 from sheetbench.scenes.template import template
@@ -43,17 +55,17 @@ def blocks_out_of_force(text):
 def test_every_block_of_a_new_scene_can_be_put_in_force():
     text = template("mine", SHEET, MATERIAL)
     blocks = blocks_out_of_force(text)
-    assert len(blocks) == 10
+    assert len(blocks) == 11
     plain = Scene(**tomllib.loads(text))
     assert plain.supports == (Clamped(edge="x0"),) and plain.sheet == SHEET and plain.material == MATERIAL
     added: list[Any] = []
     for block in blocks:
         scene = Scene(**tomllib.loads(f"{text}\n{block}"))
         assert scene != plain
-        added += [*scene.supports[1:], *scene.loads, *scene.actuators]
+        added += [*scene.supports[1:], *scene.loads, *scene.masses, *scene.actuators]
     kinds = [type(one) for one in added]
     assert kinds.count(EdgeLoad) == kinds.count(PointLoad) == kinds.count(Chain) == kinds.count(Hinged) == 1
-    assert kinds.count(Held) == 1
+    assert kinds.count(Held) == kinds.count(Mass) == 1
 
 
 def test_new_writes_a_scene_that_check_explains(tmp_path, capsys):

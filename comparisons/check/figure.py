@@ -1,4 +1,4 @@
-"""The picture of a scene before anything is solved: its plan, with patches, supports, loads and probes."""
+"""The picture of a scene before anything is solved: plan, patches, supports, loads, payloads and probes."""
 
 from __future__ import annotations
 
@@ -22,12 +22,13 @@ from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.supports import named, place
 
 SHEET, PATCHES, LOAD, HELD = "#e8ebee", "YlOrBr", "#1b6ca8", "#8a939c"
+PAYLOAD = "#4a3f6b"
 LONGEST = 0.14  # of the longer side, an arrow
 
 
 def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
     """Return the plan: the sheet pale, with the elements of a mesh of its own; patches in colours, what is
-    held grey under a dark rim, loads blue."""
+    held grey under a dark rim, loads blue, payloads violet."""
     lengths = np.array(scene.sheet.lengths)
     height = style.width * min(max(lengths[1] / lengths[0], 0.25), 1.5) + 0.6
     figure = Figure(figsize=(style.width, height), layout="constrained")
@@ -53,6 +54,12 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
         elif (shape := getattr(load, "where", None)) is not None:
             drawn_as = {"facecolor": LOAD, "edgecolor": LOAD, "alpha": 0.2}
             _part(axis, scene, shape, f"load {number}", drawn_as)
+    for number, payload in enumerate(scene.masses, start=1):
+        if payload.where is not None:
+            drawn_as = {"facecolor": PAYLOAD, "edgecolor": PAYLOAD, "alpha": 0.4}
+            _part(axis, scene, payload.where, f"mass {number}", drawn_as)
+        elif payload.at is not None:
+            axis.plot(*1e3 * np.array(payload.at), "s", markersize=7, color=PAYLOAD)
     _arrows(axis, scene, 1e3 * LONGEST * lengths.max())
     for name, at in scene.probes.items():
         axis.plot(1e3 * at[0], 1e3 * at[1], "o", markersize=3, markerfacecolor="white", markeredgecolor=DARK)

@@ -303,6 +303,7 @@ def Mesh "sheet" (
     return {"sheet.usda": text}
 
 
+OWN_MASSES = ("newton", "mujoco", "genesis", "sofa")  # those whose files give each vertex a mass of its own
 WRITERS: Mapping[str, Callable[[Problem], dict[str, str]]] = {
     "newton": lambda of: python_files("newton", of),
     "mujoco": mujoco,

@@ -1,8 +1,8 @@
 """The finite mesh of a scene's sheet that a code of triangles gets: squares cut by diagonals.
 
 Clamps are a second fixed row beyond the edge: a hinge that lies on the edge then holds the slope there.
-Masses are tributary, forces along edges too; point loads and probes are shared linearly by the corners of a
-triangle.
+Masses are tributary, forces along edges too; point loads, payloads and probes are shared linearly by the
+corners of a triangle.
 """
 
 from __future__ import annotations
@@ -105,12 +105,17 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
             axis, end = words.normal_axis, counts[words.normal_axis] if words.far_end else 0
             lengths = spacing[1 - axis] * 2.0 * share * (inside & ((i, j)[axis] == end))
             forces += load.last_factor * np.outer(lengths.ravel(), load.force_per_length)
+    carried = np.zeros(len(places))
+    for payload in scene.masses:
+        assert payload.at is not None  # `refusal` has those of a part
+        corners, shares = _shares(places, triangles[own], np.array(payload.at))
+        carried[corners] += payload.mass * np.array(shares)
     points = {name: _shares(places, triangles[own], np.array(at)) for name, at in scene.probes.items()}
     return SheetMesh(
         places,
         triangles,
         held.ravel(),
-        np.where(inside, per_square * share, per_square).ravel(),
+        np.where(inside, per_square * share, per_square).ravel() + carried,
         forces,
         np.zeros(3) if scene.gravity is None else np.array(scene.gravity.last_acceleration),
         points,
@@ -157,6 +162,8 @@ def refusal(scene: Scene) -> str:
         return "their clamps stand upright, and supports stay where they are"
     if scene.shaped_by:
         return f"{scene.shaped_by}: their meshes are of whole rectangles"
+    if any(payload.inertia is not None for payload in scene.masses):
+        return "mass.inertia: their vertices are points without moments of inertia"
     if any(
         not isinstance(load, PointLoad | EdgeLoad) or getattr(load, "moment_per_length", 0.0)
         for load in scene.loads

@@ -22,7 +22,7 @@ from comparisons.cells.codes import CODES, Code, Parameter, parameters_of, undam
 from comparisons.cells.coefficients import best_hinge, limit_error, nearest
 from comparisons.cells.homogenise import moduli_of
 from comparisons.cells.meshes import mesh as cell_of_triangles
-from comparisons.codes.files import WRITERS, Problem
+from comparisons.codes.files import OWN_MASSES, WRITERS, Problem
 from comparisons.codes.mesh import SheetMesh, refusal, sheet_mesh, with_layers
 from comparisons.codes.springs import hinged_springs, layered_springs, tetrahedral_cell, triangular_cell
 from sheetbench.answers.answer import Answer
@@ -127,7 +127,7 @@ class CodeSetup(Answer):
         notes.append(f"Source: {self.code.source}.")
         tested = "by running it" if self.code.runs else "by reading the files back; not run itself"
         notes.append(f"{self.code.title} ({self.code.licence}): tested {tested}.")
-        if why := refusal(self.scene):
+        if why := self._refused():
             notes.append(f"No files: {why}.")
         elif coarse := self._too_coarse():
             notes.append(coarse)
@@ -135,6 +135,12 @@ class CodeSetup(Answer):
 
     def complaints(self) -> list[str]:
         return [f"no error in {self.scene.name} is known: {self.missing}"] if self.missing else []
+
+    def _refused(self) -> str:
+        """Why the code gets no files, "" where it does."""
+        if self.scene.masses and self.code.name not in OWN_MASSES:
+            return f"mass: {self.code.title} has one density, no vertex a mass of its own"
+        return refusal(self.scene)
 
     def _too_coarse(self) -> str:
         """Whether two layers of springs are too shallow for the load, in a sentence; "" where they are not.
@@ -185,7 +191,7 @@ class CodeSetup(Answer):
         }
 
     def files(self) -> dict[str, Write]:
-        if refusal(self.scene):
+        if self._refused():
             return {}
         texts = WRITERS[self.code.name](self.problem)
         return {name: partial(write_text, text=text) for name, text in texts.items()}

@@ -89,6 +89,8 @@ def refusal(
 
 def refusal_of_motion(scene: Scene) -> str:
     """Return why a scene's motion is not handed over, "" if it is."""
+    if scene.masses:
+        return "its steps in time have the sheet's inertia alone: leave [[mass]] out"
     material, loads = scene.material, [*filter(None, [scene.gravity]), *scene.loads]
     if material.dashpot_time or material.damping_rate or material.branches.times:
         return "its steps in time have no dampers: leave damping_time, damping_rate and relaxation out"

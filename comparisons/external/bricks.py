@@ -46,6 +46,7 @@ from sheetbench.scenes import (
     holds_director,
 )
 from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
+from sheetbench.scenes.masses import weights
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.supports import AnySupport, place
 
@@ -269,10 +270,11 @@ def _material(scene: Scene, inside: Sequence[bool]) -> Material:
 
 
 def forces(scene: Scene, bricks: Bricks) -> np.ndarray:
-    """Point, edge and area loads on the nodes (n, 3) [N]; of weight and pressure nothing."""
+    """Point, edge and area loads and the payloads' weight on the nodes (n, 3) [N]; of the sheet's weight and
+    of pressure nothing."""
     out = point_loads(scene, bricks)
     nodes, elements = nodes_of(bricks.plan)
-    for load in scene.loads:
+    for load in (*scene.loads, *weights(scene)):
         if isinstance(load, EdgeLoad):
             faces, share = bricks.sides(load)
             shares = share[:, None] * np.repeat([-1.0 / 12.0, 1.0 / 3.0], 4)
@@ -296,10 +298,11 @@ def serendipity(r: np.ndarray, s: np.ndarray) -> np.ndarray:
 
 
 def point_loads(scene: Scene, mesh: Any) -> np.ndarray:
-    """Forces on the nodes (n, 3) [N] of a mesh with `positions` and `weights`, of bricks or not."""
+    """Forces on the nodes (n, 3) [N] of a mesh with `positions` and `weights`, of bricks or not, the weight
+    of payloads at points among them."""
     out = np.zeros_like(mesh.positions)
-    for load in scene.loads:
+    for load in (*scene.loads, *weights(scene)):
         if isinstance(load, PointLoad):
-            nodes, weights = mesh.weights(np.array([load.at]))
-            out[nodes[0]] += load.last_factor * np.outer(weights[0], load.force)
+            nodes, shares = mesh.weights(np.array([load.at]))
+            out[nodes[0]] += load.last_factor * np.outer(shares[0], load.force)
     return out

@@ -24,6 +24,7 @@ from scipy.interpolate import RegularGridInterpolator
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, FieldMesh, Hinged, PointLoad, Scene, Solution, Status
 from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.quantities import PlanPoint
 
 AT_REST = 1e-8  # displacement, in sides of the sheet, that one more step would add
 STEPS = 30_000
@@ -139,13 +140,15 @@ class _Grid:
         return np.where(inside, j * self.nx + i, -1)
 
     def masses(self, rest: np.ndarray) -> np.ndarray:
-        """Tributary masses (n,) [kg]."""
+        """Tributary masses and what payloads add (n,) [kg]."""
         i, j = self._indices(rest)
         share = np.where((i == 0) | (i == self.nx - 1), 0.5, 1.0) * np.where(
             (j == 0) | (j == self.ny - 1), 0.5, 1
         )
         per_cell = self.scene.material.density * self.scene.sheet.thickness * float(np.prod(self.spacing))
         masses: np.ndarray = per_cell * share
+        for payload in self.scene.masses:
+            masses = masses + payload.mass * self._shares(rest, payload.at)
         return masses
 
     def forces(self, rest: np.ndarray) -> np.ndarray:
@@ -153,10 +156,13 @@ class _Grid:
         force = np.zeros_like(rest)
         for load in self.scene.loads:
             if isinstance(load, PointLoad):
-                away = np.abs(rest[:, :2] - load.at) / self.spacing
-                share = np.prod(np.clip(1.0 - away, 0.0, None), axis=1)
-                force += load.last_factor * share[:, None] * np.array(load.force)
+                force += load.last_factor * self._shares(rest, load.at)[:, None] * np.array(load.force)
         return force
+
+    def _shares(self, rest: np.ndarray, at: PlanPoint | None) -> np.ndarray:
+        """What vertices take of what is at a plan point [m], bilinearly, (n,)."""
+        away = np.abs(rest[:, :2] - np.array(at)) / self.spacing
+        return np.asarray(np.prod(np.clip(1.0 - away, 0.0, None), axis=1))
 
 
 def relax(mujoco: Any, model: Any, data: Any, tolerance: float) -> tuple[int, bool]:

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.scenes import EDGES, EdgeLoad, Scene
+from sheetbench.scenes.masses import weights
 from sheetbench.scenes.region import area_in, edge_length, resultant
 from sheetbench.scenes.supports import held_axes, place
 
@@ -55,7 +56,7 @@ def scales(scene: Scene) -> Scales:
     if scene.gravity is not None:
         per_area = material.density * sheet.thickness * np.asarray(scene.gravity.last_acceleration)
         load, normal = float(np.linalg.norm(per_area)), abs(float(per_area[2]))
-    for acting in scene.loads:
+    for acting in (*scene.loads, *weights(scene)):
         factor = abs(acting.last_factor)
         force = factor * resultant(scene, acting) / area
         if isinstance(acting, EdgeLoad):

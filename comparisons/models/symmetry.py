@@ -40,9 +40,11 @@ def planes(scene: Scene) -> tuple[int, ...]:
 
     A moment on an edge that crosses the plane counts as unsymmetric: a lattice measures such an edge's
     direction between neighbouring masses, of which the part has one only. A sheet that is no plain
-    one is solved whole.
+    one, or carries a payload, is solved whole.
     """
-    if scene.drawn_by or scene.actuators or any(isinstance(s, Symmetric) or s.motion for s in scene.supports):
+    if scene.drawn_by or scene.actuators or scene.masses:
+        return ()
+    if any(isinstance(s, Symmetric) or s.motion for s in scene.supports):
         return ()
     return tuple(axis for axis in (0, 1) if _mirrors(scene, axis))
 

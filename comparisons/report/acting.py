@@ -1,4 +1,5 @@
-"""What acts on a sheet, on the stage of its picture: chains and moved edges in red, loads as blue arrows.
+"""What acts on a sheet, on the stage of its picture: chains and moved edges in red, loads as blue arrows,
+payloads at points as dark balls.
 
 An arrow starts where its force acts and points along it (`comparisons.report.arrows`). A turned arrow is an
 edge's moment.
@@ -22,7 +23,7 @@ ASIDE = 0.012  # of the longer side: how far a chain on a face is drawn from the
 
 
 def draw(stage: Stage, solution: Solution) -> np.ndarray:
-    """Put actuators and loads on the stage; places (n, 3) [m] that must be seen."""
+    """Put actuators, loads and payloads on the stage; places (n, 3) [m] that must be seen."""
     seen = [np.empty((0, 3))]
     scene = stage.scene
     for actuator in scene.actuators:
@@ -37,6 +38,9 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
     plan, arrows = load_arrows(scene, partial(_normals, stage, solution))
     if len(plan):
         seen.append(_arrows(stage, stage.deformed(solution, plan), arrows))
+    bodies = np.array([payload.at for payload in scene.masses if payload.at is not None]).reshape(-1, 2)
+    if len(bodies):
+        stage.payloads(stage.deformed(solution, bodies))
     for load in scene.loads:
         if isinstance(load, EdgeLoad) and load.moment_per_length:
             plan = edge_plan(scene, load.edge, np.linspace(0.0, 1.0, ALONG), load.where)[1::2]

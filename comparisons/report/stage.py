@@ -52,6 +52,12 @@ class Stage:
         balls = masses.glyph(geom=ball, scale=False, orient=False)
         self.plotter.add_mesh(balls, smooth_shading=True, specular=0.3, **_coloured(limits, colours))
 
+    def payloads(self, points: np.ndarray) -> None:
+        """Balls at the places (n, 3) [m] of payloads."""
+        ball = pyvista.Sphere(radius=0.018 * self.size)
+        balls = pyvista.PolyData(points).glyph(geom=ball, scale=False, orient=False)
+        self.plotter.add_mesh(balls, color=DARK, smooth_shading=True, specular=0.3)
+
     def chain(self, points: np.ndarray) -> None:
         """The axis of a chain through the ends of its segments (p, 3), with a ball at each."""
         line = pyvista.lines_from_points(points)

@@ -52,11 +52,11 @@ class MovingShell(MovingElements):
         turns = np.concatenate([structure.supports.director, structure.rods.held])
         self._held = np.concatenate([structure.supports.position, np.tile(turns, (3, 1)).T])
         self._upright = np.concatenate([np.tile(UP, (self.nodes, 1)), structure.rods.own])
-        by_place, self._on_turns = products = inertia.products(structure, scene)
+        plan = Plan(self._plan, self._on, self._nodes)
+        by_place, self._on_turns = products = inertia.products(structure, scene, plan)
         self.mass = inertia.mass(structure, products)
         self._on_places = np.einsum("eij,ab->eiajb", by_place, np.eye(3)).reshape(-1, 27, 27)
         self.unknowns, self._basis = structure.unknowns, inertia.Basis(structure)
-        plan = Plan(self._plan, self._on, self._nodes)
 
         def bound(alone: Scene) -> BoundRods:
             return on_surface(rod.of_scene(alone, plan), self.nodes)
@@ -143,8 +143,8 @@ class MovingShell(MovingElements):
         of_elements, share = frames[self._on], by_a + self.alpha * by_v
         blocks = np.zeros(slots.shape)
         blocks[:, :27, :27] = share * self._on_places
-        turned = np.einsum("eica,ejcb->eiajb", of_elements, of_elements)
-        turned *= share * self._on_turns[:, :, None, :, None]
+        weighed = np.einsum("ceij,ejcb->eicjb", self._on_turns, of_elements)
+        turned = share * np.einsum("eica,eicjb->eiajb", of_elements, weighed)
         blocks[:, 27:, 27:] = turned.reshape(-1, 18, 18)
         for follower, factor in [*self.followers, *self.drag(v, by_v)]:
             on = follower.elements

@@ -19,7 +19,7 @@ from fem_reference.solid.rods import on_columns
 from fem_reference.solid.statics import discretise, inspected, judge, plan_mesh
 from fem_reference.solid.supports import components, vectors
 from fem_reference.solving.equilibrium import trace
-from fem_reference.surface import loads, rod
+from fem_reference.surface import carried, loads, rod
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions
@@ -58,7 +58,7 @@ class MovingSolid(MovingElements):
         self._columns, self.element = structure.columns, structure.bricks
         self._shape = self._columns.positions.shape
         self.nodes, self.unknowns = self._shape[0], structure.unknowns
-        self._inertia = structure.stack(np.einsum("eij,cd->eicjd", self.element.products(), np.eye(3)))
+        self._inertia = structure.inertia(carried.of_scene(scene, self._columns.plan))
         sites = (3 * self._columns.stacks[:, :, None] + np.arange(3)).reshape(len(self._inertia), -1)
         self._cut = self._columns.positions.size
         self.size = size = self._cut + structure.rods.own.size

@@ -32,7 +32,7 @@ from fem_reference.plate.balance import Solved, balance
 from fem_reference.plate.element import TILT_X, PlateElements, W
 from fem_reference.plate.rods import PlateRods
 from fem_reference.plate.validity import judge
-from fem_reference.surface import loads, rod
+from fem_reference.surface import carried, loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
 from fem_reference.surface.balance import Surface
@@ -241,10 +241,14 @@ def stiffness_matrix(
 
 
 def mass_matrix(scene: Scene, plate: Plate) -> csr_matrix:
-    """Consistent mass with rotary inertia: ρh on the displacements, ρh³/12 on the tilts; (5 n, 5 n)."""
+    """Consistent mass with rotary inertia: ρh on the displacements, ρh³/12 on the tilts, and the payloads';
+    (5 n, 5 n)."""
     constants, (values, _) = constants_of(scene, plate.plan.corners), shape(*GAUSS)
     moved, turned = (plate.elements.areas * m for m in (constants.per_area, constants.rotary_per_area))
     products = np.einsum("imq,qa,qb->imab", np.array([moved] * 3 + [turned] * 2), values, values)
+    payloads = carried.of_scene(scene, plate.plan)
+    products[:3, payloads.elements] += payloads.by_place
+    products[3:, payloads.elements] += payloads.by_turn[:2]
     return _assemble(plate, np.einsum("imab,ij->maibj", products, np.eye(5)))
 
 

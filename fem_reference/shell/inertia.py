@@ -6,27 +6,36 @@ import numpy as np
 from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
 
 from fem_reference.shell.structure import ShellStructure
+from fem_reference.surface import carried
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import constants_of
+from fem_reference.surface.mesh import Plan
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import Scene
 
 
-def products(structure: ShellStructure, scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """∫ ρh N_i N_j dA [kg] and ∫ ρh³/12 N_i N_j dA [kg m²], (m, 9, 9) each."""
+def products(structure: ShellStructure, scene: Scene, plan: Plan) -> tuple[np.ndarray, np.ndarray]:
+    """∫ ρh N_i N_j dA (m, 9, 9) [kg] and, of the directors' x, y and z, ∫ ρh³/12 N_i N_j dA (3, m, 9, 9)
+    [kg m²], with what the payloads add."""
     value, of = AT_GAUSS[0], constants_of(scene, structure.element.reference[:, :9, :2])
     by_place, by_turn = (
         np.asarray(np.einsum("eg,gi,gj->eij", part * structure.element.areas, value, value))
         for part in (of.per_area, of.rotary_per_area)
     )
-    return by_place, by_turn
+    payloads = carried.of_scene(scene, plan)
+    by_place[payloads.elements] += payloads.by_place
+    by_axis = np.tile(by_turn, (3, 1, 1, 1))
+    by_axis[:, payloads.elements] += payloads.by_turn
+    return by_place, by_axis
 
 
 def mass(structure: ShellStructure, products: tuple[np.ndarray, np.ndarray]) -> csr_matrix:
     """Consistent mass of all vectors' components (3 (2 n + q),); rods have none."""
     pattern = Pattern(structure.element_nodes, size=structure.count)
     none = csr_matrix((3 * len(structure.rods.own),) * 2)
-    return block_diag([*(kron(pattern.matrix(part), np.eye(3)) for part in products), none], format="csr")
+    by_place, by_turn = products
+    turning = sum(kron(pattern.matrix(by_turn[axis]), np.diag(row)) for axis, row in enumerate(np.eye(3)))
+    return block_diag([kron(pattern.matrix(by_place), np.eye(3)), turning, none], format="csr")
 
 
 class Basis:

@@ -25,6 +25,7 @@ from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS
 from fem_reference.solid.supports import ColumnSupports, components, into_forces, vectors
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal
+from fem_reference.surface.carried import Carried
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.rod_elements import Strained
 from sheetbench.numerics.sparsity import Pattern
@@ -179,10 +180,15 @@ class SolidStructure:
             state.displacement + change, state.aside + aside, forces.stress + of_step, pressure, rod_stress
         )
 
-    def mass(self) -> csr_matrix:
-        """Consistent mass ∫ ρ N N dV of the free unknowns [kg]."""
+    def mass(self, payloads: Carried) -> csr_matrix:
+        """Consistent mass of the free unknowns [kg]."""
+        return self.pattern.matrix(self.inertia(payloads))
+
+    def inertia(self, payloads: Carried) -> np.ndarray:
+        """∫ ρ N N dV of the stacks, with what payloads add to columns' means and directors, (m, 3 s, 3 s)."""
         blocks = self.stack(np.einsum("eij,cd->eicjd", self.bricks.products(), np.eye(3)))
-        return self.pattern.matrix(blocks)
+        blocks[payloads.elements] += self.of_surface(payloads.on_surface())
+        return blocks
 
     def length(self, start: State, end: State) -> float:
         """Largest nodal displacement between two states, relative to the sheet's size."""

@@ -3,6 +3,7 @@
     force     dead loads  as the scene has them (`dead_force`)
               pressure    ½ p ∮ φ × dφ
     moment    weight      ρ h ∫ φ dA × g              chain      ρ_l ∫ (φ + c d) dL × g
+              payload     m φ(x) × g, or m ⟨φ⟩ × g
               point       φ(x) × F                    edge       ∫ φ dL × q + m ∫ (|d|² t̂ − (d · t̂) d) dL
               pressure    −½ p ∮ |φ|² dφ
 
@@ -28,6 +29,8 @@ from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan, elements_in, facets_on
 from sheetbench.scenes import Balance, EdgeLoad, PointLoad, Pressure, Scene, dead_force
 from sheetbench.scenes.loads import AreaLoad
+from sheetbench.scenes.masses import Mass
+from sheetbench.scenes.quantities import PlanPoint
 from sheetbench.scenes.shapes import Shape
 
 _VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
@@ -51,6 +54,11 @@ class Surface:
         """The longer side of the flat sheet [m]."""
         return float(np.ptp(self.plan.nodes, axis=0).max())
 
+    def at(self, point: PlanPoint) -> np.ndarray:
+        """φ (3,) [m] at a plan point [m]."""
+        plan = self.plan
+        return interpolate(plan.mesh, plan.elements, self.position, np.array([point]))[0]
+
     def masses(self, scene: Scene) -> np.ndarray:
         """w |det J| ρh (m, 9) [kg] at the Gauss points, of a scene's sheet."""
         return areas(self.plan.corners) * constants_of(scene, self.plan.corners).per_area
@@ -72,19 +80,17 @@ def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np
     if scene.gravity is not None:
         at = _AT_GAUSS @ surface.position[surface.plan.elements]
         centre = np.einsum("eg,egc->c", surface.masses(scene), at)
+        centre = centre + sum((_first_moment(payload, surface) for payload in scene.masses), np.zeros(3))
         moment = moment + np.cross(centre, scene.gravity.last_acceleration)
     for load in scene.loads:
         factor = load.last_factor
         match load:
             case PointLoad():
-                at = interpolate(
-                    surface.plan.mesh, surface.plan.elements, surface.position, np.array([load.at])
-                )
-                moment = moment + factor * np.cross(at[0], load.force)
+                moment = moment + factor * np.cross(surface.at(load.at), load.force)
             case EdgeLoad():
                 moment = moment + factor * _edge_moment(load, surface)
             case AreaLoad():
-                weights, at = _area(load, surface)
+                weights, at = _area(load.where, surface)
                 force = force + factor * weights.sum() * np.array(load.force_per_area)
                 moment = moment + factor * np.cross(np.einsum("eg,egc->c", weights, at), load.force_per_area)
             case Pressure():
@@ -156,10 +162,18 @@ def _edge_moment(load: EdgeLoad, surface: Surface) -> np.ndarray:
     return np.cross(middle, load.force_per_length) + load.moment_per_length * couple
 
 
-def _area(load: AreaLoad, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
-    """w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of the elements that are loaded."""
+def _first_moment(payload: Mass, surface: Surface) -> np.ndarray:
+    """m φ [kg m] of a payload at a point, or of the mean φ over its part of the sheet."""
+    if payload.at is not None:
+        return payload.mass * surface.at(payload.at)
+    weights, at = _area(payload.where, surface)
+    return payload.mass * np.einsum("eg,egc->c", weights / weights.sum(), at)
+
+
+def _area(where: Shape | None, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
+    """w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of the elements in a shape, or of all."""
     plan = surface.plan
-    on = plan.elements[elements_in(load.where, plan.nodes, plan.elements)]
+    on = plan.elements[elements_in(where, plan.nodes, plan.elements)]
     return areas(plan.nodes[on]), _AT_GAUSS @ surface.position[on]
 
 

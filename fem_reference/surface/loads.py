@@ -1,6 +1,6 @@
 """Loads of the sheet: dead nodal forces, a follower pressure and a follower edge moment.
 
-gravity    f = ∫ ρ h g N dA                       dead
+gravity    f = ∫ ρ h g N dA                       dead, and that of payloads (`surface.carried`)
 point      f = F N(x)                             dead
 edge       f = ∫ q N dL                           dead, per undeformed length
 area       f = ∫ q N dA                           dead, per undeformed area
@@ -19,6 +19,7 @@ from typing import ClassVar, Protocol
 import numpy as np
 from skfem import MeshQuad
 
+from fem_reference.surface import carried
 from fem_reference.surface.biquadratic import (
     AT_GAUSS,
     GAUSS_WEIGHTS,
@@ -223,7 +224,9 @@ def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
     dead, followers = np.zeros((count, 3)), list[Follower]()
     if scene.gravity is not None:
         weighed = areas(corners) * constants_of(scene, corners).per_area
-        dead += area_force(weighed, plan.elements, count, np.array(scene.gravity.last_acceleration))
+        acceleration = np.array(scene.gravity.last_acceleration)
+        dead += area_force(weighed, plan.elements, count, acceleration)
+        dead += np.outer(carried.of_scene(scene, plan).at_nodes(plan), acceleration)
     for load in scene.loads:
         factor = load.last_factor
         match load:

@@ -19,7 +19,7 @@ from numba import njit
 
 from lumped.assembly import Assembly
 from lumped.coverage import cell_shares
-from lumped.masses import masses
+from lumped.masses import sheet_masses
 from lumped.pressure import add_forces
 from sheetbench.scenes import Scene
 
@@ -42,7 +42,7 @@ class Drag(NamedTuple):
 def of_scene(scene: Scene, assembly: Assembly) -> Drag:
     """The drag on the masses of a scene's lattice."""
     lattice, cells = assembly.lattice, assembly.cells
-    inert, tributary = (masses(scene, lattice, by, cells) for by in (assembly.inertia, "tributary"))
+    inert, tributary = (sheet_masses(scene, lattice, by, cells) for by in (assembly.inertia, "tributary"))
     coefficient = 0.0 if scene.air is None else scene.air.coefficient
     area = np.zeros_like(lattice.positions)
     weights = np.divide(inert, tributary, out=np.zeros_like(inert), where=tributary > 0.0)

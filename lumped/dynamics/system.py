@@ -18,6 +18,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from lumped.actuators import Drive
+from lumped.carried import pairs_of, rotary_masses
 from lumped.dynamics.damping import Damping
 from lumped.dynamics.maxwell import Maxwell
 from lumped.masses import masses
@@ -48,7 +49,10 @@ class State:
 
 class System:
     """Forces, mass and constraints of a scene in motion. mass: of every lumped mass, (n,) [kg], instead of
-    its share of the sheet's."""
+    its share of the sheet's and the payloads'.
+
+    shared_mass: whether neighbours on the lattice share some, of bodies with moments of inertia.
+    """
 
     def __init__(self, scene: Scene, problem: Problem, mass: np.ndarray | None = None):
         self.scene, self.problem, self.assembly = scene, problem, problem.assembly
@@ -63,6 +67,10 @@ class System:
         mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         own = self.assembly.pattern.diagonal[: lattice.mass_count]
         mass_blocks[own] = self.lattice_mass[:, None, None] * np.eye(3)
+        bodies = rotary_masses(scene, lattice)
+        self._bodies = self.assembly.pattern.slots(*pairs_of(bodies)), bodies.data
+        self.shared_mass = bool(len(bodies.data))
+        mass_blocks[self._bodies[0]] += bodies.data
         if self.coupling is not None:
             self._chain_mass = self.coupling.mass_blocks()[:, None, None] * np.eye(3)
             np.add.at(mass_blocks, self.assembly.coupling_slots, self._chain_mass)
@@ -233,6 +241,8 @@ class System:
         inertia = mass * self.lattice_mass + damping * self.damping.rate
         blocks = self.assembly.tangent(u, stresses, share, both, inertia)
         self.problem.loads.add_tangent(u, stiffness, blocks, time)
+        if self.shared_mass:
+            blocks[self._bodies[0]] += mass * self._bodies[1]
         if not self.problem.conservative or self.coupling is not None:
             others = np.zeros_like(blocks)
             if not self.problem.conservative:

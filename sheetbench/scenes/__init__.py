@@ -9,6 +9,7 @@ from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
 from sheetbench.scenes.layers import Layer
 from sheetbench.scenes.loads import AreaLoad, EdgeLoad, Load, PointLoad, Pressure
+from sheetbench.scenes.masses import Mass
 from sheetbench.scenes.material import Material, require_no_branches
 from sheetbench.scenes.patches import Patch, require_plain, require_uniform
 from sheetbench.scenes.region import Cutout, require_rectangle
@@ -38,7 +39,7 @@ __all__ = [
     "EDGES", "About", "Actuator", "Air", "AnyScene", "AreaLoad", "BadInput", "Balance", "Branches",
     "Cells", "Chain", "Clamped", "Constants", "CurvatureTable", "Curved", "Cutout", "DamperSet", "Edge",
     "EdgeLoad", "EdgeMotion", "FactorTable", "FieldMesh", "Gravity", "Held", "Hinged", "History",
-    "Implausible", "Iteration", "Layer", "Load", "Material", "Motion", "Patch", "PerDirection",
+    "Implausible", "Iteration", "Layer", "Load", "Mass", "Material", "Motion", "Patch", "PerDirection",
     "PiecewiseLinear", "PointLoad", "Pressure", "Relaxation", "Scene", "SceneError", "Sheet", "Solution",
     "SpringSet", "SpringTable", "Status", "Support", "Symmetric", "catalogue", "comparable", "dead_force",
     "encloses_volume", "free_rigid_motions", "held_axes", "holds_director", "holds_tilt", "load",

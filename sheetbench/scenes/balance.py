@@ -17,6 +17,7 @@ import numpy as np
 
 from sheetbench.scenes.actuators import Chain
 from sheetbench.scenes.loads import Pressure
+from sheetbench.scenes.masses import carried
 from sheetbench.scenes.patches import mass_of
 from sheetbench.scenes.region import edge_length, resultant
 from sheetbench.scenes.scene import Scene
@@ -99,7 +100,7 @@ def dead_force(
     sides = {name: edge_length(scene, name) for name in EDGES if name in named} | (lengths or {})
     total = np.zeros(3)
     if scene.gravity is not None:
-        mass = mass_of(scene) if mass is None else mass
+        mass = carried(scene) + (mass_of(scene) if mass is None else mass)
         mass += sum(c.line_density * sides[c.edge] for c in scene.actuators if isinstance(c, Chain))
         total += mass * np.array(scene.gravity.last_acceleration)
     for load in scene.loads:

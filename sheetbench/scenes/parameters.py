@@ -9,6 +9,7 @@ patchN.young, poisson, density, thickness, angle      of the scene's Nth [[patch
 curvature_EDGE                                        of the curved support, or of the chains, on an edge
 tilt_EDGE                                             of the clamp on an edge
 drag                                                  of the air
+massN                                                 of the scene's Nth [[mass]]
 """
 
 from __future__ import annotations
@@ -29,11 +30,11 @@ MATERIAL = ("young", "poisson", "density", "damping_time", "damping_rate", "loss
 FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23", "angle")
 BRANCH = ("share", "time")
 NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
-NAMES += ["drag"]
+NAMES += ["drag", "massN"]
 UNITS = {  # none of other keys
     **dict.fromkeys(("young", "young_1", "young_2", "shear_12", "shear_13", "shear_23"), "Pa"),
     **{"density": "kg/m³", "thickness": "m", "curvature": "1/m", "angle": "rad", "tilt": "rad"},
-    **{"damping_time": "s", "damping_rate": "1/s", "time": "s"},
+    **{"damping_time": "s", "damping_rate": "1/s", "time": "s", "mass": "kg"},
 }
 BOUNDS = {  # others are above 0
     "poisson": (-0.99, 0.4999),
@@ -110,6 +111,10 @@ def _paths(scene: Scene, name: str) -> list[Path]:
         if key not in scene.patches[number - 1].own:
             raise BadInput(f"'{name}': patch {number} has no {key} of its own; give a first guess there")
         return [("patches", number - 1, key)]
+    if payload := re.fullmatch(r"mass(\d+)", name):
+        if not 1 <= int(payload[1]) <= len(scene.masses):
+            raise BadInput(f"'{name}': the scene has {len(scene.masses)} masses")
+        return [("masses", int(payload[1]) - 1, "mass")]
     key, _, of = name.partition("_")
     if key in BRANCH and of.isdecimal():
         if not 1 <= int(of) <= len(material.relaxation):

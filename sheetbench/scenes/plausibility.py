@@ -12,7 +12,9 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
+from sheetbench.scenes.masses import weights
 from sheetbench.scenes.material import Material
+from sheetbench.scenes.patches import mass_of
 from sheetbench.scenes.region import resultant
 from sheetbench.scenes.sheet import Gravity, Sheet
 from sheetbench.scenes.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
@@ -29,6 +31,7 @@ THICKEST = 0.25  # of the shorter side
 EARTH = (9.3, 10.3)  # m/s²; anything else is another planet or another unit
 RUBBER = 10.0  # stress over E of small strains: Treloar's rubber at seven times its length has 5
 LAYERS = 5.0  # times thicker or thinner than the sheet
+BURDEN = 100.0  # a payload's mass over the sheet's
 
 
 def slips(scene: Scene) -> tuple[str, ...]:
@@ -36,6 +39,7 @@ def slips(scene: Scene) -> tuple[str, ...]:
     warnings = [*sheet_slips(scene.sheet), *material_slips(scene.material)]
     if scene.gravity is not None:
         warnings += _gravity(scene.gravity)
+    warnings += _payloads(scene)
     if scene.springs is not None:
         warnings += layer_slips(scene.sheet, scene.springs.layer_distance, "springs.layer_distance")
     if not warnings:  # else that may be why
@@ -88,6 +92,17 @@ def material_slips(material: Material) -> list[str]:
     return warnings
 
 
+def _payloads(scene: Scene) -> list[str]:
+    """Payloads that are not in kilograms."""
+    heaviest = BURDEN * mass_of(scene) if scene.masses else 0.0
+    return [
+        f"mass {n}.mass = {payload.mass:g} kg is {few(payload.mass * BURDEN / heaviest)} of the sheet's; "
+        f'masses are in kg: {payload.mass:g} g is written "{payload.mass:g} g"'
+        for n, payload in enumerate(scene.masses, start=1)
+        if payload.mass > heaviest
+    ]
+
+
 def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> list[str]:
     """A distance of neighbouring layers [m] far from the sheet's thickness; `key` is how it was given."""
     ratio = distance / sheet.thickness
@@ -107,7 +122,8 @@ def _strains(scene: Scene) -> list[str]:
             f"the weight alone stretches the sheet: ρ g a/E = {_three_digits(weight)}, and above "
             f"{heaviest:g} {'no linear model means anything' if law is None else 'rubber tears'}"
         )
-    whole = sum(abs(load.last_factor) * hypot(*resultant(scene, load)) for load in scene.loads)
+    acting = (*scene.loads, *weights(scene))
+    whole = sum(abs(load.last_factor) * hypot(*resultant(scene, load)) for load in acting)
     pull = whole / (young * sheet.thickness * min(sheet.lengths))
     if pull > strongest:
         warnings.append(

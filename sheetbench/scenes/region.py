@@ -111,7 +111,7 @@ def sides_of_shapes(scene: Scene) -> Places:
     """x and y [m], rising, of the sides along the axes of the rim and of shapes that hold or load the sheet,
     and of the ends of its sides at the edges; those within the edges."""
     shapes = [place(support) for support in scene.supports]
-    shapes += [getattr(load, "where", None) for load in scene.loads]
+    shapes += [getattr(acting, "where", None) for acting in (*scene.loads, *scene.masses)]
     rims = [scene.region] if scene.pierced else []
     sides = straight_sides(*rims, *(shape.area for shape in shapes if shape is not None))
     for name, edge in EDGES.items() if scene.pierced else ():
@@ -159,9 +159,10 @@ def resultant(scene: Scene, load: AnyLoad, length: float | None = None) -> np.nd
 
 
 def marked(scene: Scene) -> dict[str, PlanPoint]:
-    """Plan points [m] of probes and point loads, by their keys."""
+    """Plan points [m] of probes, point loads and payloads, by their keys."""
     loads = {f"load {n}.at": each.at for n, each in enumerate(scene.loads, 1) if isinstance(each, PointLoad)}
-    return {f"probes.{name}": point for name, point in scene.probes.items()} | loads
+    payloads = {f"mass {n}.at": each.at for n, each in enumerate(scene.masses, 1) if each.at is not None}
+    return {f"probes.{name}": point for name, point in scene.probes.items()} | loads | payloads
 
 
 def share_of(scene: Scene, corners: np.ndarray) -> np.ndarray:
@@ -188,6 +189,7 @@ def misplaced(scene: Scene) -> str:
             return f"{key} = {list(point)} m: there is no sheet, by its outline or a cutout"
     shapes = {name: place(support) for name, support in named(scene.supports).items()}
     shapes |= {f"load {n}": getattr(load, "where", None) for n, load in enumerate(scene.loads, start=1)}
+    shapes |= {f"mass {n}": payload.where for n, payload in enumerate(scene.masses, start=1)}
     least = NECK * min(scene.sheet.lengths)
     for name, shape in shapes.items():
         if shape is not None and area_in(scene, shape) <= least**2:

@@ -24,6 +24,7 @@ from sheetbench.scenes.air import Air
 from sheetbench.scenes.initial import Initial
 from sheetbench.scenes.layers import Layer, misfit
 from sheetbench.scenes.loads import AreaLoad, Load
+from sheetbench.scenes.masses import Mass
 from sheetbench.scenes.material import Material
 from sheetbench.scenes.orthotropy import FIBRES
 from sheetbench.scenes.patches import Patch, mismatched, misplaced
@@ -40,9 +41,12 @@ if TYPE_CHECKING:
 
 LISTS = {  # by their keys in Python: those in a file, where each entry is a table
     "layers": "layer", "patches": "patch", "cutouts": "cutout", "supports": "support", "loads": "load",
-    "actuators": "actuator",
+    "masses": "mass", "actuators": "actuator",
 }  # fmt: skip
-SHAPED = ("sheet.outline", "sheet.mesh", "cutout", "support.where", "load.where", 'load.kind = "area"')
+SHAPED = (
+    "sheet.outline", "sheet.mesh", "cutout", "support.where", "load.where", 'load.kind = "area"',
+    "mass.where",
+)  # fmt: skip
 OURS = {"sheetbench", "lumped", "fem_reference", "comparisons", "studies"}
 
 
@@ -76,6 +80,8 @@ class Scene(Frozen):
     """How edges are held, at most one support an edge, and parts of the sheet."""
     loads: tuple[Load, ...] = ()
     """Forces, moments and pressures, which add up."""
+    masses: tuple[Mass, ...] = Field(default=(), kw_only=True)
+    """Payloads: they weigh under gravity and are inert in motion, and stiffen nothing."""
     actuators: tuple[Actuator, ...] = ()
     """What moves edges that have no support."""
     initial: Initial | None = Field(default=None, kw_only=True)
@@ -237,6 +243,7 @@ class Scene(Frozen):
             any(place(support) is not None for support in self.supports),
             any(getattr(load, "where", None) is not None for load in self.loads),
             any(isinstance(load, AreaLoad) for load in self.loads),
+            any(payload.where is not None for payload in self.masses),
         )
         return ", ".join(word for word, drawn in zip(SHAPED, given, strict=True) if drawn)
 

@@ -81,6 +81,7 @@ def _offered(sheet: Sheet, edge: str) -> list[tuple[str, dict[str, Any]]]:
         ("[[load]]", {"kind": "point", "at": corner, "force": [0.0, 0.0, 0.01]}),
         ("[[load]]", {"kind": "edge", "edge": edge, "force_per_length": [0.0, 0.0, 0.1]}),
         ("[[load]]", {"kind": "pressure", "value": 1.0, "history": rising}),
+        ("[[mass]]", {"at": corner, "mass": 0.005}),
         ("[[actuator]]", {"kind": "chain", "edge": edge, **chain, "curvature": 4.0}),
         ("[initial]", {"shape": "static"}),
         ("[probes]", {"centre": middle, "corner": corner}),

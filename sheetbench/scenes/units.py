@@ -58,6 +58,7 @@ NAMES: dict[str, tuple[str, str]] = {  # by the SI unit: the quantity, and how o
     "N·s/m": ("damping", "3 mN·s/m"),
     "kg/m": ("mass per length", "50 g/m"),
     "kg": ("mass", "20 g"),
+    "kg·m²": ("moment of inertia", "20 g·cm²"),
     "1/m": ("curvature", "0.4 1/cm"),
     "1/s": ("rate", "0.5 1/s"),
     "Hz": ("frequency", "5 Hz"),

@@ -10,6 +10,7 @@ from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
 from sheetbench.scenes.air import Air
 from sheetbench.scenes.layers import Layer
 from sheetbench.scenes.loads import AnyLoad, AreaLoad, PointLoad, Pressure
+from sheetbench.scenes.masses import Mass, carried
 from sheetbench.scenes.material import CONSTANTS, Material
 from sheetbench.scenes.orthotropy import Ply
 from sheetbench.scenes.patches import Patch, mass_of
@@ -52,7 +53,8 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         *((f"layer {n}", _layer(layer)) for n, layer in enumerate(scene.layers, start=1)),
         *((f"patch {n}", _patch(patch)) for n, patch in enumerate(scene.patches, start=1)),
         *((f"cutout {n}", cutout.shape.in_words()) for n, cutout in enumerate(scene.cutouts, start=1)),
-        ("weight", _weight(scene, mass)),
+        *((f"mass {n}", _payload(payload, sheet)) for n, payload in enumerate(scene.masses, start=1)),
+        ("weight", _weight(scene, mass + carried(scene))),
     ]
     if scene.air is not None:
         sentences.append(("air", _air(scene.air, scene.sheet, mass)))
@@ -160,11 +162,22 @@ def sheet_in_words(sheet: Sheet, material: Material) -> str:
     return f"{sides} mm, {elasticity}, ρ = {material.density:g} kg/m³"
 
 
+def _payload(payload: Mass, sheet: Sheet) -> str:
+    if payload.at is None:
+        return f"{1e3 * payload.mass:.3g} g, spread evenly{_in(payload.where)}"
+    x, y, z = (1e7 * moment for moment in payload.inertia or (0.0, 0.0, 0.0))
+    turning = f", moments of inertia {x:.3g} and {y:.3g} g·cm² about x and y" if x or y else ""
+    turning += ", of that about z, the sheet's normal, nothing is taken" if z else ""
+    place = f"{_point(payload.at)} mm{_on_edges(payload.at, sheet)}"
+    return f"{1e3 * payload.mass:.3g} g at {place}{turning}"
+
+
 def _weight(scene: Scene, mass: float) -> str:
+    whole = f", of {1e3 * mass:.3g} g in all" if scene.masses else ""
     if scene.gravity is None:
-        return "none: weightless"
+        return f"none: weightless{whole}"
     force = [mass * component for component in scene.gravity.acceleration]
-    return f"{_vector(force, 'N')}{_over_time(scene.gravity.history)}"
+    return f"{_vector(force, 'N')}{whole}{_over_time(scene.gravity.history)}"
 
 
 def _air(air: Air, sheet: Sheet, mass: float) -> str:

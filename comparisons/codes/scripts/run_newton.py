@@ -47,7 +47,7 @@ def main(seconds=300.0):
     now, after, control = model.state(), model.state(), model.control()
     sides = rest[np.array([e for e in sheet["edges"] if not (sheet["held"][e[0]] and sheet["held"][e[1]])])]
     spacing = np.linalg.norm(sides[:, 1] - sides[:, 0], axis=1).min()
-    areal = max(sheet["masses"]) / spacing**2
+    areal = np.median(sheet["masses"]) / spacing**2
     steps = [share * spacing / (sheet["stretching"] / areal) ** 0.5 for share in STEPS]
     forces = wp.array(np.array(sheet["forces"], dtype=np.float32), dtype=wp.vec3, device="cpu")
     before, earlier, calm, count, status = 0.0, None, 0, 0, "step-limit"

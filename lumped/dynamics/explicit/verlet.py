@@ -28,7 +28,7 @@ class Verlet(Integrator):
         self._projection = Projection(system)
         chains = system.coupling is not None and system.coupling.bodies
         one_by_one = chains or system.maxwell is not None or system.damping.drag.coefficient > 0.0
-        self._flat = None if one_by_one else FlatSystem(system)
+        self._flat = None if one_by_one or system.shared_mass else FlatSystem(system)
         if self._flat is not None:
             self._flat.compile()
 
@@ -38,7 +38,8 @@ class Verlet(Integrator):
         return step_limit(system, u)
 
     def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
-        """Steps in one compiled call; one at a time where there are chains, branches or air. Raises
+        """Steps in one compiled call; one at a time where there are chains, branches, air or
+        bodies with moments of inertia. Raises
         StepFailed."""
         if self._flat is None:
             return super().march(state, step, most)

@@ -12,7 +12,7 @@ from commands import run
 
 from comparisons.cells.cell import HINGES, _hinge, _triangle
 from comparisons.cells.homogenise import moduli_of
-from comparisons.codes.files import WRITERS
+from comparisons.codes.files import OWN_MASSES, WRITERS
 from comparisons.codes.mesh import sheet_mesh
 from comparisons.codes.setup import setup
 from comparisons.scoring.reference import references
@@ -198,6 +198,21 @@ def test_masses_and_loads_of_every_code_are_the_sheets(code):
     assert free == pytest.approx(1678.0 * 0.003 * 0.188**2 * (7 / 8) ** 2, rel=1e-9)
     assert mesh.forces.sum(axis=0) == pytest.approx([0.01, 0.0, 0.05])
     assert all(sum(shares) == pytest.approx(1.0) for _, shares in mesh.probes.values())
+
+
+@pytest.mark.parametrize("code", WRITERS)
+def test_a_payload_is_in_the_masses_of_codes_that_have_them(code):
+    scene = SCENE.replace(masses=({"at": (0.11, 0.1), "mass": 0.02},))
+    bare, laden = (setup(one, code, 4, best=False) for one in (SCENE, scene))
+    if code not in OWN_MASSES:
+        assert not laden.files() and "No files: mass: " in " ".join(laden.notes())
+        return
+    more = laden.mesh.masses - bare.mesh.masses
+    assert more.sum() == pytest.approx(0.02)
+    assert more @ laden.mesh.vertices[:, :2] / 0.02 == pytest.approx([0.11, 0.1])
+    assert laden.files()
+    turning = setup(scene.replace(masses=({"at": (0.1, 0.1), "mass": 0.02, "inertia": (1e-6,) * 3},)), code)
+    assert "mass.inertia: their vertices are points" in " ".join(turning.notes())
 
 
 def test_a_force_along_an_edge_is_shared_by_its_vertices():

@@ -164,6 +164,27 @@ def test_numpy_alone_finds_our_displacements(scene, settings):
         assert np.abs(u - truth).max() < AGREED * np.abs(truth).max()
 
 
+def test_an_exported_lattice_carries_the_payload(tmp_path):
+    """Its masses, its weight, and the equilibrium that a reader of files alone finds again."""
+    scene = scenes.load("two-edges-clamped")
+    laden = scene.replace(masses=({"at": (0.17, 0.16), "mass": 0.05},))
+    own = spring_set(scene, 3)
+    bare, found = (lumped.describe(one, own) for one in (scene, laden))
+    assert (found.mass - bare.mass).sum() == pytest.approx(0.05)
+    assert (found.dead - bare.dead).sum(axis=0) == pytest.approx([0.0, 0.0, -9.81 * 0.05])
+    lattice = arrays(found)
+    u, truth = (
+        NUMPY["equilibrium"](lattice, NUMPY["differences"](lattice), 2),
+        lattice["state_displacement"][-1],
+    )
+    assert np.abs(u - truth).max() < AGREED * np.abs(truth).max()
+    assert np.abs(truth - bare.states[-1].displacement).max() > 0.1 * np.abs(truth).max()
+    export(tmp_path, laden, own)
+    assert sum(float(row["mass"]) for row in table(tmp_path / "nodes.csv")) == pytest.approx(found.mass.sum())
+    with pytest.raises(BadInput, match=r"mass.inertia: an exported lattice has masses alone"):
+        lumped.describe(scene.replace(masses=({"at": (0.1, 0.1), "mass": 0.1, "inertia": (1e-6,) * 3},)), own)
+
+
 def test_the_numpy_reader_is_a_program(folder, capsys):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("sys.argv", ["read_lattice.py", str(folder)])

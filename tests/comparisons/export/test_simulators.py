@@ -31,8 +31,13 @@ def described(scene, grid=4, method="central"):
     return lumped.describe(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid, method=method))
 
 
+LADEN = scenes.load("two-edges-clamped").replace(name="laden", masses=({"at": (0.17, 0.16), "mass": 0.05},))
+
+
 @pytest.mark.parametrize(
-    "scene", [scenes.load("two-edges-clamped"), scenes.load("curved-edge"), CORNER], ids=lambda s: s.name
+    "scene",
+    [scenes.load("two-edges-clamped"), scenes.load("curved-edge"), CORNER, LADEN],
+    ids=lambda s: s.name,
 )
 def test_mujocos_masses_rest_where_ours_do(scene):
     """Put where we say, no mass accelerates by more than rounding beside what its springs would do to it."""

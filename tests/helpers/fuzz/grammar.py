@@ -75,6 +75,7 @@ def sound(draw: st.DrawFn) -> dict[str, Any]:
     held = draw(st.integers(1, 3))
     data["support"] = [draw(support(edge)) for edge in edges[:held]]
     data["load"] = draw(st.lists(load(lengths), max_size=2))
+    data["mass"] = draw(st.lists(payload(lengths), max_size=2))
     if held < 3 and draw(st.booleans()):
         data["actuator"] = [draw(actuator(edges[held]))]
     return data
@@ -122,6 +123,8 @@ def shaped(draw: st.DrawFn) -> dict[str, Any]:
     loads = {"kind": "pressure", "value": 5.0}, {"kind": "area", "force_per_area": force}
     if draw(st.booleans()):
         data["load"].append({**draw(st.sampled_from(loads)), "where": draw(shape(lengths))})
+    if draw(st.booleans()):
+        data["mass"].append({"mass": draw(numbers(1e-5, 0.1)), "where": draw(shape(lengths))})
     return data
 
 
@@ -134,6 +137,16 @@ def support(draw: st.DrawFn, edge: str) -> dict[str, Any]:
         "clamped": draw(st.sampled_from([{}, {"tilt": 0.2}, {"tilt": -0.1}])),
     }.get(kind, {})
     return {"edge": edge, "kind": kind, **more}
+
+
+@st.composite
+def payload(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
+    """A body at a point, small or large beside the sheet, with moments of inertia or without."""
+    at = [draw(st.sampled_from([0.0, 0.3, 1.0])) * length for length in lengths]
+    data: dict[str, Any] = {"at": at, "mass": draw(numbers(1e-5, 0.1))}
+    if draw(st.booleans()):
+        data["inertia"] = draw(st.lists(numbers(0.0, 1e-5), min_size=3, max_size=3))
+    return data
 
 
 @st.composite

@@ -73,8 +73,8 @@ def document(found: Outcome) -> Any:
 def in_balance(answer: dict[str, Any], summed: bool = True) -> None:
     """What is called converged is in balance, by its own word and, summed, by that of reactions and loads.
 
-    The sum is taken from the document alone: weight of the sheet and of its chains, points, edges; where a
-    pressure follows the sheet its own word must do.
+    The sum is taken from the document alone: weight of the sheet, its payloads and chains, points, edges;
+    where a pressure follows the sheet its own word must do.
     """
     asked = answer["scene"]
     for solution in answer["solutions"]:
@@ -106,6 +106,7 @@ def applied(asked: dict[str, Any]) -> list[np.ndarray]:
         mass = asked["material"]["density"] * math.prod(
             sheet[f"{key}"] for key in ("length_x", "length_y", "thickness")
         )
+        mass += sum(payload["mass"] for payload in asked["mass"])
         for rod in asked["actuator"]:
             if "line_density" in rod:
                 mass += rod["line_density"] * length[rod["edge"][0]]

@@ -91,4 +91,5 @@ def test_a_scene_s_document_is_the_scene():
         "actuator",
         "probes",
         "load",
+        "mass",
     }

@@ -1,0 +1,57 @@
+"""The scene's payloads on a lattice (`sheetbench.scenes.masses`).
+
+Each mass of the lattice takes of a payload at a point the share that it would take of a force there:
+bilinearly among the columns of the cell, equally among the layers, so that the mass and its first moment are
+those of the payload; of one spread over a part of the sheet, as an area load is shared. A body's moments of
+inertia J act on the rate of the director at its point, the columns' in the same shares, d = Bᵀ x:
+
+    M = B Bᵀ ⊗ J
+
+which neighbours share; its rows add up to zero, so that it has no weight.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+
+from lumped.coverage import areas_of_masses
+from lumped.lattice import Lattice
+from lumped.mid_surface import MidSurface
+from sheetbench.scenes import Scene
+
+
+def point_masses(scene: Scene, lattice: Lattice) -> np.ndarray:
+    """What every mass of a lattice takes of the payloads, (n,) [kg]."""
+    out = np.zeros(lattice.mass_count)
+    for payload in scene.masses:
+        if payload.at is not None:
+            out += payload.mass * _shares(lattice, np.array(payload.at))
+            continue
+        area = areas_of_masses(scene, lattice, payload.where).ravel()
+        out += payload.mass * np.repeat(area / area.sum(), lattice.grid[2]) / lattice.grid[2]
+    return out
+
+
+def rotary_masses(scene: Scene, lattice: Lattice) -> sp.bsr_array:
+    """What neighbours share for the bodies' moments of inertia, (3 n, 3 n) [kg] in blocks of 3 × 3."""
+    count, layers = lattice.mass_count, lattice.grid[2]
+    heights = lattice.positions[:layers, 2]
+    lever = np.tile(layers * heights / (heights @ heights), count // layers)
+    total = sp.bsr_array((3 * count, 3 * count), blocksize=(3, 3))
+    for payload in scene.masses:
+        if payload.at is not None and payload.inertia is not None:
+            director = sp.csc_array((lever * _shares(lattice, np.array(payload.at)))[:, None])
+            total = total + sp.kron(director @ director.T, np.diag(payload.of_director), format="bsr")
+    return total
+
+
+def pairs_of(blocks: sp.bsr_array) -> tuple[np.ndarray, np.ndarray]:
+    """The masses, rows and columns (k,), of a matrix's blocks."""
+    return np.repeat(np.arange(len(blocks.indptr) - 1), np.diff(blocks.indptr)), blocks.indices
+
+
+def _shares(lattice: Lattice, at: np.ndarray) -> np.ndarray:
+    """What of a force at a plan point (2,) [m] every mass takes, (n,)."""
+    along_z = MidSurface(lattice, at, order=1).shared(np.array([[0.0, 0.0, 1.0]]), lattice.mass_count)
+    return np.asarray(along_z[:, 2])

@@ -1,0 +1,281 @@
+"""Payloads in every model: a strip with a body at its tip, at rest, in motion and in modes."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import fem_reference
+import lumped
+from comparisons.external.bricks import Bricks, forces
+from comparisons.external.calculix.deck import deck
+from comparisons.external.calculix.model import MODEL as CALCULIX
+from comparisons.external.felupe import MODEL as FELUPE
+from comparisons.external.kratos.model import MODEL as KRATOS
+from comparisons.external.kratos.problem import Triangles, problem
+from comparisons.external.mujoco import MODEL as MUJOCO
+from sheetbench.scenes import AreaLoad, Gravity, Material, PointLoad, Scene, Sheet, Status, dead_force
+from sheetbench.scenes.parameters import parameter, put
+
+LENGTH, WIDTH, THICK, YOUNG, DENSITY, TIP = 0.2, 0.02, 0.003, 2e6, 1100.0, 5e-3
+BEAM = DENSITY * LENGTH * WIDTH * THICK  # kg
+RIGIDITY = YOUNG * WIDTH * THICK**3 / 12.0
+REFERENCES = {"plate": 2, "shell": 2, "solid": 2}  # elements across
+PART = {"rectangle": {"x": (0.15, 0.2), "y": (0.0, WIDTH)}}
+
+
+def strip(*masses, young=YOUNG, **more):
+    return Scene(
+        name="strip",
+        sheet=Sheet(LENGTH, WIDTH, THICK),
+        material=Material(young, 0.0, DENSITY),
+        **{
+            "gravity": Gravity((0.0, 0.0, -9.81)),
+            "supports": [{"edge": "x0", "kind": "clamped"}],
+            "masses": masses,
+            **more,
+        },
+    )
+
+
+def springs(scene, grid=(21, 3)):
+    cells = lumped.sections_of(scene, (*grid, 2))
+    own = {} if cells is None else {"cells": cells}
+    return lumped.calibrate(scene.sheet, scene.material, grid=grid, **own)
+
+
+def body(mass=TIP, moments=None, at=(LENGTH, WIDTH / 2.0)):
+    return {"at": at, "mass": mass, **({"inertia": moments} if moments else {})}
+
+
+def frequencies(scene, model, count=1, **more):
+    if model == "lumped":
+        return lumped.modes(scene, springs(scene), count, **more).frequencies
+    return fem_reference.modes(scene, model, REFERENCES[model], count, **more).frequencies
+
+
+def ending(scene, solution, probe="P3"):
+    """How high a probe ends [m]."""
+    return solution.displacement(np.array([scene.probes[probe]]))[0, 2]
+
+
+def closed_form(mass, moment=0.0):
+    """First frequency [Hz] of an Euler–Bernoulli cantilever with a body at its tip: the root of its
+    characteristic equation; e.g. Blevins, Formulas for Dynamics, 2016, table 4.6."""
+    a, b = mass / BEAM, moment / (BEAM * LENGTH**2)
+
+    def characteristic(x):
+        s, c, sh, ch = np.sin(x), np.cos(x), np.sinh(x), np.cosh(x)
+        bare, moved = 1.0 + c * ch, a * x * (c * sh - s * ch)
+        return bare + moved - b * x**3 * (c * sh + s * ch) + a * b * x**4 * (1.0 - c * ch)
+
+    root = brentq(characteristic, 0.1, 1.8755)
+    return root**2 / (2.0 * np.pi) * np.sqrt(RIGIDITY / (BEAM * LENGTH**3))
+
+
+def test_the_closed_form_is_rayleighs_of_a_heavy_tip_and_the_bare_beams_without():
+    heavy = np.sqrt(3.0 * RIGIDITY / (LENGTH**3 * (TIP + 33.0 / 140.0 * BEAM))) / (2.0 * np.pi)
+    assert closed_form(TIP) == pytest.approx(heavy, rel=3e-3) and closed_form(TIP) < heavy
+    assert closed_form(0.0) == pytest.approx(1.8751**2 / 3.5160 * closed_form(1e-9), rel=1e-4)
+
+
+@pytest.mark.parametrize("model", ["lumped", *REFERENCES])
+@pytest.mark.parametrize("moment", [0.0, 1e-5])
+def test_a_strip_with_a_body_at_its_tip_has_the_beams_first_frequency(model, moment):
+    """The moment of inertia takes 3 % off it; at a point the width of the strip gives way a little."""
+    found = frequencies(strip(body(moments=(0.0, moment, 0.0) if moment else None)), model)[0]
+    assert found == pytest.approx(closed_form(TIP, moment), rel=1e-3)
+    assert closed_form(TIP, 1e-5) < 0.975 * closed_form(TIP)
+
+
+def test_a_body_that_turns_about_the_strip_slows_its_twist_alone():
+    """Of the fixed rod with a third of its own inertia and the body's at the end, G J/L the spring; a point
+    gives way against the whole width."""
+    plain, turning = (frequencies(strip(body(moments=m)), "shell", 4) for m in (None, (2e-6, 0.0, 0.0)))
+    spring = YOUNG / 2.0 * WIDTH * THICK**3 / 3.0 * (1.0 - 0.63 * THICK / WIDTH) / LENGTH
+    whole = 2e-6 + BEAM * (WIDTH**2 + THICK**2) / 36.0
+    twist = turning[np.argmin(np.abs(turning[:, None] - plain).min(axis=1) < 1e-4 * turning)]
+    assert turning[0] == pytest.approx(plain[0], rel=1e-6)
+    assert twist == pytest.approx(np.sqrt(spring / whole) / (2.0 * np.pi), rel=0.05)
+    fine = lumped.modes(strip(body(moments=(2e-6, 0.0, 0.0))), springs(strip(), (41, 9)), 4).frequencies
+    assert np.allclose(fine, turning, rtol=0.02)
+
+
+@pytest.mark.parametrize("model", ["lumped", *REFERENCES])
+@pytest.mark.parametrize("spread", [False, True])
+def test_at_rest_a_payload_is_the_force_of_its_weight(model, spread):
+    payload = {"where": PART, "mass": TIP} if spread else body(at=(0.17, 0.013))
+    pull = -9.81 * TIP
+    load = AreaLoad(force_per_area=(0.0, 0.0, pull / (0.05 * WIDTH)), where=PART)
+    forced = strip(loads=(load if spread else PointLoad(at=(0.17, 0.013), force=(0.0, 0.0, pull)),))
+    scenes = strip(payload, young=2e8), forced.replace(young=2e8)
+    if model == "lumped":
+        found = [lumped.solve(scene, springs(scene)) for scene in scenes]
+    else:
+        found = [fem_reference.solve(scene, model=model, elements=REFERENCES[model]) for scene in scenes]
+    fields = [one.mesh.point_data["displacement"] for one in found]
+    assert all(one.status is Status.CONVERGED and one.balance.holds for one in found)
+    assert np.allclose(*fields, rtol=0.0, atol=1e-9 * np.abs(fields[1]).max())
+    assert np.allclose(*(one.reactions["x0"] for one in found), atol=1e-9)
+    assert dead_force(scenes[0])[2] == pytest.approx(-9.81 * (BEAM + TIP), rel=1e-12)
+
+
+def test_the_weight_follows_gravitys_history():
+    ramp = {"time": (0.0, 1.0), "factor": (0.0, 0.5)}
+    scene = strip(body(), gravity=Gravity((0.0, 0.0, -9.81), history=ramp), young=2e8)
+    halved = strip(body(), gravity=Gravity((0.0, 0.0, -9.81 / 2.0)), young=2e8)
+    found = [ending(one, lumped.solve(one, springs(one))) for one in (scene, halved)]
+    assert np.allclose(*found, rtol=1e-9)
+    assert dead_force(scene)[2] == pytest.approx(-9.81 / 2.0 * (BEAM + TIP))
+
+
+RUNS = [("lumped", "midpoint"), ("lumped", "esdirk"), ("lumped", "verlet"), "plate", "shell"]
+
+
+@pytest.mark.parametrize("run", RUNS, ids=str)
+def test_a_swing_keeps_its_energy_and_reaches_as_far_as_the_others(run):
+    """From the flat sheet the potential energy goes into motion and springs and back; nothing else acts."""
+    scene = strip(body(moments=(2e-6, 2e-6, 1e-6)), young=2e8)
+    if isinstance(run, tuple):
+        history = lumped.simulate(scene, springs(scene, (11, 3)), duration=0.2, integrator=run[1])
+    else:
+        history = fem_reference.simulate(scene, run, 0.2, elements=1)
+    energies = {name: np.array(history.energies[name]) for name in ("kinetic", "elastic", "potential")}
+    whole = sum(energies.values())
+    assert history.status is Status.CONVERGED
+    least = 5e-3 if run == ("lumped", "esdirk") else 2e-3  # it interpolates between its steps
+    assert np.abs(whole).max() < least * np.ptp(energies["potential"])
+    sag = 9.81 * LENGTH**3 / (RIGIDITY * 100.0) * (TIP / 3.0 + BEAM / 8.0)
+    lowest = np.min(np.array(history.probes["P3"])[:, 2])
+    assert lowest == pytest.approx(-2.0 * sag, rel=0.05)
+    assert energies["kinetic"].max() > 0.2 * np.ptp(energies["potential"])
+
+
+def test_lattice_and_shell_swing_alike_as_gravity_comes_and_goes_and_all_masses_are_dragged():
+    pulse = {"time": (0.0, 0.03, 0.06), "factor": (0.0, 1.0, 0.2)}
+    scene = strip(body(moments=(2e-6, 2e-6, 1e-6)), gravity=Gravity((0.0, 0.0, -9.81), history=pulse))
+    scene = scene.replace(material=scene.material.replace(young=2e8, damping_rate=8.0))
+    every = {"duration": 0.12, "every": 0.01}
+    lattice = lumped.simulate(scene, springs(scene, (11, 3)), **every)
+    shell = fem_reference.simulate(scene, "shell", elements=1, **every)
+    ends = [np.array(history.probes["P3"]) for history in (lattice, shell)]
+    assert np.abs(ends[0] - ends[1]).max() < 0.01 * np.abs(ends[1]).max()
+    spent = [np.array(history.energies["dissipated"])[-1] for history in (lattice, shell)]
+    assert spent[0] == pytest.approx(spent[1], rel=0.02) and spent[0] > 0.0
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+def test_a_free_sheet_with_a_body_falls_as_one(model):
+    scene = strip(body(at=(0.05, 0.01), moments=(1e-6, 1e-6, 1e-6)), supports=())
+    if model == "lumped":
+        history = lumped.simulate(scene, springs(scene, (9, 3)), duration=0.01, integrator="midpoint")
+        ends = [np.array(probe[-1]) for probe in history.probes.values()]
+        assert np.allclose(ends, [0.0, 0.0, -0.5 * 9.81 * 0.01**2], rtol=0.0, atol=1e-10)
+    else:
+        assert fem_reference.modes(scene, "shell", 2, 1).rigid_modes == 6
+
+
+@pytest.mark.parametrize("model", ["lumped", "plate", "shell"])
+def test_a_mass_spread_over_a_part_is_a_patch_of_higher_density(model):
+    denser = DENSITY + TIP / (0.05 * WIDTH * THICK)
+    scenes = strip({"where": PART, "mass": TIP}), strip(patches=[{"shape": PART, "density": denser}])
+    found = [frequencies(scene, model, 2) for scene in scenes]
+    if model == "lumped":  # whose patches have Gregory's weights, and sheets without others of higher order
+        assert np.allclose(*found, rtol=3e-3) and found[0][0] == pytest.approx(found[1][0], rel=1e-3)
+    else:
+        assert np.allclose(*found, rtol=1e-4)
+
+
+def test_modes_about_the_deformed_strip_are_alike():
+    found = [
+        frequencies(strip(body(moments=(0.0, 1e-6, 0.0)), young=1e7), model, 1, about="deformed")
+        for model in ("lumped", "shell")
+    ]
+    assert np.allclose(*found, rtol=5e-3)
+
+
+def test_a_state_space_has_the_body_and_its_weight():
+    scene = strip(body(moments=(1e-6, 1e-6, 1e-6)), young=2e8)
+    own = springs(scene, (11, 3))
+    linear = lumped.linearise(scene, own)
+    about = lumped.modes(scene, own, 2, "gregory", "deformed").frequencies
+    assert linear.state_space(2).frequencies == pytest.approx(about, rel=1e-6)
+    more = scene.replace(gravity=Gravity((0.0, 0.0, -9.81 * 1.001)))
+    change = (ending(scene, lumped.solve(more, own)) - ending(scene, lumped.solve(scene, own))) / 1e-3
+    by_weight = linear.jacobian[linear.outputs.index("P3 uz"), linear.inputs.index("gravity")]
+    assert by_weight == pytest.approx(change, rel=1e-2)
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+def test_mirrored_and_turned_sheets_answer_alike(model):
+    """A body within a cell and one on a line, of a sheet held at x0 or at x1, or along y."""
+    side, at = 0.12, (0.1, 0.035)
+    bodies = [(at, (3e-6, 1e-6, 0.0)), ((0.06, 0.06), (2e-6, 1e-6, 0.0))]
+    scene = Scene(
+        name="square",
+        sheet=Sheet(side, side, THICK),
+        material=Material(2e7, 0.3, DENSITY),
+        gravity=Gravity((0.0, 0.0, -9.81)),
+        supports=[{"edge": "x0", "kind": "clamped"}],
+        masses=[body(at=place, moments=moments) for place, moments in bodies],
+        probes={"A": (side, side)},
+    )
+    mirrored = scene.replace(
+        supports=[{"edge": "x1", "kind": "clamped"}],
+        masses=[body(at=(side - x, y), moments=moments) for (x, y), moments in bodies],
+        probes={"A": (0.0, side)},
+    )
+    turned = scene.replace(
+        supports=[{"edge": "y0", "kind": "clamped"}],
+        masses=[body(at=(side - y, x), moments=(iy, ix, iz)) for (x, y), (ix, iy, iz) in bodies],
+        probes={"A": (0.0, side)},
+    )
+    found, swings = [], []
+    for one in (scene, mirrored, turned):
+        if model == "lumped":
+            own = springs(one, (9, 9))
+            found.append(ending(one, lumped.solve(one, own), "A"))
+            swings.append(lumped.modes(one, own, 3).frequencies)
+        else:
+            found.append(ending(one, fem_reference.solve(one, model=model, elements=4), "A"))
+            swings.append(fem_reference.modes(one, model, 4, 3).frequencies)
+    assert np.allclose(found, found[0], rtol=1e-8) and np.allclose(swings, swings[0], rtol=1e-8)
+
+
+def test_judges_are_given_the_weight():
+    scene = strip(body(at=(0.17, 0.013)), {"where": PART, "mass": TIP}, young=2e8)
+    bricks = Bricks.of(scene, 2, 2, "edges")
+    assert forces(scene, bricks).sum(axis=0) == pytest.approx([0.0, 0.0, -2.0 * TIP * 9.81])
+    assert "*CLOAD" in deck(scene, bricks, False)
+    pointed = strip(body(at=(0.17, 0.013)))
+    handed = problem(pointed, Triangles.of(pointed.sheet, 2), np.ones(1))["force"]
+    assert handed.sum(axis=0) == pytest.approx([0.0, 0.0, -TIP * 9.81])
+
+
+@pytest.mark.parametrize("judge", [FELUPE, MUJOCO], ids=lambda judge: judge.name)
+def test_a_judge_answers_a_payload_as_a_force(judge):
+    pytest.importorskip(judge.name)
+    pull = PointLoad(at=(LENGTH, WIDTH / 2.0), force=(0.0, 0.0, -9.81 * TIP))
+    size = {"elements": 2} if judge is FELUPE else {"grid": [11, 3]}
+    scenes = strip(body(), young=2e8), strip(loads=(pull,), young=2e8)
+    found = [judge.solve(scene, {**judge.settings, **size}) for scene in scenes]
+    assert all(one.status is Status.CONVERGED for one in found)
+    # MuJoCo stops within 1e-4 of the side, on another way there
+    assert np.allclose(*(ending(scenes[0], one) for one in found), rtol=0.0, atol=2e-4 * LENGTH)
+
+
+@pytest.mark.parametrize("judge", [CALCULIX, KRATOS], ids=lambda judge: judge.name)
+def test_a_judge_of_motions_refuses_what_it_has_no_inertia_for(judge):
+    scene = strip(body(), loads=())
+    assert "[[mass]]" in judge.refusal_of_motion(scene, judge.settings)
+    assert "[[mass]]" not in judge.refusal_of_motion(scene.replace(masses=()), judge.settings)
+
+
+@pytest.mark.parametrize("name", ["mass1", "young"])
+def test_the_lattices_sensitivity_to_a_payload_is_that_of_its_answers(name):
+    scene = strip(body(), young=1e8)
+    own, points = springs(scene, (11, 3)), np.array([[LENGTH, WIDTH / 2.0]])
+    found = lumped.sensitivity(scene, own, [name], points).derivatives[name][0]
+    value = parameter(scene, name).value
+    changed = [put(scene, name, value * (1.0 + by)) for by in (1e-3, -1e-3)]
+    up, down = (lumped.solve(one, springs(one, (11, 3))).displacement(points)[0] for one in changed)
+    assert np.allclose(found, (up - down) / (2e-3 * value), rtol=1e-4, atol=1e-6 * np.abs(found).max())

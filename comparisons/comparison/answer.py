@@ -200,9 +200,9 @@ class Comparison(Answer):
             return f"{solution.label}: not comparable" + "".join(
                 f", {one.model} {one.status}" for one in ended
             )
-        known = isinstance(self.expected, ExpectedError)
-        expected = f", expected {few(100 * self.expected.value)} %" if known else ""
-        own = expected if solution is self.solutions[0] else ""
+        own = ""
+        if solution is self.solutions[0] and isinstance(self.expected, ExpectedError):
+            own = f", expected {few(100 * self.expected.value)} %"
         bar = "" if self.bar is None else f" ± {few(100 * self.bar.error)} %"
         return f"{solution.label}: {few(100 * off)} % off {self.reference.label}{bar}{own}"
 

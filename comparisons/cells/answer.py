@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from comparisons.cells.cell import Cell
-from comparisons.cells.codes import Parameter, parameters
 from comparisons.cells.coefficients import best_hinge, limit_error, nearest
 from comparisons.cells.homogenise import Moduli, moduli_of
 from comparisons.cells.meshes import cell_on
+from comparisons.cells.parameters import Parameter, parameters
 from fem_reference.surface.materials import section_of
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Column, Table, number

@@ -9,10 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated
-
-from sheetbench.answers.table import Column
-from sheetbench.scenes import Material, Scene
 
 Numbers = Mapping[str, float]
 BEND_SCALE = 1.28e-5  # ppf-contact-solver's own number
@@ -46,17 +42,6 @@ class Code:
     licence: str = ""
     runs: bool = False
     dampers: tuple[Key, ...] = ()
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A parameter of a code, as it is shown."""
-
-    code: str
-    parameter: str
-    value: Annotated[float, Column("value", form=".6g")]
-    unit: str
-    convention: Annotated[str, Column("meaning in this code", prose=True)]
 
 
 def _spatial_poisson(c: Numbers) -> float:
@@ -342,33 +327,3 @@ CODES = {
         ),
     )
 }
-
-
-def parameters(hinge: str, coefficients: Numbers, scene: Scene) -> list[Parameter]:
-    """The parameters of the codes of triangles whose hinges have this weight."""
-    return [
-        one
-        for code in CODES.values()
-        if code.hinge == hinge and code.elements == "triangles"
-        for one in parameters_of(code, coefficients, scene)
-    ]
-
-
-def parameters_of(code: Code, coefficients: Numbers, scene: Scene) -> list[Parameter]:
-    """The parameters of a code for a scene's sheet."""
-    material = scene.material
-    damping = {"damping_time": material.dashpot_time, "damping_rate": material.damping_rate}
-    numbers = {"thickness": scene.sheet.thickness, "density": material.density, **damping, **coefficients}
-    keys = (*code.keys, *(code.dampers if material.dashpot_time else ()))
-    return [Parameter(code.title, key.name, key.value(numbers), key.unit, key.convention) for key in keys]
-
-
-def undamped(code: Code, material: Material) -> str:
-    """Why a material's damping is not among a code's parameters, or "" where it is, or there is none."""
-    if material.branches.times:
-        return f"{code.title} has no Maxwell branches"
-    if material.dashpot_time and not code.dampers:
-        return f"{code.title} has no damper in proportion to the stiffness"
-    if material.damping_rate and not any(key.name == "rayleighMass" for key in code.dampers):
-        return f"{code.title} has no damper in proportion to the mass"
-    return ""

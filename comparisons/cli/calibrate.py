@@ -109,7 +109,8 @@ def command(
     of = subject(scene, sheet.values | damped, "--")
     about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
     if simulators and export is None:
-        from comparisons.cells.codes import CODES, undamped
+        from comparisons.cells.codes import CODES
+        from comparisons.cells.parameters import undamped
         from comparisons.codes.setup import setup, squares_of
 
         if damped and (code := CODES.get(simulators[0])) and (why := undamped(code, of.material)):

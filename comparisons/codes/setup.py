@@ -18,10 +18,11 @@ from typing import Any
 import numpy as np
 
 from comparisons.cells.cell import Cell
-from comparisons.cells.codes import CODES, Code, Parameter, parameters_of, undamped
+from comparisons.cells.codes import CODES, Code
 from comparisons.cells.coefficients import best_hinge, limit_error, nearest
 from comparisons.cells.homogenise import moduli_of
 from comparisons.cells.meshes import mesh as cell_of_triangles
+from comparisons.cells.parameters import Parameter, parameters_of, undamped
 from comparisons.codes.files import OWN_MASSES, WRITERS, Problem
 from comparisons.codes.mesh import SheetMesh, refusal, sheet_mesh, with_layers
 from comparisons.codes.springs import hinged_springs, layered_springs, tetrahedral_cell, triangular_cell

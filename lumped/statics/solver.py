@@ -102,11 +102,9 @@ def solve(
     require_static(scene := scene_of(scene))
     if linear and scene.actuators:
         raise BadInput("linear = True: actuators turn with the sheet; solve without")
-    beyond = {"branch": branch if branch != "path" else None, "near": near}
     if linear:
-        require_effect(
-            "with linear = True", {**beyond, "precision": precision if precision != "double" else None}
-        )
+        others = {"branch": branch != "path", "near": near, "precision": precision != "double"}
+        require_effect("with linear = True", others)
     elif branch != "path" or weights != "tributary":
         require_effect("with another branch than path or other weights than tributary", {"near": near})
     began = now()

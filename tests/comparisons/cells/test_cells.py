@@ -10,10 +10,11 @@ from commands import json_of, one_line, run
 
 import sheetbench as sb
 from comparisons.cells.cell import Cell
-from comparisons.cells.codes import CODES, parameters_of
+from comparisons.cells.codes import CODES
 from comparisons.cells.coefficients import limit_error, nearest
 from comparisons.cells.homogenise import moduli_of
 from comparisons.cells.meshes import MESHES, mesh
+from comparisons.cells.parameters import parameters_of
 from lumped import moduli
 from lumped.lattice import STEPS
 from sheetbench.errors import BadInput

@@ -49,8 +49,8 @@ def bent(asked, cells):
     ],
 )
 def test_cells_finer_than_segments_hold_nothing_back(young, length, curvature, stiffness, within):
-    """Against the shell's rod, which knows no segments, on 16 cells: with four segments 1.1, 3.4 and 4.4 % are
-    left, with eight 0.2, 0.9 and 1.0. (Polygons lost 7.7 to 41 % with four.)"""
+    """Against the shell's rod, which knows no segments, on 16 cells: with four segments 1.1, 3.4 and 4.4 %
+    are left, with eight 0.2, 0.9 and 1.0. (Polygons lost 7.7 to 41 % with four.)"""
     asked = scene(young, 8)
     chain = asked.actuators[0].replace(curvature=curvature, bending_stiffness=stiffness)
     asked = asked.replace(sheet=asked.sheet.replace(length_x=length), actuators=(chain,), probes={})

@@ -2,7 +2,7 @@
 
 The edge is a smooth curve through a chain's joints (`lumped.actuators.binding`), whatever the cells of the
 grid, but a free end's half segment has no joint that would bend it, and the curve is no freer than the
-joints are. Of the bending of the shell's rod six chains, D L = 0.06 to 6 EI with the sheet's bending stiffness D,
+joints are. Of the bending of the shell's rod six chains, on sheets of D L = 0.06 to 6 EI, D per width,
 lose 23 to 50 % with two segments, 1.1 to 7 with four and 0.2 to 2.8 with eight.
 """
 
@@ -17,8 +17,8 @@ def polygons(scene: Scene) -> str:
     """A sentence about chains of few segments, else nothing."""
     chains = {str(a.edge): a for a in scene.actuators if isinstance(a, Chain) and a.plane != "inplane"}
     notes = [
-        f"the chain on {edge} has {chain.segments} segment{'s' * (chain.segments > 1)}: it bends the edge less "
-        "than an elastic rod would, by tens of percent with two, by some with four; take eight or more"
+        f"the chain on {edge} has {chain.segments} segment{'s' * (chain.segments > 1)}: it bends the edge "
+        "less than an elastic rod would, by tens of percent with two, by some with four; take eight or more"
         for edge, chain in sorted(chains.items())
         if chain.segments < FEW
     ]

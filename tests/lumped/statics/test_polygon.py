@@ -49,16 +49,15 @@ def bent(asked, cells):
     ],
 )
 def test_cells_finer_than_segments_hold_nothing_back(young, length, curvature, stiffness, within):
-    """Against the shell's rod, which knows no segments, on 8 and on 16 cells: with four segments 1.1 to 4.4 %,
-    with eight 0.2 to 1.0. (Polygons lost 2.4 to 41 %, the more the finer the cells.)"""
+    """Against the shell's rod, which knows no segments, on 16 cells: with four segments 1.1, 3.4 and 4.4 %
+    are left, with eight 0.2, 0.9 and 1.0. (Polygons lost 7.7 to 41 % with four.)"""
     asked = scene(young, 8)
     chain = asked.actuators[0].replace(curvature=curvature, bending_stiffness=stiffness)
     asked = asked.replace(sheet=asked.sheet.replace(length_x=length), actuators=(chain,), probes={})
     rod = bending(asked, fem_reference.solve(asked, "shell", elements=8))
     for segments, most in zip((4, 8), within, strict=True):
         fewer = asked.replace(actuators=(chain.replace(segments=segments),))
-        for cells in (8, 16):
-            assert abs(1.0 - bent(fewer, cells) / rod) < most
+        assert abs(1.0 - bent(fewer, 16) / rod) < most
 
 
 def composite_elastica():

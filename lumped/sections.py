@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -74,10 +74,11 @@ class Section:
 
     def each(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
         """With every part of it changed, but for the rims."""
-        return type(self)(*(change(getattr(self, name)) for name in PARTS), rims=self.rims)
+        parts: dict[str, Any] = {name: change(getattr(self, name)) for name in PARTS}
+        return replace(self, **parts)
 
     def __add__(self, other: Section) -> Section:
-        return Section(*(getattr(self, name) + getattr(other, name) for name in PARTS))
+        return Section(**{name: getattr(self, name) + getattr(other, name) for name in PARTS})
 
     @property
     def layer_width(self) -> np.ndarray:

@@ -158,10 +158,6 @@ def test_every_cell_keeps_a_positive_energy_and_the_table_is_read_back(scene, ma
     least = []
     sides = (*plan_spacing(scene.sheet, grid), found.layer_distance)
     for row, column, (xx, yy, ss, xy, xs, ys) in zip(rows, columns, rims, strict=True):
-        sides = (
-            *(float(a / (n - 1)) for a, n in zip(scene.sheet.lengths, grid, strict=False)),
-            found.layer_distance,
-        )
         whole = moduli.of_springs(of_cell(found, row, column), sides, 2).bending
         own = np.array([[xx, xy, xs], [xy, yy, ys], [xs, ys, ss]]) * found.layer_distance**2 / 2
         least.append(np.linalg.eigvalsh(whole + own)[0] / np.linalg.eigvalsh(whole)[0])

@@ -142,8 +142,8 @@ def test_a_solid_knows_that_a_closed_pressure_has_a_potential():
     held = tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
     for supports, closed in ((held, True), (held[:1], False)):
         scene = Scene(
-            name="pressed", sheet=Sheet(0.1, 0.1, 0.005), material=Material(1e6, 0.45, 1000.0), supports=supports,
-            loads=(Pressure(value=500.0),),
+            name="pressed", sheet=Sheet(0.1, 0.1, 0.005), material=Material(1e6, 0.45, 1000.0),
+            supports=supports, loads=(Pressure(value=500.0),),
         )  # fmt: skip
         structure = solid.discretise(solid.plan_mesh(scene, (2, 2), "edges"), scene)
         assert structure.symmetric is closed
@@ -152,4 +152,4 @@ def test_a_solid_knows_that_a_closed_pressure_has_a_potential():
         state = structure.advance(rest, structure.forces(rest, 1.0), 1.0, shape)
         matrix, _ = structure.system(state, structure.forces(state, 1.0), 1.0, mixed=False)
         skew = abs(matrix - matrix.T).max() / abs(matrix).max()
-        assert (skew < 1e-13) is closed
+        assert bool(skew < 1e-13) is closed

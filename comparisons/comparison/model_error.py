@@ -2,8 +2,8 @@
 
 thickness   (1.2 + 1.3 ν²) (h/a)², a the shorter side, 1.2 = 1/κ: shear-deformable plates and shells differ
             from the solid by terms of that order (Koiter, Proc. Kon. Ned. Ak. Wet. B73 (1970) 169–195), the
-            part with ν for the normal stress at clamps that no shell has: a plate of h/a 0.12 and ν 0.45 clamped
-            all around is 2.0 % off bricks whose faces are held in the mean; nothing for a solid
+            part with ν for the normal stress at clamps that no shell has: a plate of h/a 0.12 and ν 0.45
+            clamped all around is 2.0 % off bricks whose faces are held in the mean; nothing for a solid
 strain law  1.7 times what Biot's and neo-Hooke's laws would move the probes by, to first order
             (`fem_reference.shell.other_laws`; 0.6 to 1.64 times that is what ten of eleven sheets' moved by,
             near folds too). Where that is not known, of a solid and of sheets that are not the same all over,

@@ -8,9 +8,10 @@ from lattice_cases import derivative
 import fem_reference
 import lumped
 from fem_reference.shell.statics import discretise
+from fem_reference.solid import statics as solid
 from fem_reference.surface.mesh import mesh_of
 from sheetbench.numerics.direct import SymmetricPartFactor
-from sheetbench.scenes import Status
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Status
 
 EDGES = ("x0", "x1", "y0", "y1")
 CLAMPED = [{"edge": edge, "kind": "clamped"} for edge in EDGES]
@@ -134,3 +135,21 @@ def test_an_arch_is_pressed_through_in_lattice_and_shell(value, side):
     assert lattice.status is shell.status is Status.CONVERGED
     heights = [side * found.displacement(middle)[0, 2] for found in (lattice, shell)]
     assert min(heights) > 0.01 and heights[0] == pytest.approx(heights[1], rel=0.1)
+
+
+def test_a_solid_knows_that_a_closed_pressure_has_a_potential():
+    """Its tangent is symmetric then, and its inertia known; a sheet with free edges has neither."""
+    held = tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
+    for supports, closed in ((held, True), (held[:1], False)):
+        scene = Scene(
+            name="pressed", sheet=Sheet(0.1, 0.1, 0.005), material=Material(1e6, 0.45, 1000.0),
+            supports=supports, loads=(Pressure(value=500.0),),
+        )  # fmt: skip
+        structure = solid.discretise(solid.plan_mesh(scene, (2, 2), "edges"), scene)
+        assert structure.symmetric is closed
+        rest = structure.rest()
+        shape = 1e-4 * np.random.default_rng(2).standard_normal(structure.unknowns)
+        state = structure.advance(rest, structure.forces(rest, 1.0), 1.0, shape)
+        matrix, _ = structure.system(state, structure.forces(state, 1.0), 1.0, mixed=False)
+        skew = abs(matrix - matrix.T).max() / abs(matrix).max()
+        assert bool(skew < 1e-13) is closed

@@ -79,6 +79,18 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         ((), ("--calibration", "hyperelastic"), ("--k", "550"), ("--grading", "auto")),
         OUTPUTS[:3],
     ],
+    "homogenise": [
+        (("equilateral",), ("one-diagonal",), ("alternate-diagonals",)),
+        (("one-edge-clamped",), ("{weightless}",)),
+        ((), ("--hinge", "angle"), ("--hinge", "height")),
+        ((), ("--spacing", "25mm"), ("--spacing", "0")),
+        OUTPUTS[:3],
+    ],
+    "advise --tolerance 0.9": [
+        (("one-edge-clamped",), ("{pressed}",)),
+        ((), ("--calibration", "uniform"), ("--k", "550"), ("--grading", "auto")),
+        OUTPUTS[:3],
+    ],
     "stability two-edges-settling --lumped 3 --elements 2 --workers 1": [
         (("--vary", "damping"), ("--vary", "time-step")),
         ((), ("--calibration", "hyperelastic")),

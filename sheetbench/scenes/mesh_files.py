@@ -29,7 +29,8 @@ FORMATS = {  # meshio's names by the endings of files: those that hold meshes of
     ".vtk": "vtk",
     ".vtu": "vtu",
 }
-SECONDS, MEMORY_MB = 60.0, 2048  # that reading may take
+SECONDS, PER_MB = 20.0, 2.0  # s that reading may take, and more a megabyte of the file
+MEMORY_MB = 2048
 
 
 def read_cells(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
@@ -43,11 +44,13 @@ def read_cells(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         raise ValueError(f"a mesh file's name ends in one of {known}: convert it, as with meshio convert")
     if not path.is_file():
         raise ValueError("no such file")
-    if path.stat().st_size > LARGEST:
+    size = path.stat().st_size
+    if size > LARGEST:
         raise ValueError(f"larger than {LARGEST // 2**20} MB, which no such file is")
     # -P: the modules beside the program are not its own
     command = [sys.executable, "-P", mesh_reader.__file__, str(path), kind]
-    ended = run(command, b"", SECONDS, MEMORY_MB, most=LARGEST, variables=ONE_THREAD)
+    seconds = SECONDS + PER_MB * size // 2**20
+    ended = run(command, b"", seconds, MEMORY_MB, most=LARGEST, variables=ONE_THREAD)
     if ended.code == mesh_reader.REFUSED and not ended.stopped:
         raise ValueError(ended.complaint)
     if ended.fault:

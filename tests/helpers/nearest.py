@@ -1,7 +1,7 @@
 """The test files that run a module, the nearest first.
 
 A test file is the nearer, the fewer imports lie between it and the module; one that names the module, its
-folder or a function is nearer than that.
+folder or a function is nearer than that, and so is one in the module's own folder or with its name.
 
 Usage: python tests/helpers/nearest.py FILE [COUNT]   (10 unless given)
 """
@@ -13,7 +13,7 @@ from pathlib import Path
 FOLDERS = ("lumped", "fem_reference", "comparisons", "sheetbench", "tests")
 # also in a text that a test runs as a program; all files by ast would take seconds
 IMPORTS = re.compile(r"^[ \t]*(?:from ([\w.]+) )?import (\([^)]*\)|[^\n]*)", re.MULTILINE)
-MENTION = 2.0  # imports that a mention is worth
+MENTION, FOLDER, NAMED = 2.0, 2.0, 4.0  # imports that a mention, each folder in common, its name are worth
 
 
 class Nearest:
@@ -32,9 +32,14 @@ class Nearest:
         distances = self._distances(self._files[module])
         farthest = max(distances.values()) + 1  # of what is not imported at all
 
+        folders, stem = Path(module).parent.parts, Path(module).stem
+
         def nearness(test: str) -> tuple[float, str]:
             mentions = sum(has(self._texts[test], word) for word in words)
-            return distances.get(test, farthest) - MENTION * mentions, test
+            place = Path(self._tests[test])
+            beside = sum(map(str.__eq__, folders, place.parent.parts[1:]))
+            near = MENTION * mentions + FOLDER * beside + NAMED * has(place.stem, stem)
+            return distances.get(test, farthest) - near, test
 
         return [self._tests[test] for test in sorted(self._tests, key=nearness)]
 

@@ -282,3 +282,14 @@ def test_corrections_that_lead_far_away_end_at_once():
     with pytest.raises(StepFailed, match="the corrections grow"):
         newton_at_load(problem, problem.advance(rest, rest, 1.0, True), 1.0)
     assert problem.factorisations == 1
+
+
+def test_small_displacements_store_half_the_work_of_their_loads():
+    """Clapeyron: ½ F·u, whatever the springs are."""
+    at, force = (0.188, 0.188), np.array([0.0, 0.0, 0.01])
+    scene = LOADED["two-edges-clamped"].replace(gravity=None, loads=[PointLoad(at=at, force=tuple(force))])
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=5)
+    solution = lumped.solve(scene, springs, linear=True)
+    assert solution.status is Status.CONVERGED
+    work = float(solution.displacement([at])[0] @ force)
+    assert work > 0.0 and solution.energies["elastic"] == pytest.approx(0.5 * work, rel=1e-6)

@@ -20,15 +20,15 @@ pytestmark = pytest.mark.smoke
 ROOT = Path(__file__).parent.parent
 GROUND = ("sheetbench.scenes", "sheetbench.choices", "sheetbench.files", "sheetbench.kernels")
 GROUND += ("sheetbench.numerics", "sheetbench.clock", "sheetbench.errors", "sheetbench.answers")
-GROUND += ("sheetbench.process", "sheetbench.runs", "sheetbench.heap")
+GROUND += ("sheetbench.process", "sheetbench.runs", "sheetbench.heap", "sheetbench.sources")
 ALLOWED = {
     "sheetbench/answers": {"sheetbench.answers", "sheetbench.errors", "sheetbench.files"},
-    "sheetbench/runs": {"sheetbench.errors", "sheetbench.files", "sheetbench.runs"},
+    "sheetbench/runs": {
+        *("sheetbench.answers", "sheetbench.errors", "sheetbench.files", "sheetbench.runs"),
+        *("sheetbench.scenes", "sheetbench.sources"),
+    },
     "sheetbench/scenes": {
-        "sheetbench.answers",
-        "sheetbench.errors",
-        "sheetbench.process",
-        "sheetbench.scenes",
+        *("sheetbench.answers", "sheetbench.errors", "sheetbench.process", "sheetbench.scenes"),
     },
     "sheetbench/numerics": {"sheetbench.kernels", "sheetbench.numerics"},
     "lumped": {*GROUND, "lumped"},

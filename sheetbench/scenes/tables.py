@@ -27,14 +27,14 @@ class PiecewiseCurve:
     """Values (n, …) at increasing times (n,) [s], constant outside; between them what `_between` says."""
 
     def __init__(self, time: Sequence[float], values: Values):
-        self._time, values = np.array(time, dtype=float), np.array(values, dtype=float)
+        self._time, samples = np.array(time, dtype=float), np.array(values, dtype=float)
         self._instant = INSTANT * (self._time[-1] - self._time[0])
-        inner = self._between(self._time, values) if len(self._time) > 1 else values[None, :0]
+        inner = self._between(self._time, samples) if len(time) > 1 else samples[None, :0]
         # coefficients of each piece in the time since its start, from the constant on; the first and the last
         # piece are what lies before and after
-        self._pieces = np.zeros((len(inner), len(values) + 1, *values.shape[1:]))
+        self._pieces = np.zeros((len(inner), len(samples) + 1, *samples.shape[1:]))
         self._pieces[:, 1:-1] = inner
-        self._pieces[0, 0], self._pieces[0, -1] = values[0], values[-1]
+        self._pieces[0, 0], self._pieces[0, -1] = samples[0], samples[-1]
 
     def _between(self, time: np.ndarray, values: np.ndarray) -> np.ndarray:
         """Coefficients (degree + 1, n − 1, …) of the pieces."""

@@ -39,8 +39,8 @@ class FirstMode:
 
 
 def follow(method: Integrator, state: State, step: float, count: int) -> list[State]:
-    """`count` steps, the start included. Raises StepFailed, also where the energy grows from nothing, by more
-    than went round in it."""
+    """`count` steps, the start included. Raises StepFailed, also where as much energy comes from nothing as
+    there is."""
     states, first, taken = [state], energy(method.system, state), 0.0
     for _ in range(count):
         advance = method.advance(states[-1], step)
@@ -48,5 +48,5 @@ def follow(method: Integrator, state: State, step: float, count: int) -> list[St
         taken += advance.dissipated
         gained = energy(method.system, advance.state) + taken - first
         if gained > first + abs(taken):
-            raise StepFailed(f"at {advance.state.time:.6g} s the energy grows from nothing")
+            raise StepFailed(f"at {advance.state.time:.6g} s the energy has doubled out of nothing")
     return states

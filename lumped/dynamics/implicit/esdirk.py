@@ -253,14 +253,14 @@ class Esdirk(DenseIntegrator):
     def _within(self, stages: Stages, h: float, theta: np.ndarray) -> np.ndarray:
         """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step: polynomials,
         and what is prescribed as it is prescribed."""
-        ends = [stages.u[[0, -1]], stages.v[[0, -1]], stages.a[[0, -1]]]
+        u, v, a = stages.u[[0, -1]], stages.v[[0, -1]], stages.a[[0, -1]]
         if not self.system.moving:
-            return _within(*ends, h, theta)
+            return polynomials(u, v, a, h, theta)
         began, until = float(stages.time[0]), float(stages.time[-1])
         system, times = self.system, (began + h * theta).tolist()
-        ends[0] = ends[0] - np.array([system.place(began), system.place(until)])
-        ends[1] = ends[1] - np.array([system.place_rate(began), system.place_rate(until, before=True)])
-        found = _within(*ends, h, theta)
+        u -= np.array([system.place(began), system.place(until)])
+        v -= np.array([system.place_rate(began), system.place_rate(until, before=True)])
+        found = polynomials(u, v, a, h, theta)
         found[0] += np.array([system.place(time) for time in times])
         found[1] += np.array([system.place_rate(time, before=True) for time in times])
         return found
@@ -303,7 +303,7 @@ class Esdirk(DenseIntegrator):
 
 
 @njit(cache=True)
-def _within(
+def polynomials(
     displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, h: float, theta: np.ndarray
 ) -> np.ndarray:
     """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step of length h [s], by

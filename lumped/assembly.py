@@ -50,7 +50,7 @@ class Assembly:
             twisting,
             calibration.grading,
             calibration.half,
-            None if calibration.present is None else calibration.cells.per_area,
+            calibration.per_area,
         )
         # Habibi et al.'s lattice has equal masses; any other one is as inert at its edges as the sheet
         self.cells = calibration.cells

@@ -172,7 +172,7 @@ def _own_cell(lattice: Lattice, per_area: np.ndarray, point: np.ndarray) -> tupl
         for i in (0, *([-1] if x < ON_LINE else [1] if x > 1.0 - ON_LINE else []))
     ]
     for j, i in near:
-        if _there(per_area, (j, i)):
+        if _there(per_area, (int(j), int(i))):
             return int(j), int(i)
     raise BadInput(f"point {point.tolist()} m: there is no sheet, by its outline or a cutout")
 

@@ -46,8 +46,13 @@ class Calibration(Answer):
     @property
     def present(self) -> np.ndarray | None:
         """The cells where there is a sheet, (rows, columns); None where it is in all."""
-        there = None if self.cells is None else self.cells.per_area > 0.0
-        return None if there is None or there.all() else there
+        return None if self.per_area is None else self.per_area > 0.0
+
+    @property
+    def per_area(self) -> np.ndarray | None:
+        """The cells' mass per area [kg/m²] where some are not there and have none, (rows, columns)."""
+        per_area = None if self.cells is None else self.cells.per_area
+        return None if per_area is None or (per_area > 0.0).all() else per_area
 
     @property
     def layer_distance(self) -> float:

@@ -10,7 +10,7 @@ from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Scene, Support, Symmetric, held_axes
-from sheetbench.scenes.patches import COINCIDENT, boxes_of, shares_of
+from sheetbench.scenes.patches import boxes_of, shares_of
 from sheetbench.scenes.region import edge_parts
 from sheetbench.scenes.shapes import COINCIDENT, Shape
 from sheetbench.scenes.supports import place

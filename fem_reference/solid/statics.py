@@ -140,8 +140,8 @@ def _solved(
 def judge(
     scene: Scene, structure: SolidStructure, path: Path[State, Forces], law: str
 ) -> tuple[Status, list[str], float]:
-    """The status and notes of a path that has ended, and by how much the mid-surface stretched: strains beyond
-    the law."""
+    """Return status and notes of a path that has ended, strains beyond the law among them, and the stretch of
+    the mid-surface."""
     status, notes = path.status, path.notes
     stretch = largest_stretch(*(structure.mid_surface(at) for at in (0.0, path.state.displacement)))
     outside = "" if LAWS[law].stands_any_strain else outside_model(scene, stretch)

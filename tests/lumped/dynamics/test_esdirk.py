@@ -104,7 +104,7 @@ def test_steps_follow_the_error_asked_for():
         misses.append(np.abs(found.probes["P4"] - truth).max() / np.abs(truth).max())
         assert misses[-1] < 10 * error  # of some ten steps, as they follow each other
     assert steps[0] < steps[1] and misses[1] < misses[0]
-    with pytest.raises(BadInput, match="lies between 0 and 0.1"):
+    with pytest.raises(BadInput, match=r"lies between 0 and 0\.1"):
         lumped.simulate(asked, kept, 0.1, integrator="esdirk", every=0.01, error=0.0)
 
 

@@ -5,6 +5,7 @@ from cases import CLAMP, RUBBER, SHEET
 
 import lumped
 from sheetbench.scenes import Hinged, Scene
+from sheetbench.scenes.grid import grid_of
 from sheetbench.scenes.springs import DamperSet
 
 

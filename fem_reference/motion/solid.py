@@ -15,12 +15,12 @@ from fem_reference.solid.element import Bricks, tangent
 from fem_reference.solid.rods import on_columns
 from fem_reference.solid.statics import discretise, plan_mesh
 from fem_reference.solid.supports import components, vectors
-from fem_reference.solving.equilibrium import trace
 from fem_reference.surface import loads, rod
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.choices import STRAIN_LAW
+from sheetbench.numerics.continuation.trace import trace
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import FieldMesh, Scene

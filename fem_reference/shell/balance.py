@@ -15,10 +15,10 @@ import numpy as np
 from fem_reference.shell.element import magnitudes
 from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import ShellStructure
-from fem_reference.solving.newton import TOLERANCE
-from fem_reference.solving.path import Path
 from fem_reference.surface.actuator_forces import OnEdge
 from fem_reference.surface.balance import Surface, left_over
+from sheetbench.numerics.continuation.newton import TOLERANCE
+from sheetbench.numerics.continuation.path import Path
 from sheetbench.scenes import Balance, Scene
 
 

@@ -21,10 +21,10 @@ from skfem import ElementQuad2, MeshQuad
 from fem_reference.shell.element import GRIDS, MEMBRANE
 from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import UP, ShellStructure
-from fem_reference.solving.newton import Start
-from fem_reference.solving.path import Path
 from fem_reference.surface.biquadratic import interpolation, jacobians, product_grid, shape
 from fem_reference.surface.location import interpolate
+from sheetbench.numerics.continuation.newton import Start
+from sheetbench.numerics.continuation.path import Path
 from sheetbench.scenes import Scene, Status
 
 Shape = Callable[[np.ndarray], np.ndarray]

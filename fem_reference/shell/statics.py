@@ -23,10 +23,6 @@ from fem_reference.shell.laws import LAWS
 from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
-from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.newton import Start
-from fem_reference.solving.path import FACTORISATIONS, Path, Progress
-from fem_reference.solving.pseudo_transient import relax
 from fem_reference.surface import loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
@@ -41,6 +37,10 @@ from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
+from sheetbench.numerics.continuation.newton import Start
+from sheetbench.numerics.continuation.path import FACTORISATIONS, Path, Progress
+from sheetbench.numerics.continuation.pseudo_transient import relax
+from sheetbench.numerics.continuation.trace import trace
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Solution, Status, require_uniform
 from sheetbench.scenes.rigid_motions import require_static

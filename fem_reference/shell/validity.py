@@ -23,9 +23,9 @@ import numpy as np
 from fem_reference.shell.element import BENDING, MEMBRANE
 from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import ShellStructure
-from fem_reference.solving.path import Fault, Inspect, Path
-from fem_reference.solving.stability import stability
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
+from sheetbench.numerics.continuation.path import Fault, Inspect, Path
+from sheetbench.numerics.continuation.stability import stability
 from sheetbench.scenes import Scene, Status, outside_model
 
 STRETCH_LIMIT = 5.0

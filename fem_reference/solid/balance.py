@@ -14,10 +14,10 @@ import numpy as np
 from fem_reference.solid.rods import DIRECTORS
 from fem_reference.solid.structure import Forces, SolidStructure, State
 from fem_reference.solid.supports import from_forces, into_forces
-from fem_reference.solving.newton import TOLERANCE
-from fem_reference.solving.path import Path
 from fem_reference.surface.actuator_forces import OnEdge
 from fem_reference.surface.balance import Surface, left_over
+from sheetbench.numerics.continuation.newton import TOLERANCE
+from sheetbench.numerics.continuation.path import Path
 from sheetbench.scenes import Balance, Scene
 
 

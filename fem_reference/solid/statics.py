@@ -27,8 +27,6 @@ from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.structure import Forces, SolidStructure, State
-from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.path import Progress
 from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.borders import borders_of
@@ -38,6 +36,8 @@ from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
+from sheetbench.numerics.continuation.path import Progress
+from sheetbench.numerics.continuation.trace import trace
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import (
     Constants,

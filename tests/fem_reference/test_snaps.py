@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from one_unknown import Spring
 
-from fem_reference.solving.equilibrium import SNAPS, trace
-from fem_reference.solving.path import StepFailed
+from sheetbench.numerics.continuation.path import StepFailed
+from sheetbench.numerics.continuation.trace import SNAPS, trace
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Status
 

@@ -14,11 +14,11 @@ from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise
 from fem_reference.shell.validity import membrane_strain
 from fem_reference.solid import statics as solid
-from fem_reference.solving.newton import TOLERANCE
 from fem_reference.surface.loads import FollowerMoment, FollowerPressure, Line, area_force, orientation
 from fem_reference.surface.materials import section_of
 from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
+from sheetbench.numerics.continuation.newton import TOLERANCE
 from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Hinged, Pressure, Scene, Sheet
 
 pytestmark = pytest.mark.smoke

@@ -7,9 +7,9 @@ from scipy.sparse import csr_matrix, random_array
 
 import fem_reference.shell.statics
 import sheetbench.numerics.direct
-from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.newton import Start
 from sheetbench import scenes
+from sheetbench.numerics.continuation.newton import Start
+from sheetbench.numerics.continuation.trace import trace
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.numerics.stability import nearest_to_zero
 from sheetbench.scenes import Status

@@ -12,14 +12,14 @@ from comparisons.comparison.comparison import error
 from fem_reference.shell import statics as shell
 from fem_reference.shell.state import State
 from fem_reference.shell.structure import ShellStructure
-from fem_reference.solving import pseudo_transient
-from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.path import Path, StepFailed
-from fem_reference.solving.pseudo_transient import relax
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import Plan, rectangle
 from fem_reference.surface.supports import Driven
 from sheetbench import scenes
+from sheetbench.numerics.continuation import pseudo_transient
+from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.pseudo_transient import relax
+from sheetbench.numerics.continuation.trace import trace
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.scenes import Chain, Curved, Hinged, Material, Scene, Sheet, Status
 from sheetbench.scenes.kinematics import Placed

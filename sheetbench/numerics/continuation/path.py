@@ -8,7 +8,7 @@ from typing import Generic, NamedTuple
 
 from scipy.sparse import csr_matrix
 
-from fem_reference.solving.structure import Forces, State, Structure
+from sheetbench.numerics.continuation.structure import Forces, State, Structure
 from sheetbench.numerics.direct import DirectSolver, Factor
 from sheetbench.scenes import Iteration, Status
 

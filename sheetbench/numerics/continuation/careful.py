@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Protocol, TypeVar
 
-from fem_reference.solving.path import FACTORISATIONS, Path, StepFailed
-from fem_reference.solving.stability import stability
-from fem_reference.solving.structure import Forces, State
+from sheetbench.numerics.continuation.path import FACTORISATIONS, Path, StepFailed
+from sheetbench.numerics.continuation.stability import stability
+from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
 

@@ -23,9 +23,9 @@ from typing import Generic, cast
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.solving.newton import TOLERANCE, Start, newton
-from fem_reference.solving.path import Path, StepFailed
-from fem_reference.solving.structure import Creeping, Forces, State
+from sheetbench.numerics.continuation.newton import TOLERANCE, Start, newton
+from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.structure import Creeping, Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
 

@@ -3,8 +3,8 @@ symmetric, by its real eigenvalues (see `sheetbench.numerics.stability`)."""
 
 from __future__ import annotations
 
-from fem_reference.solving.path import Path
-from fem_reference.solving.structure import Forces, State
+from sheetbench.numerics.continuation.path import Path
+from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.scenes import Status
 

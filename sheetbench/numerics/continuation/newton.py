@@ -1,6 +1,6 @@
 """Newton's method with extrapolated stresses at one load, and the linear step that leads to it.
 
-The corrections are those of Magisano, Leonetti & Garcea (2017), as `fem_reference.solving.equilibrium` says.
+The corrections are those of Magisano, Leonetti & Garcea (2017), as `trace` says.
 Three watchdogs end them: a number that is not finite, a step that leaves the structure far behind, and
 corrections that do not shrink.
 """
@@ -12,8 +12,8 @@ from typing import Generic
 
 import numpy as np
 
-from fem_reference.solving.path import Path, StepFailed
-from fem_reference.solving.structure import Forces, State
+from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
 

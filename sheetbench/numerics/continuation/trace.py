@@ -22,9 +22,9 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 
 from __future__ import annotations
 
-from fem_reference.solving.careful import continuous, negatives, worth
-from fem_reference.solving.newton import FIRST_REACH, TOLERANCE, Predictor, Start, newton
-from fem_reference.solving.path import (
+from sheetbench.numerics.continuation.careful import continuous, negatives, worth
+from sheetbench.numerics.continuation.newton import FIRST_REACH, TOLERANCE, Predictor, Start, newton
+from sheetbench.numerics.continuation.path import (
     FACTORISATIONS,
     Fault,
     Inspect,
@@ -33,8 +33,8 @@ from fem_reference.solving.path import (
     Settle,
     StepFailed,
 )
-from fem_reference.solving.stability import stability
-from fem_reference.solving.structure import Forces, State, Structure
+from sheetbench.numerics.continuation.stability import stability
+from sheetbench.numerics.continuation.structure import Forces, State, Structure
 from sheetbench.numerics.direct import DirectSolver, Factor
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Status

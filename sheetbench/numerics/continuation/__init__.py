@@ -1,0 +1,1 @@
+"""Paths of equilibria: load steps, Newton's method, snaps, stability; of any structure, lattice or elements."""

@@ -20,7 +20,7 @@ from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.numerics.continuation.trace import trace
+from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import FieldMesh, Scene
@@ -79,7 +79,7 @@ class MovingSolid(MovingElements):
     def start(self) -> np.ndarray:
         if not bent_or_tilted(self.still.supports, self.still.sheet):
             return self.placed(np.zeros(self.size), 0.0)
-        path = trace(self._structure, DirectSolver(self._structure.symmetric))
+        path = trace_path(self._structure, DirectSolver(self._structure.symmetric))
         return self.placed(np.append(path.state.displacement, path.state.aside), 0.0)
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:

@@ -8,7 +8,7 @@ director: δd = T β with T ⊥ d. The constraint |d|² = 1 and the prescribed v
 
 and its multiplier, −(R_d · d)/(d · d), stiffens T (the curvature of the sphere). All of strain, load and
 constraint being polynomials in q, the step is Newton's; `mixed` takes the stress that the last step
-extrapolated, D (e + B δq), for the geometric stiffness and the multiplier (see `equilibrium`).
+extrapolated, D (e + B δq), for the geometric stiffness and the multiplier (see `continuation.trace`).
 
 Rods along edges (see `rod`) are further elements, and their third director m, one at every node of their
 edges, is one more director like d. In all there are 2n + q vectors: u, d and the q directors m.
@@ -39,7 +39,7 @@ UP = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True)
 class ShellStructure:
-    """A shell with its supports, loads and rods, ready for `equilibrium.trace`.
+    """A shell with its supports, loads and rods, ready for `trace_path`.
 
     element_nodes: (m, 9); dead: nodal forces (n, 3) [N]; number: of the unknowns (n, 5) of every node, turns
     (n + q, 2) of every director, −1 where held.

@@ -34,7 +34,7 @@ FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as
 
 
 def inspector(scene: Scene, structure: ShellStructure, graded: bool) -> Inspect[State, Forces]:
-    """What `equilibrium.trace` is to look at; graded: elements are stretched, and may be without harm."""
+    """What `trace_path` is to look at; graded: elements are stretched, and may be without harm."""
 
     def inspect(path: Path[State, Forces]) -> Fault | None:
         fault = inverted(structure, path.state)

@@ -37,7 +37,7 @@ from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.path import Progress
-from sheetbench.numerics.continuation.trace import trace
+from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import (
     Constants,
@@ -103,7 +103,7 @@ def _solved(
     structure = discretise(mesh, scene, layers, law, clamp)
     solver = DirectSolver(structure.symmetric)
     ready = now()
-    path = trace(structure, solver, progress=progress)
+    path = trace_path(structure, solver, progress=progress)
     done = now()
 
     columns, displacement = structure.columns, path.state.displacement

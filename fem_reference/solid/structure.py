@@ -2,7 +2,7 @@
 
 State: displacement u (n, levels, 3) and the sampled stresses s of every brick. R = Bᵀ s − λ f; with
 K = Bᵀ D B + Σ s_k H_k ⊗ I the step is Newton's, and `mixed` takes the stress that the last step extrapolated,
-s + D B δu, for the geometric part (see `equilibrium`: the strain is quadratic in u, as in the shell), and
+s + D B δu, for the geometric part (`continuation.trace`: the strain is quadratic in u, as in the shell), and
 the extrapolated pressure in D: near ν = ½ the current one is a large error until volumes fit.
 Held components q, u = Z q (see `supports`), go to their targets in the first step.
 
@@ -61,7 +61,7 @@ class Forces:
 
 
 class SolidStructure:
-    """A solid sheet with its supports, loads and rods, ready for `equilibrium.trace`."""
+    """A solid sheet with its supports, loads and rods, ready for `trace_path`."""
 
     def __init__(
         self,

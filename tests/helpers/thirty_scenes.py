@@ -101,7 +101,7 @@ def solve(name: str) -> Solution:
         springs = lumped.calibrate(scene.sheet, scene.material, grid=9)
         k = springs.springs.diagonal
         return lumped.solve(scene, springs.with_constant("diagonal", PerDirection(x=k, y=k, z=0.5 * k)))
-    return lumped.solve(OTHERS[name] if name in OTHERS else name)
+    return lumped.solve(OTHERS.get(name, name))
 
 
 def answer(name: str) -> dict[str, Any]:

@@ -1,1 +1,1 @@
-"""Paths of equilibria: load steps, Newton's method, snaps, stability; of any structure, lattice or elements."""
+"""Paths of equilibria of any structure: load steps, Newton's method, snaps, stability."""

@@ -17,13 +17,8 @@ from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
 
-TOLERANCE = 5e-9  # residual, relative to the forces that balance
 SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
 VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
-ITERATIONS = 24  # in one load step
-BACK, SHRINKING = 4, 0.5  # given up: no shorter than so many before, nor than this share of the last one
-FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
-FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 
 
 @dataclass(frozen=True)
@@ -50,8 +45,8 @@ class Predictor(Generic[State, Forces]):
         if reach < self.length < np.inf:
             self.target = path.load_factor + (target - path.load_factor) * reach / self.length
             self._aim(path)
-        if not self.length < FARTHEST:
-            raise StepFailed(Status.DIVERGED, "the first step has no end", FIRST_REACH)
+        if not self.length < path.limits.farthest:
+            raise StepFailed(Status.DIVERGED, "the first step has no end", path.limits.first_reach)
 
     def _aim(self, path: Path[State, Forces]) -> None:
         structure = path.structure
@@ -62,7 +57,7 @@ class Predictor(Generic[State, Forces]):
                 self.factor = path.factored(matrix)
             step = self.factor.solve(rows, SOLVED)
         except SingularMatrixError as error:
-            raise StepFailed(Status.SINGULAR, str(error), FIRST_REACH) from None
+            raise StepFailed(Status.SINGULAR, str(error), path.limits.first_reach) from None
         self.state = structure.advance(path.state, forces, self.target, step)
         self.length = structure.length(path.state, self.state)
         self.work = abs(float(step @ rows))
@@ -73,10 +68,11 @@ def newton(
 ) -> tuple[State, Factor | None]:
     """The equilibrium at the load factor of a start, and the factors of its tangent where those of the last
     correction are, which was next to nothing. close: a residual that is good enough. Raises StepFailed."""
-    structure, state, target, before = path.structure, first.state, first.target, np.inf
+    structure, limits = path.structure, path.limits
+    state, target, before = first.state, first.target, np.inf
     factor: Factor | None = None
     works, lengths = [first.work], [first.length]
-    for _ in range(ITERATIONS):
+    for _ in range(limits.corrections):
         forces = structure.forces(state, target)
         imbalance = structure.imbalance(state, forces)
         relative = imbalance / forces.size if forces.size > 0.0 else imbalance
@@ -84,13 +80,14 @@ def newton(
         if not np.isfinite(relative):
             raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
         rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
-        if (relative <= TOLERANCE or rounded) and structure.gap(state, target) <= TOLERANCE:
+        if (relative <= limits.tolerance or rounded) and structure.gap(state, target) <= limits.tolerance:
             # the extrapolated stress, too, is off by the square of the correction before
             alike = factor is not None and max(lengths[-1], lengths[-2] ** 2) <= path.alike
             return state, factor if alike else None
         if relative <= close:
             return state, None
-        if len(lengths) > BACK and lengths[-1] >= max(lengths[-1 - BACK], SHRINKING * lengths[-2]):
+        last, back = lengths[-1], limits.back
+        if len(lengths) > back and last >= max(lengths[-1 - back], limits.shrinking * lengths[-2]):
             raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
         if path.factorisations >= path.limit:
             reason = f"{path.limit} factorisations were not enough"
@@ -103,8 +100,8 @@ def newton(
             raise StepFailed(Status.SINGULAR, str(error), first.length) from None
         following = structure.advance(state, forces, target, step)
         lengths.append(structure.length(state, following))
-        if not lengths[-1] < FARTHEST:
+        if not lengths[-1] < limits.farthest:
             raise StepFailed(Status.DIVERGED, "the corrections have no end", first.length)
         works.append(abs(float(step @ rows)))
         state, before = following, imbalance
-    raise StepFailed(Status.STEP_LIMIT, f"no equilibrium in {ITERATIONS} corrections", first.length)
+    raise StepFailed(Status.STEP_LIMIT, f"no equilibrium in {limits.corrections} corrections", first.length)

@@ -8,17 +8,16 @@ from typing import Generic, NamedTuple
 
 from scipy.sparse import csr_matrix
 
+from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 from sheetbench.numerics.direct import DirectSolver, Factor
 from sheetbench.scenes import Iteration, Status
-
-FACTORISATIONS = 400  # in all
 
 Progress = Callable[[Iteration], None]
 
 
 class Fault(NamedTuple):
-    """What makes an equilibrium worthless: the status it deserves and a sentence."""
+    """A reason to reject an equilibrium: its status and a message."""
 
     status: Status
     message: str
@@ -28,9 +27,9 @@ class Fault(NamedTuple):
 class Path(Generic[State, Forces]):
     """Where the tracing of a structure stands: the last equilibrium, its load factor, and what it took.
 
-    alike: change of the strain that leaves the tangent what it is; snaps: load factors that it snapped at;
-    fault: what has ended it early; notes: what to say of it; progress: told of every iteration; factor: of
-    the equilibrium's tangent, where it is at hand.
+    limit: of factorisations, for now; alike: change of the strain that leaves the tangent what it is; snaps:
+    load factors that it snapped at; fault: what has ended it early; notes: what to say of it; progress: told
+    of every iteration; factor: of the equilibrium's tangent, where it is at hand.
     """
 
     structure: Structure[State, Forces]
@@ -39,7 +38,7 @@ class Path(Generic[State, Forces]):
     load_factor: float = 0.0
     status: Status = Status.STEP_LIMIT
     factorisations: int = 0
-    limit: int = FACTORISATIONS  # of them
+    limits: Limits = field(default_factory=Limits)
     history: list[Iteration] = field(default_factory=list)
     snaps: list[float] = field(default_factory=list)
     fault: Fault | None = None
@@ -47,6 +46,9 @@ class Path(Generic[State, Forces]):
     progress: Progress | None = None
     factor: Factor | None = None
     alike: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.limit = self.limits.factorisations
 
     def factored(self, matrix: csr_matrix) -> Factor:
         """The factors of a matrix, counted. Raises SingularMatrixError."""

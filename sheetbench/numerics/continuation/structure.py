@@ -20,7 +20,7 @@ Forces = TypeVar("Forces", bound=Balance)
 
 
 class Structure(Protocol[State, Forces]):
-    """What `trace` needs; states and forces are the structure's own."""
+    """What `trace_path` needs; states and forces are the structure's own."""
 
     @property
     def symmetric(self) -> bool:

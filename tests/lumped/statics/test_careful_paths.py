@@ -13,7 +13,7 @@ import lumped
 from lumped.statics import solver
 from lumped.statics.continuation import trace
 from sheetbench.numerics.continuation import trace as tracer
-from sheetbench.numerics.continuation.careful import BRANCHING, DEARER
+from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status
@@ -109,11 +109,11 @@ class Bistable(Structure[np.ndarray, Sizes]):
 
 def test_what_is_unstable_at_rest_is_followed_in_long_steps():
     """The careful path begins with the eigenvalues that are negative there, and loses no stability."""
-    path = tracer.trace(Bistable(), DirectSolver())
+    path = tracer.trace_path(Bistable(), DirectSolver())
     assert path.status is Status.UNSTABLE and path.load_factor == 1.0
     np.testing.assert_allclose(path.state, [1.0, 0.0], atol=1e-8)
     careful = [entry.load_factor for entry in path.history][6:]
-    assert min(careful) > BRANCHING
+    assert min(careful) > Limits.branching
     assert path.factorisations < 50
 
 
@@ -125,6 +125,9 @@ def pulled(force, along=2):
         material=Material(young=1e7, poisson=0.45, density=1200.0), supports=(Clamped(edge="x0"),),
         loads=(EdgeLoad(edge="x1", force_per_length=pull),), probes={"P": (0.15, 0.075)},
     )  # fmt: skip
+
+
+LOOK = {"lumped": (solver, "worth"), "shell": (tracer, "careful_budget")}
 
 
 def solve(scene, model):
@@ -140,9 +143,9 @@ def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force, model):
     """And tells of none where there is none, however small the share of the load that a step is."""
     scene = pulled(force)
     looked = solve(scene, model)
-    monkeypatch.setattr(tracer if model == "shell" else solver, "worth", lambda *_: 0)
+    monkeypatch.setattr(*LOOK[model], lambda *_: 0)
     plain = solve(scene, model)
-    assert plain.iterations < looked.iterations <= (1 + DEARER) * plain.iterations
+    assert plain.iterations < looked.iterations <= (1 + Limits.careful_budget_factor) * plain.iterations
     assert looked.message == plain.message and looked.snaps == plain.snaps == ()
     at = scene.probe_points()
     np.testing.assert_allclose(looked.displacement(at), plain.displacement(at), atol=1e-8)
@@ -157,7 +160,7 @@ def test_strains_that_the_springs_have_no_meaning_at_are_not_followed_for_long()
 
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, model):
-    monkeypatch.setattr(tracer if model == "shell" else solver, "worth", lambda *_: 20)
+    monkeypatch.setattr(*LOOK[model], lambda *_: 20)
     found = solve(pulled(300.0), model)
     assert found.status is Status.CONVERGED and found.load_factor == 1.0
     assert "after 20 factorisations" in found.message and "another branch" in found.message

@@ -157,6 +157,7 @@ def _run(
     path = trace_path(
         structure, solver, inspect, relax, progress, begin_at, slenderness, limits or LIMITS, buckled
     )
+    path.factor = None  # a run is kept longer than that
     return _Run(mesh, structure, nodes, path, ready - begin, now() - ready)
 
 

@@ -31,6 +31,7 @@ from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surfa
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.rod_elements import Strained
 from fem_reference.surface.supports import Supports
+from sheetbench.numerics.continuation.structure import Creeping
 from sheetbench.numerics.fronts import Fronts
 from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
 
@@ -38,7 +39,7 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
-class ShellStructure:
+class ShellStructure(Creeping[State, Forces]):
     """A shell with its supports, loads and rods, ready for `trace_path`.
 
     element_nodes: (m, 9); dead: nodal forces (n, 3) [N]; number: of the unknowns (n, 5) of every node, turns

@@ -27,6 +27,7 @@ from fem_reference.solid.supports import ColumnSupports, components, into_forces
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.rod_elements import Strained
+from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.sparsity import Pattern
 
 
@@ -60,7 +61,7 @@ class Forces:
     bases: np.ndarray
 
 
-class SolidStructure:
+class SolidStructure(Structure[State, Forces]):
     """A solid sheet with its supports, loads and rods, ready for `trace_path`."""
 
     def __init__(

@@ -30,10 +30,11 @@ def careful_budget(path: Path[State, Forces]) -> int:
     if not path.structure.symmetric or path.load_factor == 0.0 or path.factorisations == 1:
         return 0
     taken, limits = path.factorisations, path.limits
-    if stability(path)[0] is Status.UNSTABLE:
+    unstable = stability(path)[0] is Status.UNSTABLE
+    if unstable and path.structure.has_meaning(path.state):
         return limits.factorisations
     budget = min(limits.careful_budget_factor * taken, limits.factorisations)
-    return budget if taken > limits.careful_after else 0
+    return budget if unstable or taken > limits.careful_after else 0
 
 
 def negatives(factor: Factor | None) -> int:
@@ -42,17 +43,21 @@ def negatives(factor: Factor | None) -> int:
 
 
 def continuous(
-    path: Path[State, Forces], first: Reached[State], state: State, negative: int, rounding: float
+    path: Path[State, Forces],
+    first: Reached[State],
+    state: State,
+    negative: int,
+    found: Factor | None,
 ) -> tuple[Factor, float]:
     """The factors of the tangent at an equilibrium, and how far the next linear step may go. Raises
     StepFailed where it is on another branch than the one that the step set out from: far from where the
     linear step led, or past a change of stability by more than a short step. negative: eigenvalues before;
-    rounding: length that is none."""
+    found: the factors, where they are at hand."""
     limits, miss = path.limits, path.structure.length(first.state, state)
-    if miss > max(min(limits.continuous * first.length, limits.miss), rounding):
+    if miss > max(min(limits.continuous * first.length, limits.miss), max(limits.idle, limits.tolerance)):
         raise StepFailed(Status.STEP_LIMIT, "the path folds", first.length)
     try:
-        found = path.factored(path.tangent(state, first.target))
+        found = found or path.factored(path.tangent(state, first.target))
     except SingularMatrixError as error:
         raise StepFailed(Status.SINGULAR, str(error), first.length) from None
     if negatives(found) > negative and first.length > limits.branching:

@@ -18,6 +18,8 @@ class Limits:
 
     tolerance: float = 5e-9
     intermediate: float = 0.0
+    refine_below: float = 0.0  # residual from which on factors that are close serve again
+    idle: float = 1e-9  # correction after which a residual may be all rounding
     careful_tolerance: float = 3e-3  # residual at which a careful load step ends, but for the last
     corrections: int = 24  # of one load step
     back: int = 4  # corrections that are no shorter than so many before,

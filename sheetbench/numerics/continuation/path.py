@@ -6,11 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Generic, NamedTuple
 
-from scipy.sparse import csr_matrix
-
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.continuation.structure import Forces, State, Structure
-from sheetbench.numerics.direct import DirectSolver, Factor
+from sheetbench.numerics.continuation.structure import Forces, Matrix, Solver, State, Structure
+from sheetbench.numerics.direct import Factor
 from sheetbench.scenes import Iteration, Status
 
 Progress = Callable[[Iteration], None]
@@ -33,7 +31,7 @@ class Path(Generic[State, Forces]):
     """
 
     structure: Structure[State, Forces]
-    solver: DirectSolver
+    solver: Solver
     state: State
     load_factor: float = 0.0
     status: Status = Status.STEP_LIMIT
@@ -50,12 +48,12 @@ class Path(Generic[State, Forces]):
     def __post_init__(self) -> None:
         self.limit = self.limits.factorisations
 
-    def factored(self, matrix: csr_matrix) -> Factor:
+    def factored(self, matrix: Matrix) -> Factor:
         """The factors of a matrix, counted. Raises SingularMatrixError."""
         self.factorisations += 1
         return self.solver.factor(matrix)
 
-    def tangent(self, state: State, load_factor: float) -> csr_matrix:
+    def tangent(self, state: State, load_factor: float) -> Matrix:
         """The true tangent at a state: with its own stresses, none extrapolated."""
         forces = self.structure.forces(state, load_factor)
         return self.structure.system(state, forces, load_factor, mixed=False)[0]

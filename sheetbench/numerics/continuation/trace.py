@@ -34,8 +34,8 @@ from sheetbench.numerics.continuation.path import (
     StepFailed,
 )
 from sheetbench.numerics.continuation.stability import stability
-from sheetbench.numerics.continuation.structure import Forces, State, Structure
-from sheetbench.numerics.direct import DirectSolver, Factor
+from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
+from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Status
 
@@ -44,7 +44,7 @@ SAME_TANGENT = 1e-2  # of (thickness/size)², strains that buckle a sheet: what 
 
 def trace_path(
     structure: Structure[State, Forces],
-    solver: DirectSolver,
+    solver: Solver,
     inspect: Inspect[State, Forces] = lambda path: None,
     settle: Settle[State, Forces] | None = None,
     progress: Progress | None = None,
@@ -115,7 +115,6 @@ def trace_path(
             except StepFailed as failure:
                 note = f"{note}; beside it {failure}"
         path.notes.extend([note] if note else [])
-        path.factor = None  # an answer is kept longer than that
         return path
 
 
@@ -153,7 +152,7 @@ def _follow(
             state, found = newton(path, first, close)
             if careful:
                 negative = negatives(first.factor) if negative is None else negative
-                found, longest = continuous(path, first, state, negative, limits.tolerance)
+                found, longest = continuous(path, first, state, negative, found)
         except StepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
             rested = path.load_factor == 0.0  # no limit point is there, however far the first step

@@ -105,7 +105,7 @@ def modes(
     def factor() -> Factor:
         shifted, shared = blocks.copy(), problem.assembly.pattern.slots(*inertia.coords)
         shifted[shared] -= shift * inertia.data[:, None, None] * np.eye(3)
-        return problem.factor(shifted)
+        return problem.system.factor(shifted)
 
     with one_blas_thread():
         values, vectors = lowest_modes(stiffness, mass, wanted, shift, factor)

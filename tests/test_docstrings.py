@@ -10,7 +10,6 @@ MODULES = [
     "fem_reference.vibration",
     "lumped.dynamics.runs.simulation",
     "lumped.fitting.methods",
-    "lumped.statics.buckling",
     "lumped.statics.solver",
     "lumped.vibration",
     "sheetbench.numerics.direct",

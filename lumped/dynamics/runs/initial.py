@@ -33,7 +33,7 @@ def initial_state(system: System, calibration: Calibration, weights: Weights) ->
         slack = tuple(a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators)
         held = tuple(_at_the_start(support) for support in scene.supports)
         unloaded = scene.replace(gravity=None, loads=(), actuators=slack, supports=held)
-        u = solve_path(unloaded, build_problem(unloaded, calibration, weights), "path").state.u
+        u = solve_path(unloaded, build_problem(unloaded, calibration, weights)).state.u
     memory = None if system.maxwell is None else system.maxwell.at_rest(u)
     v = system.place_rate(0.0)
     v = v if system.moving else np.zeros_like(u)

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Limits:
-    """tolerance: residual that counts as equilibrium; intermediate: the same on the way; factorisations: of
-    a path, of its careful second run and between snaps; in_all: of a path that snaps."""
+    """tolerance: residual that counts as equilibrium; factorisations: of a path, of its careful second run
+    and between snaps; in_all: of a path that snaps."""
 
     tolerance: float = 5e-9
-    intermediate: float = 0.0
     refine_below: float = 0.0  # residual from which on factors that are close serve again
+    steps_with_last_factors: bool = False  # those of the last correction, where they serve for stability
     idle: float = 1e-9  # correction after which a residual may be all rounding
     careful_tolerance: float = 3e-3  # residual at which a careful load step ends, but for the last
     corrections: int = 24  # of one load step
@@ -30,6 +30,7 @@ class Limits:
     shortest: float = 5e-4  # and one that fails and moves it less is the last: half of `branching`
     lengthen_up_to: int = 6  # factorisations of a load step that is followed by a longer one
     growth: float = 4.0  # of a load step after an easy one
+    reach_growth: float = 4.0  # of its reach
     careful_reach: float = 0.1  # that the first careful linear step may move it
     careful_after: int = 16  # factorisations from which on a load step may have jumped over a fold
     careful_budget_factor: int = 4  # times as many may be taken to see whether one has

@@ -37,8 +37,8 @@ class Start(Generic[State]):
 class Predictor(Generic[State, Forces]):
     """The first linear step from a path's last equilibrium towards a load, no longer than `reach`.
 
-    factor: of the tangent there, where it is at hand; it serves as long as the tangent does not depend on the
-    load. target: the load factor that the step is for.
+    factor: of the tangent there, where it is at hand; it serves where that does not depend on the load.
+    target: the load factor that the step is for.
     """
 
     def __init__(self, path: Path[State, Forces], target: float, reach: float, factor: Factor | None):
@@ -53,9 +53,8 @@ class Predictor(Generic[State, Forces]):
     def _aim(self, path: Path[State, Forces]) -> None:
         structure = path.structure
         forces = structure.forces(path.state, self.target)
-        serves = self.factor is not None and structure.symmetric
         try:
-            rows = structure.rows(path.state, forces, self.target) if serves else None
+            rows = None if self.factor is None else structure.rows(path.state, forces, self.target)
             if rows is None:
                 matrix, rows = structure.system(path.state, forces, self.target)
                 if self.factor is None or not structure.symmetric:

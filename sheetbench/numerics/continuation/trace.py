@@ -22,6 +22,7 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 
 from __future__ import annotations
 
+from sheetbench.numerics.continuation.arc import limit_point
 from sheetbench.numerics.continuation.careful import careful_budget, continuous, negatives
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Predictor, Start, newton
@@ -147,8 +148,7 @@ def _follow(
         try:
             first = Predictor(path, min(1.0, path.load_factor + size), reach, factor)
             factor = first.factor if path.structure.symmetric else None
-            close = limits.careful_tolerance if careful else limits.intermediate
-            close = close if first.target < 1.0 else 0.0
+            close = limits.careful_tolerance if careful and first.target < 1.0 else 0.0
             state, found = newton(path, first, close)
             if careful:
                 negative = negatives(first.factor) if negative is None else negative
@@ -170,9 +170,10 @@ def _follow(
             factor, negative = found, negatives(found)
             size, reach = limits.growth * grown, longest
             continue
-        factor = None  # those of the last correction are too far off to step with: a thin sheet's path halts
+        # of elements those of the last correction are too far off to step with: a thin sheet's path halts
+        factor = found if limits.steps_with_last_factors else None
         easy = path.factorisations - before <= limits.lengthen_up_to
-        size, reach = (limits.growth * grown, limits.growth * reach) if easy else (grown, reach)
+        size, reach = (limits.growth * grown, limits.reach_growth * reach) if easy else (grown, reach)
     return None
 
 
@@ -227,4 +228,7 @@ def _give_up(path: Path[State, Forces], failure: StepFailed, tried: str) -> Faul
         status, note = stability(path)
         if status is not Status.CONVERGED:
             message += f"; {note} there: the answer is not unique on this grid"
+        elif (ends := limit_point(path)) is not None:
+            message += f"; a limit point between load factors {ends[0]:.5g} and {ends[1]:.5g}: from there on "
+            message += "the load falls as the sheet gives way"
     return Fault(failure.status, message)

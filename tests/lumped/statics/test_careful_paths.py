@@ -10,10 +10,11 @@ from scipy.optimize import brentq
 
 import fem_reference
 import lumped
-from lumped.statics import solver
-from lumped.statics.continuation import trace
+from lumped.statics.structure import LatticeStructure
 from sheetbench.numerics.continuation import trace as tracer
+from sheetbench.numerics.continuation.arc import limit_point
 from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.path import Path
 from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status
@@ -66,10 +67,12 @@ def test_a_fold_that_large_steps_jump_over_is_told_with_its_load():
     )  # fmt: skip
     springs = lumped.calibrate(sheet, material, grid=(9, 9), method="consistent")
     found = lumped.solve(scene, springs)
-    path = trace(scene, springs, points=150)
-    turning = np.flatnonzero(np.diff(path.load_factors) < 0.0)[0]
+    problem = lumped.build_problem(scene, springs)
+    structure = LatticeStructure(scene, problem)
+    path = Path(structure, structure, structure.rest())
+    turning, _ = limit_point(path)
     assert found.status is Status.CONVERGED
-    assert found.snaps == pytest.approx([path.load_factors[turning]], rel=0.01)
+    assert found.snaps == pytest.approx([turning], rel=0.01)
 
 
 @dataclass
@@ -127,9 +130,6 @@ def pulled(force, along=2):
     )  # fmt: skip
 
 
-LOOK = {"lumped": (solver, "worth"), "shell": (tracer, "careful_budget")}
-
-
 def solve(scene, model):
     if model == "shell":
         return fem_reference.solve(scene, model="shell", elements=4)
@@ -143,7 +143,7 @@ def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force, model):
     """And tells of none where there is none, however small the share of the load that a step is."""
     scene = pulled(force)
     looked = solve(scene, model)
-    monkeypatch.setattr(*LOOK[model], lambda *_: 0)
+    monkeypatch.setattr(tracer, "careful_budget", lambda *_: 0)
     plain = solve(scene, model)
     assert plain.iterations < looked.iterations <= (1 + Limits.careful_budget_factor) * plain.iterations
     assert looked.message == plain.message and looked.snaps == plain.snaps == ()
@@ -160,7 +160,7 @@ def test_strains_that_the_springs_have_no_meaning_at_are_not_followed_for_long()
 
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, model):
-    monkeypatch.setattr(*LOOK[model], lambda *_: 20)
+    monkeypatch.setattr(tracer, "careful_budget", lambda *_: 20)
     found = solve(pulled(300.0), model)
     assert found.status is Status.CONVERGED and found.load_factor == 1.0
     assert "after 20 factorisations" in found.message and "another branch" in found.message

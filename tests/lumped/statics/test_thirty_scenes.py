@@ -1,7 +1,8 @@
 """The path tracer on thirty lattices: the displacements that there were, in as few factorisations.
 
 Displacements within 1e-9 of the largest follow from residuals of 1e-11 of the forces; what rounding leaves is
-more in single precision, whose forces have seven digits.
+more in single precision, whose forces have seven digits. Two rows are this tracer's own: two clamps pushed
+2 mm together, which the one before left flat and unstable, and 20 mm, where the sheet snaps earlier.
 """
 
 import json

@@ -20,6 +20,7 @@ from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.sections import require_alike, sections_of
 from lumped.sensitivity import Sensitivity, sensitivity
+from lumped.statics.buckling import buckling
 from lumped.statics.polygon import polygons
 from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
@@ -57,6 +58,7 @@ __all__ = [
     "StepFailed",
     "StepLimit",
     "System",
+    "buckling",
     "build_problem",
     "calibrate",
     "describe",

@@ -1,10 +1,7 @@
 """How the displacements depend on the parameters: derivatives of a static equilibrium.
 
 At equilibrium the residual R(q, θ) = Tᵀ (f − f_int)(T q + g(θ), θ) is zero for every θ, so that with the
-tangent K = −∂R/∂q at hand
-
-    direct    dq/dθ = K⁻¹ ∂R/∂θ,    du/dθ = T dq/dθ + dg/dθ            one solve a parameter
-    adjoint   dJ/dθ = a·∂R/∂θ + ∂J/∂u·dg/dθ,    Kᵀ a = Tᵀ ∂J/∂u        one solve a function J of u
+tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/dθ + dg/dθ, one solve a parameter.
 
 ∂R/∂θ is a central difference of the residual at fixed q. The residual is linear in every spring constant and
 in E, where that is exact to rounding; in the thickness, ν, a layer distance, a curvature or a tilt its

@@ -122,6 +122,10 @@ class ShellStructure(Creeping[State, Forces]):
         """The state with its own stresses."""
         return replace(state, stress=None, rod_stress=None)
 
+    def with_stresses(self, state: State, of: State) -> State:
+        """A state with the stresses that a step to another has extrapolated."""
+        return replace(state, stress=of.stress, rod_stress=of.rod_stress)
+
     def energies(self, state: State) -> dict[str, float]:
         """Strain energy [J] of the sheet by part."""
         return self.element.energies(self.element.strain(self.gather(state.change)))

@@ -15,7 +15,7 @@ Rods along edges (see `rods`) are further elements with directors of their own.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -98,6 +98,10 @@ class SolidStructure(Structure[State, Forces]):
     def rest(self) -> State:
         """Flat and free of stress."""
         return State(np.zeros_like(self.columns.positions), np.zeros_like(self.rods.own))
+
+    def with_stresses(self, state: State, of: State) -> State:
+        """A state with the stresses that a step to another has extrapolated."""
+        return replace(state, stress=of.stress, pressure=of.pressure, rod_stress=of.rod_stress)
 
     def energies(self, state: State) -> dict[str, float]:
         """Strain energy [J] of the sheet by part of the law."""

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+import scipy.sparse as sp
 
 from lumped.statics.faults import broken
 from lumped.statics.problem import LatticeState, Problem, Residual
@@ -113,6 +114,12 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         if forces.moved is not None:
             move += forces.moved
         return self.problem.advance(state.u, move, load_factor)
+
+    def with_stresses(self, state: LatticeState, of: LatticeState) -> LatticeState:
+        return state._replace(stresses=of.stresses)
+
+    def sparse(self, matrix: np.ndarray) -> sp.csc_array:
+        return self.problem.system.matrix(matrix)
 
     def length(self, start: LatticeState, end: LatticeState) -> float:
         return float(np.abs(end.u - start.u).max() / self.problem.size)

@@ -16,7 +16,10 @@ with a the point that stays and e the horizontal direction into the sheet.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -26,6 +29,7 @@ import lumped
 from comparisons.identification.prediction import NotReached, Prediction
 from comparisons.identification.unknowns import Unknown
 from comparisons.reproduction.answers import masses
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import EDGES, Gravity, Scene, Solution, Status
 from sheetbench.scenes.habibi import published_inputs
 from sheetbench.scenes.parameters import put
@@ -101,7 +105,8 @@ class Sheets:
             for scene, options in zip(scenes, own, strict=True)
         ]
         weights: Any = "full" if self.kind == "lattice" else "tributary"
-        solutions = lumped.solve_many(scenes, springs, weights=weights)
+        with one_blas_thread(), ThreadPoolExecutor(os.cpu_count()) as pool:
+            solutions = list(pool.map(partial(lumped.solve, weights=weights), scenes, springs))
         count = len(self.scenes)
         return [solutions[i : i + count] for i in range(0, len(solutions), count)]
 

@@ -69,8 +69,15 @@ class Structure(Protocol[State, Forces]):
     ) -> tuple[Matrix, np.ndarray]:
         """Tangent and right-hand side of a step; mixed: with the stress that the last step extrapolated."""
 
+    def sparse(self, matrix: Matrix) -> Any:
+        """Return a tangent as a SciPy matrix."""
+        return matrix
+
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
         """The state after a step."""
+
+    def with_stresses(self, state: State, of: State) -> State:
+        """A state with the stresses that a step to another has extrapolated."""
 
     def length(self, start: State, end: State) -> float:
         """Between two states, relative to the structure's size."""

@@ -231,4 +231,6 @@ def _give_up(path: Path[State, Forces], failure: StepFailed, tried: str) -> Faul
         elif (ends := limit_point(path)) is not None:
             message += f"; a limit point between load factors {ends[0]:.5g} and {ends[1]:.5g}: from there on "
             message += "the load falls as the sheet gives way"
-    return Fault(failure.status, message)
+    # numbers that are not finite lie beyond the last equilibrium, not in it
+    beyond = failure.status is Status.NON_FINITE and path.load_factor > 0.0
+    return Fault(Status.STEP_LIMIT if beyond else failure.status, message)

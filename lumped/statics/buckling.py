@@ -1,0 +1,55 @@
+"""Linear buckling of a lattice (`sheetbench.numerics.continuation.buckling`)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lumped.calibration import Calibration, default
+from lumped.mid_surface import MidSurface
+from lumped.statics.solver import build_problem
+from lumped.statics.structure import LatticeStructure
+from sheetbench.clock import now
+from sheetbench.numerics.continuation.buckling import buckling_modes
+from sheetbench.scenes import AnyScene, require_static, scene_of
+from sheetbench.scenes.grading import as_settings
+from sheetbench.scenes.modes import Buckling, require_flat_and_dead
+
+
+def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int = 1) -> Buckling:
+    """The `count` lowest factors of a scene's dead loads at which its flat lattice buckles, and their shapes.
+
+    calibration: as of `lumped.solve`. Raises SceneError when nothing stops a rigid motion, BadInput for loads
+    that follow the sheet, bend it at once or do not soften it, and for actuators and supports that bend it.
+
+    >>> import lumped
+    >>> from sheetbench.scenes import load
+    >>> on_edge = load("one-edge-clamped").replace(gravity={"acceleration": (0.0, -9.81, 0.0)})
+    >>> lumped.buckling(on_edge, lumped.calibrate(on_edge.sheet, on_edge.material, grid=5)).load_factors.shape
+    (1,)
+    """
+    require_static(scene := scene_of(scene))
+    require_flat_and_dead(scene)
+    calibration = calibration or default(scene)
+    begin = now()
+    problem = build_problem(scene, calibration)
+    lattice, structure = problem.assembly.lattice, LatticeStructure(scene, problem)
+    middle = MidSurface(lattice, lattice.positions[lattice.columns()[:, :, 0].ravel(), :2])
+    factors, states = buckling_modes(structure, structure, lambda state: middle.of(state.u), count)
+
+    def displacement(points: np.ndarray) -> np.ndarray:
+        at = MidSurface(lattice, points)
+        return np.stack([at.of(state.u) for state in states])
+
+    return Buckling(
+        model="lumped",
+        label=f"lumped {calibration.title}",
+        settings={
+            "grid": list(lattice.grid),
+            "calibration": calibration.method,
+            **as_settings(calibration.grading),
+        },
+        load_factors=factors,
+        unknowns=problem.system.unknowns,
+        seconds=now() - begin,
+        displacement=displacement,
+    )

@@ -52,7 +52,7 @@ def lattice(masses: int) -> dict[str, Any]:
         solve = min(timed(lambda p=problem: solve_from_best_start(SCENE, p, springs)) for problem in problems)
         problem = problems[-1]
         outcome = solve_from_best_start(SCENE, problem, springs)
-            factor, flops = factorisation(problem, problem.tangent(np.zeros_like(problem.loads.dead), 0.0))
+        factor, flops = factorisation(problem, problem.tangent(np.zeros_like(problem.loads.dead), 0.0))
         once = min(timed(factor) for _ in range(max(1, repeats // 3)))
     return {
         "lattice": f"{masses}×{masses}×2",

@@ -25,7 +25,9 @@ ALLOWED = {
     "sheetbench/answers": {"sheetbench.answers", "sheetbench.errors", "sheetbench.files"},
     "sheetbench/runs": {"sheetbench.errors", "sheetbench.files", "sheetbench.runs"},
     "sheetbench/scenes": {"sheetbench.answers", "sheetbench.errors", "sheetbench.scenes"},
-    "sheetbench/numerics": {"sheetbench.kernels", "sheetbench.numerics", "sheetbench.scenes"},
+    "sheetbench/numerics": {
+        *("sheetbench.errors", "sheetbench.kernels", "sheetbench.numerics", "sheetbench.scenes"),
+    },
     "lumped": {*GROUND, "lumped"},
     "fem_reference": {*GROUND, "fem_reference"} - {"sheetbench.files"},
     "comparisons": {*GROUND, "lumped", "fem_reference", "comparisons"},

@@ -1,10 +1,14 @@
 """Buckling loads of lattice, shell and solid against closed forms, and what has none."""
 
+import json
+
 import numpy as np
 import pytest
+from commands import run
 
 import fem_reference
 import lumped
+import sheetbench as sb
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Held, Material, PointLoad, Pressure, Scene, Sheet
 
@@ -109,3 +113,21 @@ def test_what_has_no_buckling_load_is_refused_by_name(change, message):
 def test_the_plate_has_none():
     with pytest.raises(BadInput, match="plate"):
         fem_reference.buckling(square(), "plate", 2)
+
+
+def test_the_verb_pairs_shapes_and_writes_them(tmp_path, capsys):
+    file = tmp_path / "pressed.toml"
+    square().save(file)
+    asked = ("modes", str(file), "--lumped", "9", "--elements", "4", "--count", "2", "--buckling")
+    assert run(*asked, "--reference", "shell", "--reference", "plate", "--json") == 0
+    found = json.loads(capsys.readouterr().out)["buckling"]
+    assert [one["model"] for one in found["solutions"]] == ["lumped", "shell"]
+    factors = np.array([one["load_factors"] for one in found["solutions"]])
+    for pair, ours, theirs in zip(found["pairs"], *factors, strict=True):
+        assert (pair["against"], pair["is"]) == ("shell", pair["number"]) and pair["mac"] > 0.99
+        assert pair["relative"] == pytest.approx(ours / theirs - 1.0)
+    answer = sb.modes(file, grid=9, elements=4, count=2, buckling=True)
+    np.testing.assert_allclose([one.load_factors for one in answer.buckling], factors, rtol=1e-9)
+    assert len(answer.tables()) == 2
+    assert run("modes", "two-edges-clamped", "--lumped", "3", "--elements", "2", "--buckling") == 2
+    assert "bend the sheet at once" in capsys.readouterr().err

@@ -32,12 +32,15 @@ class Residual(NamedTuple):
 
 class LatticeState(NamedTuple):
     """Displacement u (n, 3) [m] at a load factor, what the equilibrium equation leaves there and the stresses
-    that the linearisation before the last step predicts, where they are known."""
+    that the linearisation before the last step predicts, where they are known; where that step began, and how
+    far it went at most [m]."""
 
     u: np.ndarray
     load_factor: float
     residual: Residual | None = None
     stresses: Stresses | None = None
+    start: np.ndarray | None = None
+    length: float = 0.0
 
 
 @dataclass
@@ -139,18 +142,19 @@ class Problem:
 
     def advance(self, u: np.ndarray, step: np.ndarray, load_factor: float) -> LatticeState:
         """Return where a step (n, 3) [m] from u leads, the residual and the predicted stresses there."""
-        after, _, internal, stresses = self.assembly.advance(u, step, True)
+        after, length, internal, stresses = self.assembly.advance(u, step, True)
         if self.assembly.coupling is not None:
             self.assembly.coupling.add_force(after, Drive(load_factor), internal)
-        return LatticeState(after, load_factor, self._residual(internal, after, load_factor), stresses)
+        residual = self._residual(internal, after, load_factor)
+        return LatticeState(after, load_factor, residual, stresses, u, length)
 
     def rounding(self, u: np.ndarray) -> float:
         """Return the norm of the forces [N] that rounding of the link forces leaves."""
-        assembly = self.assembly
+        assembly, largest = self.assembly, float(np.abs(u).max())
         # relative displacements are differences of u: their rounding, times the stiffness
-        carried = assembly.all_families.link_stiffness * np.abs(u).max()
-        if assembly.coupling is not None:
-            carried += assembly.coupling.carried()
+        if assembly.coupling is None:
+            return assembly.rounding * largest * assembly.all_families.link_stiffness_norm
+        carried = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
         return float(assembly.rounding * np.linalg.norm(carried))
 
 

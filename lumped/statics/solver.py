@@ -90,13 +90,12 @@ def solve(
     calibration = calibration or default(scene)
     problem = build_problem(scene, calibration, weights, precision)
     ready = now()
-    with one_blas_thread():
-        if linear:
-            outcome = flat_step(scene, problem)
-        elif weights == "tributary" and branch == "path":
-            outcome = solve_from_best_start(scene, problem, calibration, near, progress)
-        else:
-            outcome = solve_path(scene, problem, branch, progress=progress)
+    if linear:
+        outcome = flat_step(scene, problem)
+    elif weights == "tributary" and branch == "path":
+        outcome = solve_from_best_start(scene, problem, calibration, near, progress)
+    else:
+        outcome = solve_path(scene, problem, branch, progress=progress)
     done = now()
     usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
     options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
@@ -113,8 +112,7 @@ def compile_kernels() -> None:
     scene = Scene(
         name="small", sheet=sheet, material=material, gravity=gravity, supports=(Clamped(edge="x0"),)
     )
-    with one_blas_thread():
-        solve_path(scene, build_problem(scene, consistent(sheet, material, (3, 7, 2))))
+    solve_path(scene, build_problem(scene, consistent(sheet, material, (3, 7, 2))))
 
 
 def build_problem(
@@ -148,8 +146,9 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
     structure = LatticeStructure(scene, problem)
     path = Path(structure, structure, structure.rest(), factorisations=1)
     try:
-        blocks, rows = structure.system(path.state, structure.forces(path.state, 1.0), 1.0)
-        u = problem.expand(problem.system.factor(blocks).solve(rows)) + problem.prescribed(1.0)
+        with one_blas_thread():
+            blocks, rows = structure.system(path.state, structure.forces(path.state, 1.0), 1.0)
+            u = problem.expand(problem.system.factor(blocks).solve(rows)) + problem.prescribed(1.0)
     except SingularMatrixError as error:
         return Outcome(Status.SINGULAR, path, (f"the flat sheet's tangent is singular: {error}",))
     path.state = LatticeState(u, 1.0)

@@ -9,6 +9,7 @@ corrections that do not shrink.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Generic
 
 import numpy as np
@@ -83,13 +84,13 @@ def newton(
         imbalance = structure.imbalance(state, forces)
         relative = imbalance / forces.size if forces.size > 0.0 else imbalance
         path.note(target, relative, lengths[-1])
-        if not np.isfinite(relative):
+        if not isfinite(relative):
             raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
         rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
-        if not rounded and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
-            rounded = imbalance <= structure.imbalance_floor(state, forces)
         alike = factor is not None and max(off, blurred) <= path.alike
         settled = relative <= limits.tolerance or rounded
+        if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
+            settled = imbalance <= structure.imbalance_floor(state, forces)
         if relative <= close or (settled and structure.gap(state, target) <= limits.tolerance):
             return state, factor if alike else None
         last, back = lengths[-1], limits.back

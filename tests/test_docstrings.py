@@ -7,9 +7,11 @@ import pytest
 
 MODULES = [
     "fem_reference",
+    "fem_reference.linear_buckling",
     "fem_reference.vibration",
     "lumped.dynamics.runs.simulation",
     "lumped.fitting.methods",
+    "lumped.statics.buckling",
     "lumped.statics.solver",
     "lumped.vibration",
     "sheetbench.numerics.direct",

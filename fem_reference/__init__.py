@@ -23,9 +23,10 @@ from sheetbench.scenes.material import WORDS
 MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
 
 _MOTION = "fem_reference.motion.simulation"
-_LATER = {"modes": "fem_reference.vibration", "simulate": _MOTION, "require_moving": _MOTION}
+_LATER = {"buckling": "fem_reference.linear_buckling", "modes": "fem_reference.vibration"}
+_LATER |= {"simulate": _MOTION, "require_moving": _MOTION}
 
-__all__ = ["MODELS", "check", "modes", "options", "require_moving", "simulate", "solve"]
+__all__ = ["MODELS", "buckling", "check", "modes", "options", "require_moving", "simulate", "solve"]
 
 
 def solve(

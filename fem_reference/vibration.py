@@ -38,7 +38,6 @@ from fem_reference.shell import inertia
 from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
 from fem_reference.solid import supports as column_supports
-from fem_reference.solving.stability import require_stable
 from fem_reference.surface import carried
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section
@@ -46,6 +45,7 @@ from fem_reference.surface.mesh import Elements, Plan, divisions, mesh_of
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
+from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of

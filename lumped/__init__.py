@@ -19,11 +19,8 @@ from lumped.lattice import Lattice
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.sections import require_alike, sections_of
-from lumped.sensitivity import Sensitivity, gradient, sensitivity
-from lumped.statics.buckling import buckling_loads
-from lumped.statics.continuation import Path, trace
-from lumped.statics.equilibrium import at_rest, follow
-from lumped.statics.many import solve_many
+from lumped.sensitivity import Sensitivity, sensitivity
+from lumped.statics.buckling import buckling
 from lumped.statics.polygon import polygons
 from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
@@ -54,7 +51,6 @@ __all__ = [
     "MidSurface",
     "ModalTarget",
     "Modes",
-    "Path",
     "Sensitivity",
     "State",
     "StateSpace",
@@ -62,15 +58,12 @@ __all__ = [
     "StepFailed",
     "StepLimit",
     "System",
-    "at_rest",
-    "buckling_loads",
+    "buckling",
     "build_problem",
     "calibrate",
     "describe",
-    "follow",
     "footprint",
     "given",
-    "gradient",
     "homogenised",
     "identifiability",
     "linearise",
@@ -83,9 +76,7 @@ __all__ = [
     "sensitivity",
     "simulate",
     "solve",
-    "solve_many",
     "step_limit",
-    "trace",
     "turn_limit",
     "usual_masses",
     "watchdog",

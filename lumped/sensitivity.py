@@ -1,10 +1,7 @@
 """How the displacements depend on the parameters: derivatives of a static equilibrium.
 
 At equilibrium the residual R(q, θ) = Tᵀ (f − f_int)(T q + g(θ), θ) is zero for every θ, so that with the
-tangent K = −∂R/∂q at hand
-
-    direct    dq/dθ = K⁻¹ ∂R/∂θ,    du/dθ = T dq/dθ + dg/dθ            one solve a parameter
-    adjoint   dJ/dθ = a·∂R/∂θ + ∂J/∂u·dg/dθ,    Kᵀ a = Tᵀ ∂J/∂u        one solve a function J of u
+tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/dθ + dg/dθ, one solve a parameter.
 
 ∂R/∂θ is a central difference of the residual at fixed q. The residual is linear in every spring constant and
 in E, where that is exact to rounding; in the thickness, ν, a layer distance, a curvature or a tilt its
@@ -28,11 +25,9 @@ from lumped import spring_constants as constants
 from lumped.calibration import CLOSED, Calibration
 from lumped.mid_surface import MidSurface
 from lumped.sections import sections_of
-from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.errors import BadInput
-from sheetbench.numerics.reduced import Factor
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene, require_static
 from sheetbench.scenes.parameters import FIBRES, parameter, put
@@ -70,7 +65,10 @@ def sensitivity(
     Raises BadInput for an unknown parameter, NoEquilibrium where there is no stable one on these springs.
     """
     with one_blas_thread():
-        problem, state, factor = _equilibrium(scene, calibration)
+        require_static(scene)
+        problem = build_problem(scene, calibration)
+        state = stable_equilibrium(scene, problem)
+        factor = problem.system.factor(problem.tangent(state.u, 1.0))  # that of the path's end may be older
         at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
         derivatives, values = {}, {}
         for name in parameters:
@@ -78,34 +76,6 @@ def sensitivity(
             step = problem.expand(factor.solve(problem.reduce(rate))) + moved
             derivatives[name] = at.of(step)
         return Sensitivity(at.of(state.u), derivatives, values)
-
-
-def gradient(
-    scene: Scene, calibration: Calibration, parameters: Sequence[str], points: np.ndarray, weights: np.ndarray
-) -> dict[str, float]:
-    """d/d(parameter) of Σ weights · displacement at points (n, 2) [m], weights (n, 3): one adjoint solve.
-
-    Raises what `sensitivity` does, and BadInput where the tangent is unsymmetric.
-    """
-    with one_blas_thread():
-        problem, state, factor = _equilibrium(scene, calibration)
-        if not problem.conservative:
-            raise BadInput("the adjoint is solved with a symmetric tangent: use sensitivity here")
-        pull = MidSurface(problem.assembly.lattice, points).shared(weights, len(problem.loads.dead))
-        adjoint = factor.solve(problem.reduce(pull))
-        slopes = {}
-        for name in parameters:
-            _, rate, moved = rates(scene, calibration, problem, state.u, name)
-            slopes[name] = float(adjoint @ problem.reduce(rate) + np.sum(pull * moved))
-        return slopes
-
-
-def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, State, Factor]:
-    """The problem, its state, and the tangent factored there: what the last step was taken with is older."""
-    require_static(scene)
-    problem = build_problem(scene, calibration)
-    state = stable_equilibrium(scene, problem)
-    return problem, state, problem.linearise(state.u, 1.0).factor
 
 
 def rates(

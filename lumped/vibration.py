@@ -108,7 +108,7 @@ def modes(
         shifted, shared = blocks.copy(), problem.assembly.pattern.slots(*inertia.coords)
         shifted[shared] -= shift * inertia.data[:, None, None] * np.eye(3)
         shifted[problem.assembly.pattern.slots(*pairs_of(bodies))] -= shift * bodies.data
-        return problem.factor(shifted)
+        return problem.system.factor(shifted)
 
     with one_blas_thread():
         values, vectors = lowest_modes(stiffness, mass, wanted, shift, factor)

@@ -30,7 +30,9 @@ ALLOWED = {
     "sheetbench/scenes": {
         *("sheetbench.answers", "sheetbench.errors", "sheetbench.process", "sheetbench.scenes"),
     },
-    "sheetbench/numerics": {"sheetbench.kernels", "sheetbench.numerics"},
+    "sheetbench/numerics": {
+        *("sheetbench.errors", "sheetbench.kernels", "sheetbench.numerics", "sheetbench.scenes"),
+    },
     "lumped": {*GROUND, "lumped"},
     "fem_reference": {*GROUND, "fem_reference"} - {"sheetbench.files"},
     "comparisons": {*GROUND, "lumped", "fem_reference", "comparisons"},

@@ -7,6 +7,7 @@ import pytest
 
 MODULES = [
     "fem_reference",
+    "fem_reference.linear_buckling",
     "fem_reference.vibration",
     "lumped.dynamics.runs.simulation",
     "lumped.fitting.methods",

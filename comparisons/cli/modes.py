@@ -32,6 +32,9 @@ def command(
             "flat|deformed",
         ),
     ] = "flat",
+    buckling: Annotated[
+        bool, option("Also at how many times its loads the flat sheet buckles, with the shapes paired.")
+    ] = False,
     large: Large = False,
     *,
     output: PictureOptions,
@@ -53,6 +56,7 @@ def command(
                 reference=reference or REFERENCE,
                 elements=parse_elements(elements),
                 about=about,
+                buckling=buckling,
             )
         except NoEquilibrium as error:
             out.stop(f"no modes about the deformed sheet: {error}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,13 +13,14 @@ import numpy as np
 from comparisons.models.grading import choice_notes
 from comparisons.modes.damping import ModeDamping, mode_damping
 from comparisons.modes.kinds import kinds
-from comparisons.modes.pairing import CELLS, Pair, assurance, matched, on_cells
+from comparisons.modes.pairing import CELLS, Pair, Shaped, on_cells, pairs_of
 from comparisons.report.plan import plan_mesh
 from comparisons.report.vtk import write_mesh
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import HERTZ, NUMBER, PERCENT, Column, Table, number
 from sheetbench.scenes import About, Scene
+from sheetbench.scenes.modes import Buckling
 from sheetbench.scenes.summary import few
 
 FLAT = 0.3  # displacement, in thicknesses, from which on stretching stiffens a plate by percents
@@ -68,12 +69,25 @@ class ModeRow:
     expected: Annotated[float | None, PERCENT("+.2f")] = None
 
 
+@dataclass(frozen=True)
+class BucklingRow:
+    """A buckling mode of the lattice and that of the same shape of a reference."""
+
+    mode: Annotated[int, NUMBER("d")]
+    load_factor: Annotated[float, NUMBER(".5g", "load factor")]
+    against: Annotated[int | None, NUMBER("d", "reference's mode")] = None
+    reference: Annotated[float | None, NUMBER(".5g")] = None
+    relative: Annotated[float | None, PERCENT("+.2f", "off by")] = None
+    mac: Annotated[float | None, NUMBER(".3f", "MAC")] = None
+
+
 @dataclass(frozen=True, repr=False)
 class Spectra(Answer, Sequence[Spectrum]):
     """The spectra of a scene, the lattice's first, then that of each reference.
 
     about: "flat" or "deformed"; sag [m]: the largest displacement that the lattice's flat tangent gives under
-    the scene's loads, None where there are none, or nothing that stops a rigid motion.
+    the scene's loads, None where there are none, or nothing that stops a rigid motion; buckling: of the
+    lattice first, then of the references, none unless asked for.
     """
 
     file_name = "modes"
@@ -81,6 +95,7 @@ class Spectra(Answer, Sequence[Spectrum]):
     found: tuple[Spectrum, ...]
     about: About = "flat"
     sag: float | None = None
+    buckling: tuple[Buckling, ...] = ()
 
     @overload
     def __getitem__(self, index: int) -> Spectrum: ...
@@ -114,17 +129,20 @@ class Spectra(Answer, Sequence[Spectrum]):
     @cached_property
     def pairs(self) -> tuple[Pair, ...]:
         """Every mode of the lattice with the mode of the same shape of each reference."""
-        of, found = self[0], []
-        for spectrum, shapes in zip(self[1:], self._sampled[1:], strict=True):
-            mac = assurance(self._sampled[0], shapes, spectrum.frequencies)
-            for i, match in enumerate(matched(mac)):
-                at = int(np.argmax(mac[i])) if match is None else match
-                off = None if match is None else float(of.frequencies[i] / spectrum.frequencies[at] - 1.0)
-                is_ = None if match is None else match + 1
-                found.append(
-                    Pair(of.model, i + 1, spectrum.model, is_, float(mac[i, at]), off, self.kinds[i])
-                )
-        return tuple(found)
+        models = zip(self, self._sampled, strict=True)
+        first, *others = (Shaped(one.model, one.frequencies, shapes) for one, shapes in models)
+        return pairs_of(first, others, self.kinds)
+
+    @cached_property
+    def buckling_pairs(self) -> tuple[Pair, ...]:
+        """Every buckling mode of the lattice with that of the same shape of each reference."""
+        if not self.buckling:
+            return ()
+        first, *others = (
+            Shaped(one.model, one.load_factors, on_cells(self.scene, one.displacement))
+            for one in self.buckling
+        )
+        return pairs_of(first, others, [None] * len(first.values))
 
     @cached_property
     def damping(self) -> tuple[tuple[ModeDamping, ...], ...]:
@@ -152,7 +170,31 @@ class Spectra(Answer, Sequence[Spectrum]):
             "solutions": [spectrum.as_dict() for spectrum in self],
             "pairs": [pair.as_dict() for pair in self.pairs],
             **({"damping": damping} if damping else {}),
+            **({"buckling": self._buckling()} if self.buckling else {}),
         }
+
+    def _buckling(self) -> dict[str, Any]:
+        return {
+            "solutions": [one.as_dict() for one in self.buckling],
+            "pairs": [pair.as_dict() for pair in self.buckling_pairs],
+        }
+
+    def _buckling_tables(self) -> Iterator[Table]:
+        for first in self.buckling[:1]:
+            factors, others = first.load_factors.tolist(), self.buckling[1:]
+            if not others:
+                alone = [BucklingRow(i, factor) for i, factor in enumerate(factors, 1)]
+                without = ("against", "reference", "relative", "mac")
+                yield Table.of(BucklingRow, alone, "Buckling: times the loads", "buckling", without=without)
+            for one in others:
+                rows = []
+                for pair in self.buckling_pairs:
+                    if pair.against == one.model:
+                        theirs = pair.is_ and float(one.load_factors[pair.is_ - 1])
+                        ours = (pair.number, factors[pair.number - 1])
+                        rows.append(BucklingRow(*ours, pair.is_, theirs, pair.relative, pair.mac))
+                caption = f"Buckling: times the loads, lattice and {one.model}"
+                yield Table.of(BucklingRow, rows, caption, f"buckling-{one.model}")
 
     def tables(self) -> tuple[Table, ...]:
         references, rows = [(spectrum, self.against(spectrum.model)) for spectrum in self[1:]], []
@@ -171,15 +213,19 @@ class Spectra(Answer, Sequence[Spectrum]):
         caption = f"Natural frequencies about the {self.about} sheet"
         found = Table.of(ModeRow, rows, caption, "modes", without=without)
         fields = ("number", "frequency_hz", "asked", "got", "miss")
-        return found, *(
-            Table.of(
-                ModeDamping,
-                modes,
-                f"Damping of the modes: {spectrum.model}",
-                f"damping-{spectrum.model}",
-                fields=fields,
-            )
-            for spectrum, modes in zip(self, self.damping, strict=False)
+        return (
+            found,
+            *self._buckling_tables(),
+            *(
+                Table.of(
+                    ModeDamping,
+                    modes,
+                    f"Damping of the modes: {spectrum.model}",
+                    f"damping-{spectrum.model}",
+                    fields=fields,
+                )
+                for spectrum, modes in zip(self, self.damping, strict=False)
+            ),
         )
 
     def figures(self) -> tuple[Picture, ...]:

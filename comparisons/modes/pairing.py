@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -27,12 +27,22 @@ SAME = 1e-6  # relative difference of frequencies that are one: above the eigens
 LEAST = 0.5  # MAC from which on two shapes are taken for one mode
 
 
+class Shaped(NamedTuple):
+    """A model's name, its frequencies or load factors (count,), rising, and shapes (count, n, 3) on equal
+    plan cells."""
+
+    model: str
+    values: np.ndarray
+    shapes: np.ndarray
+
+
 @dataclass(frozen=True)
 class Pair:
     """Mode `number` of model `of`, from 1, and the mode of model `against` with the same shape.
 
     is_: its number there, None where no shape of the first modes answers; mac: of the two shapes; relative:
-    the frequency's difference, of the reference's; kind: of the shape, None about a deformed sheet.
+    the difference of frequency or load factor, of the
+    reference's; kind: of the shape, None about a deformed sheet.
     """
 
     of: str
@@ -51,6 +61,19 @@ class Pair:
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
         return {key.rstrip("_"): value for key, value in asdict(self).items()}
+
+
+def pairs_of(first: Shaped, others: Sequence[Shaped], kinds: Sequence[str | None]) -> tuple[Pair, ...]:
+    """Every mode of the first model with the mode of the same shape of each other; kinds: of the first's."""
+    found = []
+    for model, values, shapes in others:
+        mac = assurance(first.shapes, shapes, values)
+        for i, match in enumerate(matched(mac)):
+            at = int(np.argmax(mac[i])) if match is None else match
+            off = None if match is None else float(first.values[i] / values[at] - 1.0)
+            is_ = None if match is None else match + 1
+            found.append(Pair(first.model, i + 1, model, is_, float(mac[i, at]), off, kinds[i]))
+    return tuple(found)
 
 
 def cell_centres(sheet: Sheet) -> np.ndarray:

@@ -8,7 +8,7 @@ Modes are listed lowest first; those of two models are paired by shape (`compari
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import prod
 from typing import TYPE_CHECKING, Any, Unpack, cast, get_args
@@ -29,6 +29,7 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice
 from sheetbench.scenes import About, AnyScene, Scene, free_rigid_motions, scene_of
 from sheetbench.scenes.grading import as_settings
+from sheetbench.scenes.modes import Buckling
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -43,6 +44,7 @@ def spectra(
     reference: str | Elements | Sequence[str | Elements] = REFERENCE,
     elements: Count | None = None,
     about: str = "flat",
+    buckling: bool = False,
     large: bool = False,
     progress: Progress = silent,
     **keywords: Unpack[ModesKeywords],
@@ -50,8 +52,9 @@ def spectra(
     """Return the spectra of the lattice and of the reference, or of each of several.
 
     masses: how the lattice shares out its mass (`lumped.masses`), as `lumped.modes` has it unless given;
-    about: "flat", or "deformed" under the scene's loads; large: even where one takes more memory than
-    there is; progress: called with what is being done.
+    about: "flat", or "deformed" under the scene's loads; buckling: also the load factors at which lattice and
+    references buckle (not the plate, which is linear); large: even where one takes more memory than there is;
+    progress: called with what is being done.
 
     Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
     that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.
@@ -74,7 +77,20 @@ def spectra(
     for model in models:
         starting(model)
         found.append(_reference(model, count, around))
-    return Spectra(scene, tuple(found), around, _sag(scene, own.springs))
+    buckled = tuple(_buckling(own, models, count)) if buckling else ()
+    return Spectra(scene, tuple(found), around, _sag(scene, own.springs), buckled)
+
+
+def _buckling(own: Resolved[Lattice], models: Sequence[Resolved[Elements]], count: int) -> Iterator[Buckling]:
+    """The buckling modes of the lattice, then of each reference but the plate."""
+    import fem_reference
+    import lumped
+
+    yield lumped.buckling(own.scene, own.springs, count)
+    for model in models:
+        if model.spec.kind != "plate":
+            context().progress(Work(f"buckling of {model.spec.model}", model.size))
+            yield fem_reference.buckling(model.scene, model.spec.kind, model.spec.elements, count)
 
 
 def _sag(scene: Scene, springs: Calibration) -> float | None:

@@ -28,9 +28,9 @@ from fem_reference.motion.relaxation import Memory, Strained
 from fem_reference.motion.rods import MovingRods, at_rest
 from fem_reference.shell.element import Element, weighed
 from fem_reference.solid.element import Bricks
-from fem_reference.solving.stability import require_stable
 from fem_reference.surface.loads import Follower
 from sheetbench.errors import NoEquilibrium
+from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
 from sheetbench.scenes.motion import NO_START, at_start, let_go, starts_flat

@@ -18,13 +18,13 @@ from fem_reference.solid.materials import LAWS
 from fem_reference.solid.rods import on_columns
 from fem_reference.solid.statics import discretise, inspected, judge, plan_mesh
 from fem_reference.solid.supports import components, vectors
-from fem_reference.solving.equilibrium import trace
 from fem_reference.surface import carried, loads, rod
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
+from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import FieldMesh, Scene, Status
@@ -82,7 +82,7 @@ class MovingSolid(MovingElements):
         structure = discretise(
             self._mesh, scene, self.settings["layers"], self.settings["law"], self.settings["clamp"]
         )
-        path = trace(structure, DirectSolver(structure.symmetric), partial(inspected, structure))
+        path = trace_path(structure, DirectSolver(structure.symmetric), partial(inspected, structure))
         status, notes, _ = judge(scene, structure, path, self.settings["law"])
         return np.append(path.state.displacement, path.state.aside), status, notes
 

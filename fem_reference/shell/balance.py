@@ -15,10 +15,10 @@ import numpy as np
 from fem_reference.shell.element import magnitudes
 from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import ShellStructure
-from fem_reference.solving.newton import TOLERANCE
-from fem_reference.solving.path import Path
 from fem_reference.surface.actuator_forces import OnEdge
 from fem_reference.surface.balance import Surface, left_over
+from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.path import Path
 from sheetbench.scenes import Balance, Scene
 
 
@@ -35,7 +35,7 @@ def balance(
     reactions = structure.supports.reactions(forces.residual[0])
     on_nodes, on_directors = _held(structure, forces)
     held = [(surface.position, on_nodes), (forces.directors, on_directors)]
-    left = max(TOLERANCE * forces.size, structure.imbalance(path.state, forces))
+    left = max(Limits.tolerance * forces.size, structure.imbalance(path.state, forces))
     allowed = left + float(np.finfo(float).eps) * _summed(structure, forces)
     return left_over(scene, surface, edges, reactions, held, forces.size, allowed, path.load_factor)
 

@@ -21,17 +21,18 @@ from skfem import ElementQuad2, MeshQuad
 from fem_reference.shell.element import GRIDS, MEMBRANE
 from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import UP, ShellStructure
-from fem_reference.solving.newton import Start
-from fem_reference.solving.path import Path
 from fem_reference.surface.biquadratic import interpolation, jacobians, product_grid, shape
 from fem_reference.surface.location import interpolate
+from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.newton import Start
+from sheetbench.numerics.continuation.path import Path
 from sheetbench.scenes import Scene, Status
 
 Shape = Callable[[np.ndarray], np.ndarray]
 
 COARSER = 4  # times as many elements along a side
 FINE = 8  # elements along the shorter side, from which on a coarse one saves more than it takes
-ENOUGH = 10  # factorisations of a coarse path that leads straight; others are given up
+LIMITS = Limits(factorisations=10)  # of a coarse path that leads straight; others are given up
 
 NODES = 2.0 * ElementQuad2.doflocs.T - 1.0
 ALONG = {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}  # e_αβ in the order of their samples

@@ -24,10 +24,6 @@ from fem_reference.shell.laws import LAWS
 from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
-from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.newton import Start
-from fem_reference.solving.path import FACTORISATIONS, Path, Progress
-from fem_reference.solving.pseudo_transient import relax
 from fem_reference.surface import loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
@@ -42,9 +38,16 @@ from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
+from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.newton import Start
+from sheetbench.numerics.continuation.path import Path, Progress
+from sheetbench.numerics.continuation.pseudo_transient import relax
+from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Solution, Status, require_uniform
 from sheetbench.scenes.rigid_motions import require_static
+
+LIMITS = Limits()
 
 
 def solve(
@@ -116,16 +119,16 @@ def _runs(
     law: str,
     graded: bool,
     progress: Progress | None,
-    limit: int = FACTORISATIONS,
+    limits: Limits | None = None,
     buckled: bool = False,
 ) -> list[_Run]:
     """The run on a mesh of so many elements, then those on coarser ones that it has begun with."""
     few = coarse_start.coarse(counts, scene)
     rows = graded and has_lines(borders_of(scene))  # those along an outline are half of a coarse mesh
-    begun = [] if few is None else _runs(scene, few, section, law, rows, progress, coarse_start.ENOUGH)
+    begun = [] if few is None else _runs(scene, few, section, law, rows, progress, coarse_start.LIMITS)
     near = begun[0] if begun and coarse_start.plain(begun[0].path) else None
     mesh = mesh_of(scene, counts, graded)
-    return [_run(mesh, scene, section, law, graded, progress, near, limit, buckled), *begun]
+    return [_run(mesh, scene, section, law, graded, progress, near, limits, buckled), *begun]
 
 
 def _run(
@@ -136,11 +139,11 @@ def _run(
     graded: bool = False,
     progress: Progress | None = None,
     near: _Run | Shape | None = None,
-    limit: int = FACTORISATIONS,
+    limits: Limits | None = None,
     buckled: bool = False,
 ) -> _Run:
-    """graded: give up where stretched elements bend too much (see `validity`); near: where to begin; limit:
-    of factorisations; buckled: as `trace` has it."""
+    """graded: give up where stretched elements bend too much (see `validity`); near: where to begin;
+    limits and buckled: as `trace_path` has them."""
     begin = now()
     structure, nodes = discretise(mesh, scene, section, law)
     solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
@@ -152,14 +155,17 @@ def _run(
         begin_at = coarse_start.start(near.mesh, near.structure, near.path.state, structure, nodes)
     inspect = inspector(scene, structure, graded)
     slenderness = scene.sheet.thickness / structure.lever
-    path = trace(structure, solver, inspect, relax, progress, begin_at, slenderness, limit, buckled)
+    path = trace_path(
+        structure, solver, inspect, relax, progress, begin_at, slenderness, limits or LIMITS, buckled
+    )
+    path.factor = None  # a run is kept longer than that
     return _Run(mesh, structure, nodes, path, ready - begin, now() - ready)
 
 
 def trace_on(scene: Scene, structure: ShellStructure) -> tuple[State, Status, list[str]]:
     """The equilibrium of a structure under the full load, how the path to it ended and the notes."""
     solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
-    path = trace(structure, solver, inspector(scene, structure, False), relax)
+    path = trace_path(structure, solver, inspector(scene, structure, False), relax)
     return path.state, *judge(scene, structure, path, membrane_strain(structure, path.state))
 
 

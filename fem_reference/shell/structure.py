@@ -8,7 +8,7 @@ director: δd = T β with T ⊥ d. The constraint |d|² = 1 and the prescribed v
 
 and its multiplier, −(R_d · d)/(d · d), stiffens T (the curvature of the sphere). All of strain, load and
 constraint being polynomials in q, the step is Newton's; `mixed` takes the stress that the last step
-extrapolated, D (e + B δq), for the geometric stiffness and the multiplier (see `equilibrium`).
+extrapolated, D (e + B δq), for the geometric stiffness and the multiplier (see `continuation.trace`).
 
 Rods along edges (see `rod`) are further elements, and their third director m, one at every node of their
 edges, is one more director like d. In all there are 2n + q vectors: u, d and the q directors m.
@@ -31,6 +31,7 @@ from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surfa
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.rod_elements import Strained
 from fem_reference.surface.supports import Supports
+from sheetbench.numerics.continuation.structure import Creeping
 from sheetbench.numerics.fronts import Fronts
 from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
 
@@ -38,8 +39,8 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
-class ShellStructure:
-    """A shell with its supports, loads and rods, ready for `equilibrium.trace`.
+class ShellStructure(Creeping[State, Forces]):
+    """A shell with its supports, loads and rods, ready for `trace_path`.
 
     element_nodes: (m, 9); dead: nodal forces (n, 3) [N]; number: of the unknowns (n, 5) of every node, turns
     (n + q, 2) of every director, −1 where held.
@@ -120,6 +121,10 @@ class ShellStructure:
     def unextrapolated(self, state: State) -> State:
         """The state with its own stresses."""
         return replace(state, stress=None, rod_stress=None)
+
+    def with_stresses(self, state: State, of: State) -> State:
+        """A state with the stresses that a step to another has extrapolated."""
+        return replace(state, stress=of.stress, rod_stress=of.rod_stress)
 
     def energies(self, state: State) -> dict[str, float]:
         """Strain energy [J] of the sheet by part."""

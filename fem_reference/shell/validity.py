@@ -23,9 +23,9 @@ import numpy as np
 from fem_reference.shell.element import BENDING, MEMBRANE
 from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import ShellStructure
-from fem_reference.solving.path import Fault, Inspect, Path
-from fem_reference.solving.stability import stability
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
+from sheetbench.numerics.continuation.path import Fault, Inspect, Path
+from sheetbench.numerics.continuation.stability import stability
 from sheetbench.scenes import Scene, Status, outside_model
 
 STRETCH_LIMIT = 5.0
@@ -34,7 +34,7 @@ FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as
 
 
 def inspector(scene: Scene, structure: ShellStructure, graded: bool) -> Inspect[State, Forces]:
-    """What `equilibrium.trace` is to look at; graded: elements are stretched, and may be without harm."""
+    """What `trace_path` is to look at; graded: elements are stretched, and may be without harm."""
 
     def inspect(path: Path[State, Forces]) -> Fault | None:
         fault = inverted(structure, path.state)

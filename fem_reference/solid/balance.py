@@ -14,10 +14,10 @@ import numpy as np
 from fem_reference.solid.rods import DIRECTORS
 from fem_reference.solid.structure import Forces, SolidStructure, State
 from fem_reference.solid.supports import from_forces, into_forces
-from fem_reference.solving.newton import TOLERANCE
-from fem_reference.solving.path import Path
 from fem_reference.surface.actuator_forces import OnEdge
 from fem_reference.surface.balance import Surface, left_over
+from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.path import Path
 from sheetbench.scenes import Balance, Scene
 
 
@@ -43,7 +43,9 @@ def balance(
         (rods.own + state.aside, np.where(rods.held[:, None], forces.aside, 0.0)),
     ]
     # a sum of n numbers is at most √n times their norm, in which residuals are measured
-    left = np.sqrt(structure.unknowns) * max(TOLERANCE * forces.size, structure.imbalance(state, forces))
+    left = np.sqrt(structure.unknowns) * max(
+        Limits.tolerance * forces.size, structure.imbalance(state, forces)
+    )
     allowed = float(left + np.finfo(float).eps * _summed(structure, forces))
     return left_over(scene, surface, edges, reactions, at, forces.size, allowed, share)
 

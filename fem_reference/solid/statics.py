@@ -28,8 +28,6 @@ from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.structure import Forces, SolidStructure, State
-from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.path import Fault, Path, Progress
 from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.borders import borders_of
@@ -39,6 +37,8 @@ from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
+from sheetbench.numerics.continuation.path import Fault, Path, Progress
+from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import (
     Constants,
@@ -104,7 +104,7 @@ def _solved(
     structure = discretise(mesh, scene, layers, law, clamp)
     solver = DirectSolver(structure.symmetric)
     ready = now()
-    path = trace(structure, solver, partial(inspected, structure), progress=progress)
+    path = trace_path(structure, solver, partial(inspected, structure), progress=progress)
     done = now()
 
     columns, displacement = structure.columns, path.state.displacement

@@ -2,7 +2,7 @@
 
 State: displacement u (n, levels, 3) and the sampled stresses s of every brick. R = Bᵀ s − λ f; with
 K = Bᵀ D B + Σ s_k H_k ⊗ I the step is Newton's, and `mixed` takes the stress that the last step extrapolated,
-s + D B δu, for the geometric part (see `equilibrium`: the strain is quadratic in u, as in the shell), and
+s + D B δu, for the geometric part (`continuation.trace`: the strain is quadratic in u, as in the shell), and
 the extrapolated pressure in D: near ν = ½ the current one is a large error until volumes fit.
 Held components q, u = Z q (see `supports`), go to their targets in the first step.
 
@@ -15,7 +15,7 @@ Rods along edges (see `rods`) are further elements with directors of their own.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -28,6 +28,7 @@ from fem_reference.surface.bound_rods import BoundRods, block_diagonal
 from fem_reference.surface.carried import Carried
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.rod_elements import Strained
+from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.sparsity import Pattern
 
 
@@ -61,8 +62,8 @@ class Forces:
     bases: np.ndarray
 
 
-class SolidStructure:
-    """A solid sheet with its supports, loads and rods, ready for `equilibrium.trace`."""
+class SolidStructure(Structure[State, Forces]):
+    """A solid sheet with its supports, loads and rods, ready for `trace_path`."""
 
     def __init__(
         self,
@@ -98,6 +99,10 @@ class SolidStructure:
     def rest(self) -> State:
         """Flat and free of stress."""
         return State(np.zeros_like(self.columns.positions), np.zeros_like(self.rods.own))
+
+    def with_stresses(self, state: State, of: State) -> State:
+        """A state with the stresses that a step to another has extrapolated."""
+        return replace(state, stress=of.stress, pressure=of.pressure, rod_stress=of.rod_stress)
 
     def energies(self, state: State) -> dict[str, float]:
         """Strain energy [J] of the sheet by part of the law."""

@@ -78,6 +78,11 @@ class AllFamilies:
         both = np.repeat(self.links.stiffness, 2)
         return np.bincount(self.links.nodes.ravel(), both, minlength=self._pattern.size)
 
+    @cached_property
+    def link_stiffness_norm(self) -> float:
+        """Return its norm."""
+        return float(np.linalg.norm(self.link_stiffness))
+
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force, its gradient."""
         if self._rounded is not None:

@@ -119,6 +119,11 @@ class Links(Family):
         """Return what the loops take."""
         return LinkArrays(self.nodes, self.offset, self.rest_length, self.stiffness, self.slots)
 
+    def largest_strain(self, elongations: np.ndarray) -> float:
+        """Return the largest relative change of length of the in-plane links, of elongations (m,) [m]."""
+        at = self.in_plane
+        return float(np.abs(elongations[at] / self.rest_length[at]).max(initial=0.0))
+
     def rounded(self) -> Links:
         """Return the same links with their rest data in single precision."""
         single = {

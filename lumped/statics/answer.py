@@ -12,23 +12,27 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
 from lumped.statics.balance import balance
-from lumped.statics.equilibrium import State
+from lumped.statics.energy_descent import LatticePath
 from lumped.statics.fields import LatticeMesh, field_mesh
-from lumped.statics.problem import Problem
+from lumped.statics.problem import LatticeState, Problem
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grading import as_settings
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a solve ended: status, the last equilibrium, where it snapped, what else there is to say, and the
-    springs' energies [J] there by name where they are known."""
+    """How a solve ended: status, the path, what there is to say, and the springs' energies [J] at its last
+    equilibrium by name where they are known."""
 
     status: Status
-    state: State
-    snaps: tuple[float, ...] = ()
+    path: LatticePath
     notes: tuple[str, ...] = ()
     energies: dict[str, float] | None = None
+
+    @property
+    def state(self) -> LatticeState:
+        """The last equilibrium."""
+        return self.path.state
 
 
 def solution(
@@ -40,7 +44,7 @@ def solution(
     requested: dict[str, Any],
 ) -> Solution:
     """The answer of an outcome; requested: the options that are not their defaults."""
-    state, lattice = outcome.state, problem.assembly.lattice
+    path, state, lattice = outcome.path, outcome.state, problem.assembly.lattice
     assembly, u = problem.assembly, state.u  # they outlive the solve
     linear = requested.get("linear", False)
     exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, outcome)
@@ -58,18 +62,18 @@ def solution(
         settings=settings | requested,
         status=outcome.status,
         unknowns=problem.system.unknowns,
-        iterations=problem.factorisations,
+        iterations=path.factorisations,
         setup_seconds=seconds[0],
         solve_seconds=seconds[1],
         sample=partial(_sampled, lattice, u),
         reactions=reactions,
         energies=energies,
         mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, linear)),
-        history=tuple(problem.history),
+        history=tuple(path.history),
         load_factor=state.load_factor,
         actuators=wrenches,
         balance=balance(scene, problem, state, reactions, exerted, linear),
-        snaps=outcome.snaps,
+        snaps=tuple(path.snaps),
         remarks=outcome.notes,
     )
 
@@ -87,8 +91,9 @@ def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float
     return -residual.force, energies
 
 
-def _of_small_displacements(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:
+def _of_small_displacements(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:
     """Return forces K u − f (size, 3) [N] and energies ½ u·K u [J] of small displacements (`flat_step`)."""
-    internal = problem.system.apply(state.blocks, state.u)
-    external = state.load_factor * problem.growing(np.zeros_like(state.u))
+    flat = np.zeros_like(state.u)
+    internal = problem.system.apply(problem.tangent(flat, 0.0), state.u)
+    external = problem.external(flat, state.load_factor)
     return internal - external, {"elastic": 0.5 * float(np.sum(internal * state.u))}

@@ -9,16 +9,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from lumped.statics.equilibrium import State, rounding
-from lumped.statics.limits import RESIDUAL_TOLERANCE
-from lumped.statics.problem import Problem
+from lumped.actuators import Drive
+from lumped.statics.problem import LatticeState, Problem
+from lumped.statics.structure import LIMITS
 from sheetbench.scenes import Balance, Scene, dead_force
 
 
 def balance(
     scene: Scene,
     problem: Problem,
-    state: State,
+    state: LatticeState,
     reactions: dict[str, np.ndarray],
     exerted: np.ndarray,
     linear: bool = False,
@@ -38,10 +38,11 @@ def balance(
     arms = places.T @ (held + external[:n])  # Σ x f, whose antisymmetric part is Σ x × f
     moment = np.array([arms[1, 2] - arms[2, 1], arms[2, 0] - arms[0, 2], arms[0, 1] - arms[1, 0]])
     if coupling is not None:
-        moment += coupling.held_moment(at, exerted, problem.commands(share))
+        moment += coupling.held_moment(at, exerted, Drive(share))
         moment += coupling.moment(at, external)
-    size = problem.force_scale(at, share) if linear else problem.scale_of(exerted + external, external)
+    known = None if linear else state.residual
+    size = (known or problem.residual(at, share)).scale
     # a sum of n numbers is at most √n times their norm, in which residuals are measured
-    allowed = np.sqrt(len(at)) * max(RESIDUAL_TOLERANCE * size, rounding(problem, state.u))
+    allowed = np.sqrt(len(at)) * max(LIMITS.tolerance * size, problem.rounding(state.u))
     arm = float(np.sqrt((places**2).sum(axis=1).max()))
     return Balance(force, moment, size, float(allowed), arm, objective=problem.assembly.conservative)

@@ -13,36 +13,49 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
-from lumped.statics.equilibrium import State, StepFailed, refine
-from lumped.statics.limits import REFINE_BELOW
-from lumped.statics.problem import Problem
-from sheetbench.numerics.reduced import Factor, SingularMatrixError
+from lumped.statics.problem import LatticeState, Problem
+from lumped.statics.structure import LatticeForces, LatticeStructure
+from sheetbench.numerics.continuation.newton import Start, newton
+from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.direct import Factor, SingularMatrixError
+from sheetbench.scenes import Status
+
+LatticePath = Path[LatticeState, LatticeForces]
 
 STEPS = 300
 PROJECTED_RUN = 4  # steps with the projected tangent before the true one is tried again
 
 
-def descend(problem: Problem, u: np.ndarray, load_factor: float) -> State:
-    """The stable equilibrium that descent reaches from u (n, 3) [m], supports moved to their places.
-
-    Raises StepFailed when there is none within the step limit.
-    """
+def settle(path: LatticePath, load_factor: float) -> LatticeState:
+    """Return the stable equilibrium at a load factor that descent reaches from a path's last one, from beside
+    it where that is at this load factor and unstable. Raises StepFailed where there is none."""
+    assert isinstance(path.structure, LatticeStructure)
+    problem, u = path.structure.problem, path.state.u
     problem.assembly.require_energy()
-    u = problem.project_to_supports(u, load_factor)
+    try:
+        if load_factor == path.load_factor:
+            u = _disturbed(path, problem)
+        return _descend(path, problem, problem.project_to_supports(u, load_factor), load_factor)
+    except SingularMatrixError as error:
+        raise StepFailed(Status.SINGULAR, str(error), 0.0) from None
+
+
+def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float) -> LatticeState:
     wait = 0
     for _ in range(STEPS):
         residual = problem.residual(u, load_factor)
-        factor, wait = _definite_factor(problem, u, load_factor, wait)
-        if residual.relative < REFINE_BELOW and wait == 0:
+        factor, wait = _definite_factor(path, problem, u, load_factor, wait)
+        relative = residual.norm / residual.scale if residual.scale > 0.0 else residual.norm
+        if relative < path.limits.refine_below and wait == 0:
             try:
-                return refine(problem, u, load_factor, residual=residual)
-            except (StepFailed, SingularMatrixError):
+                return newton(path, Start(LatticeState(u, load_factor, residual), load_factor, 1.0, 0.0))[0]
+            except StepFailed:
                 pass
         gradient = -residual.reduced
         direction = factor.solve(-gradient)
         slope = float(gradient @ direction)
         if not slope < 0.0:  # also catches nan
-            raise StepFailed("no direction of descent: the projected tangent is not positive definite")
+            raise _failed("no direction of descent: the projected tangent is not positive definite")
         move = problem.expand(direction)
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
         start = problem.potential(u, load_factor)
@@ -51,39 +64,46 @@ def descend(problem: Problem, u: np.ndarray, load_factor: float) -> State:
                 break
             share /= 2.0
         else:
-            raise StepFailed("the energy descends no further")
+            raise _failed("the energy descends no further")
         u = u + share * move
-        problem.note(load_factor, residual.relative, share * float(np.abs(move).max()))
-    raise StepFailed(f"no equilibrium in {STEPS} descent steps")
+        path.note(load_factor, relative, share * float(np.abs(move).max()) / problem.size)
+    raise _failed(f"no equilibrium in {STEPS} descent steps")
 
 
-def disturbed(problem: Problem, state: State) -> np.ndarray:
+def _failed(reason: str) -> StepFailed:
+    return StepFailed(Status.STEP_LIMIT, reason, 0.0)
+
+
+def _disturbed(path: LatticePath, problem: Problem) -> np.ndarray:
     """Displacement beside an unstable equilibrium, moved along a direction of negative curvature.
 
     The move is a tenth of the layer distance; of its two signs the one of lower energy (the first if even).
     """
-    n = problem.system.unknowns
-    inverse = LinearOperator((n, n), matvec=state.factor.solve, dtype=float)
+    n, state = problem.system.unknowns, path.state
+    blocks = path.tangent(state, path.load_factor)
+    factor = path.factor or path.factored(blocks)
+    inverse = LinearOperator((n, n), matvec=factor.solve, dtype=float)
     start = np.random.default_rng(0).standard_normal(n)
+    matrix = problem.system.matrix(blocks)
     try:
-        _, vectors = eigsh(
-            problem.system.matrix(state.blocks), k=1, sigma=0.0, OPinv=inverse, which="SA", v0=start, tol=1e-4
-        )
-    except ArpackNoConvergence as error:
-        raise StepFailed("no direction of negative curvature found") from error
+        _, vectors = eigsh(matrix, k=1, sigma=0.0, OPinv=inverse, which="SA", v0=start, tol=1e-4)
+    except ArpackNoConvergence:
+        raise _failed("no direction of negative curvature found") from None
     move = problem.expand(vectors[:, 0])
     move *= 0.1 * problem.assembly.lattice.spacing[2] / np.abs(move).max()
-    return min((state.u + move, state.u - move), key=lambda u: problem.potential(u, state.load_factor))
+    return min((state.u + move, state.u - move), key=lambda u: problem.potential(u, path.load_factor))
 
 
-def _definite_factor(problem: Problem, u: np.ndarray, load_factor: float, wait: int) -> tuple[Factor, int]:
+def _definite_factor(
+    path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float, wait: int
+) -> tuple[Factor, int]:
     """Factors of a positive definite tangent and for how many steps to stay with the projected one."""
     if wait == 0:
         try:
-            factor = problem.linearise(u, load_factor).factor
+            factor = path.factored(problem.tangent(u, load_factor))
             if factor.negative == 0:
                 return factor, 0
         except SingularMatrixError:
             pass
         wait = PROJECTED_RUN
-    return problem.factor(problem.nonnegative_tangent(u, load_factor)), wait - 1
+    return path.factored(problem.nonnegative_tangent(u, load_factor)), wait - 1

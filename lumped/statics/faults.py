@@ -6,22 +6,15 @@ inverted   the normal of a mid-surface cell no longer points the way from the bo
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
-from lumped.statics.limits import COLLAPSED
 from lumped.statics.soundness import first_collapsed, first_inverted
+from sheetbench.numerics.continuation.path import Fault
 from sheetbench.scenes import Status
 
-
-class Fault(NamedTuple):
-    """What makes a state worthless: the status it deserves and a sentence."""
-
-    status: Status
-    message: str
+COLLAPSED = 1e-6  # of a link's rest length
 
 
 def broken(assembly: Assembly, states: np.ndarray) -> tuple[int, Fault | None]:

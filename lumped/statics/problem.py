@@ -5,8 +5,7 @@ With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0. Displaceme
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -16,23 +15,9 @@ from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
 from lumped.loads import Loads
 from lumped.springs.all_families import Stresses
-from lumped.statics.faults import Fault
 from lumped.supports import Constraints
-from sheetbench.numerics.direct import Factor, iterated
 from sheetbench.numerics.maps import Rows, product, transposed_product
 from sheetbench.numerics.reduced import ReducedSystem
-from sheetbench.scenes import Iteration
-
-Progress = Callable[[Iteration], None]
-SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
-ITERATED = 5000  # unknowns from which a factorisation costs as much as ten solutions
-
-
-class Tangent(NamedTuple):
-    """A tangent's blocks (b, 3, 3) [N/m] and the factors of it reduced."""
-
-    blocks: np.ndarray
-    factor: Factor
 
 
 class Residual(NamedTuple):
@@ -44,44 +29,34 @@ class Residual(NamedTuple):
     norm: float
     scale: float
 
-    @property
-    def relative(self) -> float:
-        """The norm over the scale of the forces."""
-        return self.norm / self.scale if self.scale > 0.0 else self.norm
 
-
-class Advance(NamedTuple):
-    """A displacement (n, 3) [m], how far the step there went at most [m], what the equilibrium equation
-    leaves, and the stresses that the linearisation before the step predicts, where asked for."""
+class LatticeState(NamedTuple):
+    """Displacement u (n, 3) [m] at a load factor, what the equilibrium equation leaves there and the stresses
+    that the linearisation before the last step predicts, where they are known; where that step began, and how
+    far it went at most [m]."""
 
     u: np.ndarray
-    length: float
-    residual: Residual
-    stresses: Stresses | None
+    load_factor: float
+    residual: Residual | None = None
+    stresses: Stresses | None = None
+    start: np.ndarray | None = None
+    length: float = 0.0
 
 
 @dataclass
 class Problem:
     """A lattice under its supports and loads, which grow with the load factor λ.
 
-    size: the sheet's longer side [m]. base: loads that act in full at every λ; the supports are then in
-    their places from the start and only `loads` grow. factorisations counts every tangent factorised. fault:
-    what ended the path at a state that means nothing, if anything did.
+    size: the sheet's longer side [m].
     """
 
     assembly: Assembly
     constraints: Constraints
     loads: Loads
     size: float
-    base: Loads | None = None
-    factorisations: int = 0
-    history: list[Iteration] = field(default_factory=list)
-    progress: Progress | None = None
-    fault: Fault | None = None
 
     def __post_init__(self) -> None:
-        dead = self.loads.conservative and (self.base is None or self.base.conservative)
-        self.conservative = self.assembly.conservative and dead
+        self.conservative = self.assembly.conservative and self.loads.conservative
         coupling = self.assembly.coupling
         self.multipliers = coupling.multipliers if coupling is not None else 0
         self._free = self.constraints.transform_arrays
@@ -96,11 +71,6 @@ class Problem:
         """Which unknowns are multipliers of the actuators' constraints, (m,) bool."""
         of_unknowns: np.ndarray = abs(self.constraints.transform).T @ coupling.algebraic.ravel()
         return of_unknowns > 0.0
-
-    @property
-    def iterates(self) -> bool:
-        """Whether factors are dear enough to solve with those of a tangent close by."""
-        return self.conservative and self.multipliers == 0 and self.system.unknowns > ITERATED
 
     @property
     def descends(self) -> bool:
@@ -128,35 +98,16 @@ class Problem:
 
     def _with_loads(self, blocks: np.ndarray, u: np.ndarray, load_factor: float) -> np.ndarray:
         self.loads.add_tangent(u, load_factor, blocks)
-        if self.base is not None:
-            self.base.add_tangent(u, 1.0, blocks)
         if self.assembly.coupling is not None:
             slots = self.assembly.coupling_slots
-            self.assembly.coupling.add_tangent(u, self.commands(load_factor), slots, blocks)
+            self.assembly.coupling.add_tangent(u, Drive(load_factor), slots, blocks)
         return blocks
-
-    def factor(self, blocks: np.ndarray) -> Factor:
-        """Factors of the reduced tangent; every one made counts."""
-        self._count()
-        return self.system.factor(blocks, self._count)
-
-    def _count(self) -> None:
-        self.factorisations += 1
-
-    def negative(self, factor: Factor) -> int | None:
-        """Eigenvalues below zero of the factored tangent (real ones, when it is unsymmetric), on motions
-        that the actuators' constraints allow: each multiplier brings one more. None where it is not known."""
-        if self.conservative:
-            return None if factor.negative is None else factor.negative - self.multipliers
-        if self.multipliers:
-            return None
-        return factor.negative_real()
 
     def prescribed(self, load_factor: float) -> np.ndarray:
         """Displacement of the masses that supports and actuators put in place."""
-        placed = self.constraints.prescribed(load_factor if self.base is None else 1.0)
+        placed = self.constraints.prescribed(load_factor)
         if self.assembly.coupling is not None:
-            placed = placed + self.assembly.coupling.driven(self.commands(load_factor))
+            placed = placed + self.assembly.coupling.driven(Drive(load_factor))
         return placed
 
     def project_to_supports(self, u: np.ndarray, load_factor: float) -> np.ndarray:
@@ -168,107 +119,60 @@ class Problem:
         """Elastic energy [J] and internal force, actuators included."""
         energy, force = self.assembly.force(u)
         if self.assembly.coupling is not None:
-            energy += self.assembly.coupling.add_force(u, self.commands(load_factor), force)
+            energy += self.assembly.coupling.add_force(u, Drive(load_factor), force)
         return energy, force
 
-    def growing(self, u: np.ndarray) -> np.ndarray:
-        """Derivative of the unbalanced force by the load factor at fixed u: loads and commands."""
-        force = self.loads.force(u)
-        if self.assembly.coupling is None or self.base is not None:
-            return force
-        return force - self.assembly.coupling.command_force(u, Drive(1.0))
-
-    def commands(self, load_factor: float) -> Drive:
-        """The actuators' commands at a load factor."""
-        return Drive(load_factor if self.base is None else 1.0)
-
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:
-        """External force λ f(u), plus the base loads."""
-        force = load_factor * self.loads.force(u)
-        return force if self.base is None else force + self.base.force(u)
+        """External force λ f(u)."""
+        return load_factor * self.loads.force(u)
 
     def potential(self, u: np.ndarray, load_factor: float) -> float:
         """Elastic energy less the work of the loads [J]; only conservative problems have one."""
         energy, _ = self.internal(u, load_factor)
-        base = 0.0 if self.base is None else self.base.work(u)
-        return energy - load_factor * self.loads.work(u) - base
-
-    def force_scale(self, u: np.ndarray, load_factor: float) -> float:
-        """Norm of the external forces plus that of the supports' [N]: what residuals are relative to."""
-        _, internal = self.internal(u, load_factor)
-        return self.scale_of(internal, self.external(u, load_factor))
-
-    def scale_of(self, internal: np.ndarray, external: np.ndarray) -> float:
-        """Return the norm [N] of external forces plus that of the supports', of forces (n, 3) [N]."""
-        size: float = size_of(internal, external, self.constraints.held)
-        return size
+        return energy - load_factor * self.loads.work(u)
 
     def residual(self, u: np.ndarray, load_factor: float) -> Residual:
-        """Return what the equilibrium equation leaves at u."""
-        return self.advance(u, np.zeros_like(u), load_factor).residual
+        """Return the residual at u."""
+        return self._residual(self.internal(u, load_factor)[1], u, load_factor)
 
-    def linearise(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> Tangent:
-        """Return the tangent at u, or with these stresses, and its factors; every call counts. Raises
-        SingularMatrixError when there are none."""
-        blocks = self.tangent(u, load_factor, stresses)
-        return Tangent(blocks, self.factor(blocks))
+    def _residual(self, internal: np.ndarray, u: np.ndarray, load_factor: float) -> Residual:
+        external = self.external(u, load_factor)
+        held, free, n = self.constraints.held, self._free, self.system.unknowns
+        return Residual(*unbalanced_force(internal, external, held, free, n))
 
-    def advance(self, u: np.ndarray, step: np.ndarray, load_factor: float, predict: bool = False) -> Advance:
-        """Go from u by a step (n, 3) [m]; predict: the stresses too."""
-        after, length, internal, stresses = self.assembly.advance(u, step, predict)
+    def advance(self, u: np.ndarray, step: np.ndarray, load_factor: float) -> LatticeState:
+        """Return where a step (n, 3) [m] from u leads, the residual and the predicted stresses there."""
+        after, length, internal, stresses = self.assembly.advance(u, step, True)
         if self.assembly.coupling is not None:
-            self.assembly.coupling.add_force(after, self.commands(load_factor), internal)
-        external = self.external(after, load_factor)
-        left = unbalanced_force(internal, external, self.constraints.held, self._free, self.system.unknowns)
-        return Advance(after, length, Residual(*left), stresses if predict else None)
+            self.assembly.coupling.add_force(after, Drive(load_factor), internal)
+        residual = self._residual(internal, after, load_factor)
+        return LatticeState(after, load_factor, residual, stresses, u, length)
 
-    def correct(
-        self, factor: Factor, u: np.ndarray, load_factor: float, residual: Residual, predict: bool = False
-    ) -> Advance:
-        """Go from u by the Newton correction of its residual with these factors; predict: the stresses too.
-        Raises SingularMatrixError when they do not solve the system."""
-        return self.advance(u, self.expand(factor.solve(residual.reduced, SOLVED)), load_factor, predict)
-
-    def solve_near(
-        self, u: np.ndarray, load_factor: float, residual: Residual, stresses: Stresses | None, near: Factor
-    ) -> Advance | None:
-        """Go from u by the correction of its residual with the tangent there, solved by iterations with
-        factors of one close by; None where those do not serve."""
-        matrix = self.system.matrix(self.tangent(u, load_factor, stresses))
-        found = iterated(matrix, near, residual.reduced)
-        return None if found is None else self.advance(u, self.expand(found), load_factor, True)
-
-    def note(self, load_factor: float, residual: float, step: float) -> None:
-        """Keep one line of history and tell whoever watches."""
-        line = Iteration(load_factor, residual, step)
-        self.history.append(line)
-        if self.progress:
-            self.progress(line)
+    def rounding(self, u: np.ndarray) -> float:
+        """Return the norm of the forces [N] that rounding of the link forces leaves."""
+        assembly, largest = self.assembly, float(np.abs(u).max())
+        # relative displacements are differences of u: their rounding, times the stiffness
+        if assembly.coupling is None:
+            return assembly.rounding * largest * assembly.all_families.link_stiffness_norm
+        carried = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
+        return float(assembly.rounding * np.linalg.norm(carried))
 
 
 @njit(cache=True, nogil=True)
 def unbalanced_force(
     internal: np.ndarray, external: np.ndarray, held: np.ndarray, free: Rows, n: int
 ) -> tuple[np.ndarray, np.ndarray, float, float]:
-    """Return external less internal force r (k, 3) [N], Tᵀ r (n,), its norm and the forces' `size_of`."""
+    """Return external less internal force r (k, 3) [N], Tᵀ r (n,), its norm, and the norm of the external
+    forces plus that of the supports' [N]; held: (k, 3) bool."""
     out = np.empty_like(internal)
+    total = loads = supports = 0.0
     for i in range(len(out)):
         for q in range(3):
             out[i, q] = external[i, q] - internal[i, q]
-    reduced = transposed_product(free, out.ravel(), n)
-    total = 0.0
-    for value in reduced:
-        total += value * value
-    return out, reduced, np.sqrt(total), size_of(internal, external, held)
-
-
-@njit(cache=True, nogil=True)
-def size_of(internal: np.ndarray, external: np.ndarray, held: np.ndarray) -> float:
-    """Return the norm of the external forces plus that of the supports' [N]; held: (k, 3) bool."""
-    loads = supports = 0.0
-    for i in range(len(internal)):
-        for q in range(3):
             loads += external[i, q] ** 2
             if held[i, q]:
                 supports += internal[i, q] ** 2
-    return np.sqrt(loads) + np.sqrt(supports)
+    reduced = transposed_product(free, out.ravel(), n)
+    for value in reduced:
+        total += value * value
+    return out, reduced, np.sqrt(total), np.sqrt(loads) + np.sqrt(supports)

@@ -25,10 +25,11 @@ from functools import lru_cache
 import numpy as np
 
 from lumped.assembly import Assembly
-from lumped.statics.equilibrium import State
-from lumped.statics.faults import Fault, place
-from lumped.statics.problem import Problem
+from lumped.statics.faults import place
+from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.soundness import carried_by_links, sharpest_bend
+from sheetbench.numerics.continuation.path import Fault
+from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.summary import few
@@ -41,31 +42,31 @@ RESOLVED = 2.0  # cells' length over the width of a layer
 FREE_OF_STRETCH = 0.025  # share of energy in the layers' mean stretch below which there is nothing to resolve
 
 
-def digits(problem: Problem, state: State) -> Fault | None:
+def digits(problem: Problem, state: LatticeState, factor: Factor | None) -> Fault | None:
     """Where the rounding of the internal force may move the equilibrium by more than DOUBTFUL: how far, and
     `singular` where the unbalanced force that it has left does move it by more than LOST, and in single
     precision where rounding may move it by more than MAY_BE_LOST: paths then end at states of rounding's own,
     which nothing is left to move from."""
     largest = float(np.abs(state.u).max())
-    if state.factor is None or largest == 0.0:
+    if factor is None or largest == 0.0:
         return None
     links = problem.assembly.links
     carried = carried_by_links(state.u, links.nodes, links.stiffness)[:, None]
     share = 0.0
     for sample in _noise(state.u.shape):
-        moved = problem.expand(state.factor.solve_unrefined(problem.reduce(carried * sample)))
+        moved = problem.expand(factor.solve_unrefined(problem.reduce(carried * sample)))
         share = max(share, problem.assembly.rounding * float(np.abs(moved).max()) / largest)
         if share < BEYOND_DOUBT:
             return None
     if not share > DOUBTFUL:
         return None
-    unbalanced = problem.residual(state.u, state.load_factor).reduced
-    left = float(np.abs(problem.expand(state.factor.solve(unbalanced))).max()) / largest
+    unbalanced = (state.residual or problem.residual(state.u, state.load_factor)).reduced
+    left = float(np.abs(problem.expand(factor.solve(unbalanced))).max()) / largest
     single = problem.assembly.precision == "single"
     return Fault(
         Status.SINGULAR if left > LOST or (single and share > MAY_BE_LOST) else Status.CONVERGED,
         f"rounding may move the masses by {share:.1g} of the largest displacement "
-        f"(condition number {state.factor.condition():.1e}): use fewer, or thicker, cells",
+        f"(condition number {factor.condition():.1e}): use fewer, or thicker, cells",
     )
 
 

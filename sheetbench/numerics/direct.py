@@ -204,6 +204,9 @@ class DirectSolver:
                 pass  # the pivots of others may do
         return self._by_library(matrix, more)
 
+    def iterated(self, matrix: Matrix, near: Factor, rows: np.ndarray) -> None:
+        """None: factors of its own cost little beside a matrix of elements."""
+
     def _symmetric_part(self, matrix: Matrix) -> np.ndarray:
         """The data of (A + Aᵀ)/2, whose pattern is that of A."""
         if self._transposed is None:

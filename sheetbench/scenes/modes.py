@@ -1,8 +1,9 @@
-"""Natural modes of a model: its frequencies as an answer."""
+"""Natural modes of a model, its frequencies as an answer, and its buckling modes."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -10,6 +11,10 @@ import numpy as np
 
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import HERTZ, NUMBER, Table
+from sheetbench.errors import BadInput
+from sheetbench.scenes.kinematics import bent_or_tilted
+from sheetbench.scenes.loads import EdgeLoad, Pressure
+from sheetbench.scenes.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -41,3 +46,47 @@ class NaturalModes(Answer):
 
     def notes(self) -> list[str]:
         return [f"{self.left_out} rigid motions are left out"] if self.left_out else []
+
+
+@dataclass(frozen=True, eq=False)
+class Buckling:
+    """How a flat sheet buckles: at so many times its loads (count,), lowest first; displacement: plan points
+    (p, 2) [m] → of the mid-surface in every shape, (count, p, 3), of any scale."""
+
+    model: str
+    label: str
+    settings: dict[str, Any]
+    load_factors: np.ndarray
+    unknowns: int
+    seconds: float
+    displacement: Callable[[np.ndarray], np.ndarray]
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "model": self.model,
+            "label": self.label,
+            "settings": self.settings,
+            "load_factors": self.load_factors,
+            "unknowns": self.unknowns,
+            "solve_seconds": self.seconds,
+        }
+
+
+def require_flat_and_dead(scene: Scene) -> None:
+    """Raise BadInput for what has no buckling load: loads that follow the sheet, actuators, supports that
+    bend or tilt it."""
+    for number, load in enumerate(scene.loads, start=1):
+        if isinstance(load, Pressure):
+            raise BadInput(
+                f"load {number}.kind = 'pressure': it follows the sheet; buckling is of dead loads"
+            )
+        if isinstance(load, EdgeLoad) and load.moment_per_length:
+            raise BadInput(
+                f"load {number}.moment_per_length = {load.moment_per_length:g} N·m/m: it follows the sheet; "
+                "buckling is of dead loads"
+            )
+    if scene.actuators:
+        raise BadInput("actuator 1: buckling is of a sheet without actuators")
+    if bent_or_tilted(scene.supports, scene.sheet):
+        raise BadInput("support: a curved or tilted one bends the sheet; buckling is of a flat one")

@@ -81,7 +81,7 @@ def test_on_a_free_edge_the_tangent_is_unsymmetric_and_solved_with_its_symmetric
     assert not problem.conservative
     u = 1e-4 * bent(problem)
     blocks = problem.tangent(u, 1.0)
-    factor = problem.factor(blocks)
+    factor = problem.system.factor(blocks)
     assert isinstance(factor, SymmetricPartFactor)
     matrix = problem.system.matrix(blocks)
     assert abs(matrix - matrix.T).max() > 1e-8 * abs(matrix).max()

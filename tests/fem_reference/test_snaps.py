@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from one_unknown import Spring
 
-from fem_reference.solving.equilibrium import SNAPS, trace
-from fem_reference.solving.path import StepFailed
+from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.path import StepFailed
+from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Status
 
@@ -35,23 +36,25 @@ def nothing(path, load_factor):
 
 def test_snaps_are_bounded():
     rise = 0.02
-    path = trace(humps(rise), DirectSolver(), settle=lambda *where: foothold(*where, rise))
-    assert len(path.snaps) == SNAPS
+    path = trace_path(humps(rise), DirectSolver(), settle=lambda *where: foothold(*where, rise))
+    assert len(path.snaps) == Limits.snaps
     assert path.status is Status.STEP_LIMIT and "no equilibrium found beyond" in path.notes[-1]
     found = path.snaps
     assert found[0] == pytest.approx(0.25, abs=2e-3) and np.all(np.diff(found) > 0.0)
 
 
 def test_where_nothing_is_found_status_and_place_stay_and_a_clause_says_what_was_tried():
-    stopped = trace(humps(0.2), DirectSolver())
-    path = trace(humps(0.2), DirectSolver(), settle=nothing)
+    stopped = trace_path(humps(0.2), DirectSolver())
+    path = trace_path(humps(0.2), DirectSolver(), settle=nothing)
     assert stopped.status is Status.STEP_LIMIT
     assert (path.status, path.state, path.load_factor) == (stopped.status, stopped.state, stopped.load_factor)
     (said,) = stopped.notes
-    assert path.notes == [f"{said}; relaxed at a load factor 0.01 higher, it creeps no further"]
+    reason, limit = said.split("; a limit point")
+    tried = "relaxed at a load factor 0.01 higher, it creeps no further"
+    assert path.notes == [f"{reason}; {tried}; a limit point{limit}"]
 
 
 def test_follower_loads_do_not_snap():
-    path = trace(humps(0.2, symmetric=False), DirectSolver(symmetric=False), settle=nothing)
+    path = trace_path(humps(0.2, symmetric=False), DirectSolver(symmetric=False), settle=nothing)
     assert path.status is Status.STEP_LIMIT
     assert not path.snaps and "relaxed" not in path.notes[-1]

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from sheetbench.numerics.continuation.structure import Structure
+
 
 @dataclass
 class Balance:
@@ -14,7 +16,7 @@ class Balance:
 
 
 @dataclass
-class Spring:
+class Spring(Structure[float, Balance]):
     force: Callable[[float], float]
     slope: Callable[[float], float]
     symmetric: bool = True

@@ -83,7 +83,6 @@ class CompiledNewton:
     ) -> bool:
         """Keep the factors of K + c₁ C + c₂ M at a state; False where it is not positive definite."""
         band = self._band
-        self._system.problem.factorisations += 1
         blocks = self._system.matrix(u, v, time, mass_coefficient, damping_coefficient, 1.0)
         factors = banded.stored(blocks, band)
         definite = banded.factor(factors, len(band.order), band.width)

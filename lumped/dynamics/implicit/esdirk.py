@@ -126,7 +126,7 @@ class Esdirk(DenseIntegrator):
         system.since(state)
         force = system.unbalanced(state.u, still, state.time)
         try:
-            factor = problem.factor(system.matrix(state.u, still, state.time, 0.0, 0.0, 1.0))
+            factor = problem.system.factor(system.matrix(state.u, still, state.time, 0.0, 0.0, 1.0))
             goal = float(np.abs(problem.expand(factor.solve(problem.reduce(force)))).max())
         except SingularMatrixError:  # rigid motions are free
             goal = 0.0

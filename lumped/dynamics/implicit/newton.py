@@ -78,7 +78,7 @@ class Newton:
             self._factor, self._key = None, key
         for _ in range(CORRECTIONS):
             if self._factor is None:
-                self._factor, fresh = problem.factor(blocks(u)), True
+                self._factor, fresh = problem.system.factor(blocks(u)), True
             correction = weigh(problem.expand(self._factor.solve(-problem.reduce(residual(u)))))
             u = u + correction
             length = float(np.abs(correction[self._placed]).max())
@@ -163,7 +163,7 @@ class Newton:
         """Make the factors for an equation and those like it anew, at u. Raises SingularMatrixError."""
         if self._compiled is not None and self._factorise(self._compiled, equation, u):
             return
-        self._factor = self._system.problem.factor(self._blocks(equation, u))
+        self._factor = self._system.problem.system.factor(self._blocks(equation, u))
         self._key = (equation.mass_coefficient, equation.damping_coefficient)
 
     def _factorise(self, compiled: CompiledNewton, equation: StepEquation, u: np.ndarray) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 from lumped.dynamics.integrator import Samples
 from lumped.dynamics.system import State, System
 from lumped.statics.faults import Fault, broken, fastest
-from lumped.statics.solver import STRETCH, link_stretch
+from lumped.statics.structure import STRETCH
 from sheetbench.runs.watch import GROWN, Watch
 from sheetbench.scenes import Status, outside_model
 
@@ -29,7 +29,7 @@ def check_samples(
     if not system.assembly.any_strain:
         for time, u in zip(samples.time[:before].tolist(), samples.u[:before], strict=True):
             links = system.assembly.links
-            stretch = link_stretch(links, links.elongations(u))
+            stretch = links.largest_strain(links.elongations(u))
             watch.strained(time, stretch, bool(outside_model(system.scene, stretch)))
     if fault is not None:
         return before, Fault(fault.status, f"at {samples.time[before]:.6g} s {fault.message}")

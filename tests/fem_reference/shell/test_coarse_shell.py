@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 import fem_reference
-from fem_reference.shell import coarse_start
+from fem_reference.shell import coarse_start, statics
 from fem_reference.shell.coarse_start import at_nodes, sampled
 from fem_reference.shell.element import MEMBRANE
 from fem_reference.shell.statics import discretise
-from fem_reference.solving import equilibrium
 from fem_reference.surface.mesh import mesh_of
 from sheetbench import scenes
+from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import Status
 
@@ -56,8 +56,8 @@ def test_a_sheet_with_a_hole_begins_at_a_coarse_mesh_without_rows_along_the_rim(
     "where, name, value",
     [
         (coarse_start, "plain", lambda path: False),  # it does not go straight
-        (coarse_start, "ENOUGH", 2),  # it takes long
-        (equilibrium, "SAME_BRANCH", 1e-3),  # the fine one's equilibrium is far away
+        (coarse_start, "LIMITS", Limits(factorisations=2)),  # it takes long
+        (statics, "LIMITS", Limits(same_branch=1e-3)),  # the fine one's equilibrium is far away
     ],
 )
 def test_where_the_coarse_one_is_no_good_the_path_begins_at_rest(where, name, value, monkeypatch):

@@ -14,11 +14,11 @@ from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise
 from fem_reference.shell.validity import membrane_strain
 from fem_reference.solid import statics as solid
-from fem_reference.solving.newton import TOLERANCE
 from fem_reference.surface.loads import FollowerMoment, FollowerPressure, Line, area_force, orientation
 from fem_reference.surface.materials import section_of
 from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
+from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Hinged, Pressure, Scene, Sheet
 
 pytestmark = pytest.mark.smoke
@@ -286,4 +286,4 @@ def test_directors_of_the_bent_sheet_are_unit_vectors():
     found = shell.solve(scene((Clamped(edge="x0"),), (up,)), 4)
     directors = found.mesh.point_data["director"]
     assert directors[:, 2].min() < 0.5
-    np.testing.assert_allclose(np.linalg.norm(directors, axis=1), 1.0, atol=TOLERANCE)
+    np.testing.assert_allclose(np.linalg.norm(directors, axis=1), 1.0, atol=Limits.tolerance)

@@ -7,9 +7,9 @@ from scipy.sparse import csr_matrix, random_array
 
 import fem_reference.shell.statics
 import sheetbench.numerics.direct
-from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.newton import Start
 from sheetbench import scenes
+from sheetbench.numerics.continuation.newton import Start
+from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.numerics.stability import nearest_to_zero
 from sheetbench.scenes import Status
@@ -75,7 +75,7 @@ def test_steps_shrink_where_one_step_does_not_converge():
     def force(u):
         return (np.arctan(8 * (u - 0.4)) + np.arctan(3.2)) / whole
 
-    path = trace(Spring(force, lambda u: 8 / (1 + 64 * (u - 0.4) ** 2) / whole), DirectSolver())
+    path = trace_path(Spring(force, lambda u: 8 / (1 + 64 * (u - 0.4) ** 2) / whole), DirectSolver())
     assert path.status is Status.CONVERGED and path.load_factor == 1.0
     assert path.state == pytest.approx(1.2, rel=1e-6)
     assert any(entry.load_factor < 1.0 for entry in path.history)
@@ -83,7 +83,7 @@ def test_steps_shrink_where_one_step_does_not_converge():
 
 def test_a_limit_point_ends_with_its_load_and_a_status():
     """f = u (1 − u) · 2: no equilibrium beyond λ = ½."""
-    path = trace(Spring(lambda u: 2 * u * (1 - u), lambda u: 2 - 4 * u), DirectSolver())
+    path = trace_path(Spring(lambda u: 2 * u * (1 - u), lambda u: 2 - 4 * u), DirectSolver())
     assert path.status in (Status.DIVERGED, Status.STEP_LIMIT, Status.SINGULAR)
     assert 0.45 < path.load_factor <= 0.5
     assert "load factor" in path.notes[-1]
@@ -93,25 +93,27 @@ def test_a_start_close_to_an_unstable_equilibrium_is_left_for_the_path_from_rest
     """f = 4 u − 2 u² = 1 at u = 1 ∓ √½."""
     spring = Spring(lambda u: 4 * u - 2 * u**2, lambda u: 4 - 4 * u)
     for near in (0.29, 1.7, 1.0):
-        path = trace(spring, DirectSolver(), near=Start(near, 1.0, near, 1.0))
+        path = trace_path(spring, DirectSolver(), near=Start(near, 1.0, near, 1.0))
         assert path.status is Status.CONVERGED and path.state == pytest.approx(1 - np.sqrt(0.5), rel=1e-8)
 
 
 def test_overflow_is_told():
-    path = trace(Spring(lambda u: np.inf if u else 0.0, lambda u: 1.0), DirectSolver())
+    path = trace_path(Spring(lambda u: np.inf if u else 0.0, lambda u: 1.0), DirectSolver())
     assert path.status is Status.NON_FINITE and path.load_factor == 0.0
 
 
 @pytest.mark.parametrize("slope, status", [(-1.0, Status.UNSTABLE), (1.0, Status.CONVERGED)])
 def test_the_end_is_checked_for_stability(slope, status):
-    path = trace(Spring(lambda u: slope * u, lambda u: slope), DirectSolver())
+    path = trace_path(Spring(lambda u: slope * u, lambda u: slope), DirectSolver())
     assert path.status is status
     assert path.factorisations == 2
 
 
 @pytest.mark.parametrize("slope, status", [(-1.0, Status.UNSTABLE), (1.0, Status.CONVERGED)])
 def test_the_end_is_checked_under_follower_loads_too(slope, status):
-    path = trace(Spring(lambda u: slope * u, lambda u: slope, symmetric=False), DirectSolver(symmetric=False))
+    path = trace_path(
+        Spring(lambda u: slope * u, lambda u: slope, symmetric=False), DirectSolver(symmetric=False)
+    )
     assert path.status is status
 
 

@@ -12,14 +12,14 @@ from comparisons.comparison.comparison import error
 from fem_reference.shell import statics as shell
 from fem_reference.shell.state import State
 from fem_reference.shell.structure import ShellStructure
-from fem_reference.solving import pseudo_transient
-from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.path import Path, StepFailed
-from fem_reference.solving.pseudo_transient import relax
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import Plan, rectangle
 from fem_reference.surface.supports import Driven
 from sheetbench import scenes
+from sheetbench.numerics.continuation import pseudo_transient
+from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.pseudo_transient import relax
+from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.scenes import Chain, Curved, Hinged, Material, Scene, Sheet, Status
 from sheetbench.scenes.kinematics import Placed
@@ -127,7 +127,7 @@ def mirrored(change):
 
 def pushed(arch, at=0.5, settles=True):
     structure, solver = replace(strip(at), start=arch), DirectSolver()
-    return structure, trace(structure, solver, settle=relax if settles else None)
+    return structure, trace_path(structure, solver, settle=relax if settles else None)
 
 
 def left_at(path):
@@ -239,7 +239,7 @@ def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene
 
 def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
     structure, _ = shell.discretise(rectangle(taped.sheet, (6, 6), graded=True), taped)
-    path = trace(structure, DirectSolver())
+    path = trace_path(structure, DirectSolver())
     energies = []
     measured = pseudo_transient._Creep._accepts
 
@@ -261,8 +261,8 @@ def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
 def test_a_path_that_reaches_the_full_load_is_the_same_to_the_last_digit(name):
     scene = scenes.load(name)
     structure, _ = shell.discretise(rectangle(scene.sheet, (4, 4), graded=True), scene)
-    with_it = trace(structure, DirectSolver(), settle=relax)
-    without = trace(structure, DirectSolver())
+    with_it = trace_path(structure, DirectSolver(), settle=relax)
+    without = trace_path(structure, DirectSolver())
     assert np.array_equal(with_it.state.change, without.state.change)
     assert with_it.factorisations == without.factorisations
     assert (with_it.status, with_it.snaps, with_it.notes) == (Status.CONVERGED, [], [])

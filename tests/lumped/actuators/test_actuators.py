@@ -188,7 +188,7 @@ def test_interaction_forces_are_equal_and_opposite(case):
     actuators, material = CASES[case]
     asked = scene("one-edge-clamped", actuators, **material)
     problem = build_problem(asked, springs(asked, 7))
-    outcome = solve_path(asked, problem, "path")
+    outcome = solve_path(asked, problem)
     assert outcome.status is scenes.Status.CONVERGED, outcome.message
     u, coupling = outcome.state.u, problem.assembly.coupling
     sheet = (

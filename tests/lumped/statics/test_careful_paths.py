@@ -11,12 +11,13 @@ from scipy.sparse.linalg import splu
 
 import fem_reference
 import lumped
-from fem_reference.solving import equilibrium
-from fem_reference.solving.careful import BRANCHING, DEARER
-from fem_reference.solving.structure import Structure
-from lumped.statics import solver
-from lumped.statics.continuation import trace
+from lumped.statics.structure import LatticeStructure
 from sheetbench.numerics import direct
+from sheetbench.numerics.continuation import trace as tracer
+from sheetbench.numerics.continuation.arc import limit_point
+from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.path import Path
+from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.direct import DirectSolver, Factor
 from sheetbench.numerics.multifrontal import NoFactorsError
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status, load
@@ -69,10 +70,12 @@ def test_a_fold_that_large_steps_jump_over_is_told_with_its_load():
     )  # fmt: skip
     springs = lumped.calibrate(sheet, material, grid=(9, 9), method="consistent")
     found = lumped.solve(scene, springs)
-    path = trace(scene, springs, points=150)
-    turning = np.flatnonzero(np.diff(path.load_factors) < 0.0)[0]
+    problem = lumped.build_problem(scene, springs)
+    structure = LatticeStructure(scene, problem)
+    path = Path(structure, structure, structure.rest())
+    turning, _ = limit_point(path)
     assert found.status is Status.CONVERGED
-    assert found.snaps == pytest.approx([path.load_factors[turning]], rel=0.01)
+    assert found.snaps == pytest.approx([turning], rel=0.01)
 
 
 @dataclass
@@ -112,11 +115,11 @@ class Bistable(Structure[np.ndarray, Sizes]):
 
 def test_what_is_unstable_at_rest_is_followed_in_long_steps():
     """The careful path begins with the eigenvalues that are negative there, and loses no stability."""
-    path = equilibrium.trace(Bistable(), DirectSolver())
+    path = tracer.trace_path(Bistable(), DirectSolver())
     assert path.status is Status.UNSTABLE and path.load_factor == 1.0
     np.testing.assert_allclose(path.state, [1.0, 0.0], atol=1e-8)
     careful = [entry.load_factor for entry in path.history][6:]
-    assert min(careful) > BRANCHING
+    assert min(careful) > Limits.branching
     assert path.factorisations < 50
 
 
@@ -143,9 +146,9 @@ def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force, model):
     """And tells of none where there is none, however small the share of the load that a step is."""
     scene = pulled(force)
     looked = solve(scene, model)
-    monkeypatch.setattr(equilibrium if model == "shell" else solver, "worth", lambda *_: 0)
+    monkeypatch.setattr(tracer, "careful_budget", lambda *_: 0)
     plain = solve(scene, model)
-    assert plain.iterations < looked.iterations <= (1 + DEARER) * plain.iterations
+    assert plain.iterations < looked.iterations <= (1 + Limits.careful_budget_factor) * plain.iterations
     assert looked.message == plain.message and looked.snaps == plain.snaps == ()
     at = scene.probe_points()
     np.testing.assert_allclose(looked.displacement(at), plain.displacement(at), atol=1e-8)
@@ -160,7 +163,7 @@ def test_strains_that_the_springs_have_no_meaning_at_are_not_followed_for_long()
 
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, model):
-    monkeypatch.setattr(equilibrium if model == "shell" else solver, "worth", lambda *_: 20)
+    monkeypatch.setattr(tracer, "careful_budget", lambda *_: 20)
     found = solve(pulled(300.0), model)
     assert found.status is Status.CONVERGED and found.load_factor == 1.0
     assert "after 20 factorisations" in found.message and "another branch" in found.message
@@ -170,8 +173,7 @@ def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, mod
 def test_a_path_whose_inertia_is_not_known_is_held_to_no_branch(monkeypatch, model):
     """Where nothing tells the number of negative eigenvalues, a careful path ends at once and says so; it
     took their number for 0, and the path for one that keeps to its branch."""
-    monkeypatch.setattr("lumped.statics.solver.worth", lambda *_: 40)
-    monkeypatch.setattr(equilibrium, "worth", lambda *_: 40)
+    monkeypatch.setattr(tracer, "careful_budget", lambda *_: 40)
 
     def solved():
         scene = load("one-edge-clamped")

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import lumped
-from lumped.statics import problem as problems
-from lumped.statics import solver
+from lumped.statics import solver, structure
 from sheetbench.scenes import Status, load
 
 
@@ -13,7 +12,7 @@ from sheetbench.scenes import Status, load
 def counts_as_large(monkeypatch):
     """Lattices of a few hundred unknowns count as large."""
     monkeypatch.setattr(solver, "FROM", 500)
-    monkeypatch.setattr(problems, "ITERATED", 500)
+    monkeypatch.setattr(structure, "ITERATED", 500)
     monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
 
 
@@ -26,7 +25,7 @@ def answers(scene, grid, monkeypatch, **options):
     """With a coarse start, and along the whole path."""
     springs = lumped.calibrate(scene.sheet, scene.material, grid=grid, **options)
     started = lumped.solve(scene, springs)
-    monkeypatch.setattr(solver, "_from_coarser", lambda *_: None)
+    monkeypatch.setattr(solver, "halved", lambda *_: None)
     return started, lumped.solve(scene, springs)
 
 

@@ -5,10 +5,11 @@ import pytest
 from cases import with_material
 
 import lumped
-from lumped.statics.equilibrium import StepFailed, newton_at_load
-from lumped.statics.limits import DOUBTFUL
 from lumped.statics.solver import build_problem
+from lumped.statics.structure import LIMITS, LatticeStructure
 from sheetbench import scenes
+from sheetbench.numerics.continuation.newton import newton
+from sheetbench.numerics.continuation.path import Path, StepFailed
 from sheetbench.scenes import (
     Clamped,
     EdgeLoad,
@@ -59,10 +60,10 @@ def test_consistent_calibration_on_the_seeds_scenes(name, masses, within):
 
 @pytest.mark.parametrize("name", CONVERGED)
 @pytest.mark.parametrize("masses", [5, 9, 17, 33, pytest.param(65, marks=pytest.mark.slow)])
-@pytest.mark.parametrize(("soft", "most"), [(1, 12), (10, DOUBTFUL)])
+@pytest.mark.parametrize(("soft", "most"), [(1, 12), (10, LIMITS.careful_after)])
 @pytest.mark.parametrize("method", ["consistent", "hyperelastic"])
 def test_factorisations_from_flat(name, masses, soft, most, method):
-    """Paths of more than DOUBTFUL factorisations would be followed once more, with care."""
+    """Paths of more than `careful_after` factorisations would be followed once more, with care."""
     solution = solve(softer(SEED[name], soft), (masses, masses), method)
     assert solution.status is Status.CONVERGED
     assert solution.iterations <= most
@@ -278,10 +279,11 @@ def test_corrections_that_lead_far_away_end_at_once():
     scene = SEED["two-edges-clamped"]
     heavy = scene.model_copy(update={"gravity": Gravity(acceleration=(0.0, 0.0, -1e7))})
     problem = build_problem(heavy, lumped.calibrate(scene.sheet, scene.material, 5))
-    rest = np.zeros_like(problem.loads.dead)
-    with pytest.raises(StepFailed, match="the corrections grow"):
-        newton_at_load(problem, problem.advance(rest, rest, 1.0, True), 1.0)
-    assert problem.factorisations == 1
+    structure = LatticeStructure(heavy, problem)
+    path = Path(structure, structure, structure.rest())
+    with pytest.raises(StepFailed, match="no end"):
+        newton(path, structure.start(path.state.u))
+    assert path.factorisations == 1
 
 
 def test_small_displacements_store_half_the_work_of_their_loads():

@@ -8,8 +8,9 @@ from scipy.sparse.linalg import splu
 
 import lumped
 from lumped.statics import energy_descent
-from lumped.statics.equilibrium import StepFailed
+from lumped.statics.structure import LatticeStructure
 from sheetbench.numerics import direct
+from sheetbench.numerics.continuation.path import Path, StepFailed
 from sheetbench.numerics.direct import DirectSolver, Factor, SymmetricPartFactor
 from sheetbench.numerics.fronts import Cells, fronts_of
 from sheetbench.numerics.stability import nearest_to_zero, negative_real, odd_below_zero
@@ -66,11 +67,12 @@ def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
     springs = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5))
     problem = lumped.build_problem(asked, springs)
     flat = np.zeros_like(problem.loads.dead)
-    factor = problem.factor(problem.tangent(flat, 0.0))
+    factor = problem.system.factor(problem.tangent(flat, 0.0))
+    structure = LatticeStructure(asked, problem)
     monkeypatch.setattr(factor, "solve", lambda b, of=factor.solve: -of(b))
     monkeypatch.setattr(energy_descent, "_definite_factor", lambda *given: (factor, 1))
     with pytest.raises(StepFailed, match="not positive definite"):
-        energy_descent.descend(problem, flat, 1.0)
+        energy_descent.settle(Path(structure, structure, structure.rest()), 1.0)
 
 
 @pytest.mark.parametrize("layers", [2, 3, 4])

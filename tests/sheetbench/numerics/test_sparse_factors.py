@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import lumped
-from lumped.statics.energy_descent import disturbed
+from lumped.statics.energy_descent import _disturbed
 from lumped.statics.solver import solve_path
 from sheetbench.numerics import direct, pardiso
 from sheetbench.scenes import load
@@ -26,10 +26,10 @@ def test_factors_of_a_large_lattice_take_no_library(problem, monkeypatch):
     monkeypatch.setattr(direct, "splu", None)
     blocks = problem.tangent(np.zeros_like(problem.loads.dead), 0.0)
     assert problem.system.band is None
-    problem.factor(blocks)  # compiled, the fronts found
+    problem.system.factor(blocks)  # compiled, the fronts found
     tracemalloc.start()
     try:
-        factors = problem.factor(blocks)
+        factors = problem.system.factor(blocks)
         held, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
@@ -52,7 +52,7 @@ def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_o
     monkeypatch.setattr(direct, "rslab", None)
     monkeypatch.setattr(direct, "splu", None)
     problem = lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(10, 8)))
-    outcome = solve_path(scene, problem, "path")
-    assert outcome.status == "unstable" and outcome.state.negative == 1
-    beside = disturbed(problem, outcome.state)
+    outcome = solve_path(scene, problem)
+    assert outcome.status == "unstable" and outcome.path.factor.negative == 1
+    beside = _disturbed(outcome.path, problem)
     assert problem.potential(beside, 1.0) < problem.potential(outcome.state.u, 1.0)

@@ -6,19 +6,16 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Generic, NamedTuple
 
-from scipy.sparse import csr_matrix
-
-from fem_reference.solving.structure import Forces, State, Structure
-from sheetbench.numerics.direct import DirectSolver, Factor
+from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.structure import Forces, Matrix, Solver, State, Structure
+from sheetbench.numerics.direct import Factor
 from sheetbench.scenes import Iteration, Status
-
-FACTORISATIONS = 400  # in all
 
 Progress = Callable[[Iteration], None]
 
 
 class Fault(NamedTuple):
-    """What makes an equilibrium worthless: the status it deserves and a sentence."""
+    """A reason to reject an equilibrium: its status and a message."""
 
     status: Status
     message: str
@@ -28,18 +25,18 @@ class Fault(NamedTuple):
 class Path(Generic[State, Forces]):
     """Where the tracing of a structure stands: the last equilibrium, its load factor, and what it took.
 
-    alike: change of the strain that leaves the tangent what it is; snaps: load factors that it snapped at;
-    fault: what has ended it early; notes: what to say of it; progress: told of every iteration; factor: of
-    the equilibrium's tangent, where it is at hand.
+    limit: of factorisations, for now; alike: change of the strain that leaves the tangent what it is; snaps:
+    load factors that it snapped at; fault: what has ended it early; notes: what to say of it; progress: told
+    of every iteration; factor: of the equilibrium's tangent, where it is at hand.
     """
 
     structure: Structure[State, Forces]
-    solver: DirectSolver
+    solver: Solver
     state: State
     load_factor: float = 0.0
     status: Status = Status.STEP_LIMIT
     factorisations: int = 0
-    limit: int = FACTORISATIONS  # of them
+    limits: Limits = field(default_factory=Limits)
     history: list[Iteration] = field(default_factory=list)
     snaps: list[float] = field(default_factory=list)
     fault: Fault | None = None
@@ -48,7 +45,10 @@ class Path(Generic[State, Forces]):
     factor: Factor | None = None
     alike: float = 0.0
 
-    def factored(self, matrix: csr_matrix) -> Factor:
+    def __post_init__(self) -> None:
+        self.limit = self.limits.factorisations
+
+    def factored(self, matrix: Matrix) -> Factor:
         """The factors of a matrix, counted. Raises SingularMatrixError."""
         self._count()
         return self.solver.factor(matrix, self._count)
@@ -56,7 +56,7 @@ class Path(Generic[State, Forces]):
     def _count(self) -> None:
         self.factorisations += 1
 
-    def tangent(self, state: State, load_factor: float) -> csr_matrix:
+    def tangent(self, state: State, load_factor: float) -> Matrix:
         """The true tangent at a state: with its own stresses, none extrapolated."""
         forces = self.structure.forces(state, load_factor)
         return self.structure.system(state, forces, load_factor, mixed=False)[0]

@@ -4,18 +4,11 @@ from __future__ import annotations
 
 from typing import Protocol, TypeVar
 
-from fem_reference.solving.path import FACTORISATIONS, Path, StepFailed
-from fem_reference.solving.stability import stability
-from fem_reference.solving.structure import Forces, State
+from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.stability import stability
+from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
-
-DOUBTFUL = 16  # factorisations from which on a load step may have jumped over a fold
-DEARER = 4  # times as many may be taken to see whether one has
-CONTINUOUS = 0.5  # of a careful linear step: what its equilibrium may be off it,
-MISS = 0.05  # and in sizes of the structure
-SAFE, GROWTH = 0.8, 4.0  # of what the last miss lets the next step go; of the last step
-BRANCHING = 1e-3  # sizes of the structure: linear steps so short may cross a bifurcation
 
 Linear = TypeVar("Linear", covariant=True)
 
@@ -30,16 +23,18 @@ class Reached(Protocol[Linear]):
     target: float
 
 
-def worth(path: Path[State, Forces]) -> int:
-    """Factorisations that it is worth to look for another branch, which large load steps may have left: where
-    the equilibrium is unstable, or, up to DEARER times those before, where it took long to find; else none. A
-    path that is one linear step, without a correction, has jumped over nothing."""
+def careful_budget(path: Path[State, Forces]) -> int:
+    """Return how many factorisations a second, careful run may take, which looks for a branch that large load
+    steps may have left; 0 if none is needed: the equilibrium is stable and was found quickly, or the path is
+    one linear step, without a correction, and has jumped over nothing."""
     if not path.structure.symmetric or path.load_factor == 0.0 or path.factorisations == 1:
         return 0
-    taken = path.factorisations
-    if stability(path)[0] is Status.UNSTABLE:
-        return FACTORISATIONS
-    return min(DEARER * taken, FACTORISATIONS) if taken > DOUBTFUL else 0
+    taken, limits = path.factorisations, path.limits
+    unstable = stability(path)[0] is Status.UNSTABLE
+    if unstable and path.structure.has_meaning(path.state):
+        return limits.factorisations
+    budget = min(limits.careful_budget_factor * taken, limits.factorisations)
+    return budget if unstable or taken > limits.careful_after else 0
 
 
 class UnknownInertia(StepFailed):
@@ -55,23 +50,29 @@ def negatives(factor: Factor | None) -> int:
 
 
 def continuous(
-    path: Path[State, Forces], first: Reached[State], state: State, negative: int, rounding: float
+    path: Path[State, Forces],
+    first: Reached[State],
+    state: State,
+    negative: int,
+    found: Factor | None,
 ) -> tuple[Factor, float]:
     """The factors of the tangent at an equilibrium, and how far the next linear step may go. Raises
     StepFailed where it is on another branch than the one that the step set out from: far from where the
     linear step led, or past a change of stability by more than a short step. negative: eigenvalues before;
-    rounding: length that is none."""
-    miss = path.structure.length(first.state, state)
-    if miss > max(min(CONTINUOUS * first.length, MISS), rounding):
+    found: the factors, where they are at hand."""
+    limits, miss = path.limits, path.structure.length(first.state, state)
+    if miss > max(min(limits.continuous * first.length, limits.miss), max(limits.idle, limits.tolerance)):
         raise StepFailed(Status.STEP_LIMIT, "the path folds", first.length)
     try:
-        found = path.factored(path.tangent(state, first.target))
+        found = found or path.factored(path.tangent(state, first.target))
     except SingularMatrixError as error:
         raise StepFailed(Status.SINGULAR, str(error), first.length) from None
-    if negatives(found) > negative and first.length > BRANCHING:
+    if negatives(found) > negative and first.length > limits.branching:
         raise StepFailed(Status.STEP_LIMIT, "the path loses stability", first.length)
-    longest = GROWTH * first.length
+    longest = limits.growth * first.length
     if miss > 0.0:  # it grows with the square of the step
         square = first.length**2 / miss
-        longest = min(longest, SAFE * CONTINUOUS * square, (SAFE * MISS * square) ** 0.5)
+        longest = min(
+            longest, limits.safe * limits.continuous * square, (limits.safe * limits.miss * square) ** 0.5
+        )
     return found, longest

@@ -22,10 +22,11 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 
 from __future__ import annotations
 
-from fem_reference.solving.careful import UnknownInertia, continuous, negatives, worth
-from fem_reference.solving.newton import FIRST_REACH, TOLERANCE, Predictor, Start, newton
-from fem_reference.solving.path import (
-    FACTORISATIONS,
+from sheetbench.numerics.continuation.arc import limit_point
+from sheetbench.numerics.continuation.careful import UnknownInertia, careful_budget, continuous, negatives
+from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.newton import Predictor, Start, newton
+from sheetbench.numerics.continuation.path import (
     Fault,
     Inspect,
     Path,
@@ -33,33 +34,24 @@ from fem_reference.solving.path import (
     Settle,
     StepFailed,
 )
-from fem_reference.solving.stability import stability
-from fem_reference.solving.structure import Forces, State, Structure
-from sheetbench.numerics.direct import DirectSolver, Factor
+from sheetbench.numerics.continuation.stability import stability
+from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
+from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Status
 
 SAME_TANGENT = 1e-2  # of (thickness/size)², strains that buckle a sheet: what changes by less has one tangent
-LENGTHEN_UP_TO, GROWTH = 6, 4.0  # a load step that took no more is followed by one so many times as long
-SMALLEST_STEP = 2.0**-10
-CAREFUL_REACH = 0.1  # sizes of the structure that the first careful linear step may move it
-SHORTEST = 5e-4  # the same, of one that fails and is the last: half of what may cross a bifurcation
-CAREFUL_TOLERANCE = 3e-3  # residual at which a careful load step ends, but for the last
-SAME_BRANCH = 0.25  # of a start's displacement: an equilibrium farther from it may be on another branch
-SNAPS = 12  # of one path
-SNAP_STEP = 0.01  # in load factor, past the limit point
-SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
 
 
-def trace(
+def trace_path(
     structure: Structure[State, Forces],
-    solver: DirectSolver,
+    solver: Solver,
     inspect: Inspect[State, Forces] = lambda path: None,
     settle: Settle[State, Forces] | None = None,
     progress: Progress | None = None,
     near: Start[State] | None = None,
     slenderness: float = 0.0,
-    limit: int = FACTORISATIONS,
+    limits: Limits | None = None,
     buckled: bool = False,
 ) -> Path[State, Forces]:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
@@ -69,17 +61,19 @@ def trace(
     beyond a limit point, for the path to go on from; it raises StepFailed where it finds none.
     progress: called once an iteration. near: a state close to the equilibrium, to begin at; where that leads
     to none that is stable, the path begins at rest. slenderness: thickness over size; where it is given, the
-    factors of a last correction that is next to nothing tell the stability. limit: of factorisations.
+    factors of a last correction that is next to nothing tell the stability.
     buckled: leave an unstable equilibrium for the stable one that `settle` leads to.
     """
     with one_blas_thread():
         alike = SAME_TANGENT * slenderness**2
-        path = Path(structure, solver, structure.rest(), limit=limit, progress=progress, alike=alike)
+        path = Path(
+            structure, solver, structure.rest(), limits=limits or Limits(), progress=progress, alike=alike
+        )
         ended: StepFailed | Fault | None = None
         careful, reached = False, None
         if near is None or not _arrived(path, inspect, near):
             ended = _follow(path, inspect)
-            more = 0 if isinstance(ended, Fault) else worth(path)
+            more = 0 if isinstance(ended, Fault) else careful_budget(path)
             careful = more > 0
             if careful:
                 reached, stuck = path.state if ended is None else None, (path.state, path.load_factor, ended)
@@ -98,7 +92,7 @@ def trace(
                 try:
                     following = _snap(path, inspect, settle, careful)
                 except StepFailed as failure:
-                    tried = f"; relaxed at a load factor {SNAP_STEP:g} higher, {failure}"
+                    tried = f"; relaxed at a load factor {path.limits.snap_step:g} higher, {failure}"
                 else:
                     path.snaps.append(left_at)
                     path.notes.extend(doubt)
@@ -117,14 +111,13 @@ def trace(
         path.status, note = ended or stability(path)
         if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
             try:
-                path.limit = path.factorisations + FACTORISATIONS
+                path.limit = path.factorisations + path.limits.factorisations
                 path.state, path.factor = settle(path, 1.0), None
                 path.notes.append("begun along the buckling mode of an unstable equilibrium")
                 path.status, note = stability(path)
             except StepFailed as failure:
                 note = f"{note}; beside it {failure}"
         path.notes.extend([note] if note else [])
-        path.factor = None  # an answer is kept longer than that
         return path
 
 
@@ -136,7 +129,7 @@ def _arrived(path: Path[State, Forces], inspect: Inspect[State, Forces], near: S
     except StepFailed:
         return False
     path.state, path.load_factor, path.factor = state, near.target, factor
-    close = path.structure.length(near.state, state) <= SAME_BRANCH * near.length
+    close = path.structure.length(near.state, state) <= path.limits.same_branch * near.length
     if close and inspect(path) is None and stability(path) == (Status.CONVERGED, ""):
         return True
     path.state, path.load_factor, path.factor = before
@@ -148,7 +141,8 @@ def _follow(
 ) -> StepFailed | Fault | None:
     """Lead a path on to load factor 1: what has ended it before, if anything. careful: no load step may leave
     the branch that it begins on."""
-    size, reach = 1.0, CAREFUL_REACH if careful else FIRST_REACH
+    limits, size = path.limits, 1.0
+    reach = limits.careful_reach if careful else limits.first_reach
     factor: Factor | None = None
     negative: int | None = None
     while path.load_factor < 1.0:
@@ -156,17 +150,17 @@ def _follow(
         try:
             first = Predictor(path, min(1.0, path.load_factor + size), reach, factor)
             factor = first.factor if path.structure.symmetric else None
-            close = CAREFUL_TOLERANCE if careful and first.target < 1.0 else 0.0
+            close = limits.careful_tolerance if careful and first.target < 1.0 else 0.0
             state, found = newton(path, first, close)
             if careful:
                 negative = negatives(first.factor) if negative is None else negative
-                found, longest = continuous(path, first, state, negative, TOLERANCE)
+                found, longest = continuous(path, first, state, negative, found)
         except UnknownInertia as failure:
             return failure
         except StepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
             rested = path.load_factor == 0.0  # no limit point is there, however far the first step
-            shortest = size < SMALLEST_STEP and (reach < SHORTEST or not (careful or rested))
+            shortest = size < limits.smallest_step and (reach < limits.shortest or not (careful or rested))
             if shortest or path.factorisations >= path.limit:
                 if careful and path.load_factor > 0.0:
                     _refine(path)
@@ -178,18 +172,19 @@ def _follow(
             return fault
         if careful:
             factor, negative = found, negatives(found)
-            size, reach = GROWTH * grown, longest
+            size, reach = limits.growth * grown, longest
             continue
-        factor = None  # those of the last correction are too far off to step with: a thin sheet's path halts
-        easy = path.factorisations - before <= LENGTHEN_UP_TO
-        size, reach = (GROWTH * grown, GROWTH * reach) if easy else (grown, reach)
+        # of elements those of the last correction are too far off to step with: a thin sheet's path halts
+        factor = found if limits.steps_with_last_factors else None
+        easy = path.factorisations - before <= limits.lengthen_up_to
+        size, reach = (limits.growth * grown, limits.reach_growth * reach) if easy else (grown, reach)
     return None
 
 
 def _refine(path: Path[State, Forces]) -> None:
     """Bring the end of a careful path to the tolerance, at a load lower by what its last step left open."""
-    for lower in (0.0, CAREFUL_TOLERANCE, 2.0 * CAREFUL_TOLERANCE, 4.0 * CAREFUL_TOLERANCE):
-        target = (1.0 - lower) * path.load_factor
+    for lower in (0.0, 1.0, 2.0, 4.0):
+        target = (1.0 - lower * path.limits.careful_tolerance) * path.load_factor
         try:
             path.state = newton(path, Start(path.state, target, 1.0, 0.0))[0]
         except StepFailed:
@@ -201,7 +196,7 @@ def _refine(path: Path[State, Forces]) -> None:
 def _at_limit_point(path: Path[State, Forces], failure: StepFailed) -> bool:
     """Whether a path that has ended may snap: it has left rest and has factorisations left."""
     stuck = failure.status is Status.STEP_LIMIT and path.load_factor > 0.0
-    return stuck and path.factorisations < path.limit and len(path.snaps) < SNAPS
+    return stuck and path.factorisations < path.limit and len(path.snaps) < path.limits.snaps
 
 
 def _doubt(path: Path[State, Forces]) -> list[str]:
@@ -221,10 +216,11 @@ def _snap(
 ) -> StepFailed | Fault | None:
     """Lead a path past its limit point and on: what has ended it then. Raises StepFailed, the path as it was,
     if nothing stable was found."""
-    beyond = min(1.0, path.load_factor + SNAP_STEP)
-    path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
+    limits = path.limits
+    beyond = min(1.0, path.load_factor + limits.snap_step)
+    path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
     path.state, path.load_factor, path.factor = settle(path, beyond), beyond, None
-    path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
+    path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
     return inspect(path) or _follow(path, inspect, careful)
 
 
@@ -236,4 +232,9 @@ def _give_up(path: Path[State, Forces], failure: StepFailed, tried: str) -> Faul
         status, note = stability(path)
         if status is not Status.CONVERGED:
             message += f"; {note} there: the answer is not unique on this grid"
-    return Fault(failure.status, message)
+        elif (ends := limit_point(path)) is not None:
+            message += f"; a limit point between load factors {ends[0]:.5g} and {ends[1]:.5g}: from there on "
+            message += "the load falls as the sheet gives way"
+    # numbers that are not finite lie beyond the last equilibrium, not in it
+    beyond = failure.status is Status.NON_FINITE and path.load_factor > 0.0
+    return Fault(Status.STEP_LIMIT if beyond else failure.status, message)

@@ -6,7 +6,7 @@ rate ∫ τ ė·D ė. A backward Euler step of length τ/σ from strains e_n is 
 
     s = (1 + σ) D e − σ D e_n,      a minimum of Π + ½ σ ∫ (e − e_n)·D (e − e_n),
 
-found by the same mixed Newton iterations as others (see `equilibrium`), so that a large rotation costs no
+found by the same mixed Newton iterations as others (see `trace`), so that a large rotation costs no
 more here than there. Drag and stiffness being of one kind, long waves and short ones creep alike, and rigid
 motions freely. σ grows until the tangent where the step begins is positive definite, and when the step does
 not converge or Π would rise; after easy steps it shrinks, until Newton's method takes over, to the tolerance
@@ -23,9 +23,9 @@ from typing import Generic, cast
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.solving.newton import TOLERANCE, Start, newton
-from fem_reference.solving.path import Path, StepFailed
-from fem_reference.solving.structure import Creeping, Forces, State
+from sheetbench.numerics.continuation.newton import Start, newton
+from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.structure import Creeping, Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
 
@@ -130,7 +130,7 @@ class _Creep(Generic[State, Forces]):
             if k == 0:
                 first = relative
             settled = relative <= max(STEP_TOLERANCE * first, ENOUGH)
-            if k > 0 and settled and structure.gap(state, self.load_factor) <= TOLERANCE:
+            if k > 0 and settled and structure.gap(state, self.load_factor) <= self.path.limits.tolerance:
                 return state
             if k == CORRECTIONS or (len(lengths) > 2 and lengths[-1] > SHRINKING * lengths[-2]):
                 return None
@@ -189,7 +189,7 @@ class _Creep(Generic[State, Forces]):
             state = self.structure.unextrapolated(
                 self.structure.advance(state, forces, self.load_factor, step)
             )
-            if self.structure.gap(state, self.load_factor) <= TOLERANCE:
+            if self.structure.gap(state, self.load_factor) <= self.path.limits.tolerance:
                 return state
             step = np.zeros_like(step)
 

@@ -1,11 +1,12 @@
-"""What the solvers ask of a structure, whose states and forces are its own."""
+"""What the path tracer asks of a structure, whose states, forces and matrices are its own."""
 
 from __future__ import annotations
 
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
-from scipy.sparse import csr_matrix
+
+from sheetbench.numerics.direct import Count, Factor
 
 
 class Balance(Protocol):
@@ -17,14 +18,32 @@ class Balance(Protocol):
 
 State = TypeVar("State")
 Forces = TypeVar("Forces", bound=Balance)
+Matrix = Any  # what `Solver.factor` takes
+
+
+class Solver(Protocol):
+    """What gives factors of a structure's matrices."""
+
+    def factor(self, matrix: Matrix, more: Count = ...) -> Factor:
+        """Return the factors; more: called once a further factorisation that they take. Raises
+        SingularMatrixError."""
+
+    def iterated(self, matrix: Matrix, near: Factor, rows: np.ndarray) -> np.ndarray | None:
+        """Return the solution by iterations with the factors of a matrix close by; None where factors of its
+        own cost less."""
 
 
 class Structure(Protocol[State, Forces]):
-    """What `trace` needs; states and forces are the structure's own."""
+    """What `trace_path` needs. A structure that inherits this leaves out what has a default here."""
 
     @property
     def symmetric(self) -> bool:
         """Whether the tangent is."""
+
+    @property
+    def multipliers(self) -> int:
+        """Constraints among the unknowns: negative eigenvalues of every tangent."""
+        return 0
 
     def rest(self) -> State:
         """The state that the path sets out from."""
@@ -35,19 +54,38 @@ class Structure(Protocol[State, Forces]):
     def imbalance(self, state: State, forces: Forces) -> float:
         """Of the free unknowns [N]."""
 
+    def imbalance_floor(self, state: State, forces: Forces) -> float:
+        """What rounding leaves of it [N]."""
+        return 0.0
+
     def gap(self, state: State, load_factor: float) -> float:
         """Distance from what is prescribed, relative to the structure's size."""
 
+    def rows(self, state: State, forces: Forces, load_factor: float) -> np.ndarray | None:
+        """Right-hand side of a step to equilibrium, where it does not need the tangent."""
+        return None
+
     def system(
         self, state: State, forces: Forces, load_factor: float, mixed: bool = True
-    ) -> tuple[csr_matrix, np.ndarray]:
+    ) -> tuple[Matrix, np.ndarray]:
         """Tangent and right-hand side of a step; mixed: with the stress that the last step extrapolated."""
+
+    def sparse(self, matrix: Matrix) -> Any:
+        """Return a tangent as a SciPy matrix."""
+        return matrix
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
         """The state after a step."""
 
+    def with_stresses(self, state: State, of: State) -> State:
+        """A state with the stresses that a step to another has extrapolated."""
+
     def length(self, start: State, end: State) -> float:
         """Between two states, relative to the structure's size."""
+
+    def has_meaning(self, state: State) -> bool:
+        """Whether the model's law holds at its strains."""
+        return True
 
 
 class Creeping(Structure[State, Forces], Protocol[State, Forces]):

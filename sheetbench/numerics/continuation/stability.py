@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from fem_reference.solving.path import Path
-from fem_reference.solving.structure import Forces, State
 from sheetbench.errors import NoEquilibrium
+from sheetbench.numerics.continuation.path import Path
+from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.scenes import Status
 
@@ -15,15 +15,17 @@ from sheetbench.scenes import Status
 def stability(path: Path[State, Forces]) -> tuple[Status, str]:
     """Whether the tangent at the path's last equilibrium is positive definite or, under follower loads, has
     no real eigenvalue below 0; a sentence where it is not, or where that is not known."""
+    structure = path.structure
     try:
-        if path.structure.symmetric:
+        if structure.symmetric:
             path.factor = path.factor or path.factored(path.tangent(path.state, path.load_factor))
             inertia = path.factor.inertia
             if inertia is None:
                 return Status.CONVERGED, "stability not known: the factors do not tell the inertia"
-            negative, zero = inertia.negative, inertia.zero
+            negative, zero = inertia.negative - structure.multipliers, inertia.zero
         else:
-            found = path.factored(path.tangent(path.state, path.load_factor)).negative_real()
+            path.factor = path.factored(path.tangent(path.state, path.load_factor))
+            found = None if structure.multipliers else path.factor.negative_real()
             if found is None:
                 return (
                     Status.CONVERGED,

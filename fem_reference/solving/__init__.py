@@ -1,1 +1,0 @@
-"""How equilibrium is found: Newton's method, linear solvers, sparsity, threads."""

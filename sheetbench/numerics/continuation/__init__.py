@@ -1,0 +1,1 @@
+"""Paths of equilibria of any structure: load steps, Newton's method, snaps, stability."""

@@ -1,0 +1,128 @@
+"""Newton's method with extrapolated stresses at one load, and the linear step that leads to it.
+
+The corrections are those of Magisano, Leonetti & Garcea (2017), as `trace` says. Close to the end those with
+the factors at hand serve as long as each leaves a tenth of the residual or less.
+Three watchdogs end them: a number that is not finite, a step that leaves the structure far behind, and
+corrections that do not shrink.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+from typing import Generic
+
+import numpy as np
+
+from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.structure import Forces, State
+from sheetbench.numerics.direct import Factor, SingularMatrixError
+from sheetbench.scenes import Status
+
+SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
+VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
+STALE = 0.1  # of a residual: factors whose correction leaves more are too old
+
+
+@dataclass(frozen=True)
+class Start(Generic[State]):
+    """What Newton's method starts from: a state, the load factor it is for, and length and work of the step
+    that has led to it."""
+
+    state: State
+    target: float
+    length: float
+    work: float
+
+
+class Predictor(Generic[State, Forces]):
+    """The first linear step from a path's last equilibrium towards a load, no longer than `reach`.
+
+    factor: of the tangent there, where it is at hand; it serves where that does not depend on the load.
+    target: the load factor that the step is for.
+    """
+
+    def __init__(self, path: Path[State, Forces], target: float, reach: float, factor: Factor | None):
+        self.target, self.factor = target, factor
+        self._aim(path)
+        if reach < self.length < np.inf:
+            self.target = path.load_factor + (target - path.load_factor) * reach / self.length
+            self._aim(path)
+        if not self.length < path.limits.farthest:
+            raise StepFailed(Status.DIVERGED, "the first step has no end", path.limits.first_reach)
+
+    def _aim(self, path: Path[State, Forces]) -> None:
+        structure = path.structure
+        forces = structure.forces(path.state, self.target)
+        try:
+            rows = None if self.factor is None else structure.rows(path.state, forces, self.target)
+            if rows is None:
+                matrix, rows = structure.system(path.state, forces, self.target)
+                if self.factor is None or not structure.symmetric:
+                    self.factor = path.factored(matrix)
+            assert self.factor is not None
+            step = self.factor.solve(rows, SOLVED)
+        except SingularMatrixError as error:
+            raise StepFailed(Status.SINGULAR, str(error), path.limits.first_reach) from None
+        self.state = structure.advance(path.state, forces, self.target, step)
+        self.length = structure.length(path.state, self.state)
+        self.work = abs(float(step @ rows))
+
+
+def newton(
+    path: Path[State, Forces], first: Start[State] | Predictor[State, Forces], close: float = 0.0
+) -> tuple[State, Factor | None]:
+    """The equilibrium at the load factor of a start, and the factors of its tangent where those at hand are,
+    which next to nothing has changed since. close: a residual that is good enough. Raises StepFailed."""
+    structure, limits = path.structure, path.limits
+    state, target, before = first.state, first.target, np.inf
+    factor: Factor | None = None
+    off, blurred, again = 0.0, 0.0, False  # moved since the factors; the error of the stress that they are of
+    works, lengths = [first.work], [first.length]
+    for _ in range(limits.corrections):
+        forces = structure.forces(state, target)
+        imbalance = structure.imbalance(state, forces)
+        relative = imbalance / forces.size if forces.size > 0.0 else imbalance
+        path.note(target, relative, lengths[-1])
+        if not isfinite(relative):
+            raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
+        rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
+        alike = factor is not None and max(off, blurred) <= path.alike
+        settled = relative <= limits.tolerance or rounded
+        if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
+            settled = imbalance <= structure.imbalance_floor(state, forces)
+        if relative <= close or (settled and structure.gap(state, target) <= limits.tolerance):
+            return state, factor if alike else None
+        last, back = lengths[-1], limits.back
+        if len(lengths) > back and last >= max(lengths[-1 - back], limits.shrinking * lengths[-2]):
+            raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
+        if path.factorisations >= path.limit:
+            reason = f"{path.limit} factorisations were not enough"
+            raise StepFailed(Status.STEP_LIMIT, reason, first.length)
+        refined = relative <= limits.refine_below
+        serves = alike and refined and not (again and imbalance > STALE * before)
+        try:
+            rows = structure.rows(state, forces, target) if serves else None
+            again = rows is not None
+            if rows is not None and factor is not None:
+                step = factor.solve(rows, SOLVED)
+            else:
+                matrix, rows = structure.system(state, forces, target)
+                near, factor = factor if not refined else None, None
+                found = None if near is None else path.solver.iterated(matrix, near, rows)
+                if found is None or near is None:
+                    near = None  # its memory is needed
+                    factor = path.factored(matrix)
+                    step, off, blurred = factor.solve(rows, SOLVED), 0.0, last**2
+                else:
+                    step, factor = found, near
+        except SingularMatrixError as error:
+            raise StepFailed(Status.SINGULAR, str(error), first.length) from None
+        following = structure.advance(state, forces, target, step)
+        lengths.append(structure.length(state, following))
+        off += lengths[-1]
+        if not lengths[-1] < limits.farthest:
+            raise StepFailed(Status.DIVERGED, "the corrections have no end", first.length)
+        works.append(abs(float(step @ rows)))
+        state, before = following, imbalance
+    raise StepFailed(Status.STEP_LIMIT, f"no equilibrium in {limits.corrections} corrections", first.length)

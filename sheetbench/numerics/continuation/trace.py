@@ -85,6 +85,8 @@ def trace_path(
                 if reached is None and path.load_factor == 0.0:  # which says less than large steps did
                     path.state, path.load_factor, ended = stuck
                     careful = False
+                if reached is None:  # what is left of the path's own serves for snaps
+                    path.limit = max(path.limit, path.limits.factorisations)
         while isinstance(ended, StepFailed):
             tried = ""
             if settle is not None and structure.symmetric and _at_limit_point(path, ended):
@@ -235,6 +237,4 @@ def _give_up(path: Path[State, Forces], failure: StepFailed, tried: str) -> Faul
         elif (ends := limit_point(path)) is not None:
             message += f"; a limit point between load factors {ends[0]:.5g} and {ends[1]:.5g}: from there on "
             message += "the load falls as the sheet gives way"
-    # numbers that are not finite lie beyond the last equilibrium, not in it
-    beyond = failure.status is Status.NON_FINITE and path.load_factor > 0.0
-    return Fault(Status.STEP_LIMIT if beyond else failure.status, message)
+    return Fault(failure.status, message)

@@ -47,7 +47,7 @@ class CostRow:
     setup_seconds: Annotated[float, SECONDS("z.2f", "set-up")]
     solve_seconds: Annotated[float, MILLISECONDS(".1f", "solve")]
     error: Annotated[float | None, PERCENT("z.2f")]
-    foretold: Annotated[str, Column(prose=True)]
+    expected: Annotated[float | None, PERCENT("z.2f", "est.")]
     status: Annotated[str, Column(prose=True)]
 
 

@@ -78,7 +78,7 @@ class NoEstimate:
     reason: str
 
     def __str__(self) -> str:
-        return f"no estimate: {self.reason}"
+        return f"no estimate of its grid error: {self.reason}."
 
 
 def finer_grid(grid: Grid) -> Grid:

@@ -1,9 +1,10 @@
 """What the samples of any run are watched for: energy from nowhere, strains beyond the model.
 
-The balance, kinetic + elastic + potential + dissipated − work, is constant in an exact run. A growth by more
-than GROWN of the energy that goes round ends the run; a departure either way by more than TOLD of it is
-reported. Losses are what the rule of integration takes (`History.numerical`) and end no run. Strains beyond a
-model's limits end none either: the run that came to them says so, and from when on.
+Whatever dampers take, kinetic + elastic + potential − work never grows in an exact run. A growth from its
+lowest value so far, by more than GROWN of the energy that goes round, ends the run. With what dampers take,
+as the rule of integration sums it, the balance is constant; a departure either way by more than TOLD is
+reported. Losses are what the rule takes (`History.numerical`) and end no run. Strains beyond a model's limits
+end none either: the run that came to them says so, and from when on.
 """
 
 from __future__ import annotations
@@ -22,11 +23,13 @@ TOLD = 0.01
 
 @dataclass
 class Watch:
-    """origin: the balance at the start [J]; largest: energy of any kind at a sample so far [J]; off: the
-    largest departure of the balance so far [J]; stretch: the largest so far, or what else a model measures
-    strains by; since: when that first was beyond the model [s]."""
+    """origin: the balance at the start [J]; lowest: kinetic + elastic + potential − work at a sample so far
+    [J]; largest: energy of any kind there [J]; off: the largest departure of the balance [J]; stretch: the
+    largest so far, or what else a model measures strains by; since: when that first was beyond the model [s].
+    """
 
     origin: float = np.nan
+    lowest: float = np.inf
     largest: float = 0.0
     off: float = 0.0
     stretch: float = 0.0
@@ -42,10 +45,10 @@ class Watch:
         """Energy from nowhere at samples (k,), over the largest until then; nan where that is no number.
         rows: (k, 6 or more), time, kinetic, elastic, potential and dissipated energy, work."""
         with np.errstate(invalid="ignore", over="ignore"):
-            balance = rows[:, 1:5].sum(axis=1) - rows[:, 5]
-            origin = balance[0] if np.isnan(self.origin) else self.origin
+            mechanical = rows[:, 1:4].sum(axis=1) - rows[:, 5]
+            lowest = np.minimum(self.lowest, np.minimum.accumulate(mechanical))
             largest = np.maximum(self.largest, np.maximum.accumulate(np.abs(rows[:, 1:6]).max(axis=1)))
-            gained = (balance - origin) / np.where(largest > 0.0, largest, 1.0)
+            gained = (mechanical - lowest) / np.where(largest > 0.0, largest, 1.0)
         return np.where(np.isfinite(rows).all(axis=1), gained, np.nan)
 
     def take(self, rows: np.ndarray) -> None:
@@ -55,6 +58,7 @@ class Watch:
         balance = rows[:, 1:5].sum(axis=1) - rows[:, 5]
         if np.isnan(self.origin):
             self.origin = float(balance[0])
+        self.lowest = min(self.lowest, float((rows[:, 1:4].sum(axis=1) - rows[:, 5]).min()))
         self.largest = max(self.largest, float(np.abs(rows[:, 1:6]).max()))
         self.off = max(self.off, float(np.abs(balance - self.origin).max()))
 

@@ -169,7 +169,7 @@ def test_a_turn_about_the_corner_itself():
 
 def test_a_support_that_moves_counts_at_all_times_and_in_statics_where_it_ends():
     table = {"time": (0.0, 1.0, 2.0), "displacement": ((0, 0, 0), LIFT, (0, 0, 0))}
-    moving = Clamped(edge="y0", motion=Motion(**table))
+    moving = Clamped(edge="y0", motion=Motion(**table, interpolation="linear"))  # as the edge's
     asked = scene((moving,), EdgeMotion(kind="motion", edge="x1", **table), gravity=None)
     assert not lumped.solve(asked, lumped.calibrate(OBLONG, SILICONE, (5, 3))).displacement([CORNER]).any()
     with pytest.raises(ValueError, match=r"z by 0.01 m at t = 1 s"):

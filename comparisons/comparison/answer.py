@@ -242,19 +242,19 @@ class Comparison(Answer):
         rows = (
             CostRow(
                 s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds, self.error(s),
-                self._foretold(s), s.status_text,
+                *self._foretold(s), s.status_text,
             )
             for s in self.solutions
         )  # fmt: skip
         return Table.of(CostRow, rows, "Cost and error of each model", "models", text="; ".join(self.busy))
 
-    def _foretold(self, solution: Solution) -> str:
-        """Return the grid error that the chosen lattice is told to have, or why none is."""
+    def _foretold(self, solution: Solution) -> tuple[float | None, str]:
+        """Return the grid error that the chosen lattice is told to have, and why none is."""
         if solution is not self.solutions[0] or self.expected is None:
-            return ""
+            return None, ""
         if isinstance(self.expected, NoEstimate):
-            return str(self.expected)
-        return f"{few(100.0 * self.expected.value)} %"
+            return None, str(self.expected)
+        return self.expected.value, ""
 
     def _reactions(self, of: Collection[str] | None = None) -> Table:
         """Of all supports, or of those named."""
@@ -319,7 +319,7 @@ class Comparison(Answer):
         return [
             " · ".join(solution.label for solution in self.solutions),
             *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
-            *([f"{first}: {self.expected}"] if isinstance(self.expected, ExpectedError) else []),
+            *([f"{first}: {self.expected}"] if self.expected is not None else []),
             *self._bar_notes(),
             f"off by: |u − {ref}| / |{ref}| at the probe. "
             f"error: largest component of u − {ref} over the probes / largest component of {ref}."

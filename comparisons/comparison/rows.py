@@ -47,7 +47,8 @@ class CostRow:
     setup_seconds: Annotated[float, SECONDS("z.2f", "set-up")]
     solve_seconds: Annotated[float, MILLISECONDS(".1f", "solve")]
     error: Annotated[float | None, PERCENT("z.2f")]
-    foretold: Annotated[str, Column(prose=True)]
+    foretold: Annotated[float | None, PERCENT(".2g", "told")]
+    no_estimate: Annotated[str, Column("why none is told", prose=True, detail=True)]
     status: Annotated[str, Column(prose=True)]
 
 

@@ -212,11 +212,13 @@ def measures(tag: Tag) -> int:
 
 def constants(tag: Tag, first: Any, apart: Any) -> Any:
     """Return a cell's constants, of which the first stands at this place of the tag's array, flat, and they
-    so far apart; compiled only."""
+    so far apart."""
+    return load_each(0, tag.constants, first, apart, _OF[type(tag)].count)
 
 
 def constants_of(tag: Tag, c: int) -> Any:
-    """Return the constants of cell c where a row of the tag's array has them; compiled only."""
+    """Return the constants of cell c where a row of the tag's array has them."""
+    return constants(tag, c * _OF[type(tag)].count, 1)
 
 
 @overload(measures, strict=False)

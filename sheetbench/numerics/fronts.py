@@ -132,7 +132,7 @@ def _halved(cells: np.ndarray, orders: np.ndarray, size: int, leaf: int) -> tupl
                 for j in range(k):
                     u = cells[orders[axis, i], j]
                     if u >= 0:
-                        shared += (first[u] == i) - (last[u] == i)
+                        shared += int(first[u] == i) - int(last[u] == i)
                 cost = (shared + 1.0) / ((i + 1.0 - start) * (end - 1.0 - i)) ** 2
                 if cost < least:
                     least, along, cut = cost, axis, i + 1

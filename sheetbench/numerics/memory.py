@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba.core import cgutils, types
+import numpy as np
+from numba.core import cgutils, config, types
 from numba.core.errors import RequireLiteralValue, TypingError
 from numba.extending import intrinsic
 from numba.np.arrayobj import make_array
@@ -100,3 +101,26 @@ load: Any = intrinsic(prefer_literal=True)(_load)
 load_each: Any = intrinsic(prefer_literal=True)(_load_each)
 store: Any = intrinsic(prefer_literal=True)(_store)
 store_each: Any = intrinsic(prefer_literal=True)(_store_each)
+
+if config.DISABLE_JIT:  # the same in Python, where kernels are not compiled
+
+    def load(kind: int, array: np.ndarray, i: int) -> Any:
+        return array.reshape(-1)[int(i)]
+
+    def load_each(kind: int, array: np.ndarray, i: int, apart: int, count: int) -> Any:
+        flat = array.reshape(-1)
+        return tuple([flat[int(i) + n * int(apart)] for n in range(count)])
+
+    def store(kind: int, array: np.ndarray, i: int, value: Any) -> None:
+        _flat(array)[int(i)] = value
+
+    def store_each(kind: int, array: np.ndarray, i: int, apart: int, values: Any) -> None:
+        flat = _flat(array)
+        for n, value in enumerate(values):
+            flat[int(i) + n * int(apart)] = value
+
+    def _flat(array: np.ndarray) -> np.ndarray:
+        """The array itself, in one row; never a copy, in which a store would be lost."""
+        flat: np.ndarray = array.view()
+        flat.shape = (array.size,)
+        return flat

@@ -1,8 +1,6 @@
 """Material from a measured decay: E and loss factor at once, branches, markers of a motion capture."""
 
 import sys
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +10,7 @@ import fem_reference
 import lumped
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, read
+from comparisons.measured import c3d
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Air, Relaxation, load
 from sheetbench.scenes.parameters import parameter, put
@@ -80,28 +79,62 @@ def test_branches_are_parameters():
         identify(scene, still, "share_1")
 
 
-def capture(monkeypatch, labels):
-    """In the place of ezc3d: frames of markers that sink by a millimetre each."""
-    points = np.zeros((4, len(labels), 5))
+@pytest.fixture
+def reader(tmp_path, monkeypatch):
+    """Puts a module in the place of ezc3d, for the program that reads with it too; a function of its text."""
+    folder = tmp_path / "modules"
+    folder.mkdir()
+    monkeypatch.syspath_prepend(folder)
+    monkeypatch.setenv("PYTHONPATH", str(folder))
+    (tmp_path / "capture.c3d").write_bytes(b"")
+
+    def put(text):
+        (folder / "ezc3d.py").write_text(text)
+        return tmp_path / "capture.c3d"
+
+    return put
+
+
+def capture(labels):
+    """An ezc3d whose files have frames of markers that sink by a millimetre each."""
+    return f"""
+import numpy as np
+print("as ezc3d prints")
+def c3d(path):
+    points = np.zeros((4, {len(labels)}, 5))
     points[2] = -1.0 * np.arange(5)
-    value: dict[str, Any] = {"LABELS": labels, "RATE": [100.0], "UNITS": ["mm"]}
-    point = {key: {"value": content} for key, content in value.items()}
-    content = {"parameters": {"POINT": point}, "data": {"points": points}}
-    monkeypatch.setitem(sys.modules, "ezc3d", SimpleNamespace(c3d=lambda path: content))
+    value = dict(LABELS={labels}, RATE=[100.0], UNITS=["mm"])
+    point = dict((key, dict(value=content)) for key, content in value.items())
+    return dict(parameters=dict(POINT=point), data=dict(points=points))
+"""
 
 
-def test_markers_with_names_of_probes_are_displacements(tmp_path, monkeypatch):
-    file = tmp_path / "capture.c3d"
-    file.write_bytes(b"")
-    capture(monkeypatch, ["Base", "p 4"])
+def test_markers_with_names_of_probes_are_displacements(reader, monkeypatch):
+    file = reader(capture(["Base", "p 4"]))
     found = read(file, TRUTH)
     assert isinstance(found, Displacements) and found.time is not None
     assert found.time == pytest.approx([0.0, 0.01, 0.02, 0.03, 0.04])
     assert found.displacement[:, 2] == pytest.approx([0.0, -1e-3, -2e-3, -3e-3, -4e-3])
     assert found.points[0].tolist() == list(TRUTH.probes["P4"])
-    capture(monkeypatch, ["Base"])
+    reader(capture(["Base"]) + "# other than before, to Python's cache too")
     with pytest.raises(BadInput, match=r"markers Base; none has the name of a probe.*P1, P2, P3, P4"):
         read(file, TRUTH)
     monkeypatch.setitem(sys.modules, "ezc3d", None)
     with pytest.raises(BadInput, match="need ezc3d"):
         read(file, TRUTH)
+
+
+@pytest.mark.parametrize(
+    ("does", "told"),
+    [
+        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "ended by SIGSEGV"),
+        ("import time; time.sleep(60)", "no answer within 1 s"),
+        ("raise ValueError('access the frame 0 of 0')", "cannot be read as C3D: access the frame 0 of 0"),
+        ("return dict(parameters={}, data={})", "cannot be read as C3D: 'POINT'"),
+    ],
+)
+def test_a_damaged_capture_is_refused_whatever_ezc3d_does(reader, monkeypatch, does, told):
+    """Of 200 damaged files ezc3d ended by a signal on 7, did not end on 2, raised ValueError on 15."""
+    monkeypatch.setattr(c3d, "SECONDS", 1.0 if "sleep" in does else 20.0)
+    with pytest.raises(BadInput, match=told):
+        read(reader(f"def c3d(path): {does}"), TRUTH)

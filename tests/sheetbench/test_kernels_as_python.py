@@ -1,0 +1,49 @@
+"""Kernels with NUMBA_DISABLE_JIT=1, where they run as Python: for debuggers, mutants and machines without a
+compiler. They give what compiled ones do."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+ASK = """
+import json
+import fem_reference, lumped
+import sheetbench as sb
+
+clamped = sb.load("two-edges-clamped")
+settling = sb.load("two-edges-settling")
+rubber = clamped.replace(material=clamped.material.replace(law="neo-hookean"))
+at = [[0.1, 0.15]]
+springs = sb.calibrate(clamped, grid=3)
+moving = sb.calibrate(settling, grid=3)
+print(json.dumps({
+    "lattice": lumped.solve(clamped, springs).displacement(at).tolist(),
+    "rubber lattice": lumped.solve(rubber, sb.calibrate(rubber, grid=3)).displacement(at).tolist(),
+    "shell": fem_reference.solve(clamped, elements=2).displacement(at).tolist(),
+    "lattice's modes": lumped.modes(clamped, springs, 2).frequencies.tolist(),
+    "shell's modes": fem_reference.modes(clamped, elements=2, count=2).frequencies.tolist(),
+    "esdirk": lumped.simulate(settling, moving, 4e-3).probes["P4"].tolist(),
+    "verlet": lumped.simulate(settling, moving, 5e-4, integrator="verlet").probes["P4"].tolist(),
+}))
+"""
+
+
+def numbers(**more):
+    """What the script prints, flat, in an environment with more variables."""
+    ran = subprocess.run(
+        [sys.executable, "-c", ASK], env={**os.environ, **more}, capture_output=True, text=True, timeout=300
+    )
+    assert ran.returncode == 0, ran.stderr[-2000:]
+    return json.loads(ran.stdout)
+
+
+def test_they_give_what_compiled_ones_do():
+    compiled, python = numbers(NUMBA_DISABLE_JIT="0"), numbers(NUMBA_DISABLE_JIT="1")
+    for name, found in compiled.items():
+        flat = [x for row in found for x in row] if isinstance(found[0], list) else found
+        same = python[name]
+        same = [x for row in same for x in row] if isinstance(same[0], list) else same
+        assert same == pytest.approx(flat, rel=1e-6, abs=1e-9 * max(map(abs, flat))), name

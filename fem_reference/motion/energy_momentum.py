@@ -26,6 +26,7 @@ class EnergyMomentum(GeneralisedAlpha):
     """Steps of a reference, of a fixed length."""
 
     def _advanced(self, motion: Motion, h: float) -> Motion:
+        self.late = 0.5
         model, half_way, time = self._model, motion.time + 0.5 * h, motion.time + h
 
         def at(q: np.ndarray) -> Motion:

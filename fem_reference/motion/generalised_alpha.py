@@ -13,11 +13,18 @@ order with constraints too. a' is the acceleration at t + (αm − αf) h, which
 
 and what becomes of a' where h changes: a + (a' − a) h/h_before. Where a history or a motion bends a step ends
 and the next begins with new accelerations; velocities that a motion changes at once pass their impulse on.
+
+Behind such a jump dampers slow the shortest waves faster than any step resolves: the rule would answer with
+swings of their strains that fall by ρ a step, and dampers would seem to take many times the energy there is.
+So the first steps there are backward Euler's, q₁ = q₀ + h v₁ and v₁ = v₀ + h a₁, which swing at no length,
+from one so short that it takes `TAKEN` of the kinetic energy on, until their local error, ½ h² |a₁|, no
+longer lets them double. As Rannacher 1984 (Numer. Math. 43, 309–327) begins Crank and Nicolson's rule.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,9 +40,34 @@ QUICK = 0.1  # a correction's share of the one before, up to which factors are k
 HALVED = 6  # times, a fixed step that fails
 LEAST = 1e-8  # of the sheet's longer side: no displacement counts as smaller
 SMALLEST = 1e-9  # step, relative to the run
+EULER = 2  # steps behind a jump whose length does not double
+TAKEN = 1e-3  # of the kinetic energy, that the first of them may take
+
+REMEMBERED = (
+    "step", "_first", "_before", "_largest", "_local", "_euler", "factorisations", "rejected", "failed",
+)  # fmt: skip
 
 
-REMEMBERED = ("step", "_first", "_before", "_largest", "_local", "factorisations", "rejected", "failed")
+class Rule(NamedTuple):
+    """Coefficients of a step: αm, αf, γ, β, and `old`, that of h² a'₀ in q₁; order: of q's local error."""
+
+    am: float
+    af: float
+    gamma: float
+    beta: float
+    old: float
+    order: int
+
+
+BACKWARD_EULER = Rule(0.0, 0.0, 1.0, 1.0, 0.0, 2)
+
+
+def generalised(radius: float) -> Rule:
+    """Return generalised-α's coefficients of a spectral radius at high frequencies."""
+    am, af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
+    gamma = 0.5 + af - am
+    beta = 0.25 * (gamma + 0.5) ** 2
+    return Rule(am, af, gamma, beta, 0.5 - beta, 3)
 
 
 class StepFailed(ArithmeticError):
@@ -43,12 +75,14 @@ class StepFailed(ArithmeticError):
 
 
 class GeneralisedAlpha:
-    """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried."""
+    """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried.
+
+    late: the share of its end in the forces that a step balances.
+    """
 
     def __init__(self, model: Moving, step: float | None, error: float, first: float, radius: float = RADIUS):
-        self._am, self._af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
-        self._gamma = 0.5 + self._af - self._am
-        self._beta = 0.25 * (self._gamma + 0.5) ** 2
+        self._usual = generalised(radius)
+        self.late = 1.0 - self._usual.af
         self._model, self._fixed, self._error = model, step is not None, error
         self.step = self._first = first if step is None else step
         self._before, self._taken = 0.0, 0.0  # the last step, and the one that factors are of
@@ -58,7 +92,12 @@ class GeneralisedAlpha:
             LEAST * model.longest,
             1.0,
         )  # displacement [m], and the last step's error over that allowed
+        self._euler = 0  # steps to come by backward Euler
         self.factorisations = self.rejected = self.failed = 0
+
+    @property
+    def _rule(self) -> Rule:
+        return BACKWARD_EULER if self._euler else self._usual
 
     def forget(self) -> None:
         """Drop the factors, so that a resumed run goes on exactly as one never stopped."""
@@ -86,10 +125,15 @@ class GeneralisedAlpha:
         forces = model.forces(q, rate, time)
         a = a - basis @ factor.solve(basis.T @ (model.mass @ a + forces))
         self._before, self._factor = 0.0, None
+        self._euler = EULER if np.any(rate != v) else 0
         if not self._fixed:
             fastest = float(np.abs(model.displacement(a)).max())
             allowed = self._error * self._largest
             self.step = min(self._first, np.sqrt(2.0 * allowed / max(fastest, 1e-30)))
+        if not self._fixed and self._euler:
+            twice_kinetic = max(float(u @ (model.mass @ u)) for u in (v, rate))
+            taken = float(a @ (model.mass @ a))  # h² times half of it
+            self.step = min(self.step, np.sqrt(TAKEN * twice_kinetic / max(taken, 1e-30)))
         remembered = model.memory.after(model.strains(q))
         return Motion(time, q, rate, a, a, model.mass @ a + forces, remembered)
 
@@ -107,22 +151,32 @@ class GeneralisedAlpha:
                     raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
                 self.step = 0.25 * h
                 continue
-            jump = self._model.displacement(after.algorithm - before)
+            local = self._local_error(after, before, h)
             shown = self._model.displacement(after.q)
             largest = max(self._largest, float(np.abs(shown).max()))
-            constant = self._beta + 0.5 * (self._am - self._af) - 1.0 / 6.0
-            error = h * h * abs(constant) * float(np.abs(jump).max()) / (self._error * largest)
+            error = local / (self._error * largest)
             if not self._fixed and error > 1.0 and h > smallest:
-                self.step = h * max(0.2, 0.9 * error ** (-1.0 / 3.0))
+                self.step = h * max(0.2, 0.9 * error ** (-1.0 / self._rule.order))
                 self.rejected += 1
                 continue
             if not self._fixed:
                 self._before = h
             self._largest, self._local = largest, error
-            wanted = 0.9 * max(error, 1e-9) ** (-1.0 / 3.0)
+            wanted = 0.9 * max(error, 1e-9) ** (-1.0 / self._rule.order)
+            if self._euler and (self._fixed or wanted < 2.0 or h > 0.5 * at_most):
+                self._euler -= 1
+                self._factor = self._factor if self._euler else None
             if not self._fixed and (wanted < 0.95 or wanted > 1.25):
                 self.step = h * min(wanted, 2.0)
             return after
+
+    def _local_error(self, after: Motion, before: np.ndarray, h: float) -> float:
+        """Of the displacement [m] in a step; before: its a'₀."""
+        if self._euler:
+            return 0.5 * h * h * float(np.abs(self._model.displacement(after.a)).max())
+        am, af, _, beta, *_ = self._usual
+        jump = self._model.displacement(after.algorithm - before)
+        return h * h * abs(beta + 0.5 * (am - af) - 1.0 / 6.0) * float(np.abs(jump).max())
 
     def _halving(self, motion: Motion, h: float, times: int = 0) -> Motion:
         """A step, in halves where it is fixed and fails. Raises StepFailed, SingularMatrixError."""
@@ -147,10 +201,11 @@ class GeneralisedAlpha:
     def _advanced(self, motion: Motion, h: float) -> Motion:
         model, time = self._model, motion.time + h
         model.memory.since(motion.time, motion.memory)
-        am, af, beta, gamma = self._am, self._af, self._beta, self._gamma
+        am, af, gamma, beta, by_old, _ = self._rule
+        self.late = 1.0 - af
         old = self._shifted(motion, h)
         by_a, by_v = (1.0 - am) / ((1.0 - af) * beta * h * h), gamma / (beta * h)
-        start = motion.q + h * motion.v + h * h * (0.5 - beta) * old
+        start = motion.q + h * motion.v + h * h * by_old * old
 
         def at(q: np.ndarray) -> Motion:
             new = (q - start) / (beta * h * h)

@@ -218,8 +218,8 @@ class Moving(ABC):
         """Strain energy [J]."""
 
     @abstractmethod
-    def stiffness_of(self, q: np.ndarray, step: np.ndarray) -> float:
-        """Δeᵀ D Δe [J] of the strains of a step (N,) from q."""
+    def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
+        """Δeᵀ D Δe' [J] of the strains of a step (N,) from q and of another one."""
 
     @abstractmethod
     def on_surface(self, v: np.ndarray) -> np.ndarray:
@@ -272,14 +272,15 @@ class Moving(ABC):
         stored = self.memory.stored(self.strains(q)) if self.memory else 0.0
         return Energies(0.5 * float(v @ (self.mass @ v)), elastic + stored, potential)
 
-    def spent(self, start: Motion, end: Motion) -> np.ndarray:
+    def spent(self, start: Motion, end: Motion, late: float) -> np.ndarray:
         """Energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
-        mean forces times changes, which a rate that jumps at its start does not swell."""
+        forces times changes, of dampers those that the step balances. late: the end's share in them."""
         h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
-        damped = self.tau * self.stiffness_of(middle, step)
-        damped += self.alpha * float(step @ (self.sheet_mass @ step))
-        damped += self.rods.dissipated(start.q, end.q)
-        damped -= sum(h * float(self.following(middle, load) @ step) for load, _ in self.drag(step / h))
+        rate = (1.0 - late) * start.v + late * end.v
+        damped = self.tau * self.stiffness_of(middle, step, rate) if self.tau else 0.0
+        damped += self.alpha * float(step @ (self.sheet_mass @ rate))
+        damped += self.rods.dissipated(middle, step, rate)
+        damped -= sum(float(self.following(middle, load) @ step) for load, _ in self.drag(step / h))
         self.memory.since(start.time, start.memory)
         self.memory.now = end.time
         relaxed = self.memory.dissipated(self.strains(end.q)) if self.memory else 0.0
@@ -292,7 +293,7 @@ class Moving(ABC):
                 work += factor_at(factor, half_way) * float(force @ step)
         for follower, factor in self.followers:
             work += factor_at(factor, half_way) * float(self.following(middle, follower) @ step)
-        return np.array([damped / h + relaxed, work])
+        return np.array([damped + relaxed, work])
 
 
 class MovingElements(Moving):
@@ -325,9 +326,10 @@ class MovingElements(Moving):
     def elastic(self, q: np.ndarray) -> float:
         return sum(self.element.energies(self.element.strain(self.gather(q))).values())
 
-    def stiffness_of(self, q: np.ndarray, step: np.ndarray) -> float:
-        strain, change = self.strained(self.gather(q), step)
-        return float(np.sum(change * weighed(self.element.moduli(strain), change)))
+    def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
+        at = self.gather(q)
+        (strain, change), (_, other_change) = self.strained(at, step), self.strained(at, other)
+        return float(np.sum(change * weighed(self.element.moduli(strain), other_change)))
 
     def strained(self, change: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Strains (m, k) at changes (m, a, 3) of the elements' vectors, and their rates at rates (N,)."""

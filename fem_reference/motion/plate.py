@@ -125,10 +125,10 @@ class MovingPlate(Moving):
         return self.displacement(v)[self._plate.elements.nodes]
 
     def elastic(self, q: np.ndarray) -> float:
-        return 0.5 * self.stiffness_of(q, q)
+        return 0.5 * self.stiffness_of(q, q, q)
 
-    def stiffness_of(self, q: np.ndarray, step: np.ndarray) -> float:
-        return float(step @ (self._stiffness @ step))
+    def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
+        return float(step @ (self._stiffness @ other))
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
         return q[: 5 * self.nodes].reshape(-1, 5)[:, :3]

@@ -107,10 +107,13 @@ class MovingRods:
         off = self._strain(self._gathered(q)) - self._intrinsic(time)
         return 0.5 * float(np.sum(self.elements.stiffness * off**2))
 
-    def dissipated(self, start: np.ndarray, end: np.ndarray) -> float:
-        """Δeᵀ τ S Δe [J s] of a step."""
-        change = self._strain(self._gathered(end)) - self._strain(self._gathered(start))
-        return float(np.sum(self._viscous * change**2))
+    def dissipated(self, q: np.ndarray, step: np.ndarray, rate: np.ndarray) -> float:
+        """Δeᵀ τ S ė [J] of a step and a rate (N,) at q."""
+        gradient = self._gradient(self._gathered(q))
+        of_step, of_rate = (
+            np.einsum("esic,eic->es", gradient, self._gathered(vector)) for vector in (step, rate)
+        )
+        return float(np.sum(self._viscous * of_step * of_rate))
 
     def matrix(self, sides: np.ndarray) -> csr_matrix:
         """The sum (N, N) of matrices of sides (k, 3 a, 3 a)."""

@@ -130,7 +130,7 @@ class Run:
     def _sample(self, start: Motion, end: Motion) -> Fault | None:
         """Take the samples of a step, and a checkpoint after every so many; what is wrong with one."""
         h, every, first = end.time - start.time, self.schedule.every, self.samples
-        spent = self.model.spent(start, end) if h else np.zeros(2)
+        spent = self.model.spent(start, end, self.method.late) if h else np.zeros(2)
         while self.samples <= self.schedule.samples:
             time = self.samples * every
             if time > end.time + 1e-9 * self.schedule.samples * every:

@@ -8,7 +8,7 @@ import pytest
 import fem_reference
 from fem_reference.verification import settling_strip
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeMotion, Gravity, Pressure
+from sheetbench.scenes import EdgeMotion, Gravity, Pressure, Status
 from sheetbench.scenes.supports import Clamped, Curved, Motion
 from sheetbench.scenes.tables import FactorTable
 
@@ -68,11 +68,34 @@ def test_a_damped_sheet_comes_to_rest_where_statics_have_it(strip, model):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_a_clamp_that_rises_carries_its_edge_along(strip, model):
+    """From one moment to the next it moves, and stops; dampers take no more than there is to take."""
     raised = Motion(time=(0.0, 0.1), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.02)))
-    clamp = Clamped(edge="x0", motion=raised)
-    scene = strip.replace(gravity=None, supports=(clamp,), probes={"E": (0.0, 0.045)}, damping_time=0.0)
-    motion = fem_reference.simulate(scene, model, 0.15, elements=(1, 1), every=0.05, error=1e-4)
-    assert motion.probes["E"][:, 2] == pytest.approx([0.0, 0.01, 0.02, 0.02], abs=1e-9)
+    scene = strip.replace(
+        gravity=None, supports=(Clamped(edge="x0", motion=raised),), probes={"E": (0.0, 0.045)}
+    )
+    motion = fem_reference.simulate(scene, model, 0.15, elements=(1, 1), every=0.01)
+    assert motion.status == Status.CONVERGED
+    assert motion.probes["E"][[0, 5, 10, 15], 2] == pytest.approx([0.0, 0.01, 0.02, 0.02], abs=1e-9)
+    largest = max(float(np.abs(e).max()) for e in motion.energies.values())
+    assert np.abs(motion.numerical).max() < 0.015 * largest  # taken, of the short waves of two jumps
+    in_steps = np.diff(motion.energies["dissipated"])
+    assert in_steps.min() > 0.0
+    assert (
+        in_steps[10] < motion.energies["kinetic"][10]
+    )  # that of the stop, where no work is done on the sheet
+
+
+@pytest.mark.parametrize("model", ["plate", "shell"])
+def test_halves_of_fixed_steps_have_a_quarter_of_the_error_behind_a_jump(strip, model):
+    """Two steps of first order leave the second order of all."""
+    started = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.2)))
+    scene = strip.replace(gravity=None, supports=(Clamped(edge="x0", motion=started),))
+    ends = [
+        fem_reference.simulate(scene, model, 0.05, elements=(2, 1), step=step, every=0.05, error=1e-8)
+        for step in (1e-3, 5e-4, 2.5e-4)
+    ]
+    coarse, fine = (np.abs(a.probes["tip"][-1] - b.probes["tip"][-1]).max() for a, b in pairwise(ends))
+    assert np.log2(coarse / fine) == pytest.approx(2.0, abs=0.3)
 
 
 @pytest.mark.parametrize("model", ["plate", "solid"])

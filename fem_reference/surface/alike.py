@@ -1,7 +1,7 @@
 """Plans brought into one place however they are mirrored, turned or large, so that their meshes are alike.
 
-Of the eight ways to lay a plan along the axes the first is taken, its sides in order compared number by
-number after rounding. A plan that is its own mirror image across x or y is meshed on one side of that line
+Of the eight ways to lay a plan along the axes the last is taken, its sides in order compared number by number
+after rounding. A plan that is its own mirror image across x or y is meshed on one side of that line
 alone: its mesh is its own image too. Lengths are in sizes of the largest triangles.
 """
 
@@ -85,7 +85,7 @@ class Placed(NamedTuple):
 
 
 def placed(region: BaseGeometry, inner: BaseGeometry) -> Placed:
-    """Return a plan in the first of its eight places."""
+    """Return a plan in the last of its eight places."""
     import shapely
 
     centre = np.mean(np.reshape(region.bounds, (2, 2)), axis=0)
@@ -94,12 +94,12 @@ def placed(region: BaseGeometry, inner: BaseGeometry) -> Placed:
         for part in (region.boundary, inner)
     )
     keys = [(*_key(rims, turn), *_key(lines, turn)) for turn in TURNS]
-    turn = TURNS[min(range(len(TURNS)), key=keys.__getitem__)]
-    first = min(keys)
+    turn = TURNS[max(range(len(TURNS)), key=keys.__getitem__)]
+    last = max(keys)
     mirrors = tuple(
         axis
         for axis, flip in enumerate((FLIPS[2], FLIPS[1]))
-        if (*_key(rims, flip @ turn), *_key(lines, flip @ turn)) == first
+        if (*_key(rims, flip @ turn), *_key(lines, flip @ turn)) == last
     )
 
     def there(at: np.ndarray) -> np.ndarray:

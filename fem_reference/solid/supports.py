@@ -7,6 +7,10 @@ bound as the mesh is refined. A clamp holds the edge's face:
     "shell-like"  the face stays on the director, free to change its thickness along it: the components across
                   the director are held everywhere, the one along it on the mid-line only. This is the
                   clamp of a shell, and leaves no singular corner
+    "mean"        the same, but of the component along the director the mean of every column is held: held on
+                  the mid-line alone, the shear force is a line load, and dents the face the more the finer
+                  the mesh is. Four clamps, h/a 0.12, ν 0.45: 1.3, 5.8 and 7.0 % softer than a shell with 1, 2
+                  and 4 layers (one can hardly be dented), with the mean held 1.2 and 1.0 % stiffer with 2 and 4
     "full"        all three components of the whole face; the strain is singular at its rims
 
 A plane of symmetry holds the component across it in the whole face.
@@ -14,8 +18,8 @@ A plane of symmetry holds the component across it in the whole face.
 The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z); that of a
 tilted clamp and of an edge moved rigidly do likewise. The column that an actuator's base holds is held as a
 clamp holds it. A column's displacements are u = Z q, with q the components that are held or free: along the
-face's axes (across the edge, along it, d), and on a hinged or held edge with the column's mean in place of
-its middle node.
+face's axes (across the edge, along it, d), and on a hinged or held edge, and where clamps hold it, with the
+column's mean in place of its middle node.
 """
 
 from __future__ import annotations
@@ -34,18 +38,19 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Symmetric, holds_director
 from sheetbench.scenes.supports import named
 
-CLAMPS = ("shell-like", "full")
+CLAMPS = ("shell-like", "mean", "full")
 
 
 @dataclass(frozen=True)
 class ColumnSupports:
-    """held: (n, levels, 3) of the components q; edges: name → held components of its own; hinged: (n,)."""
+    """held: (n, levels, 3) of the components q; edges: name → held components of its own; by_mean: (n,), columns of
+    which the mean is held."""
 
     line: Supports
     columns: Columns
     held: np.ndarray
     edges: dict[str, np.ndarray]
-    hinged: np.ndarray
+    by_mean: np.ndarray
 
     def target(self, load_factor: float) -> np.ndarray:
         """Prescribed displacement (n, levels, 3) [m]; zero where nothing moves."""
@@ -61,7 +66,7 @@ class ColumnSupports:
             axes[driven.nodes] = np.eye(3) + driven.placed(load_factor).turn
         with_mean = np.eye(levels)
         with_mean[middle] = self.columns.averages[0]
-        spread = np.where(self.hinged[:, None, None], np.linalg.inv(with_mean), np.eye(levels))
+        spread = np.where(self.by_mean[:, None, None], np.linalg.inv(with_mean), np.eye(levels))
         size = 3 * levels
         return np.einsum("nlm,nck->nlcmk", spread, axes).reshape(-1, size, size)
 
@@ -73,7 +78,7 @@ class ColumnSupports:
     @property
     def turned(self) -> np.ndarray:
         """Plan nodes (n,) whose Z is not the identity."""
-        on = self.hinged.copy()
+        on = self.by_mean.copy()
         for driven in self.line.driven:
             on[driven.nodes] = True
         return on
@@ -118,14 +123,15 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
     if clamp not in CLAMPS:
         raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
     line = supports.of_scene(scene, columns.plan.mesh)
-    edges, hinged = {}, np.zeros(len(columns.plan.nodes), dtype=bool)
+    edges, by_mean = {}, np.zeros(len(columns.plan.nodes), dtype=bool)
 
     def face(nodes: np.ndarray, axes: np.ndarray | list[int], turns: bool) -> np.ndarray:
         """What a support holds of the columns of its nodes; turns: the director is free."""
         held = np.zeros((len(columns.plan.nodes), columns.levels, 3), dtype=bool)
         held[nodes[:, None], columns.layers, axes] = True
         if not turns:
-            held[nodes, :, : 2 if clamp == "shell-like" else 3] = True
+            held[nodes, :, : 3 if clamp == "full" else 2] = True
+            by_mean[nodes] |= clamp == "mean"
         return held
 
     for name, support in named(scene.supports).items():
@@ -134,7 +140,7 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
         if isinstance(support, Symmetric):
             held[nodes[:, None], :, axes] = True
         elif not holds_director(support):
-            hinged[nodes] = True
+            by_mean[nodes] = True
         edges[name] = held
     for motion in scene.motions().values():
         edges[motion.held_as] = face(columns.edge(motion.edge), [0, 1, 2], False)
@@ -142,4 +148,4 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
         if rod.base is not None:
             edges[rod.held_as] = face(rod.line[[rod.base]], [0, 1, 2], False)
     none = np.zeros((len(columns.plan.nodes), columns.levels, 3), dtype=bool)
-    return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, hinged)
+    return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, by_mean)

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
+from fem_reference.surface.alike import placed
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from fem_reference.surface.mesh_points import (
     NEAR,
@@ -62,26 +63,30 @@ def quadrilaterals(
     from shapely import affinity
 
     unit = 2.0 * np.array(spacing)
-    region, inner = (affinity.scale(part, *(1.0 / unit), origin=(0.0, 0.0)) for part in (region, inner))
+    plan = placed(*(affinity.scale(part, *(1.0 / unit), origin=(0.0, 0.0)) for part in (region, inner)))
+    region, inner = plan.part
     borders = borders_between_corners(region, inner)
-    across = np.min(np.ptp(np.reshape(region.bounds, (2, 2)), axis=0))
+    across = np.min(np.ptp(np.reshape(plan.region.bounds, (2, 2)), axis=0))
     size = Size.of(region, borders, min(1.0, USUAL / across))
     points, sides = divided(borders, size)
     points, triangles, sides = _triangles(
         region, borders, sides, points, filling(region, borders, sides, size)
     )
     mesh, middles = _cut(points, _joined(points, triangles, sides), borders, sides)
-    mesh = _smoothed(mesh, np.unique([*sides.ends.ravel(), *middles]))
+    own = ~plan.cut(borders)[sides.border]
     halves = [
         (
-            np.column_stack([sides.ends[:, end], middles]),
-            on_borders(borders, sides.border, sides.span @ share),
+            np.column_stack([sides.ends[own, end], middles[own]]),
+            on_borders(borders, sides.border[own], sides.span[own] @ share),
         )
         for end, share in enumerate([[0.75, 0.25], [0.25, 0.75]])
     ]
     ends, places = (np.concatenate(parts) for parts in zip(*halves, strict=True))
+    mesh, ends, places = plan.unfolded(mesh, ends, places)
+    mesh = _smoothed(mesh, np.unique(ends))
     if graded:
         mesh, ends, places = _layered(mesh, ends, places)
+    mesh, places = plan.back(mesh, places)
     return _biquadratic(mesh, ends, places, unit)
 
 

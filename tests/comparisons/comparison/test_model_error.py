@@ -115,7 +115,7 @@ def test_a_law_of_strain_that_the_user_chose_is_no_error_of_the_model():
 def test_of_a_solid_whose_law_is_chosen_the_clamp_alone_is_said():
     answer = replace(fake_solutions.solution(THICK, "solid", -0.01), stretch=0.5)
     found = model_error(THICK, answer, law_chosen=True)
-    assert str(found).startswith("a clamp that also prevents")
+    assert str(found).startswith("of a clamp that holds the mean over the thickness; one that also prevents")
     free = THICK.replace(supports=(Hinged(edge="x0"),))
     assert str(model_error(free, answer, law_chosen=True)) == ""
 
@@ -177,3 +177,21 @@ def test_the_thick_sheet_with_four_clamps_is_within_what_is_said():
     """h/a 0.12, ν 0.45: 2.0 % above bricks of CalculiX's whose faces at the edges are held in the mean."""
     found = of_numbers(0.12, 0.45, True, 1.5e-6, 1.5e-5)
     assert found.value > (1.669 - 1.635) / 1.635
+
+
+@pytest.mark.parametrize("clamped", [("x0",), ("x0", "x1"), ("x0", "x1", "y0", "y1")], ids=len)
+@pytest.mark.parametrize("poisson", [-0.3, 0.0, 0.3, 0.45, 0.49])
+@pytest.mark.parametrize("slenderness", [0.15, pytest.param(0.06, marks=pytest.mark.nightly)])
+def test_thick_sheets_are_within_what_is_said_of_clamps_that_hold_the_mean(slenderness, poisson, clamped):
+    scene = THICK.replace(
+        sheet=Sheet(length_x=0.1, length_y=0.1, thickness=0.1 * slenderness),
+        material=Material(young=1e6, poisson=poisson, density=1100.0),
+        supports=tuple(Clamped(edge=edge) for edge in clamped),
+        loads=(Pressure(value=-2e4 * slenderness**3),),
+    )
+    points = scene.probe_points()
+    shell = fem_reference.solve(scene, "shell", elements=12)
+    solid = fem_reference.solve(scene, "solid", elements=6, layers=2, clamp="mean")
+    bound = model_error(scene, shell)
+    assert bound is not None
+    assert relative(solid.displacement(points), shell.displacement(points)) < bound.thickness

@@ -14,7 +14,7 @@ from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
 from sheetbench.choices import STRAIN_LAWS
 from sheetbench.numerics.direct import solve_free
-from sheetbench.scenes import Material, Scene, Sheet, Status
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Status
 
 
 def with_poisson(name, poisson):
@@ -229,3 +229,20 @@ def test_field_mesh_has_every_node():
 def test_misuse(options, said):
     with pytest.raises(ValueError, match=said):
         solid.solve(scenes.load("two-edges-clamped"), 2, **options)
+
+
+def test_a_clamp_that_holds_the_mean_is_not_dented_by_finer_layers():
+    """The shear force on its mid-line alone would dent the face by 6 %."""
+    scene = Scene(
+        name="thick",
+        sheet=Sheet(length_x=0.1, length_y=0.1, thickness=0.012),
+        material=Material(young=1e6, poisson=0.45, density=1100.0),
+        support=tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1")),
+        load=(Pressure(value=-200.0),),
+    )
+    points = scene.probe_points()
+    two, three = (
+        solid.solve(scene, 8, layers=layers, clamp="mean").displacement(points) for layers in (2, 3)
+    )
+    assert relative(three, two) < 0.003
+    assert relative(solid.solve(scene, 8, layers=2).displacement(points), two) > 0.04

@@ -21,6 +21,7 @@ one-point sheared lattice exact for cubic deflections. Stiffness per length: A, 
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -31,10 +32,10 @@ from lumped.sections import ROUNDING, Section
 from lumped.spring_constants import Springs, of_faces, of_rubber
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 
-BY = np.array([step for _, _, step in STEPS], dtype=float)
-IN_LAYER, IN_GAP = BY[:, 2] == 0.0, BY[:, 2] != 0.0
-FIRST, SECOND = [0, 1, 0, 2, 0, 1], [0, 1, 1, 2, 2, 2]  # of the strains ε_x, ε_y, γ_xy, ε_z, γ_x, γ_y
-FURTHEST = "cross_diagonal"
+# of the links of STEPS: family and direction, how many there are, and whether they span lx, ly and lz
+LINKS = Counter((family, direction, tuple(map(abs, step))) for family, direction, step in STEPS)
+COUNT, SPAN = np.array([*LINKS.values()], dtype=float), np.array([span for *_, span in LINKS], dtype=float)
+LEVEL = int(np.sum(SPAN[:, 2] == 0.0))  # those within a layer, which come first
 
 
 @dataclass(frozen=True)
@@ -72,28 +73,12 @@ class Moduli:
         return {**names, "D22": d[1, 1], "A22": a[1, 1], "Sx": s[0], "Sy": s[1]}
 
 
-def link_rows(sides: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Of the links of STEPS in cells of these sides (…, 2) [m]: their stretch by (ε_x, ε_y, γ_xy, ε_z, γ_x,
-    γ_y) times their length, (…, links, 6) [m²], and what a unit of that squared stores per stiffness and area,
-    (…, links) [1/m⁴]."""
-    step = np.empty((*sides.shape[:-1], len(BY), 3))
-    step[..., :2] = BY[:, :2] * sides[..., None, :]
-    step[..., 2] = BY[:, 2] * distance
-    rows = step[..., FIRST] * step[..., SECOND]
-    area = sides[..., 0] * sides[..., 1]
-    return rows, 1.0 / (rows[..., (0, 1, 3)].sum(axis=-1) * area[..., None])
-
-
 def gap_shear_per_stiffness(sides: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
     """Shear stiffness of one gap along x and y, per unit stiffness of the cross links that run so, (…, 2), and of
     the furthest diagonals, (…, 2) [1]; of cells of these sides (…, 2) [m]."""
-    rows, unit = link_rows(sides, distance)
-    sheared = rows[..., 4:] ** 2 * unit[..., None]
-    of = {
-        name: sheared[..., [step[0] == name for step in STEPS], :].sum(axis=-2)
-        for name in ("cross", FURTHEST)
-    }
-    return of["cross"], of[FURTHEST]
+    squares, upright, area = sides**2, distance**2, sides.prod(axis=-1)[..., None]
+    sheared = 2.0 * squares * upright / area
+    return sheared / (squares + upright), 2.0 * sheared / (squares.sum(axis=-1)[..., None] + upright)
 
 
 def shear_gaps(layers: int) -> float:
@@ -110,34 +95,35 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
     """Moduli of interior patches of lattices with the springs of every cell, alike in all of one's cells;
     sides: of the cells, (rows, columns, 2) [m], or of one where they are alike."""
     shape = np.broadcast_shapes(sides.shape[:2], springs.shape)
-    distance, square = springs.layer_distance, springs.layer_distance**2
-    rows, unit = link_rows(np.broadcast_to(sides, (*shape, 2)), distance)
-    stiffness = np.zeros(rows.shape[:-1])
-    for number, (family, direction, _) in enumerate(STEPS):
+    square = springs.layer_distance**2
+    squares = np.empty((*shape, len(LINKS), 3))  # of the lengths that links span
+    squares[..., :2], squares[..., 2] = SPAN[:, :2] * sides[..., None, :] ** 2, SPAN[:, 2] * square
+    stiffness = np.zeros(squares.shape[:-1])
+    for number, (family, direction, _) in enumerate(LINKS):
         if len(k := springs[family]) == 3:  # Habibi et al.'s law has no energy: its mean
             stiffness[..., number] = k.mean(axis=0)
         elif family in springs.of:
             stiffness[..., number] = springs.along(family, int(direction == "y"))
-    stiffness *= unit
-    (in_layer, gap) = (
-        np.swapaxes(rows[..., of, :] * stiffness[..., of, None], -1, -2) @ rows[..., of, :]
-        for of in (IN_LAYER, IN_GAP)
-    )
-    in_layer = in_layer[..., :3, :3] + _in_plane(springs, "area")
+    stiffness *= COUNT / (squares.sum(axis=-1) * sides.prod(axis=-1)[..., None])
+    turned = np.swapaxes(squares * stiffness[..., None], -1, -2)
+    # over the strains along x, y and z; those of shears are its products
+    layer, gap = (turned[..., of] @ squares[..., of, :] for of in (slice(LEVEL), slice(LEVEL, None)))
+    in_layer = _of_links(layer) + _in_plane(springs, "area")
     if springs.rubber:
-        squares = np.broadcast_to(sides**2, (*shape, 2)).reshape(-1, 2)
-        (strains, _) = of_rubber(
+        each = np.broadcast_to(sides, (*shape, 2)).reshape(-1, 2)
+        strains, _ = of_rubber(
             springs,
-            squares,
-            np.sqrt(squares.prod(axis=1)),
-            np.zeros(len(squares)),
+            each**2,
+            each.prod(axis=1),
+            np.zeros(len(each)),
             lambda values: np.broadcast_to(values, shape).ravel(),
         )
         in_layer += _form(strains[:, 1:].reshape(*shape, 3), strains[:, 0].reshape(shape))
-    upright = gap[..., 3, 3, None, None]
-    relaxed = gap[..., :3, 3, None] * gap[..., None, 3, :3]
-    in_gap = gap[..., :3, :3] - np.divide(relaxed, upright, out=np.zeros_like(relaxed), where=upright > 0.0)
-    shear = np.stack([gap[..., 4, 4], gap[..., 5, 5]], axis=-1)
+    upright = gap[..., 2, 2, None, None]
+    in_gap = _of_links(gap)
+    relaxed = gap[..., :2, 2, None] * gap[..., None, 2, :2]
+    in_gap[..., :2, :2] -= np.divide(relaxed, upright, out=np.zeros_like(relaxed), where=upright > 0.0)
+    shear = gap[..., :2, 2]
     if springs.of.keys() & {"face_shear", "face_diagonal_shear"}:
         shear = shear + sum(of_faces(springs, sides**2))
     return Moduli(
@@ -152,6 +138,13 @@ def of_springs(springs: Springs | SpringSet, spacing: tuple[float, float, float]
     one = springs if isinstance(springs, Springs) else Springs.read(springs)
     found = of_cells(replace(one, layer_distance=spacing[2]), np.array([[spacing[:2]]]), layers)
     return Moduli(found.membrane[0, 0], found.bending[0, 0], found.shear[0, 0])
+
+
+def _of_links(form: np.ndarray) -> np.ndarray:
+    """The form (…, 3, 3) over (x, y, xy) of links with this one over (x, y, z)."""
+    found = np.zeros_like(form)
+    found[..., :2, :2], found[..., 2, 2] = form[..., :2, :2], form[..., 0, 1]
+    return found
 
 
 def _in_plane(springs: Springs, cells: str) -> np.ndarray:

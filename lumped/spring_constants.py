@@ -21,6 +21,7 @@ import numpy as np
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
 from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.quantities import LARGEST
 from sheetbench.scenes.springs import DamperSet, Either
 
 EDGES_OWN = (
@@ -56,6 +57,7 @@ STRAINS = {  # name and direction of what resists ε1, ε2 and γ and couples ε
 }
 COUPLINGS = tuple(name for cells in ("area", "mid_area") for name, _ in STRAINS[cells][3:])
 SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *EDGES_OWN, *RIMS_OWN)
+REQUIRED = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
 NONE = np.zeros((1, 1, 1))
 
 
@@ -90,23 +92,24 @@ class Springs:
         return cls(of, edges, float(getattr(table, "layer_distance", 0.0)))
 
     def table(self) -> SpringSet:
-        """As the table that is written."""
-        written: dict[str, Any] = dict.fromkeys(
-            ("axial", "diagonal", "vertical", "cross", "cross_diagonal"), 0.0
+        """As the table that is written. Raises SceneError for what it cannot hold."""
+        known = all(
+            np.abs(array).max() <= LARGEST and (name in SIGNED or array.min() >= 0.0)
+            for name, array in self.of.items()
         )
+        pair, whole = (PerDirection.model_construct, SpringSet.model_construct) if known else (PerDirection, SpringSet)
+        written: dict[str, Any] = dict.fromkeys(REQUIRED, 0.0)
         for name, array in self.of.items():
             parts = [_written(part) if part.any() else 0.0 for part in array]
-            written[name] = (
-                PerDirection(**dict(zip("xyz", parts, strict=False))) if len(parts) > 1 else parts[0]
-            )
-        for name, pair in self.edges.items():
-            lists = len(pair) > 1 and self.varies
+            written[name] = pair(**dict(zip("xyz", parts, strict=False))) if len(parts) > 1 else parts[0]
+        for name, edges in self.edges.items():
+            lists = len(edges) > 1 and self.varies
             ends = [
                 tuple(part.tolist()) if lists and part.size == cells else float(part[0])
-                for part, cells in zip(pair, self.along_edges, strict=False)
+                for part, cells in zip(edges, self.along_edges, strict=False)
             ]
-            written[name] = Either(x=ends[0], y=ends[1]) if len(ends) > 1 else ends[0]
-        return SpringSet(**written, layer_distance=self.layer_distance)
+            written[name] = Either.model_construct(x=ends[0], y=ends[1]) if len(ends) > 1 else ends[0]
+        return whole(**written, layer_distance=self.layer_distance)
 
     def __getitem__(self, name: str) -> np.ndarray:
         return self.of.get(name, NONE)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from lumped import sections
+from lumped import moduli, sections
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.closed_form import NoClosedForm, springs_of_cells
@@ -67,6 +67,7 @@ def consistent(
             ) from None
         springs = Springs.read(fit_moduli(sheet, material, grid, layer_distance).springs)
     notes: list[str] = []
+    whole = moduli.of_cells(springs, each.sides, grid[2])
     if method != "consistent-interior":
-        springs, notes = with_twist(each, springs)
-    return replace(report(method, each, springs, notes), of_material=of_material)
+        springs, notes = with_twist(each, springs, whole)
+    return replace(report(method, each, springs, notes, whole), of_material=of_material)

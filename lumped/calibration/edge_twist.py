@@ -43,6 +43,7 @@ from lumped import moduli, sections
 from lumped.calibration.cell_by_cell import EachCell
 from lumped.grid_lines import Lines
 from lumped.spring_constants import Springs, either, of_faces
+from sheetbench.numerics.kept import kept
 
 AT_CORNERS = 0.55  # f is at least this where two reductions may add, 1 − 2 (1 − f) > 0
 MOST = 3.0  # f is sought up to this, and from where the cell's own twisting stiffness is positive
@@ -91,7 +92,8 @@ def with_edges(
 
 def _alike(lines: Lines) -> bool:
     """Whether a side's cells are the same from either end."""
-    return np.allclose(lines.widths, lines.widths[::-1], rtol=1e-9)
+    widths = lines.widths
+    return bool(np.all(np.abs(widths - widths[::-1]) <= 1e-9 * widths))
 
 
 def _of_edges(
@@ -119,6 +121,7 @@ def _of_edges(
             if both and not _alike(across):  # with their mirror image behind them
                 rows = [np.concatenate([row, row[:, ::-1]], axis=1) for row in rows]
             factor = edge_factors(*rows, lost[:, 0], both)
+            factor = factor.copy()
             if np.isnan(factor).any():
                 edge = f"{'xy'[axis]}{int(far)}"
                 notes.append(f"no twisting stiffness of the cells along {edge} makes their edge right")
@@ -139,6 +142,7 @@ def diagonals_share(each: EachCell, springs: Springs) -> np.ndarray:
     return np.divide(diagonals, whole, out=np.zeros_like(whole), where=whole != 0.0)
 
 
+@kept(last=32, most=1 << 14)  # strips along x and along y of a square sheet are one
 def edge_factors(
     width: np.ndarray,
     twisting: np.ndarray,

@@ -21,32 +21,38 @@ ALIKE = 1e-9
 LAYERS = ("area", "mid_area")  # whose cells have couplings
 
 
-def report(method: str, each: EachCell, springs: Springs, more: Sequence[str] = ()) -> Calibration:
+def report(
+    method: str,
+    each: EachCell,
+    springs: Springs,
+    more: Sequence[str] = (),
+    whole: moduli.Moduli | None = None,
+) -> Calibration:
     """The calibration with its moduli report, and notes on what it misses and why, and more. Of unequal cells
-    each modulus is reported of the cell that misses it most, of those that miss it alike the stiffest.
+    each modulus is reported of the cell that misses it most, of those that miss it alike the stiffest. whole:
+    the moduli of the springs, where they are known.
 
     Raises BadInput where area springs leave a cell without positive energy.
     """
     sides, section = each.present()
-    asked, whole = moduli.of_section(section, sides), moduli.of_cells(springs, each.sides, each.grid[2])
+    asked = moduli.of_section(section, sides)
+    whole = moduli.of_cells(springs, each.sides, each.grid[2]) if whole is None else whole
     there = np.broadcast_to(each.there, whole.shear.shape[:2])
     got = moduli.Moduli(whole.membrane[there], whole.bending[there], whole.shear[there])
-    rigidity = asked.bending[:, 0, 0]
-    square = np.all(np.abs(np.diff(sides)[:, 0]) < ALIKE * sides[:, 0])
-    square &= np.all(np.abs(rigidity - asked.bending[:, 1, 1]) < ALIKE * rigidity)
-    oblique = bool(asked.oblique.any())
-    got_named, shear = got.named(bool(square), oblique), section.shear
+    rigidity, other = asked.bending[:, 0, 0], asked.bending[:, 1, 1]
+    square = np.abs(sides[:, 0] - sides[:, 1]) < ALIKE * sides[:, 0]
+    named = bool(np.all(square & (np.abs(rigidity - other) < ALIKE * rigidity))), bool(asked.oblique.any())
+    names = asked.named(*named)
+    targets, found = (np.stack([*of.named(*named).values()]) for of in (asked, got))
+    likes = np.stack([names[_like(name)] for name in names])
+    misses = (found - targets) / np.where(targets == 0.0, np.abs(likes), targets)
+    off_most = np.abs(misses) >= np.abs(misses).max(axis=1, keepdims=True) - ALIKE
     rows: dict[str, dict[str, Any]] = {}
-    targets = asked.named(bool(square), oblique)
-    for name, target in targets.items():
-        scale = np.where(target == 0.0, np.abs(targets[_like(name)]), target)
-        miss = (got_named[name] - target) / scale
-        most = np.abs(miss) >= np.abs(miss).max() - ALIKE
-        at = int(np.argmax(np.where(most, rigidity, 0.0)))
-        rows[name] = {"name": name, "asked": float(target[at])}
-        rows[name] |= {"got": float(got_named[name][at]), "miss": float(miss[at])}
+    for row, (name, at) in enumerate(zip(names, np.where(off_most, rigidity, 0.0).argmax(axis=1), strict=True)):
+        asked_got_miss = (float(values[row, at]) for values in (targets, found, misses))
+        rows[name] = {"name": name, **dict(zip(("asked", "got", "miss"), asked_got_miss, strict=True))}
         if name.startswith("S"):
-            rows[name]["kappa_G_h"] = float(shear[at, int(name == "Sy")])
+            rows[name]["kappa_G_h"] = float(section.shear[at, int(name == "Sy")])
     areas = [springs["area"], springs["mid_area"]]
     if min(map(np.min, areas)) < 0.0 or any(
         k in springs.of for cells in LAYERS for k, _ in STRAINS[cells][3:]

@@ -27,9 +27,9 @@ from lumped.spring_constants import EDGES_OWN, RIMS_OWN, Springs, along_edge, ei
 ALIKE = 1e-9  # shares of cells that one straight line cuts
 
 
-def with_twist(each: EachCell, springs: Springs) -> tuple[Springs, list[str]]:
-    """The springs with the twist of their edges, and of rims where cells are absent or cut, and notes."""
-    whole = moduli.of_cells(springs, each.sides, each.grid[2])
+def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[Springs, list[str]]:
+    """The springs with the twist of their edges, and of rims where cells are absent or cut, and notes; whole:
+    the moduli of the springs."""
     twist = twist_of(each, springs, whole)
     if each.there.all() and (each.cells is None or each.cells.rims is None):
         edges, notes = with_edges(each, springs, twist)

@@ -87,8 +87,9 @@ def hyperelastic(
         face_shear=by_direction(*each.placed(faces)),
         face_diagonal_shear=each.placed(diagonal),
     )
-    springs, notes = with_twist(each, springs)
-    return report(method, each, springs, notes)
+    whole = moduli.of_cells(springs, each.sides, layers)
+    springs, notes = with_twist(each, springs, whole)
+    return report(method, each, springs, notes, whole)
 
 
 def _require_one_thickness(cells: Section | None) -> None:

@@ -56,26 +56,22 @@ class Moduli:
 
     def named(self, square: bool, oblique: bool = False) -> dict[str, np.ndarray]:
         """The moduli by name, (…) each; on square cells the x and y values are one."""
-        a, d = (np.moveaxis(form, (-2, -1), (0, 1)) for form in (self.membrane, self.bending))
-        s = np.moveaxis(self.shear, -1, 0)
+        a, d, s = self.membrane, self.bending, self.shear
+        forms = {"D": d, "A": a}
+        places = {"11": (0, 0), "12": (0, 1), "66": (2, 2)}
         names = {
-            "D11": d[0, 0],
-            "D12": d[0, 1],
-            "D66": d[2, 2],
-            "A11": a[0, 0],
-            "A12": a[0, 1],
-            "A66": a[2, 2],
+            f"{kind}{ij}": form[..., i, j] for kind, form in forms.items() for ij, (i, j) in places.items()
         }
         if oblique:
-            names |= {"D16": d[0, 2], "D26": d[1, 2], "A16": a[0, 2], "A26": a[1, 2]}
+            names |= {"D16": d[..., 0, 2], "D26": d[..., 1, 2], "A16": a[..., 0, 2], "A26": a[..., 1, 2]}
         if square:
-            return {**names, "S": s[0]}
-        return {**names, "D22": d[1, 1], "A22": a[1, 1], "Sx": s[0], "Sy": s[1]}
+            return {**names, "S": s[..., 0]}
+        return {**names, "D22": d[..., 1, 1], "A22": a[..., 1, 1], "Sx": s[..., 0], "Sy": s[..., 1]}
 
 
 def gap_shear_per_stiffness(sides: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Shear stiffness of one gap along x and y, per unit stiffness of the cross links that run so, (…, 2), and of
-    the furthest diagonals, (…, 2) [1]; of cells of these sides (…, 2) [m]."""
+    """Shear stiffness of one gap along x and y, per unit stiffness of the cross links that run so, (…, 2),
+    and of the furthest diagonals, (…, 2) [1]; of cells of these sides (…, 2) [m]."""
     squares, upright, area = sides**2, distance**2, sides.prod(axis=-1)[..., None]
     sheared = 2.0 * squares * upright / area
     return sheared / (squares + upright), 2.0 * sheared / (squares.sum(axis=-1)[..., None] + upright)

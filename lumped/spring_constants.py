@@ -1,9 +1,9 @@
 """The constants of a spring or damper set as arrays: what is computed with, beside the table that is written.
 
-`Springs.read` makes arrays of a table (`sheetbench.scenes.springs`), `table` a table of them. A constant has the
-shape (directions, rows, columns): one direction, or x and y, of Habibi et al.'s per-direction law x, y and z;
-one row and column where all cells are alike, else rows of cells from y0 to y1, each from x0 to x1. Those of edges
-have an array along x0 and one along y0, or one number for both.
+`Springs.read` makes arrays of a table (`sheetbench.scenes.springs`), `table` a table of them. A constant has
+the shape (directions, rows, columns): one direction, or x and y, of Habibi et al.'s per-direction law x, y
+and z; one row and column where all cells are alike, else rows of cells from y0 to y1, each from x0 to x1.
+Those of edges have an array along x0 and one along y0, or one number for both.
 
 By name a constant that every cell has its own of goes by its mean over the cells. Given another mean, all its
 values scale; those that may have either sign shift.
@@ -48,23 +48,27 @@ RUBBER_CONSTANTS = (
     "yeoh_cube",
     "gent_limit",
 )
+COUPLINGS = ("coupling_xy", "coupling_x", "coupling_y")
 STRAINS = {  # name and direction of what resists ε1, ε2 and γ and couples ε1 ε2, ε1 γ and ε2 γ
-    "area": (("stretch", 0), ("stretch", 1), ("shear", 0))
-    + (("coupling_xy", 0), ("coupling_x", 0), ("coupling_y", 0)),
-    "mid_area": (("mid_stretch", 0), ("mid_stretch", 1), ("mid_shear", 0))
-    + (("mid_coupling_xy", 0), ("mid_coupling_x", 0), ("mid_coupling_y", 0)),
+    cells: tuple(
+        (f"{middle}{name}", axis)
+        for name, axis in (("stretch", 0), ("stretch", 1), ("shear", 0), *((k, 0) for k in COUPLINGS))
+    )
+    for cells, middle in (("area", ""), ("mid_area", "mid_"))
+} | {
     "rims": tuple((name, 0) for name in RIMS_OWN),
 }
-COUPLINGS = tuple(name for cells in ("area", "mid_area") for name, _ in STRAINS[cells][3:])
-SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *EDGES_OWN, *RIMS_OWN)
+MID_COUPLINGS = tuple(f"mid_{name}" for name in COUPLINGS)
+SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN, *RIMS_OWN)
+ANY_SIGN = (*SIGNED, "mooney_rivlin", "yeoh_square")
 REQUIRED = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
 NONE = np.zeros((1, 1, 1))
 
 
 @dataclass(frozen=True, eq=False)
 class Springs:
-    """of: the constants [N/m] that are not all 0, (directions, rows, columns); edges: those of edges, along x0
-    (rows,) and along y0 (columns,), or one for both (1,); layer_distance [m], 0 of dampers."""
+    """of: the constants [N/m] that are not all 0, (directions, rows, columns); edges: those of edges, along
+    x0 (rows,) and along y0 (columns,), or one for both (1,); layer_distance [m], 0 of dampers."""
 
     of: dict[str, np.ndarray]
     edges: dict[str, tuple[np.ndarray, ...]]
@@ -93,14 +97,15 @@ class Springs:
 
     def table(self) -> SpringSet:
         """As the table that is written. Raises SceneError for what it cannot hold."""
-        known = all(
-            np.abs(array).max() <= LARGEST and (name in SIGNED or array.min() >= 0.0)
-            for name, array in self.of.items()
+        every = np.concatenate([NONE[0, 0], *(array.ravel() for array in self.of.values())])
+        links = [array.ravel() for name, array in self.of.items() if name not in ANY_SIGN]
+        known = np.abs(every).max() <= LARGEST and np.concatenate([NONE[0, 0], *links]).min() >= 0.0
+        pair, whole = (
+            (PerDirection.model_construct, SpringSet.model_construct) if known else (PerDirection, SpringSet)
         )
-        pair, whole = (PerDirection.model_construct, SpringSet.model_construct) if known else (PerDirection, SpringSet)
         written: dict[str, Any] = dict.fromkeys(REQUIRED, 0.0)
         for name, array in self.of.items():
-            parts = [_written(part) if part.any() else 0.0 for part in array]
+            parts = [_written(part) for part in array]
             written[name] = pair(**dict(zip("xyz", parts, strict=False))) if len(parts) > 1 else parts[0]
         for name, edges in self.edges.items():
             lists = len(edges) > 1 and self.varies
@@ -143,7 +148,8 @@ class Springs:
     @cached_property
     def shape(self) -> tuple[int, int]:
         """Rows and columns of cells that differ, 1 and 1 where they are alike."""
-        return np.broadcast_shapes((1, 1), *(array.shape[1:] for array in self.of.values()))  # type: ignore[return-value]
+        rows, columns = np.broadcast_shapes((1, 1), *(array.shape[1:] for array in self.of.values()))
+        return rows, columns
 
     @property
     def along_edges(self) -> tuple[int, ...]:
@@ -233,12 +239,14 @@ def _parts(value: Any) -> Iterator[tuple[str, Any]]:
 
 def _written(cells: np.ndarray) -> Any:
     """A number, or rows of them."""
-    return float(cells[0, 0]) if cells.size == 1 else tuple(map(tuple, cells.tolist()))
+    if cells.size == 1 or not cells.any():
+        return float(cells[0, 0])
+    return tuple(map(tuple, cells.tolist()))
 
 
 def by_direction(x: Any, y: Any, alike: float = 1e-12) -> np.ndarray:
-    """Stiffness along x and y, numbers or (rows, columns), (directions, rows, columns): one direction where they
-    are alike; what rounding put below zero is zero."""
+    """Stiffness along x and y, numbers or (rows, columns), (directions, rows, columns): one direction where
+    they are alike; what rounding put below zero is zero."""
     x, y = (np.atleast_2d(np.maximum(part, 0.0)) for part in (x, y))
     y = np.where(np.abs(x - y) <= alike * np.maximum(x, y), x, y)
     return x[None] if (x == y).all() else np.stack([x, y])
@@ -260,9 +268,9 @@ def of_rubber(
     chosen: Callable[[np.ndarray], np.ndarray],
 ) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (c, 4) [N/m] of the small strains of a layer's plan cells that are rubber membranes, less
-    that of their axial links, and what else `lumped.springs.laws` takes of them (c, 9). squares: of the sides,
-    (c, 2) [m²]; area (c,) [m²]; twist: [N/m] that edges and rims add to their shear, (c,); chosen: gives of a
-    constant (rows, columns) that of these cells, (c,)."""
+    that of their axial links, and what else `lumped.springs.laws` takes of them (c, 9). squares: of the
+    sides, (c, 2) [m²]; area (c,) [m²]; twist: [N/m] that edges and rims add to their shear, (c,); chosen:
+    gives of a constant (rows, columns) that of these cells, (c,)."""
     shear, volume, c01, c20, c30, limit = (chosen(springs.along(name, 0)) for name in RUBBER_CONSTANTS)
     c10 = 0.5 * shear
     stiffening = 2.0 * c20 + np.divide(c10, limit, out=np.zeros_like(limit), where=limit > 0.0)
@@ -277,15 +285,16 @@ def of_rubber(
 
 def of_faces(springs: Springs, squares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """What the upright faces of cells add to the shear stiffness of a gap along x and y [N/m]: those on their
-    sides, those over their diagonals, (rows, columns, 2) each. squares: of the sides (lx, ly) [m²], the same."""
+    sides, those over their diagonals, (rows, columns, 2) each. squares: of the sides (lx, ly) [m²], the
+    same."""
     beside = np.stack([springs.along("face_shear", axis) for axis in (0, 1)], axis=-1)
     over = springs.along("face_diagonal_shear", 0)[..., None]
     return beside, 2.0 * over * squares / squares.sum(axis=-1, keepdims=True)
 
 
 def rank_one(stiffness: Any, *strain: Any) -> np.ndarray:
-    """The strain springs and couplings (…, 6) [N/m], as `Springs.strains` has them, of energy ½ k (s·ε)² a0: k
-    the stiffness (…) [N/m], s what each of ε1, ε2 and γ counts (…)."""
+    """The strain springs and couplings (…, 6) [N/m], as `Springs.strains` has them, of energy ½ k (s·ε)² a0:
+    k the stiffness (…) [N/m], s what each of ε1, ε2 and γ counts (…)."""
     x, y, shear = strain
     products = np.broadcast_arrays(x * x, y * y, shear * shear, x * y, x * shear, y * shear)
     return np.asarray(np.asarray(stiffness)[..., None] * np.stack(products, axis=-1))

@@ -1,9 +1,8 @@
 """The cells of a grid, all at once: their sides and sections, or one where all are alike.
 
-Springs of cells that differ, in size or by a table, are each as if all were like it, with one layer distance: the
-largest that any cell asks for. What a cell that asks for less is then missing in its membrane, its layers being
-softer, is the mid-surface's (`lumped.calibration.closed_form`).
-"""
+Springs of cells that differ, in size or by a table, are each as if all were like it, with one layer distance:
+the largest that any cell asks for. What a cell that asks for less is then missing in its membrane, its layers
+being softer, is the mid-surface's (`lumped.calibration.closed_form`)."""
 
 from __future__ import annotations
 
@@ -37,6 +36,11 @@ class EachCell(NamedTuple):
 
     def present(self) -> tuple[np.ndarray, Section]:
         """Sides and section of the cells that there are, (m, 2) and (m, …)."""
+        if self.there.all():
+            count = self.there.size
+            return self.sides.reshape(-1, 2), self.section.each(
+                lambda part: part.reshape(count, *part.shape[2:])
+            )
         return self.sides[self.there], self.section.each(lambda part: part[self.there])
 
     def placed(self, values: np.ndarray) -> np.ndarray:
@@ -46,8 +50,8 @@ class EachCell(NamedTuple):
         return found
 
     def share(self) -> np.ndarray:
-        """How many times as stiff a cell is as the stiffest that is like it but for a factor, (rows, columns),
-        0 where there is none."""
+        """How many times as stiff a cell is as the stiffest that is like it but for a factor, (rows,
+        columns), 0 where there is none."""
         sides, section = self.present()
         scale = section.bending[:, 0, 0]
         stiffness = (section.membrane, section.bending, section.shear)
@@ -61,15 +65,17 @@ class EachCell(NamedTuple):
 def each_cell(
     sheet: Sheet, material: Material, grid: Grid, grading: Graded = 0.0, cells: Section | None = None
 ) -> EachCell:
-    """Return the cells. cells: the sections of all, where they differ. Raises BadInput for a grading outside 0
-    to 1."""
+    """Return the cells. cells: the sections of all, where they differ. Raises BadInput for a grading outside
+    0 to 1."""
     lines, section = grid_lines(sheet, grid, grading), cells
     even = not grading and cells is None
     shape = (1, 1) if even else (grid[1] - 1, grid[0] - 1)
     widths = [[across.mean] if even else across.widths for across in lines]
     if section is None:
         plain = Section.of(Constants.of(sheet, material))
-        section = plain.each(lambda part: np.broadcast_to(part, (*shape, *part.shape)))
+        section = plain.each(
+            lambda part: part[None, None] if even else np.broadcast_to(part, (*shape, *part.shape))
+        )
     sides = np.stack(np.meshgrid(*widths), axis=-1)
     return EachCell(grid, grading, lines, cells, sides, section, section.bending[..., 0, 0] > 0.0)
 

@@ -99,11 +99,12 @@ def closed_form(
     gradients: bool = False,
     waves: bool = False,
 ) -> Closed:
-    """The springs that have the requested moduli (m, …), of cells of these sides (m, 2) [m]. There are none where
-    a link would be negative (many layers on coarse grids: there the cross-layer links alone bend too stiffly),
-    and where a layer distance [m] that is given is less than the cell needs. gradients: whether layers are so
-    far apart that strains in the plane that vary across a cell cost what they cost the sheet; waves: whether
-    oblique waves of bending are right in l², of oblong cells as if they were squares of the same area."""
+    """The springs that have the requested moduli (m, …), of cells of these sides (m, 2) [m]. There are none
+    where a link would be negative (many layers on coarse grids: there the cross-layer links alone bend too
+    stiffly), and where a layer distance [m] that is given is less than the cell needs. gradients: whether
+    layers are so far apart that strains in the plane that vary across a cell cost what they cost the sheet;
+    waves: whether oblique waves of bending are right in l², of oblong cells as if they were squares of the
+    same area."""
     lx, ly = sides.T
     sigma, sigma_gap = second_moment(layers), second_moment(layers - 1)
     squares, membrane, bending = sides**2, target.membrane, target.bending
@@ -120,6 +121,13 @@ def closed_form(
     gap_form[:, 0, 1] = gap_form[:, 1, 0] = gap_form[:, 2, 2] = p
     along = gap - p[:, None] * ratios
 
+    stretching, shearing, oblique = (
+        bending[:, 0, 0] - bending[:, 0, 1],
+        2.0 * bending[:, 2, 2],
+        target.oblique,
+    )
+    unlike = np.abs(stretching - shearing) > 1e-9 * np.maximum(np.abs(stretching), np.abs(shearing))
+
     given = layer_distance is not None
     lz2 = np.full(len(p), layer_distance**2 if layer_distance is not None else 0.0)
     open_ = np.ones(len(p), dtype=bool)
@@ -129,7 +137,7 @@ def closed_form(
         lattice = layers * layer + (layers - 1) * relaxed
         by_diagonals = _by_diagonals(layer, ratios)
         axial = _own(layer) - (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2] * (1.0 - ratios).T).T
-        axial, fibres = _beside_fibres(target, layer, axial)
+        axial, fibres = _beside_fibres(oblique, unlike, layer, axial)
         needed = (_own(lattice) - lattice[:, 0, 1, None]) / (_own(membrane) - membrane[:, 0, 1, None])
         needed = np.maximum(needed.max(axis=1), lattice[:, 2, 2] / membrane[:, 2, 2])
         if fibres.any():
@@ -190,26 +198,26 @@ def _largest(form: np.ndarray, by: np.ndarray) -> np.ndarray:
     return np.asarray(np.linalg.eigvalsh(inverse @ form @ np.swapaxes(inverse, 1, 2))[:, -1])
 
 
-def _beside_fibres(target: Moduli, layer: np.ndarray, axial: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """What of a layer's 11 and 22 its axial links have, (m, 2), and whether its cells need couplings, (m,): at an
-    angle to the fibres, and where area springs would leave the links along the sides, of a sheet that is not
-    isotropic, less than the third of E h of `gradients`. Such links have that third."""
-    stretching = target.bending[:, 0, 0] - target.bending[:, 0, 1]
-    shearing = 2.0 * target.bending[:, 2, 2]
-    alike = np.abs(stretching - shearing) <= 1e-9 * np.maximum(np.abs(stretching), np.abs(shearing))
-    maybe = target.oblique | ~alike
+def _beside_fibres(
+    oblique: np.ndarray, unlike: np.ndarray, layer: np.ndarray, axial: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """What of a layer's 11 and 22 its axial links have, (m, 2), and whether its cells need couplings, (m,):
+    at an angle to the fibres (`oblique`), and where area springs would leave the links along the sides, of a
+    sheet that is not isotropic (`unlike`), less than the third of E h of `gradients`. Such links have that
+    third."""
+    maybe = oblique | unlike
     if not maybe.any():
         return axial, maybe
-    maybe &= target.oblique | (np.linalg.eigvalsh(layer)[:, 0] > 0.0)
+    maybe &= oblique | (np.linalg.eigvalsh(layer)[:, 0] > 0.0)
     third = np.zeros_like(axial)
     third[maybe] = 1.0 / (3.0 * _own(np.linalg.inv(layer[maybe])))
-    fibres = maybe & (target.oblique | (axial < third).any(axis=1))
+    fibres = maybe & (oblique | (axial < third).any(axis=1))
     return np.where(fibres[:, None], third, axial), fibres
 
 
 def diagonals_for_waves(target: Moduli, area: np.ndarray, bracket: np.ndarray) -> np.ndarray:
-    """The diagonals' share d of the shear for waves (m,), of cells of that area [m²]: the bracket, 5 + 3 ν here,
-    is what is too small without diagonals."""
+    """The diagonals' share d of the shear for waves (m,), of cells of that area [m²]: the bracket, 5 + 3 ν
+    here, is what is too small without diagonals."""
     rigidity = target.bending[:, 0, 0]
     stiffening = 12.0 * rigidity / (np.sqrt(target.shear.prod(axis=1)) * area)  # 1 + t
     linear = 12.0 * stiffening + 9.0
@@ -240,8 +248,8 @@ def vertical(target: Moduli, sides: np.ndarray, lz2: float) -> np.ndarray:
 def _relaxation(
     gap: np.ndarray, along: np.ndarray, p: np.ndarray, sides: np.ndarray, lz2: np.ndarray, upright: np.ndarray
 ) -> np.ndarray:
-    """δ lz² (m, 3, 3): what a gap's thickness, free to change, takes off its in-plane form; along: what of it is
-    the cross links'; upright: kz lz²."""
+    """δ lz² (m, 3, 3): what a gap's thickness, free to change, takes off its in-plane form; along: what of it
+    is the cross links'; upright: kz lz²."""
     area = sides.prod(axis=1)
     coupling = gap / sides**2  # the gap's S along x, y [N/m]
     thickness = upright / area + ((along / sides**4).sum(axis=1) + p / area**2) * lz2

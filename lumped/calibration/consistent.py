@@ -19,15 +19,31 @@ from lumped.lattice import Grid
 from lumped.sections import Section
 from lumped.spring_constants import Springs
 from sheetbench.errors import BadInput
+from sheetbench.numerics.kept import kept
 from sheetbench.scenes import Cells, Material, Sheet
 from sheetbench.scenes.grading import Graded
 
 
+def _tables(
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    *_: object,
+    grading: Graded = 0.0,
+    cells: object = None,
+    **__: object,
+) -> float:
+    """Whether cells have springs of their own."""
+    return float(bool(grading) or cells is not None or material.kind == "orthotropic")
+
+
+@kept(last=16, most=0, size=_tables)
 def consistent(
     sheet: Sheet,
     material: Material,
     grid: Grid,
     layer_distance: float | None = None,
+    *,
     grading: Graded = 0.0,
     cells: Cells | Section | None = None,
     method: str = "consistent",

@@ -55,8 +55,8 @@ def layer_width(thickness: float) -> float:
 
 
 class Twist(NamedTuple):
-    """Of cells at edges normal to x and to y, (rows, columns, 2): D̃66 [N·m], S along the edge [N/m], the share of
-    it in the furthest diagonals, r, and the width λ that a plate loses there [m]."""
+    """Of cells at edges normal to x and to y, (rows, columns, 2): D̃66 [N·m], S along the edge [N/m], the
+    share of it in the furthest diagonals, r, and the width λ that a plate loses there [m]."""
 
     twisting: np.ndarray
     shear: np.ndarray
@@ -99,8 +99,8 @@ def _alike(lines: Lines) -> bool:
 def _of_edges(
     each: EachCell, springs: Springs, twist: Twist, far: bool, notes: list[str]
 ) -> dict[str, tuple[np.ndarray, ...]]:
-    """Constants of x0 and y0 by name, or of x1 and y1 (`far`); adds to the notes. Cells with sections of their
-    own are each taken as if all across the sheet were like it."""
+    """Constants of x0 and y0 by name, or of x1 and y1 (`far`); adds to the notes. Cells with sections of
+    their own are each taken as if all across the sheet were like it."""
     square = moduli.second_moment(each.grid[2]) * springs.layer_distance**2
     unequal = springs.varies
     found: dict[str, list[np.ndarray]] = {"edge_shear": [], "strip_shear": [], "edge_coupling": []}
@@ -114,13 +114,12 @@ def _of_edges(
         twisting, shear, shares, stretch, lost = strips
         found["edge_coupling"].append(stretch[:, 0])
         for both, name in ((False, "edge_shear"), (True, "strip_shear")):
-            rows = [
-                np.broadcast_to(part, (len(twisting), len(widths)))
-                for part in (widths, twisting, shear, shares)
-            ]
+            rows = [widths[None], twisting, shear, shares]
             if both and not _alike(across):  # with their mirror image behind them
-                rows = [np.concatenate([row, row[:, ::-1]], axis=1) for row in rows]
-            factor = edge_factors(*rows, lost[:, 0], both)
+                rows = [
+                    row if row.shape[1] == 1 < len(widths) else np.hstack([row, row[:, ::-1]]) for row in rows
+                ]
+            factor = edge_factors(rows[0], rows[1], rows[2], rows[3], lost[:, 0], both)
             factor = factor.copy()
             if np.isnan(factor).any():
                 edge = f"{'xy'[axis]}{int(far)}"
@@ -151,13 +150,13 @@ def edge_factors(
     lost: np.ndarray,
     both: bool,
 ) -> np.ndarray:
-    """f of the cells along one edge of strips, or along both, (m,); NaN where no factor makes the strip lose that
-    width.
+    """f of the cells along one edge of strips, or along both, (m,); NaN where no factor makes the strip lose
+    that width.
 
-    Of each cell across the strips, (m, n): width [m]; twisting: D66 [N·m]; shear: S along the edge [N/m];
-    by_diagonals: the share of it in the cells' diagonals; the same from either edge of strips with both.
-    lost: λ (m,) [m].
-    """
+    Of each cell across the strips, (m, n), or 1 in place of either for all: width [m]; twisting: D66 [N·m];
+    shear: S along the edge [N/m]; by_diagonals: the share of it in the cells' diagonals; the same from either
+    edge of strips with both. lost: λ (m,) [m]."""
+    width, twisting, shear, by_diagonals = np.broadcast_arrays(width, twisting, shear, by_diagonals)
     strips, cells = width.shape
     edges = (0, cells - 1) if both else (0,)
     inside = np.ones(cells)
@@ -193,8 +192,9 @@ def edge_factors(
 
 
 def _solved(own: np.ndarray, beside: np.ndarray, pulls: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of strips with these diagonals and what is beside them (m, k), ψ by pulls (m, k, 2), and whether the strip
-    is held, (m,): beside its twisting stiffness S may be nothing, so that only rounding would hold its rows."""
+    """Of strips with these diagonals and what is beside them (m, k), ψ by pulls (m, k, 2), and whether the
+    strip is held, (m,): beside its twisting stiffness S may be nothing, so that only rounding would hold its
+    rows."""
     held = np.ones(len(own), dtype=bool)
     while True:
         *_, found, failed = dptsv(own.ravel(), beside.ravel()[: max(own.size - 1, 1)], pulls.reshape(-1, 2))

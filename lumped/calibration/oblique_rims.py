@@ -26,8 +26,8 @@ STRIP = 12  # cells across a strip whose far edge is not felt
 def at_oblique_rims(
     rims: ObliqueRims, each: EachCell, twist: Twist, whole: Moduli
 ) -> tuple[np.ndarray, list[str]]:
-    """Return what the layers' cells take times Σ z_k², (rows, columns, 6) [N·m], as `Springs.strains` has it, and
-    notes; whole: moduli of the cells' springs."""
+    """Return what the layers' cells take times Σ z_k², (rows, columns, 6) [N·m], as `Springs.strains` has it,
+    and notes; whole: moduli of the cells' springs."""
     there = each.there[rims.rows, rims.columns]
     rows, columns, part, n = (each_of[there] for each_of in rims)
     at = rows, columns
@@ -40,8 +40,8 @@ def at_oblique_rims(
     )
     share = (t**2 * twist.shares[at][:, ::-1]).sum(axis=1)
     width, lost = np.sqrt(each.sides[at].prod(axis=1)), np.sqrt(twisting / free)
-    strips = (np.repeat(values[:, None], STRIP, axis=1) for values in (width, twisting, shear, share))
-    factor = edge_factors(*strips, lost, False)
+    strips = np.repeat([width, twisting, shear, share], STRIP, axis=1).reshape(4, -1, STRIP)
+    factor = edge_factors(strips[0], strips[1], strips[2], strips[3], lost, False)
     notes = []
     if np.isnan(factor).any():
         notes.append("no twisting stiffness of the cells along an oblique rim makes it right")

@@ -11,14 +11,13 @@ from lumped import moduli
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.cell_by_cell import EachCell
 from lumped.grid_lines import grid_lines
-from lumped.spring_constants import STRAINS, Springs
+from lumped.spring_constants import COUPLINGS, MID_COUPLINGS, Springs
 from sheetbench.answers.table import number
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet, SpringSet
 from sheetbench.scenes.grid import Grid
 
 ALIKE = 1e-9
-LAYERS = ("area", "mid_area")  # whose cells have couplings
 
 
 def report(
@@ -43,20 +42,20 @@ def report(
     square = np.abs(sides[:, 0] - sides[:, 1]) < ALIKE * sides[:, 0]
     named = bool(np.all(square & (np.abs(rigidity - other) < ALIKE * rigidity))), bool(asked.oblique.any())
     names = asked.named(*named)
-    targets, found = (np.stack([*of.named(*named).values()]) for of in (asked, got))
-    likes = np.stack([names[_like(name)] for name in names])
+    targets, found = (np.array([*of.values()]) for of in (names, got.named(*named)))
+    likes = np.array([names[_like(name)] for name in names])
     misses = (found - targets) / np.where(targets == 0.0, np.abs(likes), targets)
     off_most = np.abs(misses) >= np.abs(misses).max(axis=1, keepdims=True) - ALIKE
     rows: dict[str, dict[str, Any]] = {}
-    for row, (name, at) in enumerate(zip(names, np.where(off_most, rigidity, 0.0).argmax(axis=1), strict=True)):
+    for row, (name, at) in enumerate(
+        zip(names, np.where(off_most, rigidity, 0.0).argmax(axis=1), strict=True)
+    ):
         asked_got_miss = (float(values[row, at]) for values in (targets, found, misses))
         rows[name] = {"name": name, **dict(zip(("asked", "got", "miss"), asked_got_miss, strict=True))}
         if name.startswith("S"):
             rows[name]["kappa_G_h"] = float(section.shear[at, int(name == "Sy")])
     areas = [springs["area"], springs["mid_area"]]
-    if min(map(np.min, areas)) < 0.0 or any(
-        k in springs.of for cells in LAYERS for k, _ in STRAINS[cells][3:]
-    ):
+    if min(map(np.min, areas)) < 0.0 or springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}:
         _require_positive(springs, got)
     off = [
         f"{row['name']} by {number(100.0 * row['miss'], '+.1f')} %"

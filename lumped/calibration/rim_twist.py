@@ -97,15 +97,16 @@ def _taken(
     corner: np.ndarray,
     notes: list[str],
 ) -> np.ndarray:
-    """What rims across an axis add to the cells `at` the ends of runs of so many cells, times Σ z_k² [N·m]."""
+    """What rims across an axis add to the cells `at` the ends of runs of so many cells, times Σ z_k²
+    [N·m]."""
     factor = np.ones(len(count))
     width, twisting, shear, shares, lost = (
         part[(*at, axis)] for part in (each.sides, *twist[:3], twist.lost)
     )
     for cells in np.unique(count):
         of = count == cells
-        strips = (np.repeat(part[of, None], cells, axis=1) for part in (width, twisting, shear, shares))
-        factor[of] = edge_factors(*strips, lost[of], both)
+        strips = [np.repeat(part[of, None], cells, axis=1) for part in (width, twisting, shear, shares)]
+        factor[of] = edge_factors(strips[0], strips[1], strips[2], strips[3], lost[of], both)
     if np.isnan(factor).any():
         notes.append("no twisting stiffness of the cells along a rim makes it right")
         factor = np.where(np.isnan(factor), MOST, factor)
@@ -121,8 +122,8 @@ def _beyond(there: np.ndarray, axis: int) -> np.ndarray:
 
 
 def _aligned(share: np.ndarray, axis: int, near_oblique: np.ndarray) -> np.ndarray:
-    """Whether cells are whole, or cut along the rim that crosses an axis as a neighbour along it is, and not near
-    an oblique one, (rows, columns)."""
+    """Whether cells are whole, or cut along the rim that crosses an axis as a neighbour along it is, and not
+    near an oblique one, (rows, columns)."""
     lines = share.T if axis == 0 else share
     around = np.pad(lines, ((0, 0), (1, 1)), constant_values=np.inf)
     alike = (np.abs(around[:, :-2] - lines) < ALIKE) | (np.abs(around[:, 2:] - lines) < ALIKE)

@@ -121,7 +121,7 @@ def fit_static(
         slopes = {name: (found.derivatives[name] / scale).ravel() for name in names}
         return ((found.displacement - target.displacement) / scale).ravel(), slopes
 
-    first = consistent(sheet, material, grid, layer_distance, grading)
+    first = consistent(sheet, material, grid, layer_distance, grading=grading)
     return _fit("fit-static", sheet, material, first, _of_kind("fit-static", targets, StaticTarget), compare)
 
 

@@ -21,68 +21,60 @@ one-point sheared lattice exact for cubic deflections. Stiffness per length: A, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from lumped import spring_constants as constants
 from lumped.lattice import STEPS
 from lumped.sections import ROUNDING, Section
+from lumped.spring_constants import Springs, of_faces, of_rubber
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
+
+# of the links of STEPS: family and direction, how many there are, and whether they span lx, ly and lz
+LINKS = Counter((family, direction, tuple(map(abs, step))) for family, direction, step in STEPS)
+COUNT, SPAN = np.array([*LINKS.values()], dtype=float), np.array([span for *_, span in LINKS], dtype=float)
+LEVEL = int(np.sum(SPAN[:, 2] == 0.0))  # those within a layer, which come first
 
 
 @dataclass(frozen=True)
 class Moduli:
-    """In-plane forms A [N/m] and D [N·m], (3, 3) over (x, y, xy); shear stiffness S (2,) [N/m]."""
+    """In-plane forms A [N/m] and D [N·m], (…, 3, 3) over (x, y, xy); shear stiffness S (…, 2) [N/m]; of cells
+    the dots are (cells,) or (rows, columns)."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
 
     @property
-    def oblique(self) -> bool:
-        """Whether stretching along the sides shears: fibres are at an angle to them."""
-        return any(
-            np.abs(form[:2, 2]).max() > ROUNDING * form[0, 0] for form in (self.membrane, self.bending)
-        )
+    def oblique(self) -> np.ndarray:
+        """Whether stretching along the sides shears, (…): fibres are at an angle to them."""
+        both = ((form, form[..., :2, 2]) for form in (self.membrane, self.bending))
+        found = [np.abs(skew).max(axis=-1) > ROUNDING * form[..., 0, 0] for form, skew in both]
+        return np.asarray(found[0] | found[1])
 
-    def named(self, square: bool) -> dict[str, float]:
-        """The moduli by name; on square cells the x and y values are one."""
-        a, d = self.membrane, self.bending
+    def named(self, square: bool, oblique: bool = False) -> dict[str, np.ndarray]:
+        """The moduli by name, (…) each; on square cells the x and y values are one."""
+        a, d, s = self.membrane, self.bending, self.shear
+        forms = {"D": d, "A": a}
+        places = {"11": (0, 0), "12": (0, 1), "66": (2, 2)}
         names = {
-            "D11": d[0, 0],
-            "D12": d[0, 1],
-            "D66": d[2, 2],
-            "A11": a[0, 0],
-            "A12": a[0, 1],
-            "A66": a[2, 2],
+            f"{kind}{ij}": form[..., i, j] for kind, form in forms.items() for ij, (i, j) in places.items()
         }
-        if self.oblique:
-            names |= {"D16": d[0, 2], "D26": d[1, 2], "A16": a[0, 2], "A26": a[1, 2]}
+        if oblique:
+            names |= {"D16": d[..., 0, 2], "D26": d[..., 1, 2], "A16": a[..., 0, 2], "A26": a[..., 1, 2]}
         if square:
-            return {**names, "S": self.shear[0]}
-        return {**names, "D22": d[1, 1], "A22": a[1, 1], "Sx": self.shear[0], "Sy": self.shear[1]}
+            return {**names, "S": s[..., 0]}
+        return {**names, "D22": d[..., 1, 1], "A22": a[..., 1, 1], "Sx": s[..., 0], "Sy": s[..., 1]}
 
 
-def link_forms(spacing: tuple[float, float, float]) -> dict[tuple[str, str], np.ndarray]:
-    """Energy form per unit stiffness and area of each family and direction: (6, 6) over
-    (ε_x, ε_y, γ_xy, ε_z, γ_x, γ_y), energy density ½ ε·Q ε [1: m/m² · m]."""
-    lx, ly, lz = spacing
-    forms: dict[tuple[str, str], np.ndarray] = {}
-    for family, direction, step in STEPS:
-        dx, dy, dz = step[0] * lx, step[1] * ly, step[2] * lz
-        row = np.array([dx * dx, dy * dy, dx * dy, dz * dz, dx * dz, dy * dz])
-        form = np.outer(row, row) / ((dx * dx + dy * dy + dz * dz) * lx * ly)
-        forms[family, direction] = forms.get((family, direction), np.zeros((6, 6))) + form
-    return forms
-
-
-def gap_shear_per_stiffness(spacing: tuple[float, float, float]) -> tuple[float, float, np.ndarray]:
-    """Shear stiffness of one gap per unit stiffness of cross links along x, along y, and (2,) of the furthest
-    diagonals along x and y [1]."""
-    forms = link_forms(spacing)
-    diagonals = forms["cross_diagonal", ""]
-    return forms["cross", "x"][4, 4], forms["cross", "y"][5, 5], np.array([diagonals[4, 4], diagonals[5, 5]])
+def gap_shear_per_stiffness(sides: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
+    """Shear stiffness of one gap along x and y, per unit stiffness of the cross links that run so, (…, 2),
+    and of the furthest diagonals, (…, 2) [1]; of cells of these sides (…, 2) [m]."""
+    squares, upright, area = sides**2, distance**2, sides.prod(axis=-1)[..., None]
+    sheared = 2.0 * squares * upright / area
+    return sheared / (squares + upright), 2.0 * sheared / (squares.sum(axis=-1)[..., None] + upright)
 
 
 def shear_gaps(layers: int) -> float:
@@ -95,48 +87,87 @@ def second_moment(layers: int) -> float:
     return layers * (layers**2 - 1) / 12
 
 
-def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: int) -> Moduli:
-    """Moduli of an interior patch of the lattice with these springs, alike in all cells."""
-    layer, gap = np.zeros((6, 6)), np.zeros((6, 6))
-    for (family, direction), form in link_forms(spacing).items():
-        k = np.mean(constants.along(springs, family, direction))
-        if family in ("axial", "diagonal"):
-            layer += k * form
-        else:
-            gap += k * form
-    dilation = np.zeros((3, 3))
-    dilation[:2, :2] = 1.0
-    in_layer = layer[:3, :3] + springs.area * dilation
-    in_layer += _of_strains(springs, "area")
+def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
+    """Moduli of interior patches of lattices with the springs of every cell, alike in all of one's cells;
+    sides: of the cells, (rows, columns, 2) [m], or of one where they are alike."""
+    shape = np.broadcast_shapes(sides.shape[:2], springs.shape)
+    square = springs.layer_distance**2
+    squares = np.empty((*shape, len(LINKS), 3))  # of the lengths that links span
+    squares[..., :2], squares[..., 2] = SPAN[:, :2] * sides[..., None, :] ** 2, SPAN[:, 2] * square
+    stiffness = np.zeros(squares.shape[:-1])
+    for number, (family, direction, _) in enumerate(LINKS):
+        if len(k := springs[family]) == 3:  # Habibi et al.'s law has no energy: its mean
+            stiffness[..., number] = k.mean(axis=0)
+        elif family in springs.of:
+            stiffness[..., number] = springs.along(family, int(direction == "y"))
+    stiffness *= COUNT / (squares.sum(axis=-1) * sides.prod(axis=-1)[..., None])
+    turned = np.swapaxes(squares * stiffness[..., None], -1, -2)
+    # over the strains along x, y and z; those of shears are its products
+    layer, gap = (turned[..., of] @ squares[..., of, :] for of in (slice(LEVEL), slice(LEVEL, None)))
+    in_layer = _of_links(layer) + _in_plane(springs, "area")
     if springs.rubber:
-        area = spacing[0] * spacing[1]
-        sides = np.array([[[spacing[0], 0.0, 0.0], [0.0, spacing[1], 0.0]]])
-        ((volume, *strains),), _ = constants.of_rubber(springs, sides, np.array([area]), np.zeros(1))
-        in_layer += volume * dilation + np.diag(strains)
-    mid_surface = springs.mid_area * dilation + _of_strains(springs, "mid_area")
-    in_gap = gap[:3, :3].copy()
-    if gap[3, 3] > 0.0:
-        in_gap -= np.outer(gap[:3, 3], gap[:3, 3]) / gap[3, 3]
+        each = np.broadcast_to(sides, (*shape, 2)).reshape(-1, 2)
+        strains, _ = of_rubber(
+            springs,
+            each**2,
+            each.prod(axis=1),
+            np.zeros(len(each)),
+            lambda values: np.broadcast_to(values, shape).ravel(),
+        )
+        in_layer += _form(strains[:, 1:].reshape(*shape, 3), strains[:, 0].reshape(shape))
+    upright = gap[..., 2, 2, None, None]
+    in_gap = _of_links(gap)
+    relaxed = gap[..., :2, 2, None] * gap[..., None, 2, :2]
+    in_gap[..., :2, :2] -= np.divide(relaxed, upright, out=np.zeros_like(relaxed), where=upright > 0.0)
+    shear = gap[..., :2, 2]
+    if springs.of.keys() & {"face_shear", "face_diagonal_shear"}:
+        shear = shear + sum(of_faces(springs, sides**2))
     return Moduli(
-        membrane=layers * in_layer + (layers - 1) * in_gap + mid_surface,
-        bending=(second_moment(layers) * in_layer + second_moment(layers - 1) * in_gap) * spacing[2] ** 2,
-        shear=shear_gaps(layers) * (np.diag(gap)[4:] + sum(constants.of_faces(springs, spacing[:2]))),
+        membrane=layers * in_layer + (layers - 1) * in_gap + _in_plane(springs, "mid_area"),
+        bending=(second_moment(layers) * in_layer + second_moment(layers - 1) * in_gap) * square,
+        shear=shear_gaps(layers) * shear,
     )
 
 
-def _of_strains(springs: SpringSet, cells: str) -> np.ndarray:
-    """The form (3, 3) of strain springs and couplings."""
-    ((x, y, shear, xy, x_shear, y_shear),) = constants.of_strains(springs, cells)[1]
-    return np.array([[x, xy, x_shear], [xy, y, y_shear], [x_shear, y_shear, shear]])
+def of_springs(springs: Springs | SpringSet, spacing: tuple[float, float, float], layers: int) -> Moduli:
+    """Moduli of an interior patch of the lattice with these springs, alike in all cells."""
+    one = springs if isinstance(springs, Springs) else Springs.read(springs)
+    found = of_cells(replace(one, layer_distance=spacing[2]), np.array([[spacing[:2]]]), layers)
+    return Moduli(found.membrane[0, 0], found.bending[0, 0], found.shear[0, 0])
 
 
-def of_section(section: Section, spacing: tuple[float, float]) -> Moduli:
-    """Moduli of a section, with MacNeal's S* of the in-plane spacing (lx, ly) [m] as the shear stiffness."""
-    shear = [
-        1.0 / (1.0 / section.shear[a] + length**2 / (12.0 * section.bending[a, a]))
-        for a, length in enumerate(spacing)
-    ]
-    return Moduli(section.membrane, section.bending, np.array(shear))
+def _of_links(form: np.ndarray) -> np.ndarray:
+    """The form (…, 3, 3) over (x, y, xy) of links with this one over (x, y, z)."""
+    found = np.zeros_like(form)
+    found[..., :2, :2], found[..., 2, 2] = form[..., :2, :2], form[..., 0, 1]
+    return found
+
+
+def _in_plane(springs: Springs, cells: str) -> np.ndarray:
+    """The form (…, 3, 3) of area springs, strain springs and couplings."""
+    strains = springs.strains(cells)
+    form = _form(strains[..., :3], springs.along(cells, 0))
+    for number, (row, column) in ((3, (0, 1)), (4, (0, 2)), (5, (1, 2))):
+        form[..., row, column] += strains[..., number]
+        form[..., column, row] = form[..., row, column]
+    return form
+
+
+def _form(own: np.ndarray, area: np.ndarray) -> np.ndarray:
+    """The form (…, 3, 3) of strain springs (…, 3) and area springs (…)."""
+    form = np.zeros((*own.shape, 3))
+    form[..., :2, :2] = area[..., None, None]
+    for number in range(3):
+        form[..., number, number] += own[..., number]
+    return form
+
+
+def of_section(section: Section, spacing: Any) -> Moduli:
+    """Moduli of sections, with MacNeal's S* of the in-plane spacings (lx, ly) (…, 2) [m] as the shear
+    stiffness."""
+    own = np.diagonal(section.bending, axis1=-2, axis2=-1)[..., :2]
+    shear = 1.0 / (1.0 / section.shear + np.square(spacing) / (12.0 * own))
+    return Moduli(section.membrane, section.bending, shear)
 
 
 def of_sheet(sheet: Sheet, material: Material, spacing: tuple[float, float]) -> Moduli:

@@ -21,7 +21,6 @@ from typing import Any
 
 import numpy as np
 
-from lumped import spring_constants as constants
 from lumped.calibration import CLOSED, Calibration
 from lumped.mid_surface import MidSurface
 from lumped.sections import sections_of
@@ -110,8 +109,7 @@ def _value(scene: Scene, calibration: Calibration, name: str) -> tuple[float, fl
     if _of_scene(name):
         found = parameter(scene, name)
         return found.value, found.low, found.high
-    constants.changed(calibration.springs, name, 1.0)  # refuses unknown names
-    return constants.value_of(calibration.springs, name), -np.inf, np.inf
+    return calibration.constants.value(name), -np.inf, np.inf
 
 
 def _changed(

@@ -1,14 +1,19 @@
-"""The constants of a spring or damper set by family and direction, and by name.
+"""The constants of a spring or damper set as arrays: what is computed with, beside the table that is written.
 
-A constant that every cell has its own of goes by its mean over the cells. Given another mean, all its values
-scale; those that may have either sign shift. Tables of cells are rows from y0 to y1, each from x0 to x1;
-edge_shear, strip_shear, edge_coupling and those of the far edges have lists along the edges. One number is
-every cell's.
+`Springs.read` makes arrays of a table (`sheetbench.scenes.springs`), `table` a table of them. A constant has
+the shape (directions, rows, columns): one direction, or x and y, of Habibi et al.'s per-direction law x, y
+and z; one row and column where all cells are alike, else rows of cells from y0 to y1, each from x0 to x1.
+Those of edges have an array along x0 and one along y0, or one number for both.
+
+By name a constant that every cell has its own of goes by its mean over the cells. Given another mean, all its
+values scale; those that may have either sign shift.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,6 +21,7 @@ import numpy as np
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
 from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.quantities import LARGEST
 from sheetbench.scenes.springs import DamperSet, Either
 
 EDGES_OWN = (
@@ -26,7 +32,7 @@ EDGES_OWN = (
     "far_strip_shear",
     "far_edge_coupling",
 )
-RIMS_OWN = (  # in the order of `of_strains`
+RIMS_OWN = (  # in the order of `Springs.strains`
     "rim_stretch_x",
     "rim_stretch_y",
     "rim_shear",
@@ -43,255 +49,295 @@ RUBBER_CONSTANTS = (
     "gent_limit",
 )
 COUPLINGS = ("coupling_xy", "coupling_x", "coupling_y")
-MID_COUPLINGS = ("mid_coupling_xy", "mid_coupling_x", "mid_coupling_y")
+STRAINS = {  # name and direction of what resists ε1, ε2 and γ and couples ε1 ε2, ε1 γ and ε2 γ
+    cells: tuple(
+        (f"{middle}{name}", axis)
+        for name, axis in (("stretch", 0), ("stretch", 1), ("shear", 0), *((k, 0) for k in COUPLINGS))
+    )
+    for cells, middle in (("area", ""), ("mid_area", "mid_"))
+} | {
+    "rims": tuple((name, 0) for name in RIMS_OWN),
+}
+MID_COUPLINGS = tuple(f"mid_{name}" for name in COUPLINGS)
 SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN, *RIMS_OWN)
+ANY_SIGN = (*SIGNED, "mooney_rivlin", "yeoh_square")
+REQUIRED = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
+NONE = np.zeros((1, 1, 1))
 
 
-def number(table: SpringSet | DamperSet, family: str, direction: str) -> float | None:
-    """Return what `along` does where that is one number for all components and cells, else None."""
-    value: Any = getattr(table, family)
-    if isinstance(value, PerDirection):
-        if value.z is not None or direction not in ("x", "y"):
-            return None
-        value = value.x if direction == "x" else value.y
-    return None if isinstance(value, tuple) else float(value)
+@dataclass(frozen=True, eq=False)
+class Springs:
+    """of: the constants [N/m] that are not all 0, (directions, rows, columns); edges: those of edges, along
+    x0 (rows,) and along y0 (columns,), or one for both (1,); layer_distance [m], 0 of dampers."""
 
+    of: dict[str, np.ndarray]
+    edges: dict[str, tuple[np.ndarray, ...]]
+    layer_distance: float = 0.0
 
-def along(table: SpringSet | DamperSet, family: str, direction: str) -> np.ndarray:
-    """Stiffness [N/m] (or damping [N·s/m]) of the links of a family that run in a direction, by components x,
-    y, z, (3,): three equal ones but for Habibi et al.'s per-direction law, where the scene gives x, y and z.
-    Where every cell has its own, (cells, 1)."""
-    value: Any = getattr(table, family)
-    if isinstance(value, PerDirection):
-        if value.z is not None:
-            return np.array([value.x, value.y, value.z], dtype=float)
-        if direction not in ("x", "y"):
+    @classmethod
+    def made(cls, layer_distance: float, **constants: Any) -> Springs:
+        """Of numbers, (rows, columns) or (directions, rows, columns)."""
+        arrays = {name: np.asarray(value, dtype=float) for name, value in constants.items()}
+        of = {name: a.reshape((1,) * (3 - a.ndim) + a.shape) for name, a in arrays.items() if a.any()}
+        return cls(of, {}, float(layer_distance))
+
+    @classmethod
+    def read(cls, table: SpringSet | DamperSet) -> Springs:
+        """Of a table."""
+        of: dict[str, np.ndarray] = {}
+        edges: dict[str, tuple[np.ndarray, ...]] = {}
+        for name, value in table:
+            parts = [part for _, part in _parts(value)]
+            if name in EDGES_OWN and parts:
+                edges[name] = tuple(np.atleast_1d(np.array(part, dtype=float)) for part in parts)
+            elif name != "layer_distance" and any(map(np.any, parts)):
+                arrays = [np.atleast_2d(np.array(part, dtype=float)) for part in parts]
+                of[name] = np.stack(np.broadcast_arrays(*arrays))
+        return cls(of, edges, float(getattr(table, "layer_distance", 0.0)))
+
+    def table(self) -> SpringSet:
+        """As the table that is written. Raises SceneError for what it cannot hold."""
+        every = np.concatenate([NONE[0, 0], *(array.ravel() for array in self.of.values())])
+        links = [array.ravel() for name, array in self.of.items() if name not in ANY_SIGN]
+        known = np.abs(every).max() <= LARGEST and np.concatenate([NONE[0, 0], *links]).min() >= 0.0
+        pair, whole = (
+            (PerDirection.model_construct, SpringSet.model_construct) if known else (PerDirection, SpringSet)
+        )
+        written: dict[str, Any] = dict.fromkeys(REQUIRED, 0.0)
+        for name, array in self.of.items():
+            parts = [_written(part) for part in array]
+            written[name] = pair(**dict(zip("xyz", parts, strict=False))) if len(parts) > 1 else parts[0]
+        for name, edges in self.edges.items():
+            lists = len(edges) > 1 and self.varies
+            ends = [
+                tuple(part.tolist()) if lists and part.size == cells else float(part[0])
+                for part, cells in zip(edges, self.along_edges, strict=False)
+            ]
+            written[name] = Either.model_construct(x=ends[0], y=ends[1]) if len(ends) > 1 else ends[0]
+        return whole(**written, layer_distance=self.layer_distance)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.of.get(name, NONE)
+
+    def along(self, name: str, axis: int) -> np.ndarray:
+        """A constant of the springs along x, y or z (0, 1, 2), (rows, columns)."""
+        found = self[name]
+        return np.asarray(found[min(axis, len(found) - 1)])
+
+    def of_links(self, family: str, direction: str) -> np.ndarray:
+        """Stiffness [N/m] (or damping [N·s/m]) of the links of a family that run in a direction, (cells,
+        components): the components x, y and z of Habibi et al.'s law, else one."""
+        found = self[family]
+        if len(found) == 3:
+            return found.reshape(3, -1).T
+        if len(found) == 2 and direction not in ("x", "y"):
             raise BadInput(
                 f"springs.{family} = {{x, y}}: only axial and cross links run along x or y; give one number"
             )
-        value = value.x if direction == "x" else value.y
-    return of_cells(value, 0)[:, None] if isinstance(value, tuple) else np.full(3, float(value))
+        return self.along(family, "xy".find(direction)).reshape(-1, 1)
+
+    def strains(self, cells: str) -> np.ndarray:
+        """Stiffness [N/m] of ε1, ε2 and γ and of what couples ε1 ε2, ε1 γ and ε2 γ, of the strain springs on
+        the cells called "area" (each layer), "mid_area" (the mid-surface) or "rims", (rows, columns, 6)."""
+        found = np.zeros((*self.shape, 6))
+        for number, (name, axis) in enumerate(STRAINS[cells]):
+            if name in self.of:
+                found[..., number] = self.along(name, axis)
+        return found
+
+    @cached_property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of cells that differ, 1 and 1 where they are alike."""
+        rows, columns = np.broadcast_shapes((1, 1), *(array.shape[1:] for array in self.of.values()))
+        return rows, columns
+
+    @property
+    def along_edges(self) -> tuple[int, ...]:
+        """How many cells there are along x0 and along y0, 1 and 1 where they are alike."""
+        lists = [pair for pair in self.edges.values() if len(pair) > 1]
+        return tuple(max([self.shape[k], *(pair[k].size for pair in lists)]) for k in (0, 1))
+
+    @property
+    def varies(self) -> bool:
+        """Whether any constant is given cell by cell."""
+        return self.shape != (1, 1) or any(along.size > 1 for pair in self.edges.values() for along in pair)
+
+    @property
+    def rubber(self) -> bool:
+        """Whether the layers' cells are rubber membranes."""
+        return "neo_hookean_shear" in self.of or "mooney_rivlin" in self.of
+
+    def scaled(self, factor: np.ndarray) -> Springs:
+        """So many times as stiff, (rows, columns); without those of edges."""
+        times = {name: np.ones_like(factor) if name == "gent_limit" else factor for name in self.of}
+        return replace(self, of={name: array * times[name] for name, array in self.of.items()}, edges={})
+
+    def halved(self, axis: int, rows: int, columns: int) -> Springs:
+        """Of the first rows and columns of cells, up to a plane of symmetry across the axis: a free edge
+        opposite it stands for two opposite ones."""
+        edges = {
+            name: tuple(pair[min(k, len(pair) - 1)] for k in (0, 1)) for name, pair in self.edges.items()
+        }
+        strip, edge = (edges.get(f"{name}_shear", (np.zeros(1),) * 2) for name in ("strip", "edge"))
+        edges["edge_shear"] = tuple((strip if k == axis else edge)[k] for k in (0, 1))
+        cut = {name: (pair[0][:rows], pair[1][:columns]) for name, pair in edges.items()}
+        return replace(
+            self,
+            of={name: array[:, :rows, :columns] for name, array in self.of.items()},
+            edges={name: either(*pair) for name, pair in cut.items()},
+        )
+
+    def names(self) -> list[str]:
+        """Names of the constants that are not zero, one a direction where directions differ."""
+        found: list[str] = []
+        for name in SpringSet.model_fields:
+            parts = self.edges.get(name) or [*self.of.get(name, ())]
+            if len(parts) > 1:
+                found += [f"{name}_{axis}" for axis, part in zip("xy", parts, strict=False) if part.any()]
+            elif parts and parts[0].any():
+                found.append(name)
+        return found
+
+    def value(self, name: str) -> float:
+        """The value of one constant (or layer_distance) by name. Raises BadInput for an unknown name."""
+        if name == "layer_distance":
+            return self.layer_distance
+        family, which = self._named(name)
+        return float(np.mean([part.mean() for part in (self.edges.get(family) or self[family])[which]]))
+
+    def changed(self, name: str, value: float) -> Springs:
+        """The springs with one constant (or layer_distance) changed. Raises BadInput for an unknown name."""
+        if name == "layer_distance":
+            return replace(self, layer_distance=value)
+        (family, which), was = self._named(name), self.value(name)
+        if family in EDGES_OWN:
+            pair = [*self.edges.get(family, (np.zeros(1),))]
+            pair[which] = [part + (value - was) for part in pair[which]]
+            return replace(self, edges={**self.edges, family: tuple(pair)})
+        array = self[family].copy()
+        shift = family in SIGNED or was == 0.0
+        array[which] = array[which] + (value - was) if shift else array[which] * (value / was)
+        return replace(self, of={**self.of, family: array})
+
+    def _named(self, name: str) -> tuple[str, slice]:
+        """The constant, and which of its directions are meant."""
+        if name in SpringSet.model_fields:
+            return name, slice(None)
+        family, _, direction = name.rpartition("_")
+        if len(self.edges.get(family) or self[family]) == 1 or direction not in ("x", "y"):
+            raise BadInput(f"parameter {name!r}: unknown, or without a value of its own in these springs")
+        return family, slice(0, 1) if direction == "x" else slice(1, 2)
 
 
-def of_strains(springs: SpringSet, cells: str, count: int = 1) -> tuple[str, np.ndarray]:
-    """Name and stiffness (count, 6) [N/m], of ε1, ε2 and γ and of what couples ε1 ε2, ε1 γ and ε2 γ, of the
-    strain springs on the `count` plan cells called "area" (each layer) or "mid_area" (the mid-surface)."""
-    name, stretch, shear, couplings = "mid_strain", springs.mid_stretch, springs.mid_shear, MID_COUPLINGS
-    if cells == "area":
-        name, stretch, shear, couplings = "strain", springs.stretch, springs.shear, COUPLINGS
-    values = [*along_each(stretch, count), *(of_cells(getattr(springs, own), count) for own in couplings)]
-    return name, np.stack([*values[:2], of_cells(shear, count), *values[2:]], axis=1)
+def _parts(value: Any) -> Iterator[tuple[str, Any]]:
+    """(direction, value) of a constant of a table; the direction is empty where there is one for all."""
+    if isinstance(value, PerDirection | Either):
+        yield from ((axis, part) for axis, part in value if part is not None)
+    elif value is not None:
+        yield "", value
 
 
-def along_each(value: Any, count: int) -> np.ndarray:
-    """Values along x and along y of a constant of `count` cells, (2, count)."""
-    pair = (value.x, value.y) if isinstance(value, PerDirection) else (value, value)
-    return np.stack([of_cells(each, count) for each in pair])
+def _written(cells: np.ndarray) -> Any:
+    """A number, or rows of them."""
+    if cells.size == 1 or not cells.any():
+        return float(cells[0, 0])
+    return tuple(map(tuple, cells.tolist()))
 
 
-def of_faces(springs: SpringSet, spacing: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
-    """What the upright faces of a cell of sides (lx, ly) [m] add to the shear stiffness of a gap along x and
-    y [N/m]: those on its sides, those over its diagonals, (2,) each."""
-    square = np.array([spacing[0] ** 2, spacing[1] ** 2])
-    diagonal = 2.0 * of_cells(springs.face_diagonal_shear, 1)[0] * square / square.sum()
-    return along_each(springs.face_shear, 1)[:, 0], diagonal
+def by_direction(x: Any, y: Any, alike: float = 1e-12) -> np.ndarray:
+    """Stiffness along x and y, numbers or (rows, columns), (directions, rows, columns): one direction where
+    they are alike; what rounding put below zero is zero."""
+    x, y = (np.atleast_2d(np.maximum(part, 0.0)) for part in (x, y))
+    y = np.where(np.abs(x - y) <= alike * np.maximum(x, y), x, y)
+    return x[None] if (x == y).all() else np.stack([x, y])
+
+
+def either(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Constants of edges along x0 and y0, of either sign: one number where all are alike."""
+    if not (x.any() or y.any()):
+        return (np.zeros(1),)
+    alike = x.size == y.size == 1 and abs(x[0] - y[0]) <= 1e-12 * max(abs(x[0]), abs(y[0]))
+    return (x,) if alike else (x, y)
 
 
 def of_rubber(
-    springs: SpringSet, sides: np.ndarray, area: np.ndarray, twist: np.ndarray, kept: Any = slice(None)
+    springs: Springs,
+    squares: np.ndarray,
+    area: np.ndarray,
+    twist: np.ndarray,
+    chosen: Callable[[np.ndarray], np.ndarray],
 ) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (c, 4) [N/m] of the small strains of a layer's plan cells that are rubber membranes, less
-    that of their axial links, and what else `lumped.springs.laws` takes of them (c, 9). sides (c, 2, 3)
-    [m], area (c,) [m²]; twist: [N/m] that edges and rims add to the shear of all cells, of which `kept` are
-    (c,)."""
-    count = len(twist)
-    shear, volume, c01, c20, c30, limit = (
-        of_cells(getattr(springs, name), count)[kept] for name in RUBBER_CONSTANTS
-    )
-    twist = twist[kept]
+    that of their axial links, and what else `lumped.springs.laws` takes of them (c, 9). squares: of the
+    sides, (c, 2) [m²]; area (c,) [m²]; twist: [N/m] that edges and rims add to their shear, (c,); chosen:
+    gives of a constant (rows, columns) that of these cells, (c,)."""
+    shear, volume, c01, c20, c30, limit = (chosen(springs.along(name, 0)) for name in RUBBER_CONSTANTS)
     c10 = 0.5 * shear
     stiffening = 2.0 * c20 + np.divide(c10, limit, out=np.zeros_like(limit), where=limit > 0.0)
     modulus, lame = shear + 2.0 * c01, volume + 4.0 * (c01 + stiffening)
-    axial, lengths = along_each(springs.axial, count)[:, kept], (sides**2).sum(axis=2).T
-    stretch = 2.0 * modulus - axial * lengths / area
-    ratio = lame / modulus
+    axial = np.stack([chosen(springs.along("axial", axis)) for axis in (0, 1)])
+    stretch = 2.0 * modulus - axial * squares.T / area
+    ratio = np.divide(lame, modulus, out=np.zeros_like(lame), where=modulus > 0.0)
     stiffness = np.column_stack([2.0 * modulus * ratio / (2.0 + ratio), *stretch, modulus + twist])
     energy = np.column_stack([c10, c01, c20, c30, volume]) * area[:, None]
     return stiffness, np.column_stack([energy, limit, *axial, twist / area])
 
 
+def of_faces(springs: Springs, squares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What the upright faces of cells add to the shear stiffness of a gap along x and y [N/m]: those on their
+    sides, those over their diagonals, (rows, columns, 2) each. squares: of the sides (lx, ly) [m²], the
+    same."""
+    beside = np.stack([springs.along("face_shear", axis) for axis in (0, 1)], axis=-1)
+    over = springs.along("face_diagonal_shear", 0)[..., None]
+    return beside, 2.0 * over * squares / squares.sum(axis=-1, keepdims=True)
+
+
 def rank_one(stiffness: Any, *strain: Any) -> np.ndarray:
-    """The strain springs and couplings (…, 6) [N/m], as `of_strains` has them, of energy ½ k (s·ε)² a0: k the
-    stiffness (…) [N/m], s what each of ε1, ε2 and γ counts (…)."""
+    """The strain springs and couplings (…, 6) [N/m], as `Springs.strains` has them, of energy ½ k (s·ε)² a0:
+    k the stiffness (…) [N/m], s what each of ε1, ε2 and γ counts (…)."""
     x, y, shear = strain
     products = np.broadcast_arrays(x * x, y * y, shear * shear, x * y, x * shear, y * shear)
     return np.asarray(np.asarray(stiffness)[..., None] * np.stack(products, axis=-1))
 
 
-def of_edge_cells(springs: SpringSet, grid: Grid, twisting: frozenset[str]) -> np.ndarray:
+def along_edge(axis: int, stretch: Any) -> tuple[Any, Any, float]:
+    """What ε1, ε2 and γ count towards an edge normal to an axis: γ, and r of the strain along it."""
+    return (0.0, stretch, 1.0) if axis == 0 else (stretch, 0.0, 1.0)
+
+
+def of_edge_cells(springs: Springs, grid: Grid, twisting: frozenset[str]) -> np.ndarray:
     """The strain springs and couplings that the edges along which nothing holds the director (`twisting`) add
     to every cell of a layer, and rims, (cells, 6) [N/m]; to a cell at two of them the sum."""
-    shape = grid[1] - 1, grid[0] - 1
-    cells = np.stack([of_cells(getattr(springs, name), shape[0] * shape[1]) for name in RIMS_OWN], axis=-1)
-    cells = cells.reshape(*shape, len(RIMS_OWN))
+    cells = np.zeros((grid[1] - 1, grid[0] - 1, len(RIMS_OWN)))
+    cells += springs.strains("rims")
+
+    def of(name: str, axis: int, far: bool) -> np.ndarray:
+        pair = (far and springs.edges.get(f"far_{name}")) or springs.edges.get(name) or (np.zeros(1),)
+        return pair[min(axis, len(pair) - 1)]
+
     for edge in twisting:
-        axis = EDGES[edge].normal_axis
+        axis, far = EDGES[edge].normal_axis, EDGES[edge].far_end
         opposite = next(e for e in EDGES if e != edge and EDGES[e].normal_axis == axis)
-        far = EDGES[edge].far_end
-        stiffness = _of_edge(springs, "strip_shear" if opposite in twisting else "edge_shear", axis, far)
-        stretch = _of_edge(springs, "edge_coupling", axis, far)
-        strain = (0.0, stretch, 1.0) if axis == 0 else (stretch, 0.0, 1.0)
+        stiffness = of("strip_shear" if opposite in twisting else "edge_shear", axis, far)
         row = -1 if far else 0
+        strain = along_edge(axis, of("edge_coupling", axis, far))
         cells[(slice(None), row) if axis == 0 else (row, slice(None))] += rank_one(stiffness, *strain)
     return cells.reshape(-1, len(RIMS_OWN))
 
 
-def _of_edge(springs: SpringSet, name: str, axis: int, far: bool) -> np.ndarray:
-    """A constant of the cells along an edge: of the one normal to an axis, the far one or that before it."""
-    value: Any = getattr(springs, name)
-    if far and (own := getattr(springs, f"far_{name}")) is not None:
-        value = own
-    return np.asarray((value.x, value.y)[axis] if isinstance(value, Either) else value)
-
-
-def names(springs: SpringSet) -> list[str]:
-    """Names of the spring constants that are not zero, one a direction where directions differ."""
-    found: list[str] = []
-    for name, value in springs:
-        if isinstance(value, PerDirection | Either):
-            found.extend(f"{name}_{direction}" for direction in "xy" if np.any(getattr(value, direction)))
-        elif np.any(value) and name != "layer_distance":
-            found.append(name)
-    return found
-
-
-def changed(springs: SpringSet, name: str, value: float) -> SpringSet:
-    """The spring set with one constant (or layer_distance) changed. Raises BadInput for an unknown name."""
-    if name in SpringSet.model_fields:
-        return springs.model_copy(update={name: _with_mean(name, getattr(springs, name), value)})
-    family, _, direction = name.rpartition("_")
-    pair = getattr(springs, family, None)
-    if not isinstance(pair, PerDirection | Either) or direction not in ("x", "y"):
-        raise BadInput(f"parameter {name!r}: unknown, or without a value of its own in these springs")
-    moved = _with_mean(family, getattr(pair, direction), value)
-    return springs.model_copy(update={family: pair.model_copy(update={direction: moved})})
-
-
-def value_of(springs: SpringSet, name: str) -> float:
-    """The value of one spring constant (or layer_distance) by name."""
-    if name in SpringSet.model_fields:
-        return float(np.mean(getattr(springs, name)))
-    family, _, direction = name.rpartition("_")
-    return float(np.mean(getattr(getattr(springs, family), direction)))
-
-
-def _with_mean(name: str, old: Any, value: float) -> Any:
-    """The number, or the cells' values with this mean, as they were given."""
-    if not isinstance(old, tuple):
-        return value
-    was = np.array(old)
-    mean = was.mean()
-    cells = was + (value - mean) if name in SIGNED else was * (value / mean)
-    return tuple(map(tuple, cells.tolist())) if cells.ndim == 2 else tuple(cells.tolist())
-
-
-def varies(springs: SpringSet) -> bool:
-    """Whether any constant is given cell by cell."""
-    return any(isinstance(value, tuple) for _, _, value in _numbers(springs))
-
-
-def of_cells(value: Any, count: int) -> np.ndarray:
-    """The value of each of `count` cells, (count,)."""
-    return np.array(value, dtype=float).ravel() if isinstance(value, tuple) else np.full(count, float(value))
-
-
-def of_cell(springs: SpringSet, row: int, column: int) -> SpringSet:
-    """One cell's springs, all of them numbers; without those of edges."""
-    return _mapped(
-        springs.model_copy(update=dict.fromkeys(EDGES_OWN, 0.0)),
-        lambda value, _: value[row][column] if isinstance(value, tuple) else value,
-    )
-
-
-def gathered(kinds: Sequence[SpringSet], which: np.ndarray, factor: np.ndarray) -> SpringSet:
-    """The springs of a lattice from those of its kinds of cells: which kind every cell is, (rows, columns),
-    rows from y0 to y1, and how many times as stiff; one layer distance for all."""
-    found: dict[str, Any] = {"layer_distance": kinds[0].layer_distance}
-    for name in SpringSet.model_fields:
-        values = [getattr(kind, name) for kind in kinds]
-        if name in (*found, *EDGES_OWN):
-            continue
-        times = np.ones_like(factor) if name == "gent_limit" else factor
-        if any(isinstance(value, PerDirection) for value in values):
-            x, y = (_table(times * np.array([_along(v, axis) for v in values])[which]) for axis in "xy")
-            found[name] = x if x == y else PerDirection(x=x, y=y)
-        else:
-            found[name] = _table(times * np.array(values)[which])
-    return SpringSet(**found)
-
-
-def _along(value: Any, axis: str) -> Any:
-    return getattr(value, axis) if isinstance(value, PerDirection) else value
-
-
-def _table(values: np.ndarray) -> float | tuple[tuple[float, ...], ...]:
-    """Zero where all are zero."""
-    return tuple(map(tuple, values.tolist())) if values.any() else 0.0
-
-
-def cut(springs: SpringSet, rows: int, columns: int) -> SpringSet:
-    """The springs of the first rows and columns of cells."""
-
-    def part(value: Any, axis: str) -> Any:
-        if not isinstance(value, tuple):
-            return value
-        if isinstance(value[0], tuple):
-            return tuple(row[:columns] for row in value[:rows])
-        return value[: rows if axis == "x" else columns]
-
-    return _mapped(springs, part)
-
-
-def require_cells(springs: SpringSet, grid: Grid, whose: str) -> None:
+def require_cells(table: SpringSet, grid: Grid, whose: str) -> None:
     """Raise BadInput for a table that is not one of the grid's cells. whose: how the message begins."""
     rows, columns = grid[1] - 1, grid[0] - 1
     along = {"x": (rows,), "y": (columns,)}
-    for name, axis, value in _numbers(springs):
-        if not isinstance(value, tuple):
-            continue
-        wanted = along[axis] if name in EDGES_OWN else (rows, columns)
-        if _shape(value) != wanted:
-            key = f"{name}.{axis}" if axis else name
-            cells = " rows of ".join(map(str, wanted))
-            raise BadInput(f"{whose}springs.{key}: {cells} cells are wanted on {grid[0]}x{grid[1]} masses")
-
-
-def _shape(value: tuple[Any, ...]) -> tuple[int, ...] | None:
-    """Rows and columns of a table, or the length of a list; None where rows differ in length."""
-    if not value or not isinstance(value[0], tuple):
-        return (len(value),)
-    lengths = {len(row) for row in value}
-    return (len(value), lengths.pop()) if len(lengths) == 1 else None
-
-
-def _numbers(springs: SpringSet) -> list[tuple[str, str, Any]]:
-    """(name, direction, value) of every constant; the direction is empty where there is one for all."""
-    found = []
-    for name, value in springs:
-        if isinstance(value, PerDirection | Either):
-            found += [(name, axis, getattr(value, axis)) for axis in "xy"]
-        else:
-            found.append((name, "", value))
-    return found
-
-
-def _mapped(springs: SpringSet, change: Any) -> SpringSet:
-    """The springs with change(value, direction) for every constant."""
-    changed: dict[str, Any] = {}
-    for name, value in springs:
-        if isinstance(value, PerDirection | Either):
-            pair = {axis: change(getattr(value, axis), axis) for axis in "xy"}
-            changed[name] = value.model_copy(update=pair)
-        else:
-            changed[name] = change(value, "")
-    return springs.model_copy(update=changed)
+    for name, value in table:
+        for axis, part in _parts(value):
+            if not isinstance(part, tuple):
+                continue
+            wanted = along[axis] if name in EDGES_OWN else (rows, columns)
+            lengths = {len(row) if isinstance(row, tuple) else None for row in part}
+            if len(part) != wanted[0] or lengths != {wanted[1] if len(wanted) > 1 else None}:
+                key = f"{name}.{axis}" if axis else name
+                cells = " rows of ".join(map(str, wanted))
+                raise BadInput(
+                    f"{whose}springs.{key}: {cells} cells are wanted on {grid[0]}x{grid[1]} masses"
+                )

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from lumped import spring_constants as constants
 from lumped.calibration import Calibration, default
 from lumped.carried import pairs_of, rotary_masses
 from lumped.lattice import Lattice
@@ -154,13 +153,13 @@ def frequency_slopes(
     modal = np.einsum("n,knq,knq->k", weight, found.shapes, found.shapes)
     slopes = {}
     for name in parameters:
-        step = 1e-3 * abs(constants.value_of(calibration.springs, name))
+        step = 1e-3 * abs(calibration.constants.value(name))
         slopes[name] = np.zeros_like(found.frequencies)
         if step == 0.0:  # a fit that ends without this spring
             continue
         sides = []
         for sign in (1.0, -1.0):
-            value = constants.value_of(calibration.springs, name) + sign * step
+            value = calibration.constants.value(name) + sign * step
             changed = build_problem(scene, calibration.with_constant(name, value))
             stiffness = [float(np.sum(shape * _product(changed, rest, shape))) for shape in found.shapes]
             sides.append(np.array(stiffness))

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from lumped import spring_constants as constants
 from lumped.calibration import tables
 from lumped.sections import Section
+from lumped.spring_constants import Springs
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Table
-from sheetbench.scenes import PerDirection, Sheet, SpringSet
+from sheetbench.scenes import Sheet, SpringSet
 from sheetbench.scenes.grading import Graded, as_settings, remark
 from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.springs import Distribution, Either
+from sheetbench.scenes.springs import Distribution
 
 
 @dataclass(frozen=True, repr=False)
@@ -73,16 +74,18 @@ class Calibration(Answer):
         counts = [*self.grid]
         counts[axis] = counts[axis] // 2 + 1
         grid = counts[0], counts[1], counts[2]
-        edge, strip = (_both(value) for value in (self.springs.edge_shear, self.springs.strip_shear))
-        edge[axis] = strip[axis]
-        springs = self.springs.model_copy(update={"edge_shear": either(*edge)})
-        springs = constants.cut(springs, grid[1] - 1, grid[0] - 1)
+        springs = self.constants.halved(axis, grid[1] - 1, grid[0] - 1).table()
         half = (self.half[0] or axis == 0, self.half[1] or axis == 1)
         return replace(self, grid=grid, springs=springs, half=half)
 
+    @cached_property
+    def constants(self) -> Springs:
+        """The springs as arrays."""
+        return Springs.read(self.springs)
+
     def with_constant(self, name: str, value: float) -> Calibration:
         """The same with one spring constant changed, by its name (`lumped.spring_constants`)."""
-        return replace(self, springs=constants.changed(self.springs, name, value))
+        return replace(self, springs=self.constants.changed(name, value).table())
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""
@@ -124,29 +127,6 @@ class Calibration(Answer):
 def plan_spacing(sheet: Sheet, grid: Grid) -> tuple[float, float]:
     """In-plane spacings (lx, ly) [m] of a grid."""
     return sheet.length_x / (grid[0] - 1), sheet.length_y / (grid[1] - 1)
-
-
-def by_direction(x: float, y: float, alike: float = 1e-12) -> float | PerDirection:
-    """Stiffness along x and y, one number where they are alike; what rounding put below zero is zero."""
-    x, y = max(x, 0.0), max(y, 0.0)
-    return x if abs(x - y) <= alike * max(x, y) else PerDirection(x=x, y=y)
-
-
-def either(x: Any, y: Any) -> float | Either:
-    """Values along x and y of either sign, one number where they are alike; or a list of edge cells each."""
-    if isinstance(x, tuple) or isinstance(y, tuple):
-        return Either(x=x, y=y) if np.any(x) or np.any(y) else 0.0
-    return x if abs(x - y) <= 1e-12 * max(abs(x), abs(y)) else Either(x=x, y=y)
-
-
-def shown(value: float | tuple[Any, ...]) -> str:
-    """A number, or the least and the largest of the cells' own."""
-    least, most = np.min(value), np.max(value)
-    return f"{least:.4g}" if least == most else f"{least:.4g} … {most:.4g}"
-
-
-def _both(value: float | Either) -> list[Any]:
-    return [value.x, value.y] if isinstance(value, Either) else [value, value]
 
 
 def _listed(value: Any) -> Any:

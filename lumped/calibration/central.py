@@ -22,13 +22,14 @@ from dataclasses import replace
 import numpy as np
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
-from lumped.calibration.cell_by_cell import kinds_of_cells
+from lumped.calibration.calibration import Calibration, plan_spacing
+from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.central_table import ROWS
 from lumped.calibration.report import report
 from lumped.lattice import Grid
+from lumped.spring_constants import Springs, by_direction
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet
 
 STEPS = 30  # of the layer distance: δ is small and depends little on it
 
@@ -55,7 +56,7 @@ def central(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
         got = moduli.of_springs(springs, (*spacing, springs.layer_distance), layers).membrane
         off = float(np.sqrt(got[0, 0] * got[1, 1])) / wanted
         springs = _springs(target, spacing, layers, (a, b), springs.layer_distance * np.sqrt(off))
-    found = report("central", kinds_of_cells(sheet, material, grid), springs)
+    found = report("central", each_cell(sheet, material, grid), springs)
     cost = (
         f"the moduli make the worst of the training scenes wrong by {bent:.1%} where they bend and by "
         f"{stretched:.1%} where they stretch; those of 'cauchy' by {cauchy:.1%} where they bend"
@@ -69,7 +70,7 @@ def _springs(
     layers: int,
     share: tuple[float, float],
     distance: float | None = None,
-) -> SpringSet:
+) -> Springs:
     """The links with D11 = a D, D12 = D66 = b D, S* at a layer distance [m], or at h/√3."""
     lx, ly = spacing
     rigidity = float(target.bending[0, 0])
@@ -86,7 +87,7 @@ def _springs(
         raise BadInput(f"calibration 'central': {layers} layers need cells as small as the sheet is thick")
     axial = (layer - twist * ratios) / lz2
     cross = (gap - p * ratios) / 2.0
-    return SpringSet(
+    return Springs.made(
         axial=by_direction(axial[0] * ly / lx, axial[1] * lx / ly),
         diagonal=twist * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
         vertical=8.0 * rigidity / lz2 * lx * ly / min(spacing) ** 2,

@@ -48,158 +48,211 @@ which is 3ν − 1 + 2 S*/κGh for a third and vanishes (`waves`) for a d from 0
 
 from __future__ import annotations
 
-import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.linalg import eigvalsh
 
-from lumped.calibration.calibration import by_direction
+from lumped import moduli
+from lumped.calibration.cell_by_cell import EachCell
 from lumped.moduli import Moduli, second_moment, shear_gaps
-from sheetbench.scenes import SpringSet
+from lumped.spring_constants import Springs, by_direction
 
 FIRMER = 4.0  # columns of a lattice with `gradients`, at no cost to the explicit step of cells of 5 h or more
+PAIRS = ("axial", "cross", "stretch", "mid_stretch")  # of links and strains along x and y
+
+
+class NoClosedForm(Exception):
+    """Of a cell of these sides [m]."""
+
+
+class Closed(NamedTuple):
+    """of: constants [N/m] by name, (m,), (2, m) of those along x and y; distance: of the layers, (m,) [m];
+    found: whether the cell has them, (m,)."""
+
+    of: dict[str, np.ndarray]
+    distance: np.ndarray
+    found: np.ndarray
+
+
+def springs_of_cells(each: EachCell, layer_distance: float | None = None, **special: bool) -> Springs:
+    """Return the springs of all cells, in layers as far apart as the cell asks that asks for most. Raise
+    NoClosedForm for a cell that has none."""
+    sides, section = each.present()
+    target, layers = moduli.of_section(section, sides), each.grid[2]
+    found = closed_form(target, sides, layers, layer_distance, **special)
+    if layer_distance is None and len(sides) > 1 and found.found.all():
+        found = closed_form(target, sides, layers, float(found.distance.max()), **special)
+    if not found.found.all():
+        raise NoClosedForm(*sides[np.argmin(found.found)])
+    of = {name: each.placed(values) for name, values in found.of.items()}
+    return Springs.made(
+        float(found.distance.max()),
+        **{name: by_direction(*values) if name in PAIRS else values for name, values in of.items()},
+    )
 
 
 def closed_form(
     target: Moduli,
-    spacing: tuple[float, float],
+    sides: np.ndarray,
     layers: int,
     layer_distance: float | None = None,
     gradients: bool = False,
     waves: bool = False,
-) -> SpringSet | None:
-    """The springs that have the requested moduli; None where a link would be negative (many layers on coarse
-    grids: there the cross-layer links alone bend too stiffly), and where a layer distance [m] that is given
-    is less than the cell needs. gradients: whether layers are so far apart that strains in the plane that
-    vary across a cell cost what they cost the sheet; waves: whether oblique waves of bending are right in l²,
-    of oblong cells as if they were squares of the same area."""
-    lx, ly = spacing
+) -> Closed:
+    """The springs that have the requested moduli (m, …), of cells of these sides (m, 2) [m]. There are none
+    where a link would be negative (many layers on coarse grids: there the cross-layer links alone bend too
+    stiffly), and where a layer distance [m] that is given is less than the cell needs. gradients: whether
+    layers are so far apart that strains in the plane that vary across a cell cost what they cost the sheet;
+    waves: whether oblique waves of bending are right in l², of oblong cells as if they were squares of the
+    same area."""
+    lx, ly = sides.T
     sigma, sigma_gap = second_moment(layers), second_moment(layers - 1)
-    gap = target.shear * np.array([lx**2, ly**2]) / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
-    ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
-    bracket = 5.0 + 3.0 * target.bending[0, 1] / target.bending[0, 0]
-    upright = (FIRMER if gradients else 1.0) * vertical(target, spacing, 1.0)  # kz lz² [N·m]
+    squares, membrane, bending = sides**2, target.membrane, target.bending
+    gap = target.shear * squares / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
+    ratios = squares / squares[:, ::-1]
+    upright = (FIRMER if gradients else 1.0) * vertical(target, sides, 1.0)  # kz lz² [N·m]
+    bracket = 5.0 + 3.0 * bending[:, 0, 1] / bending[:, 0, 0]
     share = diagonals_for_waves(target, lx * ly, bracket) if waves else 1.0 / 3.0
-    least = float(min(target.bending[0, 0], target.bending[1, 1]))
-    share *= min(1.0, 4.0 * float(target.bending[2, 2]) / least)  # of sheets that are soft in shear less
-    p = share * float(min(gap.max(), *(1.5 * gap / ratios)))
-    gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
+    least = np.minimum(bending[:, 0, 0], bending[:, 1, 1])
+    share = share * np.minimum(1.0, 4.0 * bending[:, 2, 2] / least)  # of sheets that are soft in shear less
+    p = share * np.minimum(gap.max(axis=1), (1.5 * gap / ratios).min(axis=1))
+    gap_form = np.zeros_like(bending)
+    gap_form[:, 0, 0], gap_form[:, 1, 1] = gap.T
+    gap_form[:, 0, 1] = gap_form[:, 1, 0] = gap_form[:, 2, 2] = p
+    along = gap - p[:, None] * ratios
 
-    lz2 = 0.0 if layer_distance is None else layer_distance**2
-    relaxation = _relaxation(target, gap, p, spacing, lz2, upright) if lz2 else np.zeros((3, 3))
+    stretching, shearing, oblique = (
+        bending[:, 0, 0] - bending[:, 0, 1],
+        2.0 * bending[:, 2, 2],
+        target.oblique,
+    )
+    unlike = np.abs(stretching - shearing) > 1e-9 * np.maximum(np.abs(stretching), np.abs(shearing))
+
+    given = layer_distance is not None
+    lz2 = np.full(len(p), layer_distance**2 if layer_distance is not None else 0.0)
+    open_ = np.ones(len(p), dtype=bool)
     for _ in range(50):  # δ is small and depends little on lz: a fixed point
-        relaxed = gap_form - relaxation
-        layer = (target.bending - sigma_gap * relaxed) / sigma
+        relaxed = gap_form - _relaxation(gap, along, p, sides, lz2, upright)
+        layer = (bending - sigma_gap * relaxed) / sigma
         lattice = layers * layer + (layers - 1) * relaxed
         by_diagonals = _by_diagonals(layer, ratios)
-        axial = np.diag(layer)[:2] - layer[0, 1] + by_diagonals * layer[2, 2] * (1.0 - ratios)
-        if fibres := _has_fibres(target, layer, axial):
-            by_diagonals, axial = 0.0, 1.0 / (3.0 * np.diag(np.linalg.inv(layer))[:2])
-            needed = float(eigvalsh(lattice, target.membrane)[-1])
-        else:
-            needed = max(
-                (lattice[0, 0] - lattice[0, 1]) / (target.membrane[0, 0] - target.membrane[0, 1]),
-                (lattice[1, 1] - lattice[0, 1]) / (target.membrane[1, 1] - target.membrane[0, 1]),
-                lattice[2, 2] / target.membrane[2, 2],
-            )
+        axial = _own(layer) - (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2] * (1.0 - ratios).T).T
+        axial, fibres = _beside_fibres(oblique, unlike, layer, axial)
+        needed = (_own(lattice) - lattice[:, 0, 1, None]) / (_own(membrane) - membrane[:, 0, 1, None])
+        needed = np.maximum(needed.max(axis=1), lattice[:, 2, 2] / membrane[:, 2, 2])
+        if fibres.any():
+            by_diagonals[fibres] = 0.0
+            needed[fibres] = _largest(lattice[fibres], membrane[fibres])
         if gradients:
-            on_sides = layers * axial + (layers - 1) * (gap - p * ratios)
-            needed = max(needed, float((on_sides / _on_sides(target.membrane)).max()))
-        if layer_distance is not None:
-            if needed > lz2 * (1.0 + 1e-9):
-                return None
+            on_sides = layers * axial + (layers - 1) * along
+            needed = np.maximum(needed, (on_sides / _on_sides(membrane)).max(axis=1))
+        if given:
             break
-        if needed <= 0.0 or abs(needed - lz2) < 1e-15 * needed:
+        open_ &= (needed > 0.0) & ~(np.abs(needed - lz2) < 1e-15 * needed)
+        if not open_.any():
             break
-        lz2 = needed
-        relaxation = _relaxation(target, gap, p, spacing, lz2, upright)
-    if lz2 <= 0.0 or layer[2, 2] <= 0.0:
-        return None
-    if min(axial) < 0.0 or (fibres and np.linalg.eigvalsh(layer)[0] <= 0.0):
-        return None
-    l1x, l1y, l2 = lx**2 + lz2, ly**2 + lz2, lx**2 + ly**2 + lz2
-    rest = target.membrane * lz2 - lattice
-    area, mid_area = layer[0, 1] - by_diagonals * layer[2, 2], rest[0, 1]
-    more: dict[str, Any] = {}
-    if fibres:
-        area = mid_area = 0.0
-        stretch = np.diag(layer)[:2] - axial
-        more = {"stretch": by_direction(stretch[0] / lz2, stretch[1] / lz2)}
-        for cells, form in (("", layer), ("mid_", rest)):
-            more |= {
-                f"{cells}coupling_xy": form[0, 1] / lz2,
-                f"{cells}coupling_x": form[0, 2] / lz2,
-                f"{cells}coupling_y": form[1, 2] / lz2,
-            }
-    rest[:2, :2] -= mid_area
-    rest[np.abs(rest) < 1e-12 * target.membrane[0, 0] * lz2] = 0.0
-    return SpringSet(
-        axial=by_direction(axial[0] * ly / lx / lz2, axial[1] * lx / ly / lz2),
-        diagonal=by_diagonals * layer[2, 2] * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
-        vertical=upright / lz2,
-        cross=by_direction(
-            (gap[0] - p * ratios[0]) * l1x * ly / (2.0 * lx**3 * lz2),
-            (gap[1] - p * ratios[1]) * l1y * lx / (2.0 * ly**3 * lz2),
-        ),
-        cross_diagonal=p * l2 / (4.0 * lx * ly * lz2),
-        area=area / lz2,
-        mid_area=mid_area / lz2,
-        shear=(1.0 - by_diagonals) * layer[2, 2] / lz2,
-        mid_shear=rest[2, 2] / lz2,
-        mid_stretch=by_direction(rest[0, 0] / lz2, rest[1, 1] / lz2),
-        layer_distance=math.sqrt(lz2),
-        **more,
+        lz2 = np.where(open_, needed, lz2)
+    found = (lz2 > 0.0) & (layer[:, 2, 2] > 0.0) & (axial.min(axis=1) >= 0.0)
+    if given:
+        found &= needed <= lz2 * (1.0 + 1e-9)
+    if fibres.any():
+        found[fibres] &= np.linalg.eigvalsh(layer[fibres])[:, 0] > 0.0
+    lz2 = np.where(found, lz2, 1.0 if not given else lz2)
+    rest = membrane * lz2[:, None, None] - lattice
+    area, mid_area = (
+        np.where(fibres, 0.0, part)
+        for part in (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2], rest[:, 0, 1])
     )
+    of: dict[str, Any] = {}
+    if fibres.any():
+        of["stretch"] = np.where(fibres, (_own(layer) - axial).T, 0.0)
+        for cells, form in (("", layer), ("mid_", rest)):
+            for name, row, column in (("xy", 0, 1), ("x", 0, 2), ("y", 1, 2)):
+                of[f"{cells}coupling_{name}"] = np.where(fibres, form[:, row, column], 0.0)
+    rest[:, :2, :2] -= mid_area[:, None, None]
+    rest[np.abs(rest) < 1e-12 * (membrane[:, 0, 0] * lz2)[:, None, None]] = 0.0
+    across = np.sqrt(squares[:, ::-1] / squares).T
+    of |= {
+        "axial": axial.T * across,
+        "diagonal": by_diagonals * layer[:, 2, 2] * (lx**2 + ly**2) / (2.0 * lx * ly),
+        "vertical": upright,
+        "cross": along.T * (squares.T + lz2) * across / (2.0 * squares.T),
+        "cross_diagonal": p * (lx**2 + ly**2 + lz2) / (4.0 * lx * ly),
+        "area": area,
+        "mid_area": mid_area,
+        "shear": (1.0 - by_diagonals) * layer[:, 2, 2],
+        "mid_shear": rest[:, 2, 2],
+        "mid_stretch": _own(rest).T,
+    }
+    return Closed({name: values / lz2 for name, values in of.items()}, np.sqrt(lz2), found)
 
 
-def _has_fibres(target: Moduli, layer: np.ndarray, axial: np.ndarray) -> bool:
-    """Whether the layer's cells need couplings: at an angle to the fibres, and where area springs would leave
-    the links along the sides, of a sheet that is not isotropic, less than the third of E h of `gradients`."""
-    stretching, shearing = target.bending[0, 0] - target.bending[0, 1], 2.0 * target.bending[2, 2]
-    if target.oblique:
-        return True
-    if math.isclose(stretching, shearing, rel_tol=1e-9) or np.linalg.eigvalsh(layer)[0] <= 0.0:
-        return False
-    return bool(np.any(axial < 1.0 / (3.0 * np.diag(np.linalg.inv(layer))[:2])))
+def _own(form: np.ndarray) -> np.ndarray:
+    """11 and 22 of forms, (m, 2)."""
+    return np.diagonal(form, axis1=1, axis2=2)[:, :2]
 
 
-def diagonals_for_waves(target: Moduli, area: float, bracket: float) -> float:
-    """The diagonals' share d of the shear for waves, of cells of that area [m²]: the bracket, 5 + 3 ν here,
-    is what is too small without diagonals."""
-    rigidity = target.bending[0, 0]
-    stiffening = 12.0 * rigidity / (float(np.sqrt(target.shear.prod())) * area)  # 1 + t
+def _largest(form: np.ndarray, by: np.ndarray) -> np.ndarray:
+    """The largest eigenvalue of forms relative to others, (m,)."""
+    inverse = np.linalg.inv(np.linalg.cholesky(by))
+    return np.asarray(np.linalg.eigvalsh(inverse @ form @ np.swapaxes(inverse, 1, 2))[:, -1])
+
+
+def _beside_fibres(
+    oblique: np.ndarray, unlike: np.ndarray, layer: np.ndarray, axial: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """What of a layer's 11 and 22 its axial links have, (m, 2), and whether its cells need couplings, (m,):
+    at an angle to the fibres (`oblique`), and where area springs would leave the links along the sides, of a
+    sheet that is not isotropic (`unlike`), less than the third of E h of `gradients`. Such links have that
+    third."""
+    maybe = oblique | unlike
+    if not maybe.any():
+        return axial, maybe
+    maybe &= oblique | (np.linalg.eigvalsh(layer)[:, 0] > 0.0)
+    third = np.zeros_like(axial)
+    third[maybe] = 1.0 / (3.0 * _own(np.linalg.inv(layer[maybe])))
+    fibres = maybe & (oblique | (axial < third).any(axis=1))
+    return np.where(fibres[:, None], third, axial), fibres
+
+
+def diagonals_for_waves(target: Moduli, area: np.ndarray, bracket: np.ndarray) -> np.ndarray:
+    """The diagonals' share d of the shear for waves (m,), of cells of that area [m²]: the bracket, 5 + 3 ν
+    here, is what is too small without diagonals."""
+    rigidity = target.bending[:, 0, 0]
+    stiffening = 12.0 * rigidity / (np.sqrt(target.shear.prod(axis=1)) * area)  # 1 + t
     linear = 12.0 * stiffening + 9.0
     product = 36.0 * bracket * stiffening
-    return float(linear - math.sqrt(linear**2 - product)) / 18.0
+    return np.asarray((linear - np.sqrt(linear**2 - product)) / 18.0)
 
 
-def _by_diagonals(layer: np.ndarray, ratios: np.ndarray) -> float:
-    """f, the share of a layer's C66 that its diagonals have: half of what axial links leave room for."""
-    room = 0.5 * np.maximum(np.diag(layer)[:2] - layer[0, 1], 0.0)
-    target = layer[2, 2] * (ratios - 1.0)
-    return float(min(1.0, *np.divide(room, target, out=np.ones(2), where=target > room)))
+def _by_diagonals(layer: np.ndarray, ratios: np.ndarray) -> np.ndarray:
+    """f (m,), the share of a layer's C66 that its diagonals have: half of what axial links leave room for."""
+    room = 0.5 * np.maximum(_own(layer) - layer[:, 0, 1, None], 0.0)
+    target = layer[:, 2, 2, None] * (ratios - 1.0)
+    shares = np.divide(room, target, out=np.ones_like(room), where=target > room)
+    return np.minimum(1.0, shares.min(axis=1))
 
 
 def _on_sides(form: np.ndarray) -> np.ndarray:
-    """What of a form's 11 and 22 the links on a cell's sides should carry, (2,)."""
-    sides: np.ndarray = (np.diag(form)[:2] - form[0, 1] ** 2 / np.diag(form)[1::-1]) / 3.0
-    return sides
+    """What of a form's 11 and 22 the links on a cell's sides should carry, (m, 2)."""
+    own = _own(form)
+    return np.asarray((own - form[:, 0, 1, None] ** 2 / own[:, ::-1]) / 3.0)
 
 
-def vertical(target: Moduli, spacing: tuple[float, float], lz2: float) -> float:
-    """kz [N/m]: 8 D/lz² per square of the shorter spacing, over the cell; D² = D11 D22."""
-    lx, ly = spacing
-    return 8.0 * math.sqrt(target.bending[0, 0] * target.bending[1, 1]) / lz2 * lx * ly / min(lx, ly) ** 2
+def vertical(target: Moduli, sides: np.ndarray, lz2: float) -> np.ndarray:
+    """kz (m,) [N/m]: 8 D/lz² per square of the shorter spacing, over the cell; D² = D11 D22."""
+    squares = sides.prod(axis=1) / sides.min(axis=1) ** 2
+    return np.asarray(8.0 * np.sqrt(target.bending[:, 0, 0] * target.bending[:, 1, 1]) / lz2 * squares)
 
 
 def _relaxation(
-    target: Moduli, gap: np.ndarray, p: float, spacing: tuple[float, float], lz2: float, upright: float
+    gap: np.ndarray, along: np.ndarray, p: np.ndarray, sides: np.ndarray, lz2: np.ndarray, upright: np.ndarray
 ) -> np.ndarray:
-    """δ lz² (3, 3): what a gap's thickness, free to change, takes off its in-plane form; upright: kz lz²."""
-    lx, ly = spacing
-    coupling = np.array([gap[0] / lx**2, gap[1] / ly**2, 0.0])  # the gap's S along x, y [N/m]
-    cross = (gap - p * np.array([lx**2 / ly**2, ly**2 / lx**2])) / np.array([lx**4, ly**4]) * lz2
-    thickness = upright / (lx * ly) + cross.sum() + p * lz2 / (lx * ly) ** 2
-    relaxation: np.ndarray = np.outer(coupling, coupling) / thickness * lz2
+    """δ lz² (m, 3, 3): what a gap's thickness, free to change, takes off its in-plane form; along: what of it
+    is the cross links'; upright: kz lz²."""
+    area = sides.prod(axis=1)
+    coupling = gap / sides**2  # the gap's S along x, y [N/m]
+    thickness = upright / area + ((along / sides**4).sum(axis=1) + p / area**2) * lz2
+    relaxation = np.zeros((len(p), 3, 3))
+    relaxation[:, :2, :2] = coupling[:, :, None] * coupling[:, None] * (lz2 / thickness)[:, None, None]
     return relaxation

@@ -9,24 +9,41 @@ from __future__ import annotations
 from dataclasses import replace
 
 from lumped import moduli, sections
-from lumped.calibration.calibration import Calibration, plan_spacing
-from lumped.calibration.cell_by_cell import Sides, cell_by_cell, kinds_of_cells
-from lumped.calibration.closed_form import closed_form
+from lumped.calibration.calibration import Calibration
+from lumped.calibration.cell_by_cell import each_cell
+from lumped.calibration.closed_form import NoClosedForm, springs_of_cells
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
 from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
 from lumped.sections import Section
+from lumped.spring_constants import Springs
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Cells, Material, Sheet, SpringSet
+from sheetbench.numerics.kept import kept
+from sheetbench.scenes import Cells, Material, Sheet
 from sheetbench.scenes.grading import Graded
 
 
+def _tables(
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    *_: object,
+    grading: Graded = 0.0,
+    cells: object = None,
+    **__: object,
+) -> float:
+    """Whether cells have springs of their own."""
+    return float(bool(grading) or cells is not None or material.kind == "orthotropic")
+
+
+@kept(last=16, most=0, size=_tables)
 def consistent(
     sheet: Sheet,
     material: Material,
     grid: Grid,
     layer_distance: float | None = None,
+    *,
     grading: Graded = 0.0,
     cells: Cells | Section | None = None,
     method: str = "consistent",
@@ -49,26 +66,24 @@ def consistent(
     if isinstance(cells, Cells):
         cells = sections.of_cells(cells, grid)
     special = {"gradients": method == "consistent-membrane", "waves": method == "consistent-oblique"}
-
-    def of_cell(sides: Sides, own: Section, distance: float | None) -> SpringSet:
-        springs = closed_form(moduli.of_section(own, sides), sides, grid[2], distance, **special)
-        if springs is None:
-            given = f"{grid[2]} layers" if distance is None else f"layer_distance = {distance:g} m"
-            raise BadInput(
-                f"grading = {grading:g}: with {given} a cell of {sides[0]:.4g} × {sides[1]:.4g} m "
-                "has no closed form; take two layers, no layer distance of your own, or grading 0"
+    each = each_cell(sheet, material, grid, grading, cells)
+    even = not grading and cells is None
+    try:
+        if even and layer_distance is not None:
+            raise NoClosedForm
+        springs = springs_of_cells(each, layer_distance, **special)
+    except NoClosedForm as cell:
+        if not even:
+            given = (
+                f"{grid[2]} layers" if layer_distance is None else f"layer_distance = {layer_distance:g} m"
             )
-        return springs
-
-    kinds = kinds_of_cells(sheet, material, grid, grading, cells)
-    springs: SpringSet | None = None
-    if grading or cells is not None:
-        springs = cell_by_cell(of_cell, kinds, layer_distance)
-    elif layer_distance is None:
-        spacing = plan_spacing(sheet, grid)
-        springs = closed_form(moduli.of_sheet(sheet, material, spacing), spacing, grid[2], **special)
-    if springs is None:
-        springs = fit_moduli(sheet, material, grid, layer_distance).springs
-    found = report(method, kinds, springs)
-    found = replace(found, of_material=of_material)
-    return found if method == "consistent-interior" else with_twist(sheet, kinds, found)
+            raise BadInput(
+                f"grading = {grading:g}: with {given} a cell of {cell.args[0]:.4g} × {cell.args[1]:.4g} m "
+                "has no closed form; take two layers, no layer distance of your own, or grading 0"
+            ) from None
+        springs = Springs.read(fit_moduli(sheet, material, grid, layer_distance).springs)
+    notes: list[str] = []
+    whole = moduli.of_cells(springs, each.sides, grid[2])
+    if method != "consistent-interior":
+        springs, notes = with_twist(each, springs, whole)
+    return replace(report(method, each, springs, notes, whole), of_material=of_material)

@@ -14,11 +14,12 @@ from typing import Any
 import numpy as np
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
-from lumped.calibration.cell_by_cell import kinds_of_cells
+from lumped.calibration.calibration import Calibration, plan_spacing
+from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.report import report
 from lumped.lattice import Grid
-from sheetbench.scenes import Material, Sheet, SpringSet
+from lumped.spring_constants import Springs, by_direction
+from sheetbench.scenes import Material, Sheet
 
 STRETCHING = 0.3  # weight of A; those of D and S are 1
 PAIRS = ("axial", "cross", "mid_stretch")
@@ -51,7 +52,7 @@ def fit_moduli(
     target = moduli.of_sheet(sheet, material, spacing)
     first_distance = layer_distance or sheet.thickness / (layers - 1)
 
-    def springs_of(unknowns: np.ndarray) -> SpringSet:
+    def springs_of(unknowns: np.ndarray) -> Springs:
         distance = layer_distance or first_distance * float(np.exp(unknowns[-1]))
         stiffness = target.bending[0, 0] / (moduli.second_moment(layers) * distance**2)
         values: dict[str, Any] = {
@@ -59,7 +60,7 @@ def fit_moduli(
         }
         for name in PAIRS:
             values[name] = by_direction(values.pop(f"{name}_x"), values.pop(f"{name}_y"), 1e-6)
-        return SpringSet(**values, vertical=4.0 * float(stiffness), layer_distance=distance)
+        return Springs.made(**values, vertical=4.0 * float(stiffness), layer_distance=distance)
 
     upper = np.triu_indices(2)
 
@@ -111,4 +112,4 @@ def fit_moduli(
     )
     if np.abs(misses(found)).max() > MATCHED:
         found = least_squares(weak_strains, start, bounds=(low, high), **exact).x
-    return report("moduli", kinds_of_cells(sheet, material, grid), springs_of(found))
+    return report("moduli", each_cell(sheet, material, grid), springs_of(found))

@@ -6,9 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration
-from lumped.calibration.cell_by_cell import kinds_of_cells
+from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.central import central
 from lumped.calibration.consistent import consistent
 from lumped.calibration.least_squares import fit_moduli
@@ -16,6 +15,7 @@ from lumped.calibration.report import report
 from lumped.calibration.rubber import hyperelastic
 from lumped.calibration.textbook import axial, cauchy, lloyd, uniform, van_gelder
 from lumped.sections import sections_of
+from lumped.spring_constants import Springs, require_cells
 from sheetbench import choices
 from sheetbench.errors import Impossible
 from sheetbench.scenes import Scene, SpringTable
@@ -83,17 +83,16 @@ def given(
             f"grading {grading:g}; leave --grading out, or find others: "
             f"sheetbench calibrate --grading {grading:g} --toml"
         )
-    springs = table.constants
-    if table.grading and not constants.varies(springs):
+    require_cells(table.constants, requested, f"scene '{scene.name}': ")
+    springs = Springs.read(table.constants)
+    if table.grading and not springs.varies and requested[:2] != (2, 2):
         raise Impossible(
             f"scene '{scene.name}': springs.grading = {table.graded:g}: unequal cells have springs of their "
             f"own, and these are the same for all: sheetbench calibrate --grading {table.graded:g} --toml"
         )
-    constants.require_cells(springs, requested, f"scene '{scene.name}': ")
     cells = sections_of(scene, requested, table.graded)
-    differing = cells if constants.varies(springs) else None
-    kinds = kinds_of_cells(scene.sheet, scene.material, requested, table.graded, differing)
-    return replace(report("scene", kinds, springs), masses=table.masses, cells=cells)
+    each = each_cell(scene.sheet, scene.material, requested, table.graded, cells if springs.varies else None)
+    return replace(report("scene", each, springs), masses=table.masses, cells=cells)
 
 
 def default(scene: Scene) -> Calibration:

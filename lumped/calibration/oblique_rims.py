@@ -11,68 +11,48 @@ S along the rim being 1/(t₁²/Sx + t₂²/Sy).
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from lumped import moduli, sections
-from lumped import spring_constants as constants
-from lumped.calibration.calibration import Calibration
-from lumped.calibration.cell_by_cell import Kinds, Sides
-from lumped.calibration.edge_twist import AT_CORNERS, edge_factor, of_cell
+from lumped import sections
+from lumped.calibration.cell_by_cell import EachCell
+from lumped.calibration.edge_twist import AT_CORNERS, Twist, edge_factors
 from lumped.coverage import ObliqueRims
 from lumped.moduli import Moduli
-from lumped.sections import Section
-from sheetbench.scenes import SpringSet
+from lumped.spring_constants import RIMS_OWN, rank_one
 
 STRIP = 12  # cells across a strip whose far edge is not felt
-DIGITS = 12  # to which strips are distinguished
 
 
 def at_oblique_rims(
-    rims: ObliqueRims, kinds: Kinds, found: Calibration, own: list[SpringSet]
+    rims: ObliqueRims, each: EachCell, twist: Twist, whole: Moduli
 ) -> tuple[np.ndarray, list[str]]:
-    """Return what the layers' cells take, (rows, columns, 6) [N/m], as `constants.of_strains` has it, and
-    notes. own: the springs of each kind of cells."""
-    layers, lz = found.grid[2], found.springs.layer_distance
-    square = moduli.second_moment(layers) * lz**2
-    taken = np.zeros((*kinds.which.shape, len(constants.RIMS_OWN)))
-    notes: list[str] = []
-    of_kind = [
-        (moduli.of_springs(springs, (*sides, lz), layers), of_cell(springs, (*sides, lz), layers)[2])
-        for springs, (sides, _) in zip(own, kinds.of, strict=True)
-    ]
-    known: dict[tuple[int, float, float], np.ndarray] = {}
-    for row, column, part, (nx, ny) in zip(*(each.tolist() for each in rims), strict=True):
-        kind = int(kinds.which[row, column])
-        if (key := (kind, nx, ny)) not in known:
-            known[key] = _of_cell(np.array([nx, ny]), *of_kind[kind], *kinds.of[kind], notes)
-        taken[row, column] += part * kinds.factor[row, column] / square * known[key]
+    """Return what the layers' cells take times Σ z_k², (rows, columns, 6) [N·m], as `Springs.strains` has it,
+    and notes; whole: moduli of the cells' springs."""
+    there = each.there[rims.rows, rims.columns]
+    rows, columns, part, n = (each_of[there] for each_of in rims)
+    at = rows, columns
+    t = np.stack([-n[:, 1], n[:, 0]], axis=1)
+    states = np.stack([_strains(a, b) for a, b in ((n, n), (t, t), (n, t))], axis=1)
+    bending = states @ whole.bending[at] @ np.swapaxes(states, 1, 2)
+    twisting, stretch = (form(bending)[:, 0] for form in (sections.twisting, sections.stretch_by_twist))
+    shear, free = (
+        1.0 / (t**2 / stiffness[at]).sum(axis=1) for stiffness in (whole.shear, each.section.free_shear)
+    )
+    share = (t**2 * twist.shares[at][:, ::-1]).sum(axis=1)
+    width, lost = np.sqrt(each.sides[at].prod(axis=1)), np.sqrt(twisting / free)
+    strips = np.repeat([width, twisting, shear, share], STRIP, axis=1).reshape(4, -1, STRIP)
+    factor = edge_factors(strips[0], strips[1], strips[2], strips[3], lost, False)
+    notes = []
+    if np.isnan(factor).any():
+        notes.append("no twisting stiffness of the cells along an oblique rim makes it right")
+        factor = np.where(np.isnan(factor), 1.0, factor)
+    # γ_nt + r ε_tt, whose strains along x and y count twice in the first
+    strain = ([2.0, 2.0, 1.0] * states[:, 2] + stretch[:, None] * [1.0, 1.0, 0.5] * states[:, 1]).T
+    taken = np.zeros((*each.there.shape, len(RIMS_OWN)))
+    np.add.at(taken, at, rank_one(part * (np.maximum(factor, AT_CORNERS) - 1.0) * twisting, *strain))
     return taken, notes
 
 
-def _of_cell(
-    n: np.ndarray, whole: Moduli, by_diagonals: list[float], sides: Sides, section: Section, notes: list[str]
-) -> np.ndarray:
-    """Return −(1 − f) D̃66 times the products of what each strain counts, (6,) [N·m], of a cell all of which
-    is near a rim of normal n; whole: of its springs; by_diagonals: the furthest diagonals' share of S."""
-    t = np.array([-n[1], n[0]])
-    states = np.array([[*(a * b), a[0] * b[1] + a[1] * b[0]] for a, b in ((n, n), (t, t), (n, t))])
-    bending = states @ whole.bending @ states.T
-    twisting, stretch = (float(form(bending)[0]) for form in (sections.twisting, sections.stretch_by_twist))
-    shear, free = (float(1.0 / (t**2 @ (1.0 / part))) for part in (whole.shear, section.free_shear))
-    strip = (
-        math.sqrt(sides[0] * sides[1]),
-        twisting,
-        shear,
-        float(t**2 @ by_diagonals),
-        math.sqrt(twisting / free),
-    )
-    width, rigidity, sheared, share, lost = (float(f"{each:.{DIGITS}g}") for each in strip)
-    factor = edge_factor(STRIP, width, rigidity, sheared, share, lost, False)
-    if factor is None:
-        notes.append("no twisting stiffness of the cells along an oblique rim makes it right")
-        factor = 1.0
-    strain = 2.0 * n * t + stretch * t * t
-    skew = n[0] * t[1] + n[1] * t[0] + stretch * t[0] * t[1]
-    return constants.rank_one((max(factor, AT_CORNERS) - 1.0) * twisting, *strain, skew)
+def _strains(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """ε1, ε2 and γ (m, 3) of the strain of directions a and b, (m, 2)."""
+    return np.column_stack([a * b, a[:, 0] * b[:, 1] + a[:, 1] * b[:, 0]])

@@ -15,112 +15,116 @@ of its lines (`tests/lumped/calibration/test_oblique_rims.py`).
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from lumped import moduli
-from lumped import spring_constants as constants
-from lumped.calibration.calibration import Calibration, either
-from lumped.calibration.cell_by_cell import Kinds
-from lumped.calibration.edge_twist import AT_CORNERS, MOST, edge_factor, of_cell, with_edges
+from lumped.calibration.cell_by_cell import EachCell
+from lumped.calibration.edge_twist import AT_CORNERS, MOST, Twist, edge_factors, twist_of, with_edges
 from lumped.calibration.oblique_rims import at_oblique_rims
-from sheetbench.scenes import Sheet, SpringSet
+from lumped.spring_constants import EDGES_OWN, RIMS_OWN, Springs, along_edge, either, rank_one
 
 ALIKE = 1e-9  # shares of cells that one straight line cuts
 
 
-def with_twist(sheet: Sheet, kinds: Kinds, found: Calibration) -> Calibration:
-    """The calibration with the twist of its edges, and of its rims where cells are absent or cut."""
-    if found.present is None and (found.cells is None or found.cells.rims is None):
-        springs, notes = with_edges(sheet, found.grid, found.springs, found.grading, found.cells)
-    else:
-        springs, notes = with_rims(kinds, found)
-    return replace(found, springs=springs, remarks=(*found.remarks, *notes))
+def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[Springs, list[str]]:
+    """The springs with the twist of their edges, and of rims where cells are absent or cut, and notes; whole:
+    the moduli of the springs."""
+    twist = twist_of(each, springs, whole)
+    if each.there.all() and (each.cells is None or each.cells.rims is None):
+        edges, notes = with_edges(each, springs, twist)
+        return replace(springs, edges=edges), notes
+    return with_rims(each, springs, twist, whole)
 
 
-def with_rims(kinds: Kinds, found: Calibration) -> tuple[SpringSet, list[str]]:
-    """The springs of a calibration with the twist of its cells' rims, and a note for rims where no factor
-    will do."""
-    assert found.cells is not None
-    springs, layers, there = found.springs, found.grid[2], found.cells.per_area > 0.0
-    lost = np.broadcast_to(found.cells.layer_width, (*there.shape, 2))
-    square = moduli.second_moment(layers) * springs.layer_distance**2
-    first = {int(n): np.argwhere((kinds.which == n) & (kinds.factor == 1.0))[0] for n in range(len(kinds.of))}
-    own = [constants.of_cell(springs, *first[n]) for n in range(len(kinds.of))]
-    of_kind = [
-        of_cell(cell, (*sides, springs.layer_distance), layers)
-        for cell, (sides, _) in zip(own, kinds.of, strict=True)
-    ]
-    rims = np.zeros((*there.shape, len(constants.RIMS_OWN)))
-    notes: list[str] = []
-    factors: dict[tuple[int, int, int, bool], float] = {}
-
-    def taken(at: tuple[int, int], axis: int, count: int, both: bool) -> float:
-        """What a rim across an axis adds to the cell `at` the end of a run [N/m]."""
-        kind = int(kinds.which[at])
-        key = kind, axis, count, both
-        twisting, shear, by_diagonals, _ = of_kind[kind]
-        if key not in factors:
-            width = kinds.of[kind][0][axis]
-            strip = width, twisting[axis], shear[1 - axis], by_diagonals[1 - axis]
-            factor = edge_factor(count, *strip, float(lost[at][axis]), both)
-            if factor is None:
-                notes.append("no twisting stiffness of the cells along a rim makes it right")
-            factors[key] = MOST if factor is None else factor
-        corner = any(_beyond(there, at, 1 - axis))
-        factor = max(factors[key], AT_CORNERS) if corner else factors[key]
-        return (factor - 1.0) * twisting[axis] * float(kinds.factor[at]) / square
-
+def with_rims(
+    each: EachCell, springs: Springs, twist: Twist, whole: moduli.Moduli
+) -> tuple[Springs, list[str]]:
+    """The springs with the twist of their cells' rims, and a note for rims where no factor will do."""
+    there, share = each.there, each.share()
+    square = moduli.second_moment(each.grid[2]) * springs.layer_distance**2
     near_oblique = np.zeros(there.shape, dtype=bool)
-    if found.cells.rims is not None and not springs.rubber:
-        near_oblique[found.cells.rims.rows, found.cells.rims.columns] = True
-        at_oblique, notes = at_oblique_rims(found.cells.rims, kinds, found, own)
-        rims += at_oblique
-    edges: dict[str, list[Any]] = {name: [] for name in constants.EDGES_OWN}
+    rims = np.zeros((*there.shape, len(RIMS_OWN)))
+    notes: list[str] = []
+    oblique = each.cells.rims if each.cells is not None and not springs.rubber else None
+    if oblique is not None:
+        near_oblique[oblique.rows, oblique.columns] = True
+        rims, notes = at_oblique_rims(oblique, each, twist, whole)
+        rims /= square
+    found: dict[str, list[np.ndarray]] = {name: [] for name in EDGES_OWN}
     for axis in (0, 1):
-        rows = np.moveaxis(there, 1 - axis, 1)
-        at_edges = {name: np.zeros(len(rows)) for name in edges}
-        for place, row in enumerate(rows):
-            ends = np.flatnonzero(np.diff(np.concatenate([[0], row, [0]]))).reshape(-1, 2)
-            for start, stop in ends.tolist():
-                whole = start == 0 and stop == len(row)
-                for cell, outer, far in ((start, 0, ""), (stop - 1, len(row) - 1, "far_")):
-                    at = (place, cell) if axis == 0 else (cell, place)
-                    corner = near_oblique[at] and any(_beyond(there, at, 1 - axis))
-                    if corner or not _aligned(kinds.factor, at, axis, near_oblique):
-                        continue
-                    stretch = of_kind[int(kinds.which[at])][3][axis]
-                    if cell != outer:
-                        strain = (0.0, stretch, 1.0) if axis == 0 else (stretch, 0.0, 1.0)
-                        rims[at] += constants.rank_one(taken(at, axis, stop - start, True), *strain)
-                        continue
-                    at_edges[f"{far}edge_coupling"][place] = stretch
-                    for name, both in (("edge", not whole), ("strip", True)):
-                        at_edges[f"{far}{name}_shear"][place] = taken(at, axis, stop - start, both)
+        rows = there if axis == 0 else there.T
+        corner = _beyond(there, 1 - axis)
+        usable = _aligned(share, axis, near_oblique) & ~(near_oblique & corner)
+        ends = np.diff(np.pad(rows.astype(int), ((0, 0), (1, 1))), axis=1)
+        (places, start), (_, stop) = np.nonzero(ends == 1), np.nonzero(ends == -1)
+        at_edges = {name: np.zeros(len(rows)) for name in found}
+        for cell, outer, far in ((start, 0, ""), (stop - 1, rows.shape[1] - 1, "far_")):
+            chosen = usable[(places, cell) if axis == 0 else (cell, places)]
+            place, cells, count = places[chosen], cell[chosen], (stop - start)[chosen]
+            at = (place, cells) if axis == 0 else (cells, place)
+            two = _taken(each, twist, at, axis, count, True, corner, notes) / square
+            one, whole_row = two.copy(), count == rows.shape[1]
+            ends_alone = at[0][whole_row], at[1][whole_row]
+            one[whole_row] = (
+                _taken(each, twist, ends_alone, axis, count[whole_row], False, corner, notes) / square
+            )
+            stretch, inside = twist.stretch[(*at, axis)], cells != outer
+            strain = along_edge(axis, stretch[inside])
+            rims[at[0][inside], at[1][inside]] += rank_one(two[inside], *strain)
+            edge = place[~inside]
+            at_edges[f"{far}edge_coupling"][edge] = stretch[~inside]
+            at_edges[f"{far}strip_shear"][edge] = two[~inside]
+            at_edges[f"{far}edge_shear"][edge] = one[~inside]
         for name, values in at_edges.items():
-            edges[name].append(tuple(values.tolist()))
-    update: dict[str, Any] = {name: either(*both) for name, both in edges.items()}
-    for name, values in zip(constants.RIMS_OWN, np.moveaxis(rims, -1, 0), strict=True):
-        if values.any():
-            update[name] = tuple(map(tuple, values.tolist()))
-    return springs.model_copy(update=update), list(dict.fromkeys(notes))
+            found[name].append(values)
+    of = {
+        name: values[None]
+        for name, values in zip(RIMS_OWN, np.moveaxis(rims, -1, 0), strict=True)
+        if values.any()
+    }
+    edges = {name: either(*pair) for name, pair in found.items()}
+    return replace(springs, of=springs.of | of, edges=edges), list(dict.fromkeys(notes))
 
 
-def _beyond(there: np.ndarray, at: tuple[int, int], axis: int) -> tuple[bool, bool]:
-    """Whether the cell has none beside it before and after along an axis of the plan."""
-    along = there[:, at[1]] if axis else there[at[0]]
-    place = at[1 - axis]
-    return place == 0 or not along[place - 1], place == len(along) - 1 or not along[place + 1]
+def _taken(
+    each: EachCell,
+    twist: Twist,
+    at: tuple[np.ndarray, np.ndarray],
+    axis: int,
+    count: np.ndarray,
+    both: bool,
+    corner: np.ndarray,
+    notes: list[str],
+) -> np.ndarray:
+    """What rims across an axis add to the cells `at` the ends of runs of so many cells, times Σ z_k²
+    [N·m]."""
+    factor = np.ones(len(count))
+    width, twisting, shear, shares, lost = (
+        part[(*at, axis)] for part in (each.sides, *twist[:3], twist.lost)
+    )
+    for cells in np.unique(count):
+        of = count == cells
+        strips = [np.repeat(part[of, None], cells, axis=1) for part in (width, twisting, shear, shares)]
+        factor[of] = edge_factors(strips[0], strips[1], strips[2], strips[3], lost[of], both)
+    if np.isnan(factor).any():
+        notes.append("no twisting stiffness of the cells along a rim makes it right")
+        factor = np.where(np.isnan(factor), MOST, factor)
+    return (np.where(corner[at], np.maximum(factor, AT_CORNERS), factor) - 1.0) * twisting
 
 
-def _aligned(share: np.ndarray, at: tuple[int, int], axis: int, near_oblique: np.ndarray) -> bool:
-    """Whether the cell is whole, or cut along the rim that crosses an axis as a neighbour along it is, and
-    not near an oblique one."""
-    if share[at] > 1.0 - ALIKE:
-        return True
-    if near_oblique[at]:
-        return False
-    line, place = (share[:, at[1]], at[0]) if axis == 0 else (share[at[0]], at[1])
-    beside = line[max(place - 1, 0) : place + 2]
-    return int(np.sum(np.abs(beside - share[at]) < ALIKE)) > 1
+def _beyond(there: np.ndarray, axis: int) -> np.ndarray:
+    """Whether cells have none beside them before or after along an axis of the plan, (rows, columns)."""
+    rows = there.T if axis else there
+    around = np.pad(rows, ((0, 0), (1, 1)))
+    found = ~(around[:, :-2] & around[:, 2:])
+    return found.T if axis else found
+
+
+def _aligned(share: np.ndarray, axis: int, near_oblique: np.ndarray) -> np.ndarray:
+    """Whether cells are whole, or cut along the rim that crosses an axis as a neighbour along it is, and not
+    near an oblique one, (rows, columns)."""
+    lines = share.T if axis == 0 else share
+    around = np.pad(lines, ((0, 0), (1, 1)), constant_values=np.inf)
+    alike = (np.abs(around[:, :-2] - lines) < ALIKE) | (np.abs(around[:, 2:] - lines) < ALIKE)
+    return (share > 1.0 - ALIKE) | (~near_oblique & (alike.T if axis == 0 else alike))

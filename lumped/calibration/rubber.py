@@ -25,15 +25,16 @@ import math
 import numpy as np
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, by_direction
-from lumped.calibration.cell_by_cell import Sides, cell_by_cell, kinds_of_cells
+from lumped.calibration.calibration import Calibration
+from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.closed_form import diagonals_for_waves, vertical
 from lumped.calibration.report import report
 from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
 from lumped.sections import Section
+from lumped.spring_constants import Springs, by_direction
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.orthotropy import FIBRES
 
@@ -60,41 +61,35 @@ def hyperelastic(
         raise BadInput(f"calibration '{method}': {FIBRES}: rubber is isotropic; choose consistent")
     _require_one_thickness(cells)
 
-    def of_cell(sides: Sides, section: Section, distance: float | None = layer_distance) -> SpringSet:
-        lx, ly = sides
-        target = moduli.of_section(section, sides)
-        membrane = 0.5 * (target.membrane[0, 0] + target.membrane[1, 1])
-        poisson = float(target.membrane[0, 1] / membrane)
-        # that of a layer whose law is the material's, with the cell's G h
-        thickness = float(0.5 * (1.0 - poisson) * membrane) / (energy.shear * layers)
-        side = 2.0 * (1.0 + poisson) * energy.shear * thickness / 3.0
-        square = sheet.thickness**2 / (layers**2 - 1) if distance is None else distance**2
-        gap, squares = target.shear / moduli.shear_gaps(layers), np.array([lx * lx, ly * ly])
-        share = diagonals_for_waves(target, lx * ly, 7.0 + poisson**2)
-        diagonal = share * float((gap / squares).min() * squares.sum() / 2.0)
-        return SpringSet(
-            axial=by_direction(side * ly / lx, side * lx / ly),
-            diagonal=0.0,
-            vertical=vertical(target, sides, square),
-            cross=0.0,
-            cross_diagonal=0.0,
-            neo_hookean_shear=2.0 * energy.c10 * thickness,
-            neo_hookean_volume=energy.volume(poisson) * thickness,
-            mooney_rivlin=energy.c01 * thickness,
-            yeoh_square=energy.c20 * thickness,
-            yeoh_cube=energy.c30 * thickness,
-            gent_limit=energy.limit,
-            face_shear=by_direction(*(gap - 2.0 * diagonal * squares / squares.sum())),
-            face_diagonal_shear=diagonal,
-            layer_distance=math.sqrt(square),
-        )
-
-    kinds = kinds_of_cells(sheet, material, grid, grading, cells)
-    if grading or cells is not None:
-        springs = cell_by_cell(of_cell, kinds, layer_distance)
-    else:
-        springs = of_cell(*kinds.of[0])
-    return with_twist(sheet, kinds, report(method, kinds, springs))
+    each = each_cell(sheet, material, grid, grading, cells)
+    sides, section = each.present()
+    target = moduli.of_section(section, sides)
+    membrane = 0.5 * (target.membrane[:, 0, 0] + target.membrane[:, 1, 1])
+    poisson = target.membrane[:, 0, 1] / membrane
+    # that of a layer whose law is the material's, with the cell's G h
+    thickness = 0.5 * (1.0 - poisson) * membrane / (energy.shear * layers)
+    side = 2.0 * (1.0 + poisson) * energy.shear * thickness / 3.0
+    square = sheet.thickness**2 / (layers**2 - 1) if layer_distance is None else layer_distance**2
+    gap, squares = target.shear / moduli.shear_gaps(layers), sides**2
+    share = diagonals_for_waves(target, sides.prod(axis=1), 7.0 + poisson**2)
+    diagonal = share * (gap / squares).min(axis=1) * squares.sum(axis=1) / 2.0
+    (lx, ly), faces = sides.T, gap.T - 2.0 * diagonal * squares.T / squares.sum(axis=1)
+    springs = Springs.made(
+        math.sqrt(square),
+        axial=by_direction(*each.placed(np.stack([side * ly / lx, side * lx / ly]))),
+        vertical=each.placed(vertical(target, sides, square)),
+        neo_hookean_shear=each.placed(2.0 * energy.c10 * thickness),
+        neo_hookean_volume=each.placed(energy.volume(poisson) * thickness),
+        mooney_rivlin=each.placed(energy.c01 * thickness),
+        yeoh_square=each.placed(energy.c20 * thickness),
+        yeoh_cube=each.placed(energy.c30 * thickness),
+        gent_limit=np.full(each.there.shape, energy.limit),
+        face_shear=by_direction(*each.placed(faces)),
+        face_diagonal_shear=each.placed(diagonal),
+    )
+    whole = moduli.of_cells(springs, each.sides, layers)
+    springs, notes = with_twist(each, springs, whole)
+    return report(method, each, springs, notes, whole)
 
 
 def _require_one_thickness(cells: Section | None) -> None:

@@ -21,17 +21,19 @@ bending stiffness of their in-plane stiffness, and the cross-layer links have th
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
-from lumped.calibration.cell_by_cell import kinds_of_cells
-from lumped.calibration.closed_form import closed_form
+from lumped.calibration.calibration import Calibration, plan_spacing
+from lumped.calibration.cell_by_cell import each_cell
+from lumped.calibration.closed_form import NoClosedForm, springs_of_cells
 from lumped.calibration.report import report
 from lumped.lattice import Grid
+from lumped.spring_constants import Springs, by_direction
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet
 
 CAUCHY_POISSON = 1.0 / 3.0
 
@@ -42,7 +44,7 @@ def axial(sheet: Sheet, material: Material, grid: Grid, layer_distance: float | 
     distance = layer_distance or sheet.thickness / (grid[2] - 1)
     strip = material.young * sheet.thickness / grid[2]  # E times the thickness of a layer [N/m]
     diagonal = math.hypot(lx, ly)
-    springs = SpringSet(
+    springs = Springs.made(
         axial=by_direction(strip * ly / lx, strip * lx / ly),
         diagonal=strip * (lx * ly / diagonal) / diagonal,
         vertical=material.young * lx * ly / distance,
@@ -50,7 +52,7 @@ def axial(sheet: Sheet, material: Material, grid: Grid, layer_distance: float | 
         cross_diagonal=strip * (lx * ly / diagonal) / math.hypot(diagonal, distance),
         layer_distance=distance,
     )
-    return report("axial", kinds_of_cells(sheet, material, grid), springs)
+    return report("axial", each_cell(sheet, material, grid), springs)
 
 
 def van_gelder(
@@ -89,14 +91,18 @@ def cauchy(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
     lx, ly = plan_spacing(sheet, grid)
     if abs(lx - ly) > 1e-9 * lx:
         raise BadInput("calibration 'cauchy' is for square cells only")
-    target = moduli.of_sheet(sheet, material, (lx, ly))
+    each = each_cell(sheet, material, grid)
     third = np.array([[1.0, CAUCHY_POISSON, 0.0], [CAUCHY_POISSON, 1.0, 0.0], [0.0, 0.0, CAUCHY_POISSON]])
-    isotropic = moduli.Moduli(target.membrane[0, 0] * third, target.bending[0, 0] * third, target.shear)
-    springs = closed_form(isotropic, (lx, ly), grid[2])
-    if springs is None:
-        raise BadInput(f"calibration 'cauchy': {grid[2]} layers need cells as small as the sheet is thick")
-    springs = springs.model_copy(update={"area": 0.0, "mid_area": 0.0})
-    return report("cauchy", kinds_of_cells(sheet, material, grid), springs)
+    membrane, bending = (form[..., :1, :1] * third for form in (each.section.membrane, each.section.bending))
+    isotropic = replace(each.section, membrane=membrane, bending=bending)
+    try:
+        springs = springs_of_cells(each._replace(section=isotropic))
+    except NoClosedForm:
+        raise BadInput(
+            f"calibration 'cauchy': {grid[2]} layers need cells as small as the sheet is thick"
+        ) from None
+    links = {name: k for name, k in springs.of.items() if name not in ("area", "mid_area")}
+    return report("cauchy", each, replace(springs, of=links))
 
 
 def uniform(
@@ -108,11 +114,11 @@ def uniform(
     if k is None:
         unit = moduli.of_springs(_all(1.0, distance), (lx, ly, distance), grid[2])
         k = float(moduli.of_sheet(sheet, material, (lx, ly)).bending[0, 0] / unit.bending[0, 0])
-    return report("uniform", kinds_of_cells(sheet, material, grid), _all(k, distance))
+    return report("uniform", each_cell(sheet, material, grid), _all(k, distance))
 
 
-def _all(k: float, layer_distance: float) -> SpringSet:
-    return SpringSet(
+def _all(k: float, layer_distance: float) -> Springs:
+    return Springs.made(
         axial=k, diagonal=k, vertical=k, cross=k, cross_diagonal=k, layer_distance=layer_distance
     )
 
@@ -131,12 +137,12 @@ def _layered(
     distance = layer_distance or sheet.thickness * math.sqrt(layers / (12.0 * moduli.second_moment(layers)))
     target = moduli.of_sheet(sheet, material, (lx, ly))
     area = lx * ly
-    cross_x, cross_y, diagonals = moduli.gap_shear_per_stiffness((lx, ly, distance))
+    (cross_x, cross_y), diagonals = moduli.gap_shear_per_stiffness(np.array([lx, ly]), distance)
     gap = target.shear / moduli.shear_gaps(layers)
     # one third of the shear by the furthest diagonals, two thirds by the cross links, as in the closed form
     cross_diagonal = float(np.min(gap / 3.0 / diagonals))
     rest = gap - cross_diagonal * diagonals
-    springs = SpringSet(
+    springs = Springs.made(
         axial=by_direction(in_layer[0], in_layer[1]),
         diagonal=in_layer[2],
         vertical=8.0 * float(target.bending[0, 0]) / distance**2 * area / min(lx, ly) ** 2,
@@ -144,4 +150,4 @@ def _layered(
         cross_diagonal=cross_diagonal,
         layer_distance=distance,
     )
-    return report(method, kinds_of_cells(sheet, material, grid), springs)
+    return report(method, each_cell(sheet, material, grid), springs)

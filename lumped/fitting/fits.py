@@ -21,9 +21,8 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from lumped import spring_constants as constants
 from lumped.calibration.calibration import Calibration
-from lumped.calibration.cell_by_cell import kinds_of_cells
+from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.consistent import consistent
 from lumped.calibration.report import report
 from lumped.fitting.identifiability import Identifiability, identifiability
@@ -122,7 +121,7 @@ def fit_static(
         slopes = {name: (found.derivatives[name] / scale).ravel() for name in names}
         return ((found.displacement - target.displacement) / scale).ravel(), slopes
 
-    first = consistent(sheet, material, grid, layer_distance, grading)
+    first = consistent(sheet, material, grid, layer_distance, grading=grading)
     return _fit("fit-static", sheet, material, first, _of_kind("fit-static", targets, StaticTarget), compare)
 
 
@@ -161,10 +160,10 @@ def _fit(
     """The fit of `method` to targets, from the springs `first` on."""
     from scipy.optimize import least_squares
 
-    names = [name for name in constants.names(first.springs) if name not in FIXED_CONSTANTS]
-    start = {name: constants.value_of(first.springs, name) for name in names}
+    names = [name for name in first.constants.names() if name not in FIXED_CONSTANTS]
+    start = {name: first.constants.value(name) for name in names}
     signed = {name for name in names if name in ("area", "mid_area")}
-    unit = constants.value_of(first.springs, "diagonal")
+    unit = first.constants.value("diagonal")
 
     def fitted(change: Iterable[float]) -> Calibration:
         calibration = replace(first, method=method)
@@ -180,7 +179,7 @@ def _fit(
         compared = [compare(target, calibration, names) for target in targets]
         slopes = []
         for name in names:
-            scale = unit if name in signed else constants.value_of(calibration.springs, name)
+            scale = unit if name in signed else calibration.constants.value(name)
             slopes.append(scale * np.concatenate([rates[name] for _, rates in compared]))
         return np.concatenate([misses for misses, _ in compared]), np.stack(slopes, axis=1)
 
@@ -192,8 +191,8 @@ def _fit(
 
     best = least_squares(residuals, np.zeros(len(names)), jac=slopes_of, xtol=1e-10, ftol=1e-10, max_nfev=60)
     misses, slopes = at(tuple(best.x))
-    kinds = kinds_of_cells(sheet, material, first.grid, first.grading)
-    plain = report(method, kinds, fitted(best.x).springs)
+    each = each_cell(sheet, material, first.grid, first.grading)
+    plain = report(method, each, fitted(best.x).constants)
     known = identifiability(names, slopes, misses) if len(misses) > len(names) else None
     return FittedCalibration(
         method,

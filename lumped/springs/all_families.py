@@ -15,10 +15,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped import spring_constants as constants
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, Pattern
 from lumped.rest import Rest, rest_of
+from lumped.spring_constants import Springs as Constants
+from lumped.spring_constants import of_edge_cells, of_rubber
 from lumped.springs import cells, links
 from lumped.springs.cell_laws import FACE, RUBBER, AreaAndStrains, measures
 from lumped.springs.cells import CellArrays
@@ -238,22 +239,19 @@ def tangent(
     return blocks
 
 
-def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSet) -> Iterator[Links]:
+def link_springs(lattice: Lattice, pattern: Pattern, springs: Constants) -> Iterator[Links]:
     """Central links, first and even where there are none; then those of a per-direction law."""
     rest, names = rest_of(lattice, pattern), lattice.link_names
-    numbers = [constants.number(table, family.name, family.direction) for family in lattice.links]
-    if None not in numbers:
-        central = rest.weight * np.repeat(np.array(numbers, dtype=float), rest.counts)
+    each = [springs.of_links(family.name, family.direction) for family in lattice.links]
+    if all(k.size == 1 for k in each):
+        central = rest.weight * np.repeat(np.concatenate(each)[:, 0], rest.counts)
         yield _links(Links, rest, central > 0.0, central, names)
         return
     stiffness = []
-    for family in lattice.links:
-        k = constants.along(table, family.name, family.direction)
-        if k.ndim == 2:  # every cell its own
-            of_links = np.repeat((family.shares * k[family.cells, 0]).sum(axis=1)[:, None], 3, axis=1)
-        else:
-            of_links = family.weight[:, None] * k
-        stiffness.append(of_links)
+    for family, k in zip(lattice.links, each, strict=True):
+        of_links = (family.shares * k[family.cells, 0]).sum(axis=1, keepdims=True) if len(k) > 1 else None
+        of_links = family.weight[:, None] * k if of_links is None else of_links
+        stiffness.append(np.broadcast_to(of_links, (len(of_links), 3)))
     k = np.concatenate(stiffness)
     unequal = (k != k[:, :1]).any(axis=1)
     yield _links(Links, rest, ~unequal & (k[:, 0] > 0.0), k[:, 0], names)
@@ -266,45 +264,48 @@ def _links(kind: type[Links], rest: Rest, which: np.ndarray, k: np.ndarray, name
     return kind(nodes, k[which], slots, offset, rest_length, number, names)
 
 
-def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
+def cell_springs(lattice: Lattice, pattern: Pattern, springs: Constants) -> Iterator[Cells]:
     """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
-    edges = constants.of_edge_cells(springs, lattice.grid, lattice.twisting)
-    layers, rest = lattice.grid[2], rest_of(lattice, pattern)
+    edges = of_edge_cells(springs, lattice.grid, lattice.twisting)
+    layers, rest, shape = lattice.grid[2], rest_of(lattice, pattern), lattice.cell_areas.shape
+
+    def kept_cells(values: np.ndarray) -> np.ndarray:
+        spread = np.broadcast_to(values, (*shape, *values.shape[2:]))
+        return spread.reshape(-1, *values.shape[2:])[lattice.kept]
+
     for family in lattice.cells:
         nodes, slots, sides, area = rest.cells(family.name)
         every = layers if family.name == "area" else 1
         if family.name == "area" and springs.rubber:
             every_sides, every_area = (part[: len(part) // every] for part in (sides, area))
-            found = constants.of_rubber(springs, every_sides, every_area, edges[:, 2], lattice.kept)
+            squares, twist = (every_sides**2).sum(axis=2), edges[lattice.kept, 2]
+            found = of_rubber(springs, squares, every_area, twist, kept_cells)
             stiffness, others = (np.concatenate([each] * every) for each in found)
             yield Cells(nodes, stiffness, slots, sides, area, ("", "rubber"), False, RUBBER, others)
             continue
-        name, strains = constants.of_strains(springs, family.name, len(edges))
-        of_area = constants.of_cells(getattr(springs, family.name), len(edges))
-        strains += edges if family.name == "area" else -layers * edges
-        stiffness = np.column_stack([of_area, strains])
+        strains = kept_cells(springs.strains(family.name))
+        strains = strains + (1 if family.name == "area" else -layers) * edges[lattice.kept]
+        stiffness = np.column_stack([kept_cells(springs.along(family.name, 0)), strains])
         if stiffness.any():
-            stiffness = np.concatenate([stiffness[lattice.kept]] * every)
-            yield Cells(nodes, stiffness, slots, sides, area, (family.name, name))
+            names = family.name, "strain" if family.name == "area" else "mid_strain"
+            yield Cells(nodes, np.concatenate([stiffness] * every), slots, sides, area, names)
 
 
-def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
+def face_springs(lattice: Lattice, pattern: Pattern, springs: Constants) -> Iterator[Cells]:
     """On the upright faces between the layers, against their shear."""
-    if springs.face_shear or springs.face_diagonal_shear:
+    if springs.of.keys() & {"face_shear", "face_diagonal_shear"}:
         rest = rest_of(lattice, pattern)
         faces, (nodes, slots, sides, area) = rest.faces, rest.cells("faces")
-        count = lattice.cell_areas.size
-        diagonal = constants.of_cells(springs.face_diagonal_shear, count)
-        per_area = np.vstack([constants.along_each(springs.face_shear, count), diagonal])
-        per_area = per_area[faces.axis[:, None], faces.cells]
-        stored = per_area * lattice.cell_areas.ravel()[faces.cells]
+        along = (springs.along("face_shear", axis) for axis in (0, 1))
+        each = (*along, springs.along("face_diagonal_shear", 0))
+        stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])[faces.axis[:, None], faces.cells]
         stiffness = np.zeros((len(nodes), 4))
         stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
         others = stiffness[:, 3:] / area[:, None]
         yield Cells(nodes, stiffness, slots, sides, area, ("", "face_shear"), True, FACE, others)
 
 
-FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (
+FAMILIES: tuple[Callable[[Lattice, Pattern, Constants], Iterator[Family]], ...] = (
     link_springs,
     cell_springs,
     face_springs,
@@ -315,13 +316,14 @@ FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] 
 def springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet, single: bool) -> AllFamilies:
     """The springs of a spring set on a lattice, the central links first; of a small one the same every
     time."""
-    found = [family for make in FAMILIES for family in make(lattice, pattern, springs)]
+    constants = Constants.read(springs)
+    found = [family for make in FAMILIES for family in make(lattice, pattern, constants)]
     return AllFamilies(found, pattern, single)
 
 
 def table_dampers(lattice: Lattice, pattern: Pattern, table: DamperSet) -> Links:
     """The dampers of a scene's [dampers] table, along the links. Raises BadInput for x, y and z apart."""
-    along_links, *others = link_springs(lattice, pattern, table)
+    along_links, *others = link_springs(lattice, pattern, Constants.read(table))
     if others:
         name = others[0].names[others[0].kind[0]]
         raise BadInput(f"dampers.{name}: a damper acts along its link; give one number, or x and y")

@@ -4,8 +4,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.assembly import Assembly
-from lumped.calibration.cell_by_cell import kinds_of_cells
+from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.report import report
+from lumped.spring_constants import Springs
 from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)
@@ -25,8 +26,8 @@ ALL = {
 
 
 def assembly_of(grid=(3, 4, 2), **springs):
-    constants = SpringSet(**{**NONE, **springs}, layer_distance=0.02 / (grid[2] - 1))
-    return Assembly(SHEET, report("test", kinds_of_cells(SHEET, MATERIAL, grid), constants))
+    table = SpringSet(**{**NONE, **springs}, layer_distance=0.02 / (grid[2] - 1))
+    return Assembly(SHEET, report("test", each_cell(SHEET, MATERIAL, grid), Springs.read(table)))
 
 
 def dense(assembly, blocks):

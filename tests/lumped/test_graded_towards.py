@@ -61,8 +61,8 @@ def test_a_sheet_and_its_mirror_image_have_mirrored_answers():
 
 def test_the_twist_of_either_edge_is_that_of_the_strip_that_begins_with_it():
     """Graded at x0 with only x1 free its cells are the long ones; with both free each end has its own."""
-    springs = lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=LEFT).springs
-    turned = lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=Grading(0.6, ("x1",))).springs
+    springs = lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=LEFT).constants
+    turned = lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=Grading(0.6, ("x1",))).constants
     grid = (6, 5, 2)
     for edges in ({"x1"}, {"x0", "x1"}, {"x0", "y0"}):
         mirrored = frozenset(TURNED.get(edge, edge) for edge in edges)

@@ -1,7 +1,5 @@
 """Calibrations: closed form against homogenisation, numerical and by imposed strains; the moduli reports."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -9,8 +7,9 @@ import lumped
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration import tables
-from lumped.calibration.cell_by_cell import kinds_of_cells
+from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.report import _admissible, _require_positive, report
+from lumped.spring_constants import Springs
 from sheetbench import scenes
 from sheetbench.scenes import BadInput, Material, PerDirection, Sheet, SpringSet
 
@@ -109,7 +108,9 @@ def test_homogenisation_agrees_with_imposed_strains(grid):
     springs = UNEQUAL.model_copy(
         update={"shear": 120.0, "mid_shear": 90.0, "mid_stretch": PerDirection(x=50.0, y=80.0)}
     )
-    assembly = small_assembly(report("test", kinds_of_cells(SEED.sheet, SEED.material, grid), springs))
+    assembly = small_assembly(
+        report("test", each_cell(SEED.sheet, SEED.material, grid), Springs.read(springs))
+    )
     spacing = (0.188 / (grid[0] - 1), 0.188 / (grid[1] - 1), 0.004)
     got = moduli.of_springs(springs, spacing, 2)
     zero = (0.0, 0.0, 0.0)
@@ -148,7 +149,7 @@ def test_without_strain_springs_long_cells_cannot_be_met():
     """Diagonals stiffen a cell along its length by (lx/ly)² C66: beyond √3 axial links would be negative."""
     calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 25))
     bare = calibration.springs.model_copy(update={"shear": 0.0, "mid_shear": 0.0, "mid_stretch": 0.0})
-    stripped = report("stripped", kinds_of_cells(SEED.sheet, SEED.material, (9, 25, 2)), bare)
+    stripped = report("stripped", each_cell(SEED.sheet, SEED.material, (9, 25, 2)), Springs.read(bare))
     assert any("miss" in note and "D66 by" in note for note in stripped.remarks)
 
 
@@ -225,15 +226,14 @@ def test_the_table_shows_the_sheets_shear_stiffness_beside_the_grids():
 
 
 def test_area_springs_of_nothing_need_no_note():
-    none, negative = (SimpleNamespace(area=0.0, mid_area=value) for value in (0.0, -1.0))
+    none, negative = (Springs.made(1e-3, mid_area=value) for value in (0.0, -1.0))
     assert _admissible(none) == () != _admissible(negative)
 
 
 def test_a_bend_that_costs_nothing_is_refused():
-    springs = SimpleNamespace(area=-1.0, mid_area=0.0)
-    costless = SimpleNamespace(membrane=np.eye(3), bending=np.diag([1.0, 1.0, 0.0]))
+    costless = moduli.Moduli(np.eye(3)[None], np.diag([1.0, 1.0, 0.0])[None], np.ones((1, 2)))
     with pytest.raises(BadInput, match="the cell's energy is not positive"):
-        _require_positive(springs, costless)
+        _require_positive(Springs.made(1e-3, area=-1.0), costless)
 
 
 def test_the_least_spring_of_a_sheet_with_holes_is_one_that_is_there():

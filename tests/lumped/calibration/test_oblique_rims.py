@@ -12,7 +12,7 @@ from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.calibration import plan_spacing
 from lumped.calibration.edge_twist import layer_width
-from lumped.spring_constants import RIMS_OWN, of_cell, of_edge_cells
+from lumped.spring_constants import RIMS_OWN, Springs, of_edge_cells
 from sheetbench.scenes import Cells, Scene, SpringSet
 from sheetbench.scenes.grid import grid_of
 from studies.drawn.scenes import drawn
@@ -153,12 +153,13 @@ def test_every_cell_keeps_a_positive_energy_and_the_table_is_read_back(scene, ma
     rows, columns = np.nonzero(np.array(found.axial.x if hasattr(found.axial, "x") else found.axial))
     edges = frozenset({"x0", "x1", "y0", "y1"})
     grid = (*grid_of(scene.sheet, masses)[:2], 2)
-    rims = of_edge_cells(found, grid, edges).reshape(grid[1] - 1, grid[0] - 1, 6)[rows, columns]
+    rims = of_edge_cells(Springs.read(found), grid, edges).reshape(grid[1] - 1, grid[0] - 1, 6)[rows, columns]
     assert rims.any()
     least = []
-    sides = (*plan_spacing(scene.sheet, grid), found.layer_distance)
+    sides = np.array([[plan_spacing(scene.sheet, grid)]])
+    each = moduli.of_cells(Springs.read(found), sides, 2).bending
     for row, column, (xx, yy, ss, xy, xs, ys) in zip(rows, columns, rims, strict=True):
-        whole = moduli.of_springs(of_cell(found, row, column), sides, 2).bending
+        whole = each[row, column]
         own = np.array([[xx, xy, xs], [xy, yy, ys], [xs, ys, ss]]) * found.layer_distance**2 / 2
         least.append(np.linalg.eigvalsh(whole + own)[0] / np.linalg.eigvalsh(whole)[0])
     assert min(least) > 0.05

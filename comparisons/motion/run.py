@@ -21,7 +21,7 @@ from comparisons.runs.campaign import Run
 from comparisons.runs.peak_memory import with_peak_memory
 from comparisons.runs.store import Finished
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History, Scene, Status
+from sheetbench.scenes import History, Scene, Status, comparable
 
 
 def motion_run(
@@ -90,12 +90,12 @@ def measure(
 
 
 def history_of(outcome: Finished) -> History | None:
-    """The history that a run has found, None where it did not reach its end."""
-    if outcome.status != Status.CONVERGED:
+    """The history that a run has found, with its status; None where it did not reach its end."""
+    if not comparable(outcome.status, 1.0):
         return None
     found: dict[str, Any] = {
         one.name: outcome.row[one.name] for one in fields(History) if one.name in outcome.row
     }
     for name in ("probes", "energies", "reactions", "actuators"):
         found[name] = {key: np.array(values) for key, values in found[name].items()}
-    return History(**found | {"status": Status.CONVERGED, "time": np.array(found["time"])})
+    return History(**found | {"status": Status(outcome.status), "time": np.array(found["time"])})

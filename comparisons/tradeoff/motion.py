@@ -37,7 +37,7 @@ from comparisons.tradeoff.statics import finest_shell
 from fem_reference.uncertainty import coarser, estimate, mesh_size
 from sheetbench.choices import INTEGRATORS
 from sheetbench.errors import NoEquilibrium
-from sheetbench.scenes import Scene, SceneError, Status
+from sheetbench.scenes import Scene, SceneError, Status, comparable
 from sheetbench.scenes.quantities import require_positive
 
 if TYPE_CHECKING:
@@ -173,7 +173,7 @@ def _off(one: Finished, other: Finished) -> float:
 def _unsolved(
     model_runs: Sequence[tuple[Run, int | None]], found: Sequence[Finished]
 ) -> list[tuple[int, str]]:
-    """Numbers of lattices and the implicit integrators that converged there with no step so far."""
+    """Numbers of lattices and the implicit integrators that came to their end there with no step so far."""
     import lumped
 
     ended: dict[tuple[int, str], set[str]] = {}
@@ -183,7 +183,8 @@ def _unsolved(
     return [
         (number, name)
         for (number, name), statuses in ended.items()
-        if not lumped.INTEGRATORS[name].explicit and not statuses & {Status.CONVERGED, Status.REFUSED}
+        if not lumped.INTEGRATORS[name].explicit
+        and not any(status == Status.REFUSED or comparable(status, 1.0) for status in statuses)
     ]
 
 

@@ -14,7 +14,7 @@ from comparisons.tradeoff.pareto import cheapest, error_order, front, grouped
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import Table
-from sheetbench.scenes import Scene, Status
+from sheetbench.scenes import Scene, Status, comparable
 from sheetbench.scenes.summary import few, milliseconds
 
 SHOWN = (
@@ -142,7 +142,7 @@ class DynamicTradeoff(Answer):
     @property
     def succeeded(self) -> bool:
         """Whether there is a reference to measure against."""
-        return self.reference.status == Status.CONVERGED
+        return comparable(self.reference.status, 1.0)
 
 
 def folded(rows: Sequence[MotionRow]) -> tuple[str, ...]:
@@ -150,7 +150,7 @@ def folded(rows: Sequence[MotionRow]) -> tuple[str, ...]:
     ends: dict[tuple[str, str, str], list[MotionRow]] = {}
     for row in rows:
         if row.status != Status.CONVERGED:
-            why = re.sub(r"^at [\d.e+-]+ s: ", "", row.message)
+            why = re.sub(r"^(at [\d.e+-]+ s:|from [\d.e+-]+ s on) ", "", row.message)
             ends.setdefault((row.name, row.status, why), []).append(row)
     return tuple(f"{name}{_steps(alike)}: {status}: {why}" for (name, status, why), alike in ends.items())
 

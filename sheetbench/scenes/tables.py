@@ -8,7 +8,7 @@ Sci. Stat. Comput. 5, 300–304, as SciPy's `PchipInterpolator` has it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Annotated, Literal
 
@@ -24,21 +24,20 @@ Values = Sequence[float] | Sequence[Sequence[float]]
 
 
 class PiecewiseCurve:
-    """Values (n, …) at increasing times (n,) [s], constant outside; between them what `_between` says."""
+    """Values (n, …) at increasing times (n,) [s], constant outside; between: the pieces, of times and values
+    their polynomials' coefficients (degree + 1, n − 1, …) in the time since each began, constants first."""
 
-    def __init__(self, time: Sequence[float], values: Values):
+    def __init__(
+        self, time: Sequence[float], values: Values, between: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    ):
         self._time, samples = np.array(time, dtype=float), np.array(values, dtype=float)
         self._instant = INSTANT * (self._time[-1] - self._time[0])
-        inner = self._between(self._time, samples) if len(time) > 1 else samples[None, :0]
+        inner = between(self._time, samples) if len(time) > 1 else samples[None, :0]
         # coefficients of each piece in the time since its start, from the constant on; the first and the last
         # piece are what lies before and after
         self._pieces = np.zeros((len(inner), len(samples) + 1, *samples.shape[1:]))
         self._pieces[:, 1:-1] = inner
         self._pieces[0, 0], self._pieces[0, -1] = samples[0], samples[-1]
-
-    def _between(self, time: np.ndarray, values: np.ndarray) -> np.ndarray:
-        """Coefficients (degree + 1, n − 1, …) of the pieces."""
-        raise NotImplementedError
 
     def at(self, time: float | np.ndarray | None = None) -> np.ndarray:
         """The value at a time [s], or those at times (k,), (k, …); without one the last, as statics take
@@ -73,21 +72,32 @@ class PiecewiseCurve:
 class PiecewiseLinear(PiecewiseCurve):
     """Linear between the samples."""
 
-    def _between(self, time: np.ndarray, values: np.ndarray) -> np.ndarray:
-        spacing = np.diff(time).reshape(-1, *(1,) * (values.ndim - 1))
-        return np.stack([values[:-1], np.diff(values, axis=0) / spacing])
+    def __init__(self, time: Sequence[float], values: Values):
+        super().__init__(time, values, _lines)
 
 
 class SmoothCurve(PiecewiseCurve):
     """Cubic between the samples; a table of two is a line."""
 
-    def _between(self, time: np.ndarray, values: np.ndarray) -> np.ndarray:
-        from scipy.interpolate import PchipInterpolator  # a scene that is only read need not wait for it
-
-        return np.asarray(PchipInterpolator(time, values).c[::-1])
+    def __init__(self, time: Sequence[float], values: Values):
+        super().__init__(time, values, _cubics)
 
 
-CURVES: dict[Interpolation, type[PiecewiseCurve]] = {"smooth": SmoothCurve, "linear": PiecewiseLinear}
+def _lines(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    spacing = np.diff(time).reshape(-1, *(1,) * (values.ndim - 1))
+    return np.stack([values[:-1], np.diff(values, axis=0) / spacing])
+
+
+def _cubics(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    from scipy.interpolate import PchipInterpolator  # a scene that is only read need not wait for it
+
+    return np.asarray(PchipInterpolator(time, values).c[::-1])
+
+
+CURVES: dict[Interpolation, type[PiecewiseLinear] | type[SmoothCurve]] = {
+    "smooth": SmoothCurve,
+    "linear": PiecewiseLinear,
+}
 
 
 class OverTime(Frozen):

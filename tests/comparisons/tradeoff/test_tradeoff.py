@@ -271,6 +271,25 @@ def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until
     assert len(found.rows) == 1 or found.rows[0].status != "converged"
 
 
+def test_motions_with_strains_beyond_the_model_are_measured_and_say_so(tmp_path):
+    """A sheet too heavy for its law: its rows had neither error nor cost."""
+    heavy = Scene(
+        name="heavy",
+        sheet=Sheet(length_x=0.2, length_y=0.1, thickness=0.003),
+        material=Material(young=2e4, poisson=0.3, density=1000.0),
+        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
+        support=(Clamped(edge="x0"),),
+    )
+    options = {"lattices": [Lattice(3)], "integrators": ("esdirk",), "fine": 400, "pool": Here}
+    shell = Elements("shell", 2)
+    with campaign(tmp_path) as store:
+        found = dynamic_tradeoff(heavy, 0.05, store, divisions=(40,), reference=shell, **options)
+    (row,) = found.rows
+    assert row.status == found.reference.status == "strain-outside-model"
+    assert 0.0 < row.error < 1.0 and row.seconds_per_second > 0.0 and found.uncertainty > 0.0
+    assert found.succeeded and any("strain-outside-model" in line for line in found.complaints())
+
+
 def test_equal_complaints_are_one_line():
     ended = [
         MotionRow("lumped", "3×3×2", "esdirk", step, "diverged", f"at {time} s: use smaller steps")

@@ -44,6 +44,7 @@ def with_rims(kinds: Kinds, found: Calibration) -> tuple[SpringSet, list[str]]:
     will do."""
     assert found.cells is not None
     springs, layers, there = found.springs, found.grid[2], found.cells.per_area > 0.0
+    share = there.astype(float) if found.cells.share is None else found.cells.share
     lost = np.broadcast_to(found.cells.layer_width, (*there.shape, 2))
     square = moduli.second_moment(layers) * springs.layer_distance**2
     first = {int(n): np.argwhere((kinds.which == n) & (kinds.factor == 1.0))[0] for n in range(len(kinds.of))}
@@ -88,7 +89,7 @@ def with_rims(kinds: Kinds, found: Calibration) -> tuple[SpringSet, list[str]]:
                 for cell, outer, far in ((start, 0, ""), (stop - 1, len(row) - 1, "far_")):
                     at = (place, cell) if axis == 0 else (cell, place)
                     corner = near_oblique[at] and any(_beyond(there, at, 1 - axis))
-                    if corner or not _aligned(kinds.factor, at, axis, near_oblique):
+                    if corner or not _aligned(share, at, axis, near_oblique):
                         continue
                     stretch = of_kind[int(kinds.which[at])][3][axis]
                     if cell != outer:

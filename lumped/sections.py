@@ -43,7 +43,8 @@ ROUNDING = 1e-12  # of moduli, for what is 0
 class Section:
     """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m] along x and y,
     free_shear the same where no force shears the other way, per_area (…) [kg/m²]; of cells the dots are
-    (rows, columns); rims: the oblique ones, where there are any."""
+    (rows, columns); rims: the oblique ones, where there are any; share: the sheet's of each cell, where some
+    are cut."""
 
     membrane: np.ndarray
     bending: np.ndarray
@@ -51,6 +52,7 @@ class Section:
     free_shear: np.ndarray
     per_area: np.ndarray
     rims: ObliqueRims | None = None
+    share: np.ndarray | None = None
 
     @classmethod
     def of(cls, constants: Constants) -> Self:
@@ -141,7 +143,7 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | No
     if not scene.pierced:
         return whole
     share = shares_of(scene.region, lines[0].at, lines[1].at)
-    return replace(_times(whole, share), rims=oblique_rims(scene, lines, share))
+    return replace(_times(whole, share), rims=oblique_rims(scene, lines, share), share=share)
 
 
 def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> Section | None:

@@ -10,7 +10,7 @@ bound as the mesh is refined. A clamp holds the edge's face:
     "mean"        the same, but of the component along the director the mean of every column is held: held on
                   the mid-line alone, the shear force is a line load, and dents the face the more the finer
                   the mesh is. Four clamps, h/a 0.12, ν 0.45: 1.3, 5.8 and 7.0 % softer than a shell with 1, 2
-                  and 4 layers (one can hardly be dented), with the mean held 1.2 and 1.0 % stiffer with 2 and 4
+                  and 4 layers (one can hardly be dented), with the mean held 1.2, 1.0 % stiffer with 2 and 4
     "full"        all three components of the whole face; the strain is singular at its rims
 
 A plane of symmetry holds the component across it in the whole face.
@@ -43,8 +43,8 @@ CLAMPS = ("shell-like", "mean", "full")
 
 @dataclass(frozen=True)
 class ColumnSupports:
-    """held: (n, levels, 3) of the components q; edges: name → held components of its own; by_mean: (n,), columns of
-    which the mean is held."""
+    """held: (n, levels, 3) of the components q; edges: name → held components of its own; by_mean: (n,),
+    columns of which the mean is held."""
 
     line: Supports
     columns: Columns

@@ -39,7 +39,8 @@ class Placed(NamedTuple):
         """Region and inner borders on the far side of all mirrors."""
         import shapely
 
-        low, high = np.full(2, -1.0 - np.ptp(self.region.bounds)), np.full(2, 1.0 + np.ptp(self.region.bounds))
+        beyond = 1.0 + np.ptp(self.region.bounds)
+        low, high = np.full(2, -beyond), np.full(2, beyond)
         low[list(self.mirrors)] = 0.0
         side = shapely.box(*low, *high)
         region, inner = (shapely.intersection(part, side) for part in (self.region, self.inner))

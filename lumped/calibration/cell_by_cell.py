@@ -50,16 +50,9 @@ class EachCell(NamedTuple):
         return found
 
     def share(self) -> np.ndarray:
-        """How many times as stiff a cell is as the stiffest that is like it but for a factor, (rows,
-        columns), 0 where there is none."""
-        sides, section = self.present()
-        scale = section.bending[:, 0, 0]
-        stiffness = (section.membrane, section.bending, section.shear)
-        parts = [sides, *(part.reshape(len(scale), -1) / scale[:, None] for part in stiffness)]
-        which = np.unique(_rounded(np.concatenate(parts, axis=1)), axis=0, return_inverse=True)[1].ravel()
-        stiffest = np.zeros(which.max(initial=0) + 1)
-        np.maximum.at(stiffest, which, scale)
-        return self.placed(scale / stiffest[which])
+        """The sheet's share of each cell, (rows, columns), 0 where there is none."""
+        share = self.there if self.cells is None or self.cells.share is None else self.cells.share
+        return np.asarray(share, dtype=float)
 
 
 def each_cell(

@@ -59,7 +59,7 @@ class Strip:
         along = (np.stack([x[rims.columns], y[rims.rows]], axis=1) - self.middle) @ self.axes[0]
         sides = np.abs(along) < (0.5 * ALONG - 3.0) * self.size
         cells = replace(whole.each(lambda part: part * share.reshape(*share.shape, *(1,) * (part.ndim - 2))))
-        cells = replace(cells, rims=type(rims)(*(part[sides] for part in rims)))
+        cells = replace(cells, rims=type(rims)(*(part[sides] for part in rims)), share=share)
         return lumped.calibrate(self.scene.sheet, self.scene.material, self.grid, method, cells=cells)
 
     def energies(self, springs, curvature, lengths):

@@ -55,7 +55,7 @@ def blocks_out_of_force(text):
 def test_every_block_of_a_new_scene_can_be_put_in_force():
     text = template("mine", SHEET, MATERIAL)
     blocks = blocks_out_of_force(text)
-    assert len(blocks) == 11
+    assert len(blocks) == 12
     plain = Scene(**tomllib.loads(text))
     assert plain.supports == (Clamped(edge="x0"),) and plain.sheet == SHEET and plain.material == MATERIAL
     added: list[Any] = []

@@ -79,10 +79,3 @@ def with_shares(found: Calibration, sheet: Sheet, material: Material, cells: Sec
     whole = Section.of(Constants.of(sheet, material)).bending[0, 0]
     springs = Springs.read(found.springs).scaled(cells.bending[..., 0, 0] / whole)
     return replace(found, springs=springs.table(), cells=cells)
-
-
-def _rounded(values: np.ndarray) -> np.ndarray:
-    """To so many digits."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        unit = 10.0 ** (np.floor(np.log10(np.abs(values))) - DIGITS + 1)
-        return np.where(values == 0.0, 0.0, np.rint(values / unit) * unit)

@@ -102,7 +102,7 @@ load_each: Any = intrinsic(prefer_literal=True)(_load_each)
 store: Any = intrinsic(prefer_literal=True)(_store)
 store_each: Any = intrinsic(prefer_literal=True)(_store_each)
 
-if config.DISABLE_JIT:  # the same in Python, where kernels are not compiled
+if getattr(config, "DISABLE_JIT", False):  # the same in Python, where kernels are not compiled
 
     def load(kind: int, array: np.ndarray, i: int) -> Any:
         return array.reshape(-1)[int(i)]

@@ -19,7 +19,6 @@ from sheetbench.scenes import Constants, Material, Sheet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
-DIGITS = 12  # to which cells are distinguished
 
 
 class EachCell(NamedTuple):

@@ -25,8 +25,8 @@ SHEETS = {
     "rubber": ({**PLAIN, **HOLE}, (8, 8, 3), 0.2, "hyperelastic"),
 }
 # layer distance [m] and of every constant Σ k_i cos i over the cells [N/m], by the code that took one cell
-# after another (commit 1e6b6af0), which rounded widths to twelve digits; rims of the rubber's round hole, which
-# that code took along the grid by the cells' stiffness, are told by the sheet's share of the cells since
+# after another (commit 1e6b6af0), which rounded widths to twelve digits; rims of the rubber's round hole,
+# which that code took along the grid by the cells' stiffness, are told by the sheet's share of cells since
 BEFORE = {
     "graded": (
         0.00372380931689,

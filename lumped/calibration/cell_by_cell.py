@@ -20,7 +20,6 @@ from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
 
-
 class EachCell(NamedTuple):
     """sides (rows, columns, 2) [m] and section (rows, columns, …) of the cells, of one where all are alike;
     there: which there are, (rows, columns); cells: the sections as given, where they differ."""

@@ -248,13 +248,13 @@ class Comparison(Answer):
         )  # fmt: skip
         return Table.of(CostRow, rows, "Cost and error of each model", "models", text="; ".join(self.busy))
 
-    def _foretold(self, solution: Solution) -> tuple[float | None, str]:
+    def _foretold(self, solution: Solution) -> tuple[float | None, str | None]:
         """Return the grid error that the chosen lattice is told to have, and why none is."""
         if solution is not self.solutions[0] or self.expected is None:
-            return None, ""
+            return None, None
         if isinstance(self.expected, NoEstimate):
             return None, str(self.expected)
-        return self.expected.value, ""
+        return self.expected.value, None
 
     def _reactions(self, of: Collection[str] | None = None) -> Table:
         """Of all supports, or of those named."""

@@ -48,7 +48,7 @@ class CostRow:
     solve_seconds: Annotated[float, MILLISECONDS(".1f", "solve")]
     error: Annotated[float | None, PERCENT("z.2f")]
     foretold: Annotated[float | None, PERCENT(".2g", "told")]
-    no_estimate: Annotated[str, Column("why none is told", prose=True, detail=True)]
+    no_estimate: Annotated[str | None, Column("why none is told", prose=True, detail=True)]
     status: Annotated[str, Column(prose=True)]
 
 

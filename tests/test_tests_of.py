@@ -29,5 +29,5 @@ def test_tests_beside_the_module_come_before_those_that_speak_of_its_folder():
     ):
         folder = "/".join(module.split("/")[:2])
         assert sum(test.startswith(f"tests/{folder}/") for test in of(module)[:4]) >= 3, of(module)[:4]
-    assert "tests/lumped/test_solve_many.py" in of("lumped/statics/many.py")[:2]
+    assert "tests/lumped/statics/test_polygon.py" in of("lumped/statics/polygon.py")[:2]
     assert of("comparisons/runs/store.py")[0].startswith("tests/comparisons/runs/")

@@ -10,8 +10,8 @@ the finer answer known). The finer grid has half as many cells again, and FINEST
 shorter side, where the error is not yet second order on coarser ones.
 
 Chains keep their segments on the finer grid: the edge is a smooth curve through their joints in every model,
-so that they are no part of the grid. (24 segments, `--lumped` 9, 17 and 25x3: 0.04 to 0.05 % off, no
-estimate, for laws of strain would put them further apart; `actuated-edge` on 5, 9, 13: 4.6, 1.5, 0.62 % off,
+so that they are no part of the grid. (24 segments, `--lumped` 9 and 25x3: 0.04 to 0.05 % off, no estimate,
+for laws of strain would put them further apart; `actuated-edge` on 5, 9, 13: 4.6, 1.5, 0.62 % off,
 4.5, 1.5, 0.81 expected. What a chain of few segments is off on every grid it does not see: six of a strip
 4.1 %.)
 

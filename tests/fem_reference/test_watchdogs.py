@@ -105,12 +105,12 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem):
     v[equations.assembly.lattice.columns()[2, 4, 0], 2] = 1.0
     moving = Samples.of(State(0.25, state.u, v, state.a))
     row = np.array([[0.25, 1.0, 1.0, 0.0, 0.0, 0.0]])  # time, kinetic, elastic, potential, dissipated, work
-    assert watchdog.check_samples(equations, moving, row, Watch(1.9, 3.0)) == (1, None)
-    sound, fault = watchdog.check_samples(equations, moving, row, Watch(1.5, 3.0))
+    assert watchdog.check_samples(equations, moving, row, Watch(1.9, lowest=1.9, largest=3.0)) == (1, None)
+    sound, fault = watchdog.check_samples(equations, moving, row, Watch(1.5, lowest=1.5, largest=3.0))
     assert sound == 0 and fault is not None and fault.status is Status.DIVERGED
     assert "0.25 s" in fault.message and "x = 0.188 m, y = 0.094 m" in fault.message
     row[0, 2] = np.inf
-    sound, fault = watchdog.check_samples(equations, moving, row, Watch(1.5, 3.0))
+    sound, fault = watchdog.check_samples(equations, moving, row, Watch(1.5, lowest=1.5, largest=3.0))
     assert sound == 0 and fault is not None and fault.status is Status.NON_FINITE
 
 

@@ -5,6 +5,7 @@ answers. Masses of the lattices: 9 along the shorter side unless the table has o
 """
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -100,7 +101,8 @@ def solve(name: str) -> Solution:
         scene = load("two-edges-clamped")
         springs = lumped.calibrate(scene.sheet, scene.material, grid=9)
         k = springs.springs.diagonal
-        return lumped.solve(scene, springs.with_constant("diagonal", PerDirection(x=k, y=k, z=0.5 * k)))
+        own = springs.springs.replace(diagonal=PerDirection(x=k, y=k, z=0.5 * k))
+        return lumped.solve(scene, replace(springs, springs=own))
     return lumped.solve(OTHERS.get(name, name))
 
 

@@ -41,7 +41,9 @@ import json, sys
 import sheetbench as sb
 from comparisons.models.solve import warm
 from comparisons.runs.peak_memory import with_peak_memory
+from sheetbench.heap import keep_freed_memory
 
+keep_freed_memory()  # as the command line does
 model, settings = sys.argv[1], json.loads(sys.argv[2])
 warm(model)
 print(with_peak_memory(lambda: sb.solve("two-edges-clamped", model, **settings))[1])

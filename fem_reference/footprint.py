@@ -33,7 +33,7 @@ class _Cost:
 
 COSTS = {
     "plate": _Cost(10e6, 0.21e6, 8.0, 0.5e-3, 2e-10),
-    "shell": _Cost(8e6, 0.093e6, 29.0, 1.35e-3, 1e-9),
+    "shell": _Cost(8e6, 0.075e6, 24.0, 1.35e-3, 1e-9),
     "solid": _Cost(20e6, 1.2e6, 14.0, 6e-3, 1.2e-9),
 }
 

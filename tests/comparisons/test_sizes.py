@@ -111,7 +111,7 @@ def test_a_long_thin_sheet_is_refused_with_what_fits(strip, monkeypatch):
     room(monkeypatch, 4 * GB)
     with pytest.raises(BadInput, match=r"shell 4x18688: .* --elements 2 would fit"):
         sb.compare(strip, grid=(3, 9), elements=4)
-    room(monkeypatch, 0.5 * GB)
+    room(monkeypatch, 0.3 * GB)
     with pytest.raises(BadInput, match="take fewer along the longer side, --elements NxM"):
         sb.solve(strip, "shell", elements=4)
     with pytest.raises(BadInput, match=r"shell 8x37376: .*; advise has no coarser one"):

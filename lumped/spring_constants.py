@@ -87,8 +87,10 @@ class Springs:
         of: dict[str, np.ndarray] = {}
         edges: dict[str, tuple[np.ndarray, ...]] = {}
         for name, value in table:
+            if value is None or (value == 0.0 and not name.startswith("far")):
+                continue
             parts = [part for _, part in _parts(value)]
-            if name in EDGES_OWN and parts:
+            if name in EDGES_OWN:
                 edges[name] = tuple(np.atleast_1d(np.array(part, dtype=float)) for part in parts)
             elif name != "layer_distance" and any(map(np.any, parts)):
                 arrays = [np.atleast_2d(np.array(part, dtype=float)) for part in parts]

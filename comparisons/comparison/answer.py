@@ -197,12 +197,9 @@ class Comparison(Answer):
     def _result(self, solution: Solution) -> str:
         if (off := self.error(solution)) is None:
             ended = [one for one in (solution, self.reference) if one.status is not Status.CONVERGED]
-            return f"{solution.label}: not comparable" + "".join(
-                f", {one.model} {one.status}" for one in ended
-            )
-        own = ""
-        if solution is self.solutions[0] and isinstance(self.expected, ExpectedError):
-            own = f", expected {few(100 * self.expected.value)} %"
+            return ", ".join([f"{solution.label}: not comparable", *(f"{s.model} {s.status}" for s in ended)])
+        expected = self._expected(solution)
+        own = "" if expected is None else f", expected {few(100 * expected)} %"
         bar = "" if self.bar is None else f" ± {few(100 * self.bar.error)} %"
         return f"{solution.label}: {few(100 * off)} % off {self.reference.label}{bar}{own}"
 

@@ -53,7 +53,8 @@ def test_sixteenths_of_a_mesh_are_it_or_cut_up_or_our_own():
     meshes = {n: mesh_of(fin(), n) for n in (16, 32, 12)}
     assert [meshes[n].nelements for n in (16, 32)] == [72, 288]
     assert np.isclose(meshes[16].p[:, :, None], meshes[32].p[:, None]).all(axis=0).any(axis=1).all()
-    assert 72 * 0.3 < meshes[12].nelements < 72
+    wanted = 72 * (12 / 16) ** 2  # ours is made of halves, each of whole elements across
+    assert 0.5 * wanted < meshes[12].nelements < 2.0 * wanted
     assert {"x0", "x1"} <= set(meshes[16].boundaries) and len(meshes[16].boundaries["x0"]) == 6
 
 

@@ -42,12 +42,13 @@ DRAWINGS: dict[str, dict[str, Any]] = {
 
 @pytest.mark.parametrize("drawing", DRAWINGS)
 def test_the_shell_is_the_bricks_of_calculix_on_drawn_sheets(drawing):
-    """On the fin bricks of 6, 8 and 10 across are 0.56, 0.18 and 0.14 % off a shell of 24 elements."""
+    """Bricks of 6, 8 and 10 across are 0.56, 0.18, 0.14 % (fin) and 0.36, 0.55, 0.26 % (pouch) off a shell of
+    24 elements."""
     if CALCULIX.version() is None:
         pytest.skip(f"needs {CALCULIX.needs}")
     scene = SEED.replace(**DRAWINGS[drawing], probes={})
     points = scene.probe_points()
-    found = CALCULIX.solve(scene, {**CALCULIX.settings, "elements": 8})
+    found = CALCULIX.solve(scene, {**CALCULIX.settings, "elements": 10})
     assert found.status is Status.CONVERGED, found.message
     off = error(
         found.displacement(points), fem_reference.solve(scene, "shell", elements=12).displacement(points)

@@ -216,7 +216,8 @@ def displacements(one: ReproducedTest) -> Table:
             off = None if name in tables else float(np.linalg.norm(table[i] - truth[i])) / size
             u = dict(zip(moves, map(float, table[i]), strict=True))
             rows.append(DisplacementRow(probe, name, u, dict(zip(spans, own, strict=True)), off))
-    return Table.of(DisplacementRow, rows, one.title, one.name, grouped=True)
+    text = "Displacements as published, and of our models with the published inputs."
+    return Table.of(DisplacementRow, rows, one.title, one.name, grouped=True, text=text)
 
 
 def runs(settling: Settling) -> Table:

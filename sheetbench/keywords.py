@@ -1,40 +1,32 @@
-"""Functions of `import sheetbench` refuse what does not exist by name, as the terminal does its options."""
+"""Arguments of functions of `import sheetbench`, refused by name where there are none, as options are."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from difflib import get_close_matches
-from functools import cache, wraps
-from inspect import Parameter, signature
+from inspect import Signature
 from typing import Any
 
 from sheetbench.errors import BadInput
 
-ALSO = {"lumped": "grid", "method": "calibration"}  # names of one option, as on the command line
+ALSO = {"lumped": "grid"}  # names of one option, as on the command line
 
 
-@cache
-def in_words(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the function; it raises BadInput for arguments that it does not have and for those that are
-    missing, and takes the other names of `ALSO`."""
-    own = signature(function)
-    kinds = {one.kind for one in own.parameters.values()}
-    others = {} if Parameter.VAR_KEYWORD in kinds else ALSO
-
-    @wraps(function)
-    def run(*values: Any, **named: Any) -> Any:
-        for other, usual in others.items():
-            if other in named and other not in own.parameters and usual in own.parameters:
-                if usual in named:
-                    raise BadInput(f"{name}: {other} and {usual} are one; give one of them")
-                named[usual] = named.pop(other)
-        try:
-            own.bind(*values, **named)
-        except TypeError as error:
-            raise BadInput(f"{name}: {_why(error, named, list(own.parameters))}") from None
-        return function(*values, **named)
-
-    return run
+def bound(name: str, own: Signature, values: tuple[Any, ...], named: Mapping[str, Any]) -> dict[str, Any]:
+    """Return all arguments of a call by name, defaults too; other names of `ALSO` by the usual one. Raises
+    BadInput for arguments that the function does not have and for those that are missing."""
+    given = dict(named)
+    for other, usual in ALSO.items():
+        if other in given and other not in own.parameters and usual in own.parameters:
+            if usual in given:
+                raise BadInput(f"{name}: {other} and {usual} are one; give one of them")
+            given[usual] = given.pop(other)
+    try:
+        found = own.bind(*values, **given)
+    except TypeError as error:
+        raise BadInput(f"{name}: {_why(error, given, list(own.parameters))}") from None
+    found.apply_defaults()
+    return dict(found.arguments)
 
 
 def _why(error: TypeError, named: dict[str, Any], known: list[str]) -> str:

@@ -97,8 +97,7 @@ def test_imports_run_one_way(package):
 FLOORS = {  # of comparisons; CONTRIBUTING.md says what is in each room
     **dict.fromkeys(("models", "external", "report", "browser", "measured"), 0),
     "runs": 1,
-    **dict.fromkeys(("comparison", "check", "export", "identification", "linearisation"), 2),
-    **dict.fromkeys(("cells", "modes", "scoring", "verification"), 2),
+    **dict.fromkeys(("comparison", "check", "identification", "modes", "scoring", "verification"), 2),
     **dict.fromkeys(("advice", "calibration", "codes", "crosscheck", "motion", "tradeoff"), 3),
     **dict.fromkeys(("live", "reproduction", "stability", "pages"), 4),
     "cli": 5,
@@ -192,7 +191,7 @@ SLOW += ("ezc3d", "shapely", "xarray")
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
 DRAWS = ("figure", "style", "layout", "probes_figure", "motion_figure", "comparison_figure", "animation")
 DRAWS += ("offscreen", "locking", "vtk", "toml")
-AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "verbs", "__init__", "__main__")))
+AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "__init__", "__main__")))
 
 
 def test_imports_within_functions_are_for_a_quick_start_alone():

@@ -18,7 +18,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from comparisons.export.mujoco import to_mjcf
+from comparisons.codes.mujoco import to_mjcf
 from comparisons.external.mujoco import MODEL, relax
 from comparisons.report.work import Progress, Work
 from sheetbench.answers.answer import Answer

@@ -21,9 +21,9 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.cells.codes import CODES
-from comparisons.codes.mesh import refusal
 from comparisons.codes.setup import CodeSetup, setup
+from comparisons.codes.sheet_mesh import refusal
+from comparisons.codes.table import CODES
 from comparisons.comparison.differences import error
 from comparisons.scoring.reference import Reference, references
 from sheetbench.errors import BadInput, require_choice

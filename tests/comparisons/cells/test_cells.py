@@ -9,12 +9,12 @@ import pytest
 from commands import json_of, one_line, run
 
 import sheetbench as sb
-from comparisons.cells.cell import Cell
-from comparisons.cells.codes import CODES
-from comparisons.cells.coefficients import limit_error, nearest
-from comparisons.cells.homogenise import moduli_of
-from comparisons.cells.meshes import MESHES, mesh
-from comparisons.cells.parameters import parameters_of
+from comparisons.codes.cell import Cell
+from comparisons.codes.cell_meshes import MESHES, mesh
+from comparisons.codes.coefficients import limit_error, nearest
+from comparisons.codes.homogenise import moduli_of
+from comparisons.codes.parameters import parameters_of
+from comparisons.codes.table import CODES
 from lumped import moduli
 from lumped.lattice import STEPS
 from sheetbench.errors import BadInput

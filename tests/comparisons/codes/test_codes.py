@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from commands import run
 
-from comparisons.cells.cell import HINGES, _hinge, _triangle
-from comparisons.cells.homogenise import moduli_of
+from comparisons.codes.cell import HINGES, _hinge, _triangle
 from comparisons.codes.files import OWN_MASSES, WRITERS
-from comparisons.codes.mesh import sheet_mesh
+from comparisons.codes.homogenise import moduli_of
 from comparisons.codes.setup import setup
+from comparisons.codes.sheet_mesh import sheet_mesh
 from comparisons.scoring.reference import references
 from sheetbench import scenes
 from sheetbench.errors import BadInput

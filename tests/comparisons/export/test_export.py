@@ -16,8 +16,8 @@ from rubbers import LAWS, rubber
 from scipy.io import loadmat
 
 import lumped
-from comparisons.export.arrays import NAMES, arrays
-from comparisons.export.export import export
+from comparisons.codes.arrays import NAMES, arrays
+from comparisons.codes.lattice import export
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, Held, Hinged, Material, PointLoad, Pressure, Scene, Sheet, Symmetric

@@ -8,7 +8,7 @@ import pytest
 from cases import CLAMP, GRAVITY
 
 import lumped
-from comparisons.export.arrays import arrays
+from comparisons.codes.arrays import arrays
 from sheetbench.scenes import Material, Scene, Sheet
 
 PLACE = Path(__file__).parents[3] / "examples" / "other-codes" / "read_lattice.py"

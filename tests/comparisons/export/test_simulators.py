@@ -10,8 +10,8 @@ from cases import CLAMP, GRAVITY, OBLONG, SILICONE
 from commands import run
 
 import lumped
-from comparisons.export.mujoco import to_mjcf
-from comparisons.export.sofa import to_sofa
+from comparisons.codes.mujoco import to_mjcf
+from comparisons.codes.sofa import to_sofa
 from comparisons.external.mujoco import relax
 from sheetbench import scenes
 from sheetbench.errors import BadInput

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from cases import CLAMP, RUBBER, SHEET, with_material
 from commands import run
+from comparisons.linearisation import figure
 from scipy.io import loadmat
 
 import lumped
-from comparisons.linearisation import figure
-from comparisons.linearisation.linearisation import linearise
+from comparisons.modes.linear import linearise
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene

@@ -8,6 +8,7 @@ import matplotlib
 import numpy as np
 import pytest
 from commands import one_line, run
+from comparisons.linearisation import figure as responding
 from fake_solutions import solution
 from matplotlib.figure import Figure
 
@@ -15,9 +16,8 @@ from comparisons.comparison import figure as comparing
 from comparisons.comparison import probes_figure
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
-from comparisons.linearisation import figure as responding
-from comparisons.linearisation.linearisation import linearise
 from comparisons.modes import figure as swinging
+from comparisons.modes.linear import linearise
 from comparisons.modes.spectra import spectra
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff

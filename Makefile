@@ -133,7 +133,7 @@ notebooks: $(VENV)/testing
 
 docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py
-	@$(BIN)/sheetbench schema --markdown > docs/scene.md
+	@$(BIN)/python -c "from sheetbench.scenes.reference import markdown; print(markdown(), end='')" > docs/scene.md
 
 # FILE=lumped/statics/polygon.py: the test files that run it, the nearest first; COUNT of them
 tests-of:

@@ -7,10 +7,9 @@ from typing import Annotated, Any
 
 import typer
 
-from comparisons.cli.options import Export, Grading, Grid, K, Large, LayerDistance, SheetOptions, option
+from comparisons.cli.options import Export, Large, MethodOptions, SheetOptions, option
 from comparisons.cli.output import OutputOptions
 from comparisons.cli.verb import no_effect
-from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
 SPRINGS = "calibration k layer_distance grading toml"
 DAMPING = "loss_factor damping_ratio log_decrement quality at band prony"
@@ -27,18 +26,7 @@ def command(
     ] = None,
     *,
     sheet: SheetOptions,
-    grid: Grid = None,
-    grading: Grading = None,
-    calibration: Annotated[
-        str | None,
-        option(
-            "; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items())
-            + f"; auto: by the SCENE, as with --grading auto. Default: {CALIBRATION}.",
-            "NAME",
-        ),
-    ] = None,
-    k: K = None,
-    layer_distance: LayerDistance = None,
+    lattice: MethodOptions,
     toml: Annotated[bool, option("Print the \\[springs] table for a scene file.")] = False,
     export: Export = None,
     for_: Annotated[
@@ -123,7 +111,6 @@ def command(
     from comparisons.codes.lattice import CODES
     from comparisons.codes.setup import require_damper, setup, squares_of
     from comparisons.models.sizes import require_room
-    from comparisons.models.spec import Lattice
     from sheetbench.errors import BadInput, require_choice, require_effect
 
     if toml and output.json:
@@ -133,7 +120,7 @@ def command(
         raise BadInput("--young and --prony: the measured moduli give the long-time one; leave --young out")
     if cell is not None and scene is None:
         raise BadInput("--cell: needs a SCENE, in which its error is found")
-    lattice, named = Lattice(grid, calibration, k, layer_distance, grading), scene is not None
+    wanted, named = lattice.spec, scene is not None
     of = subject(scene, sheet.values | damped, "--")
     about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
     if cell is not None:
@@ -144,20 +131,28 @@ def command(
             return out.show(homogenise(of, cell, spacing=spacing, hinge=hinge, coefficients=known))
     if for_ is not None:
         require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *CODES])))
-    if for_ is not None and for_ in WRITERS and not (for_ in CODES and calibration):
-        springs_only = {"--k": k, "--layer-distance": layer_distance, "--calibration": calibration}
-        require_effect(f"with --for {for_}", {**springs_only, "--grading": grading, "--toml": toml})
-        require_damper(for_, of.material, damped)
-        found = setup(of, for_, squares_of(grid), named=named)
+    if for_ is not None and for_ in WRITERS and not (for_ in CODES and wanted.calibration):
+        springs_only = {name: value for name, value in wanted.settings.items() if name != "grid"}
+        require_effect(
+            f"with --for {for_}",
+            {
+                **{f"--{name.replace('_', '-')}": value for name, value in springs_only.items()},
+                "--toml": toml,
+            },
+        )
+        ways = (loss_factor, damping_ratio, log_decrement, quality, prony)
+        names = ("loss-factor", "damping-ratio", "log-decrement", "quality", "prony")
+        require_damper(for_, of.material, dict(zip((f"--{name}" for name in names), ways, strict=True)))
+        found = setup(of, for_, squares_of(wanted.grid), named=named)
         with output.open(about=about, variant={"--for": for_}) as out:
             return out.show(found)
     with output.open(about=about, variant={"--for": for_} if for_ else None) as out:
         if (export is not None or for_ is not None) and not large:
-            require_room(of, lattice, "--grid")
-        if for_ == "sofa" and calibration is None:  # it has springs between two points alone
-            lattice = lattice.but(calibration="central")
-        springs = calibrate(of, lattice, named)
-        foretold = named and k is None and layer_distance is None
+            require_room(of, wanted, "--grid")
+        if for_ == "sofa" and wanted.calibration is None:  # it has springs between two points alone
+            wanted = wanted.but(calibration="central")
+        springs = calibrate(of, wanted, named)
+        foretold = named and wanted.k is None and wanted.layer_distance is None
         off = expected(of, springs) if foretold else None
         out.export(export, of, springs)
         modes = damping.ratios(of, springs)

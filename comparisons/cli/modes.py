@@ -91,4 +91,9 @@ def command(
                 )
             )
         except NoEquilibrium as error:
-            out.stop(f"no modes about the deformed sheet: {error}; --about flat has them")
+            what = (
+                "modes about the deformed sheet"
+                if state_space is None
+                else "linear form about the equilibrium"
+            )
+            out.stop(f"no {what}: {error}; --about flat has them")

@@ -183,6 +183,20 @@ class LatticeOptions(LatticeGroup):
 
 
 @dataclass(frozen=True)
+class MethodOptions(LatticeOptions):
+    """The lattice that is calibrated, with a line about every calibration."""
+
+    calibration: Annotated[
+        str | None,
+        option(
+            "; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items())
+            + f"; auto: by the SCENE, as with --grading auto. Default: {CALIBRATION}.",
+            "NAME",
+        ),
+    ] = None
+
+
+@dataclass(frozen=True)
 class SheetOptions(Group):
     """A sheet and its material."""
 

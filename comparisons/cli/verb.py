@@ -197,9 +197,9 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
 
     @wraps(command)
     def run(*values: Any, **named: Any) -> Any:
+        from comparisons.cli.keywords import bound
         from comparisons.models.context import running
         from sheetbench.errors import BadInput
-        from sheetbench.keywords import bound
 
         found = bound(name, own, values, named)
         found = {key: converted.get(key, _as_it_is)(value) for key, value in found.items()}
@@ -211,7 +211,7 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
             with running(**{key: value for key, value in held.items() if value}), said:
                 return command(**declared.grouped(found, **of_output))
         except BadInput as error:
-            error.args = (re.sub(r"(?<![\w-])--([a-z][a-z-]*)", _in_python, str(error)), *error.args[1:])
+            error.args = (re.sub(r"(?:^|(?<=with )|(?<=without )|(?<=missing )|(?<=, ))--([a-z][a-z-]*)", _in_python, str(error)),)
             raise
 
     run.__signature__ = own  # type: ignore[attr-defined]
@@ -254,7 +254,8 @@ def _conversion(parameter: Parameter) -> Callable[[Any], Any]:
             each = value if isinstance(value, list | tuple) else [value]
             return ",".join("x".join(map(str, n)) if isinstance(n, list | tuple) else str(n) for n in each)
         if kind.startswith("list["):
-            return list(value) if isinstance(value, list | tuple) else [value]
+            each = value if isinstance(value, list | tuple) else [value]
+            return [str(one) if isinstance(one, Path) else one for one in each]
         if "Path" in kind and isinstance(value, str):
             return Path(value)
         return value

@@ -31,7 +31,7 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table, number
-from sheetbench.errors import BadInput, NoEquilibrium, require_choice
+from sheetbench.errors import BadInput, NoEquilibrium, require_choice, require_effect
 from sheetbench.scenes import (
     EDGES,
     AnyScene,
@@ -258,11 +258,10 @@ def setup(
     return CodeSetup(scene, row, cell, squares, found, off, best, dict(given or {}), named, missing)
 
 
-def require_damper(code: str, material: Material, damped: Mapping[str, Any]) -> None:
-    """Raise BadInput where damping was asked for by options, of which the code has nothing; damped: the keys
-    of [material] that they make."""
-    if damped and (why := undamped(CODES[code], material)):
-        raise BadInput(f"damping: no effect with --for {code}: {why}; leave it out")
+def require_damper(code: str, material: Material, options: Mapping[str, object]) -> None:
+    """Raise BadInput where damping is asked for by these options, of which the code has nothing."""
+    if why := undamped(CODES[code], material):
+        require_effect(f"with --for {code}: {why}", options)
 
 
 def squares_of(grid: GridLike) -> int:

@@ -23,7 +23,7 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, Held, Hinged, Material, PointLoad, Pressure, Scene, Sheet, Symmetric
 from sheetbench.scenes.grid import grid_of
 
-READERS = Path(__file__).parents[3] / "examples" / "other-codes"
+READERS = Path(__file__).parents[3] / "comparisons" / "codes" / "scripts"
 NUMPY = runpy.run_path(str(READERS / "read_lattice.py"))
 AGREED = 1e-6  # of the largest displacement, as the readers themselves ask
 

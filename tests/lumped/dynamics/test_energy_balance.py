@@ -77,9 +77,9 @@ def test_a_support_that_speeds_up_pulls_its_own_masses_along():
 
 
 def test_dampers_of_a_fine_narrow_lattice_take_what_the_motion_loses():
-    """The settling strip's first half second, 33 × 3 × 2 masses. Along springs 10⁶ times as stiff as the strip
-    bends the last correction of a stage, small in the displacement, has a velocity whose power in the dampers
-    is of one sign: with the power before that correction the balance was off by 6 %, by 17 % after 1.5 s."""
+    """The settling strip's first half second, 33 × 3 × 2 masses. Along stiff springs the last correction of a
+    stage, small in the displacement, has a velocity whose power in the dampers is of one sign: with the power
+    before that correction the balance was off by 6 %, by 17 % after 1.5 s."""
     strip = settling_strip.scene()
     cell = strip.sheet.length_x / 32
     narrow = strip.replace(sheet=strip.sheet.replace(length_y=2.0 * cell), probes={"tip": (0.18, cell)})

@@ -3,7 +3,8 @@
 Every stage begins from the ones before it, is corrected with the factors kept, and leaves its velocity,
 acceleration and the power that its dampers take, in tables whose first row is the step's start. The power is
 that after the last correction: what that corrects is small in the displacement, but lies along stiff
-springs, whose dampers take τ k v² of it, always of one sign. The call comes back early where a stage needs other factors, which Python makes, and goes on there.
+springs, whose dampers take τ k v² of it, always of one sign. The call comes back early where a stage needs
+other factors, which Python makes, and goes on there.
 """
 
 from __future__ import annotations

@@ -11,7 +11,6 @@ from functools import cached_property
 from typing import Annotated, Any
 from warnings import catch_warnings, simplefilter
 
-import lumped
 from comparisons.models.grids import scene_grid
 from comparisons.models.method import RUBBER
 from sheetbench.answers.answer import Answer

@@ -9,7 +9,8 @@ in the norm of `error` (largest component over the probes; Roache, J. Fluids Eng
 the finer answer known). The finer grid has half as many cells again, and FINEST_COARSE or more along the
 shorter side, where the error is not yet second order on coarser ones.
 
-Chains are divided as the grid is (`lumped.actuators.division`), so that the finer lattice has the finer chain.
+Chains are divided as the grid is (`lumped.actuators.division`), so that the finer lattice has the finer
+chain.
 
 It is the grid's error and no more: what differs on every grid, as the laws of strain do, it does not see. So
 no estimate is given

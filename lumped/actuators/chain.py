@@ -7,9 +7,9 @@ Lagrangian of the rows y (see `lumped.actuators.frames`), with multipliers λ [m
 
 Joints are damped with damping_time × k.
 
-The segments here are the equal parts into which `lumped.actuators.division` divides those of the scene; forces
-are given for the scene's. Chains of a pair are one kinematic chain on the mean of their axes, each with its own
-joints, mass and offset. What binds masses of the edge to them is in `lumped.actuators.binding`.
+The segments here are the equal parts into which `lumped.actuators.division` divides those of the scene;
+forces are given for the scene's. Chains of a pair are one kinematic chain on the mean of their axes, each
+with its own joints, mass and offset. What binds masses of the edge to them is in `lumped.actuators.binding`.
 
 Where an end is a corner whose position and director another edge holds, so are the chain's end point and, by
 a joint of half length, the bending and the twist of its end segment, which may turn about the director. The

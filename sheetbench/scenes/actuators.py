@@ -1,11 +1,12 @@
 """The two kinds of actuator, each bound to one edge of the sheet.
 
-A chain is an elastic rod: joints divide the edge evenly into segments, and a joint's curvature is that of what
-lies nearest to it. A model may have it as rigid parts, with joints of the stiffness EI/ds and the rest angle
-curvature × ds between them. The chain alone carries its own weight and inertia, and holds the edge's tilt about the rod. A curvature is a
-number, a list with one value a joint (in the order of the edge's axis; a held base adds the half-length
-joints beside it), or a table {time, value}, of which statics take the last value, as of a motion. A motion is
-no chain and has no forces of its own. What neighbouring edges must agree on: `sheetbench.scenes.corners`.
+A chain is an elastic rod: joints divide the edge evenly into segments, and a joint's curvature is that of
+what lies nearest to it. A model may have it as rigid parts, with joints of the stiffness EI/ds and the rest
+angle curvature × ds between them. The chain alone carries its own weight and inertia, and holds the edge's
+tilt about the rod. A curvature is a number, a list with one value a joint (in the order of the edge's axis; a
+held base adds the half-length joints beside it), or a table {time, value}, of which statics take the last
+value, as of a motion. A motion is no chain and has no forces of its own. What neighbouring edges must agree
+on: `sheetbench.scenes.corners`.
 
 An actuator's name is its edge, or, where an edge has several, its edge and its number in the scene: "x1.2".
 What holds it is named among the reactions: a motion as its edge, the base of an edge's chains as "EDGE base".
@@ -108,8 +109,8 @@ class Chain(Frozen):
         return side * (thickness / 2.0 + self.radius)
 
     def pieces(self) -> np.ndarray:
-        """Bounds (n + 1,) of the pieces of its edge that have a joint's curvature each, in segments: what lies
-        nearest to the joint, and what is left at the ends. All of it is one piece where no joint is."""
+        """Bounds (n + 1,) of the pieces of its edge that have a joint's curvature each, in segments: what
+        lies nearest to the joint, and what is left at the ends. All of it is one piece where no joint is."""
         inner = np.arange(1, self.segments - 1) + 0.5  # between joints of whole length
         extra = {"start": 0.5, "end": self.segments - 0.5, "middle": self.segments / 2.0}.get(self.base)
         if extra is not None and self.joints == self.segments and self.joints > 1:

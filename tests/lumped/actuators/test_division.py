@@ -83,7 +83,7 @@ def composite_elastica():
     "grid", [(25, 3), (37, 3), (49, 3), *(pytest.param(n, marks=pytest.mark.nightly) for n in (9, 17))]
 )
 def test_a_strip_between_two_chains_is_the_composite_elastica(grid, segments):
-    """With cells as long as the parts, shorter by halves and by what is no whole number: 0.04, 0.04 and 0.05 %
+    """With cells as long as parts, shorter by halves and by what is no whole number: 0.04, 0.04 and 0.05 %
     off. (Undivided, six segments were 3.8 to 4.8 % off; a polygon's edge with 24 0.04, 0.79 and 3.5.)"""
     chain = {"segments": segments, "bending_stiffness": RIGIDITY, "line_density": 0.03, "radius": 0.0015,
              "curvature": CURVATURE, "base": "start"}  # fmt: skip
@@ -134,8 +134,9 @@ def joint_lengths(chain):
     """Bounds of the lengths that lie nearest to each joint, in segments: those between two middles, but for
     halves beside a base."""
     inner = np.arange(chain.segments) + 0.5
-    extra = {"start": [0.0], "end": [chain.segments], "middle": [0.5 * chain.segments], "free": []}[chain.base]
-    return np.unique([*inner, *extra])
+    whole = float(chain.segments)
+    held = {"start": [0.0], "end": [whole], "middle": [0.5 * whole], "free": []}
+    return np.unique([*inner, *held[chain.base]])
 
 
 def test_one_segment_a_cell_keeps_nothing_back():

@@ -30,7 +30,12 @@ def standing(name, limit, error, meshes=(4, 6, 8)):
 
 @pytest.mark.parametrize(
     ("meshes", "shown", "bar"),
-    [((8,), "9", None), ((6, 8), "7, 9", 3.0), ((4, 6, 8), "5, 7, 9", 1.35), ((3, 4, 6, 8), "4, 5, 7, 9", 1.35)],
+    [
+        ((8,), "9", None),
+        ((6, 8), "7, 9", 3.0),
+        ((4, 6, 8), "5, 7, 9", 1.35),
+        ((3, 4, 6, 8), "4, 5, 7, 9", 1.35),
+    ],
 )
 def test_a_limit_has_the_bar_of_its_three_finest_meshes(meshes, shown, bar):
     """Two meshes have a cautious one, one has none."""

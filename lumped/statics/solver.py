@@ -21,7 +21,6 @@ from lumped.statics.answer import Outcome, solution
 from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import LatticePath, settle
 from lumped.statics.fields import SMALL
-from lumped.statics.polygon import polygons
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.structure import STRETCH, LatticeStructure
 from lumped.supports import constrain
@@ -263,7 +262,6 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
             None,
             [
                 doubts,
-                polygons(scene),
                 rounded.message if rounded is not None else "",
             ],
         )

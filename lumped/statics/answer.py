@@ -68,7 +68,7 @@ def solution(
         sample=partial(_sampled, lattice, u),
         reactions=reactions,
         energies=energies,
-        mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, linear)),
+        mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, state.load_factor, linear)),
         history=tuple(path.history),
         load_factor=state.load_factor,
         actuators=wrenches,
@@ -86,14 +86,18 @@ def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float
     """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
     the energies [J]."""
     state = outcome.state
+    problem.assembly.grow(state.load_factor)
     energies = outcome.energies or problem.assembly.energies(state.u)
     residual = state.residual or problem.residual(state.u, state.load_factor)
     return -residual.force, energies
 
 
 def _of_small_displacements(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:
-    """Return forces K u − f (size, 3) [N] and energies ½ u·K u [J] of small displacements (`flat_step`)."""
+    """Return forces K u + f₀ − f (size, 3) [N] and energies E₀ + f₀·u + ½ u·K u [J] of small displacements
+    (`flat_step`), E₀ and f₀ those of the flat sheet, which has some where it is not flat at rest."""
     flat = np.zeros_like(state.u)
-    internal = problem.system.apply(problem.tangent(flat, 0.0), state.u)
+    bent = problem.system.apply(problem.tangent(flat, 0.0), state.u)
     external = problem.external(flat, state.load_factor)
-    return internal - external, {"elastic": 0.5 * float(np.sum(internal * state.u))}
+    stored, pull = problem.internal(flat, state.load_factor)
+    energy = stored + float(np.sum((pull + 0.5 * bent) * state.u))
+    return bent + pull - external, {"elastic": energy}

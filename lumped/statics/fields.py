@@ -39,11 +39,14 @@ class LatticeMesh(FieldMesh):
         return FieldMesh, tuple(getattr(self, name) for name in FieldMesh.__dataclass_fields__)
 
 
-def field_mesh(assembly: Assembly, u: np.ndarray, reactions: np.ndarray, linear: bool = False) -> FieldMesh:
+def field_mesh(
+    assembly: Assembly, u: np.ndarray, reactions: np.ndarray, share: float = 1.0, linear: bool = False
+) -> FieldMesh:
     """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N];
-    rows of actuators after those of the masses are left out. linear: of a solution for small displacements,
-    of which the springs have a small part."""
+    rows of actuators after those of the masses are left out. share: of a natural state; linear: of a solution
+    for small displacements, of which the springs have a small part."""
     part = SMALL if linear else 1.0
+    assembly.grow(part * share)
     small, links, lattice = part * u, assembly.links, assembly.lattice
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
     quads, masses = len(layer_cells), lattice.mass_count

@@ -12,7 +12,7 @@ from lumped.actuators import Coupling
 from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
-from lumped.lattice import Weights
+from lumped.lattice import Lattice, Weights
 from lumped.loads import Loads
 from lumped.sections import require_alike
 from lumped.statics import validity
@@ -45,6 +45,7 @@ from sheetbench.scenes import (
     scene_of,
 )
 from sheetbench.scenes.material import limit_note
+from sheetbench.scenes.natural_state import NaturalState, natural_of_cells
 from sheetbench.scenes.orthotropy import FIBRES
 
 Branch = Literal["path", "stable"]
@@ -135,15 +136,23 @@ def build_problem(
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
         require_alike(scene, f"the calibration {calibration.method}", instead)
     couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(scene.sheet, calibration, weights, couple, precision, scene.twisting_edges())
+    assembly = Assembly(
+        scene.sheet, calibration, weights, couple, precision, scene.twisting_edges(), natural_of(scene)
+    )
     size = max(scene.sheet.lengths)
-    if same is not None and same.assembly.lattice is assembly.lattice and couple is None:
+    alike = same is not None and same.assembly.lattice is assembly.lattice
+    if same is not None and alike and couple is None and assembly.natural is None:
         return Problem(assembly, same.constraints, same.loads, size)
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
     return Problem(assembly, constraints, Loads(scene, assembly), size)
+
+
+def natural_of(scene: Scene) -> Callable[[Lattice], NaturalState | None]:
+    """Return what finds the natural state of a lattice's cells."""
+    return lambda lattice: natural_of_cells(scene, lattice.lines[0].at, lattice.lines[1].at)
 
 
 def flat_step(scene: Scene, problem: Problem) -> Outcome:
@@ -158,6 +167,7 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
         return Outcome(Status.SINGULAR, path, (f"the flat sheet's tangent is singular: {error}",))
     path.state = LatticeState(u, 1.0)
     links = problem.assembly.links
+    problem.assembly.grow(SMALL)
     strain = links.largest_strain(links.elongations(SMALL * u)) / SMALL
     if outside := outside_model(scene, strain, STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, path, (outside,))
@@ -228,6 +238,7 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
             notes.append(limit_note(scene.material))
         return Outcome(status, path, tuple(notes))
     links = problem.assembly.links
+    problem.assembly.grow(state.load_factor)
     elongations = links.elongations(state.u)
     outside = outside_model(scene, links.largest_strain(elongations), STRETCH)
     if outside and not problem.assembly.any_strain:

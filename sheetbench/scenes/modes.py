@@ -16,6 +16,8 @@ from sheetbench.scenes.kinematics import bent_or_tilted
 from sheetbench.scenes.loads import EdgeLoad, Pressure
 from sheetbench.scenes.scene import Scene
 
+STILL = 1e-9  # displacement over the sheet's side within which what is loaded does not move
+
 
 @dataclass(frozen=True)
 class ModeRow:

@@ -15,8 +15,8 @@ import numpy as np
 from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
-from lumped.pattern import Pattern, neighbours, of_grid
 from lumped.natural import NaturalSprings
+from lumped.pattern import Pattern, neighbours, of_grid
 from lumped.springs.all_families import AllFamilies, springs_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet

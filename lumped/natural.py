@@ -5,14 +5,15 @@ link along d in the plane, whose ends are at the heights z₁ and z₂, and the 
 
     g₀ = (z₂ − z₁)² + (U(z₁) d)·(U(z₂) d),     g₀ = (|U a|², |U b|², U a · U b)
 
-in place of what they measure on the flat sheet; columns and upright faces keep what they have. Of links across
-the layers that is the diagonal of an isosceles trapezoid, diagonal² = leg² + the product of the parallel
-sides: exact, not of first order, so that a cylinder of any curvature k0 is a state without energy, its masses
-on a circle of exactly 1/k0 and its cells turned by 2 asin(l k0/2) each: the error of an arc is (l k0)²/24 of
-it. A cell that several parts share has the mean of their e0 and k0, a link between cells the mean of their g₀.
+in place of what they measure on the flat sheet; columns and upright faces keep what they have. Of links
+across the layers that is the diagonal of an isosceles trapezoid, diagonal² = leg² + the product of the
+parallel sides: exact, not of first order, so that a cylinder of any curvature k0 is a state without energy,
+its masses on a circle of exactly 1/k0 and its cells turned by 2 asin(l k0/2) each: the error of an arc is
+(l k0)²/24 of it. A cell that several parts share has the mean of their e0 and k0, a link between cells the
+mean of their g₀.
 
-The springs' laws see δg − δg₀ for δg and g₀ for g at rest, so that no digits are lost; springs of cells resist
-strains of their natural sides. Derived here.
+The springs' laws see δg − δg₀ for δg and g₀ for g at rest, so that no digits are lost; springs of cells
+resist strains of their natural sides. Derived here.
 """
 
 from __future__ import annotations
@@ -39,8 +40,7 @@ class NaturalSprings:
 
     def __init__(self, lattice: Lattice, families: Sequence[Family], state: NaturalState):
         self.state, self._factors = state, np.array([np.nan])
-        self._links: list[_NaturalLinks] = []
-        self._cells: list[_NaturalCells] = []
+        self._springs: list[_NaturalLinks | _NaturalCells] = []
         self.families = [self._natural(lattice, family) for family in families]
         self.grow()
 
@@ -49,11 +49,11 @@ class NaturalSprings:
             raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
         if isinstance(family, Links):
             links = _NaturalLinks(lattice, family)
-            self._links.append(links)
+            self._springs.append(links)
             return links.family
         if isinstance(family, Cells) and family.law is AREA_AND_STRAINS and not family.upright:
             cells = _NaturalCells(lattice, family, self.state)
-            self._cells.append(cells)
+            self._springs.append(cells)
             return cells.family
         return family
 
@@ -67,7 +67,7 @@ class NaturalSprings:
             return
         self._factors = factors
         strain, curvature = (form.reshape(-1, 2, 2) for form in self.state.at(factors))
-        for springs in (*self._links, *self._cells):
+        for springs in self._springs:
             springs.set(strain, curvature)
 
 
@@ -79,7 +79,9 @@ class _NaturalLinks:
             np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1]))) for part in parts])
             for parts in zip(*((f.cells, f.shares) for f in lattice.links), strict=True)
         )
-        every, own = (nodes[:, 0] * lattice.mass_count + nodes[:, 1] for nodes in (lattice.joined[0], links.nodes))
+        every, own = (
+            nodes[:, 0] * lattice.mass_count + nodes[:, 1] for nodes in (lattice.joined[0], links.nodes)
+        )
         order = np.argsort(every)
         place = order[np.searchsorted(every[order], own)]
         self._cells, self._shares = cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)
@@ -118,7 +120,8 @@ class _NaturalCells:
         """Set δg₀ and areas of cells' strains and curvatures (c, 2, 2)."""
         (a, b), of = self._sides.swapaxes(0, 1), self._plan
         moved = [
-            np.einsum("mij,mj->mi", strain[of], side) - self._heights * np.einsum("mij,mj->mi", curvature[of], side)
+            np.einsum("mij,mj->mi", strain[of], side)
+            - self._heights * np.einsum("mij,mj->mi", curvature[of], side)
             for side in (a, b)
         ]
         pairs = ((a, b), moved)

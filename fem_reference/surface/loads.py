@@ -220,6 +220,7 @@ def point_force(plan: Plan, at: np.ndarray, force: np.ndarray) -> np.ndarray:
 def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
     """Dead nodal forces (n, 3) [N] and follower loads of a scene on a mesh that carries the edges' names;
     every load with the last factor of its history."""
+    require_flat_at_rest(scene, "a reference")
     count, corners = len(plan.nodes), plan.corners
     dead, followers = np.zeros((count, 3)), list[Follower]()
     if scene.gravity is not None:

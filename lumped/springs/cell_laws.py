@@ -67,7 +67,10 @@ def extrapolated_natural_strains(
 @njit(cache=True, error_model="numpy")
 def mean_natural_strains(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
     """Return `mean_area_and_strains` since g₀."""
-    since, to = (d0[0] - k[7], d0[1] - k[8], d0[2] - k[9], d0[3]), (d1[0] - k[7], d1[1] - k[8], d1[2] - k[9], d1[3])
+    since, to = (
+        (d0[0] - k[7], d0[1] - k[8], d0[2] - k[9], d0[3]),
+        (d1[0] - k[7], d1[1] - k[8], d1[2] - k[9], d1[3]),
+    )
     return laws.mean_area_and_strains(since, to, (g[0] + k[7], g[1] + k[8], g[2] + k[9]), k[10], k)
 
 

@@ -251,6 +251,4 @@ class Cells(Family):
     def damped(self, time: float) -> Cells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""
         own = None if self.natural is None else time * self.natural[:, :7]
-        return replace(
-            self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None, natural=own
-        )
+        return replace(self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None, natural=own)

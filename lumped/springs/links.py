@@ -31,8 +31,9 @@ HALF = 0.5
 
 
 class LinkArrays(NamedTuple):
-    """nodes (m, 2); offset (m, 3) [m], d₀; rest_length (m,) [m], or (2, m), beside it δg₀; constants (m,), stiffness [N/m] or damping
-    [N·s/m], of the per-direction law (m, 3); slots (m, 4) block numbers aa, ab, ba, bb."""
+    """nodes (m, 2); offset (m, 3) [m], d₀; rest_length (m,) [m], or (2, m), beside it δg₀ [m²]; constants
+    (m,), stiffness [N/m] or damping [N·s/m], of the per-direction law (m, 3); slots (m, 4) block numbers aa,
+    ab, ba, bb."""
 
     nodes: np.ndarray
     offset: np.ndarray

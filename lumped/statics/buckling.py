@@ -34,7 +34,9 @@ def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int
     problem = build_problem(scene, calibration)
     lattice, structure = problem.assembly.lattice, LatticeStructure(scene, problem)
     middle = MidSurface(lattice, lattice.positions[lattice.columns()[:, :, 0].ravel(), :2])
-    factors, states = buckling_modes(structure, structure, lambda state: middle.of(state.u), count, STILL * problem.size)
+    factors, states = buckling_modes(
+        structure, structure, lambda state: middle.of(state.u), count, STILL * problem.size
+    )
 
     def displacement(points: np.ndarray) -> np.ndarray:
         at = MidSurface(lattice, points)

@@ -131,7 +131,7 @@ def build_problem(
     """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
     supports and loads serve again where they are on the same lattice. Raises BadInput if no mass is left to
     move, and for springs of cells that are all alike where the scene's are not."""
-    fibres_alone = calibration.of_material and scene.drawn_by == FIBRES
+    fibres_alone = calibration.of_material and scene.varied_by == FIBRES and not scene.shaped_by
     if (calibration.cells is None or calibration.of_material) and not fibres_alone:
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
         require_alike(scene, f"the calibration {calibration.method}", instead)

@@ -66,6 +66,10 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def multipliers(self) -> int:
         return self.problem.multipliers
 
+    @property
+    def prestrained(self) -> bool:
+        return self.problem.assembly.natural is not None
+
     def rest(self) -> LatticeState:
         return LatticeState(np.zeros_like(self.problem.loads.dead), 0.0)
 

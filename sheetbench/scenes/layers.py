@@ -87,9 +87,7 @@ def plane_stress(ply: Ply) -> np.ndarray:
 
 def resultants(found: tuple[Ply, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return A [Pa], B and D [Pa] of plies per thickness, its square and its cube, (3, 3) each."""
-    parts = [
-        [plane_stress(p) * (p.high**n - p.low**n) / n for p in found] for n in (1, 2, 3)
-    ]
+    parts = [[plane_stress(p) * (p.high**n - p.low**n) / n for p in found] for n in (1, 2, 3)]
     a, b, d = (np.sum(part, axis=0) for part in parts)
     return a, b, d
 

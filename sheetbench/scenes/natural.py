@@ -29,7 +29,7 @@ NOTHING = (0.0, 0.0, 0.0)
 class Natural(Loading):
     """Strain and curvature that the sheet, or a patch of it, would have if nothing held it."""
 
-    strain: Vector3 = NOTHING
+    strain: Annotated[Vector3, Unit("")] = NOTHING
     """[exx, eyy, exy] of the mid-surface; > 0 is longer than drawn."""
     curvature: Annotated[Vector3, Unit("1/m")] = NOTHING
     """[kxx, kyy, kxy]; > 0 curls the sheet towards +z."""

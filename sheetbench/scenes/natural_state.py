@@ -42,11 +42,9 @@ class Source:
 
 
 class NaturalState:
-    """Natural strains and curvatures at points or of cells (…), their share and time as they are asked for."""
+    """Natural strains and curvatures at points or of cells (…), at any share and time."""
 
-    def __init__(
-        self, sources: list[Source], shape: tuple[int, ...], share: Callable[[Polygon], np.ndarray]
-    ):
+    def __init__(self, sources: list[Source], shape: tuple[int, ...], share: Callable[[Polygon], np.ndarray]):
         """shape: of the points or cells; share: of each of them that a part of the plan has."""
         self._sources = sources
         self._weights = []
@@ -65,7 +63,9 @@ class NaturalState:
 
     def rates(self, time: float, before: bool) -> np.ndarray:
         """Return their derivatives [1/s] from a time on, or until then."""
-        return np.array([0.0 if s.course is None else float(s.course.slope(time, before)) for s in self._sources])
+        return np.array(
+            [0.0 if s.course is None else float(s.course.slope(time, before)) for s in self._sources]
+        )
 
     def at(self, factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return strains and curvatures, both (…, 2, 2)."""
@@ -136,30 +136,34 @@ def sheet_at_rest(scene: Scene) -> Sheet:
 def _own(scene: Scene, natural: Natural) -> tuple[np.ndarray, np.ndarray]:
     strain, curvature = np.array(natural.strain), np.array(natural.curvature)
     if natural.pretension is not None:
-        section = _plies(scene)
+        section = plies_of(scene)
         stiffness = resultants(section)[0] * scene.sheet.thickness
         xx, yy, twice = np.linalg.solve(stiffness, [*natural.pretension, 0.0])
         strain = -np.array([xx, yy, 0.5 * twice])
     return strain, curvature
 
 
-def _plies(scene: Scene) -> tuple[Ply, ...]:
+def plies_of(scene: Scene) -> tuple[Ply, ...]:
+    """Return the plies of a scene's sheet, or the one that all of it is."""
     return of_sheet(scene).plies or (Ply.of(scene.material),)
+
+
+def expansion_of(scene: Scene, number: int) -> np.ndarray:
+    """Return the thermal expansion (3,) [1/K] of a ply along x, along y and the shear, 2xy."""
+    own = scene.layers[number].expansions if scene.layers else None
+    along, across = own or scene.material.expansions or (0.0, 0.0)
+    angle = plies_of(scene)[number].angle
+    c, s = np.cos(angle), np.sin(angle)
+    mixed = 2.0 * (along - across) * c * s
+    return np.array([along * c * c + across * s * s, along * s * s + across * c * c, mixed])
 
 
 def thermal(scene: Scene, temperature: Temperature) -> tuple[np.ndarray, np.ndarray]:
     """Return natural strain and curvature (3,) of a temperature, all over the sheet."""
-    h, found = scene.sheet.thickness, _plies(scene)
-    each = [layer.expansions or scene.material.expansions for layer in scene.layers or (scene.material,)]
+    h, found = scene.sheet.thickness, plies_of(scene)
     stretch, bend = np.zeros(3), np.zeros(3)
-    for ply, alpha in zip(found, each, strict=True):
-        assert alpha is not None  # which the scene sees to
-        c, s = np.cos(ply.angle), np.sin(ply.angle)
-        along, across = alpha
-        free = np.array(
-            [along * c * c + across * s * s, along * s * s + across * c * c, 2.0 * (along - across) * c * s]
-        )
-        pull = plane_stress(ply) @ free
+    for number, ply in enumerate(found):
+        pull = plane_stress(ply) @ expansion_of(scene, number)
         one, two, three = ((ply.high**n - ply.low**n) / n for n in (1, 2, 3))
         stretch += pull * (temperature.change * one + temperature.gradient * h * two)
         bend += pull * (temperature.change * two + temperature.gradient * h * three)

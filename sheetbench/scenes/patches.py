@@ -255,8 +255,17 @@ def require_uniform(scene: Scene, who: str, instead: str = "") -> None:
         )
 
 
+def require_flat_at_rest(scene: Scene, who: str) -> None:
+    """Raise Impossible for a sheet that is not flat and free of stress at rest, which `who` does not know."""
+    if scene.natural_by:
+        raise Impossible(
+            f"scene '{scene.name}': {scene.natural_by}: {who} is for sheets that are flat at rest"
+        )
+
+
 def require_plain(scene: Scene, who: str) -> None:
     """Raise Impossible for a sheet that is no plain one (`Scene.drawn_by`), which a verb or a file does not
     know."""
     require_uniform(scene, who)
     require_rectangle(scene, who)
+    require_flat_at_rest(scene, who)

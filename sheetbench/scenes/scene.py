@@ -157,12 +157,10 @@ class Scene(Frozen):
 
     def _unnatural(self) -> str:
         """Return why a natural strain or a temperature cannot be, "" where it can."""
-        given = [key for key in ("natural", "temperature") if getattr(self, key) is not None]
-        given += [f"patch {n}.natural" for n, one in enumerate(self.patches, start=1) if one.natural is not None]
-        if not given:
+        if not (given := self.natural_by):
             return ""
         if self.material.law is not None:
-            return f"{given[0]}: not of rubber (law = '{self.material.law}'), whose strains it would multiply"
+            return f"{given}: not of rubber (law = '{self.material.law}'), whose strains it would multiply"
         if self.natural is not None and self.natural.pretension is not None and not self.homogeneous:
             return f"natural.pretension: beside {self.varied_by}: give strain"
         if self.temperature is not None:
@@ -251,6 +249,13 @@ class Scene(Frozen):
         return ", ".join([*fibres, *tapers, *drawn])
 
     @property
+    def natural_by(self) -> str:
+        """The words by which it is not flat and free of stress at rest, "" where it is."""
+        given = [key for key in ("natural", "temperature") if getattr(self, key) is not None]
+        each = enumerate(self.patches, start=1)
+        return ", ".join([*given, *(f"patch {n}.natural" for n, one in each if one.natural is not None)])
+
+    @property
     def pierced(self) -> bool:
         """Whether the sheet is no whole rectangle."""
         return bool(self.cutouts) or self.sheet.drawn
@@ -276,8 +281,8 @@ class Scene(Frozen):
 
     @property
     def drawn_by(self) -> str:
-        """The words of both, by which the sheet is no plain one."""
-        return ", ".join(filter(None, [self.varied_by, self.shaped_by]))
+        """The words of these, by which the sheet is no plain one."""
+        return ", ".join(filter(None, [self.varied_by, self.shaped_by, self.natural_by]))
 
     def twisting_edges(self) -> frozenset[str]:
         """The edges along which nothing holds the director: free, hinged and held ones."""

@@ -142,6 +142,8 @@ class CodeSetup(Answer):
         """Why the code gets no files, "" where it does."""
         if self.scene.masses and self.code.name not in OWN_MASSES:
             return f"mass: {self.code.title} has one density, no vertex a mass of its own"
+        if self.scene.obstacles:
+            return "obstacle: it is not handed over"
         return refusal(self.scene)
 
     def _too_coarse(self) -> str:

@@ -13,6 +13,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
+from lumped.actuators import Drive
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.structure import LatticeForces, LatticeStructure
 from sheetbench.numerics.continuation.newton import Start, newton
@@ -63,6 +64,9 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
             raise _failed("no direction of descent: the projected tangent is not positive definite")
         move = problem.expand(direction)
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
+        share *= min(
+            (one.step_share(u, share * move, Drive(load_factor)) for one in problem.items), default=1.0
+        )
         start = problem.potential(u, load_factor)
         while share > 1e-10:
             if problem.potential(u + share * move, load_factor) <= start + 1e-4 * share * slope:

@@ -14,6 +14,7 @@ from numba import njit
 
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
+from lumped.items import Item
 from lumped.loads import Loads
 from lumped.springs.all_families import Stresses
 from lumped.supports import Constraints
@@ -48,13 +49,14 @@ class LatticeState(NamedTuple):
 class Problem:
     """A lattice under its supports and loads, which grow with the load factor λ.
 
-    size: the sheet's longer side [m].
+    size: the sheet's longer side [m]; items: what else acts on the sheet (`lumped.items`).
     """
 
     assembly: Assembly
     constraints: Constraints
     loads: Loads
     size: float
+    items: tuple[Item, ...] = ()
 
     def __post_init__(self) -> None:
         self.conservative = self.assembly.conservative and self.loads.conservative
@@ -105,10 +107,14 @@ class Problem:
     def nonnegative_tangent(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """Return blocks of the tangent less what could make that of the springs indefinite."""
         self.assembly.grow(load_factor)
-        return self._with_loads(self.assembly.all_families.nonnegative_tangent(u), u, load_factor)
+        return self._with_loads(self.assembly.all_families.nonnegative_tangent(u), u, load_factor, True)
 
-    def _with_loads(self, blocks: np.ndarray, u: np.ndarray, load_factor: float) -> np.ndarray:
+    def _with_loads(
+        self, blocks: np.ndarray, u: np.ndarray, load_factor: float, definite: bool = False
+    ) -> np.ndarray:
         self.loads.add_tangent(u, load_factor, blocks)
+        for item in self.items:
+            item.add_tangent(u, Drive(load_factor), 1.0, blocks, definite)
         if self.assembly.coupling is not None:
             slots = self.assembly.coupling_slots
             self.assembly.coupling.add_tangent(u, Drive(load_factor), slots, blocks)
@@ -132,7 +138,17 @@ class Problem:
         energy, force = self.assembly.force(u)
         if self.assembly.coupling is not None:
             energy += self.assembly.coupling.add_force(u, Drive(load_factor), force)
+        for item in self.items:
+            energy += item.add_force(u, Drive(load_factor), force)
         return energy, force
+
+    def energies(self, u: np.ndarray, load_factor: float) -> dict[str, float]:
+        """Return the energy [J] of the springs under each name in the spring set, and of the items
+        together."""
+        self.assembly.grow(load_factor)
+        found, force = self.assembly.energies(u), np.zeros_like(u)
+        stored = [item.add_force(u, Drive(load_factor), force) for item in self.items]
+        return found | ({"contact": sum(stored)} if stored else {})
 
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """External force λ f(u)."""
@@ -145,8 +161,8 @@ class Problem:
 
     def residual(self, u: np.ndarray, load_factor: float) -> Residual:
         """Return the residual at u."""
-        natural = self.assembly.natural is not None
-        flat = self.assembly.coupling is None and not (natural or u.any())  # where springs are at rest
+        others = self.assembly.coupling is not None or self.assembly.natural is not None or self.items
+        flat = not (others or u.any())  # where springs are at rest
         internal = np.zeros_like(u) if flat else self.internal(u, load_factor)[1]
         return self._residual(internal, u, load_factor)
 
@@ -162,6 +178,8 @@ class Problem:
         after, length, internal, stresses = self.assembly.advance(u, step, True)
         if self.assembly.coupling is not None:
             self.assembly.coupling.add_force(after, Drive(load_factor), internal)
+        for item in self.items:
+            item.add_force(after, Drive(load_factor), internal)
         residual = self._residual(internal, after, load_factor)
         return LatticeState(after, load_factor, residual, stresses, u, length)
 
@@ -170,7 +188,8 @@ class Problem:
         assembly, largest = self.assembly, float(np.abs(u).max())
         # relative displacements are differences of u: their rounding, times the stiffness
         if assembly.coupling is None:
-            return assembly.rounding * largest * assembly.all_families.link_stiffness_norm
+            links = assembly.rounding * largest * assembly.all_families.link_stiffness_norm
+            return links + sum(item.rounding() for item in self.items)
         carried = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
         return float(assembly.rounding * np.linalg.norm(carried))
 

@@ -24,7 +24,10 @@ _VISCOUS = (
     "viscosity is linear and of the whole [material]: damping_time, damping_rate, loss_factor with a "
     "frequency or a band, or [[material.relaxation]]"
 )
-_CONTACT = "contact is not modelled, neither with other bodies nor of the sheet with itself"
+_CONTACT = (
+    "what the sheet touches is an [[obstacle]], a rigid plane, sphere or cylinder, with friction in "
+    "motion; no other bodies, nor the sheet itself"
+)
 _STRESS_FREE = "what the sheet is stretched by where it is drawn is [natural] strain or pretension"
 _FLAT = "a sheet that is bent where nothing acts on it has a [natural] curvature"
 _FROM_REST = (
@@ -47,7 +50,7 @@ _WORDS = {
     "anisotropic fibre fibres fiber fibers fibre_angle fiber_angle",
     _RUBBER: "laws hyperelastic neo_hookean ogden yeoh gent c10 c01 c20 c30",
     _VISCOUS: "prony viscoelastic viscoelasticity viscosity creep tan_delta damping_ratio quality",
-    _CONTACT: "contact contacts friction obstacle obstacles floor ground table wall",
+    _CONTACT: "contact contacts obstacles floor ground table wall ball rod box self_contact",
     _STRESS_FREE: "prestretch pre_stretch prestrain pre_strain prestress pre_stress "
     "residual_stress initial_stress initial_strain",
     _FLAT: "rest_shape rest_curvature natural_curvature initial_curvature",

@@ -18,7 +18,7 @@ import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.errors import Implausible, SceneError
-from sheetbench.scenes import corners, region, summary
+from sheetbench.scenes import corners, obstacles, region, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion
 from sheetbench.scenes.air import Air
 from sheetbench.scenes.initial import Initial
@@ -27,6 +27,7 @@ from sheetbench.scenes.loads import AreaLoad, Load
 from sheetbench.scenes.masses import Mass
 from sheetbench.scenes.material import Material
 from sheetbench.scenes.natural import Natural, Temperature
+from sheetbench.scenes.obstacles import Obstacle
 from sheetbench.scenes.orthotropy import FIBRES
 from sheetbench.scenes.patches import Patch, mismatched, misplaced
 from sheetbench.scenes.plausibility import slips
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
 
 LISTS = {  # by their keys in Python: those in a file, where each entry is a table
     "layers": "layer", "patches": "patch", "cutouts": "cutout", "supports": "support", "loads": "load",
-    "masses": "mass", "actuators": "actuator",
+    "masses": "mass", "obstacles": "obstacle", "actuators": "actuator",
 }  # fmt: skip
 SHAPED = (
     "sheet.outline", "sheet.mesh", "cutout", "support.where", "load.where", 'load.kind = "area"',
@@ -87,6 +88,8 @@ class Scene(Frozen):
     """Forces, moments and pressures, which add up."""
     masses: tuple[Mass, ...] = Field(default=(), kw_only=True)
     """Payloads: they weigh under gravity and are inert in motion, and stiffen nothing."""
+    obstacles: tuple[Obstacle, ...] = Field(default=(), kw_only=True)
+    """Rigid bodies that the sheet may touch from one side, without friction at rest."""
     actuators: tuple[Actuator, ...] = ()
     """What moves edges that have no support."""
     initial: Initial | None = Field(default=None, kw_only=True)
@@ -153,6 +156,7 @@ class Scene(Frozen):
         held = next((n for n, load in enumerate(self.loads, start=1) if load.hold), 0)
         alone = 'has no effect without [initial] shape = "static", which lets the load go at t = 0'
         yield f"load {held}.hold = true: ", alone if held and self.initial is None else None
+        yield from obstacles.conflicts(self)
         yield from corners.conflicts(self.actuators, self.supports, self.sheet)
 
     def _unnatural(self) -> str:

@@ -9,7 +9,7 @@ from 16 factorisations on looks at 49 (`tests/helpers/thirty_scenes.py`).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -45,3 +45,8 @@ class Limits:
     snap_step: float = 0.01  # in load factor, past the limit point
     factorisations: int = 400
     in_all: int = 1600
+
+    @property
+    def direct(self) -> Limits:
+        """Without a careful second run: of a path that leads to a start only."""
+        return replace(self, careful_after=self.in_all)

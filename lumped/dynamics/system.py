@@ -31,7 +31,7 @@ from sheetbench.scenes.motion import kinks
 from sheetbench.scenes.supports import named
 from sheetbench.scenes.tables import PiecewiseCurve
 
-ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
+ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by, and of energies
 NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
 
 
@@ -357,6 +357,14 @@ class System:
         for u in (before.u, after.u) if self.natural is not None else ():
             done += 0.5 * self.natural_work(u, before.time, after.time)
         return done
+
+    @property
+    def least_energy(self) -> float:
+        """Energy [J] below which all is rounding: of a natural state, in whose shape there is none."""
+        if self.natural is None:
+            return 0.0
+        self.assembly.grow()
+        return ROUNDED * self.assembly.force(np.zeros_like(self._still))[0]
 
     def natural_work(self, u: np.ndarray, then: float, now: float) -> float:
         """Work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""

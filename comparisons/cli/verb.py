@@ -27,6 +27,7 @@ Quiet = Annotated[
 ]
 NoPicturesAnyway = Annotated[bool, typer.Option(hidden=True)]  # of verbs that draw none, for scripts
 TERMINAL = ("json",)  # options of the terminal alone
+OPTIONS = re.compile(r"(?:^|(?<=with )|(?<=without )|(?<=missing )|(?<=, ))--([a-z][a-z-]*)")  # in a refusal
 Command = Callable[..., Any]
 
 
@@ -211,7 +212,7 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
             with running(**{key: value for key, value in held.items() if value}), said:
                 return command(**declared.grouped(found, **of_output))
         except BadInput as error:
-            error.args = (re.sub(r"(?:^|(?<=with )|(?<=without )|(?<=missing )|(?<=, ))--([a-z][a-z-]*)", _in_python, str(error)),)
+            error.args = (OPTIONS.sub(_in_python, str(error)),)
             raise
 
     run.__signature__ = own  # type: ignore[attr-defined]

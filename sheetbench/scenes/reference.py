@@ -13,7 +13,7 @@ from sheetbench.scenes.schema import branches, json_schema, kind, resolved
 
 HEAD = """# Every key of a scene
 
-*Made from the types by `make docs-scene`; the same as a JSON Schema, for editors: `sheetbench check --schema`.*
+*Made from the types by `make docs-scene`; the same as a JSON Schema, for editors: `check --schema`.*
 
 A scene is a TOML file, or in Python `sheetbench.Scene(…)` with the same keys (the lists are `supports`,
 `loads` and `actuators` there). All quantities are in SI units: metres, newtons, pascals, kilograms, seconds,

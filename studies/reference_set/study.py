@@ -7,7 +7,7 @@ motion    the moving shell; the bar of a component of a probe is the most, over 
 modes     the shell as in statics, and the solid
 curves    the shell as in statics
 
-Where models stand on it is another study (`studies.leaderboard`); those rows stay as they are.
+Where models stand on it is another study (`studies.codes.models`); those rows stay as they are.
 """
 
 from __future__ import annotations

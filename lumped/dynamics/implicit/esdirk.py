@@ -44,6 +44,7 @@ LEAST = 1e-6  # of the sheet's side: no error is asked to be smaller beside it
 FIRST = 0.05  # first step over the time in which the first acceleration goes as far
 STEP_TOLERANCE = 1e-11  # last correction of a fixed step relative to the sheet's side
 SHARE = 0.3  # last correction of an adaptive step relative to the error it may have, or to the default one
+SHARE_WITH_DAMPERS = 0.1  # whose power is that of the square of what corrections leave, along stiff springs
 STALE = (
     1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
 )
@@ -117,7 +118,8 @@ class Esdirk(DenseIntegrator):
     @property
     def _enough(self) -> float:
         """The last correction of an adaptive step's equations [m]."""
-        return SHARE * min(self._error, ERROR) * self._largest
+        share = SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE
+        return share * min(self._error, ERROR) * self._largest
 
     def _begin(self, state: State) -> None:
         """What the error is relative to before anything has moved, and the first step [s]: parts of how far

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.comparison.comparison import error
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, External, Lattice, Spec, spec_of
 from comparisons.scoring.reference import FILE, Reference, document, references
+from comparisons.sweep.differences import error
 from sheetbench.answers.files import plain, to_json, write_text
 from sheetbench.errors import BadInput, require_choice
 from studies.codes.results import CASES, SCENES, Trial, write_results

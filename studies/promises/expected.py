@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 
 import lumped
-from comparisons.comparison.comparison import error
 from comparisons.models.expected_error import estimate, finer_grid, largest_stretch, resolves
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
+from comparisons.sweep.differences import error
 from sheetbench.answers.files import write_text
 from sheetbench.scenes import Scene, Solution
 from sheetbench.scenes.grid import grid_of

@@ -20,16 +20,13 @@ from typing import Any, Unpack
 import numpy as np
 
 from comparisons.advice.advisor import advise
-from comparisons.comparison.comparison import error
-from comparisons.models.context import running
-from comparisons.models.resolve import resolve
-from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Spec, lattices, references, spec_of
 from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
-from comparisons.runs.store import Finished, Store
-from comparisons.tradeoff import timing
-from fem_reference.edge_layer import missed_by
-from fem_reference.uncertainty import coarser, estimate, mesh_size
+from comparisons.runs.store import Store
+from comparisons.sweep.differences import error
+from comparisons.sweep.limits import limit
+from comparisons.sweep.solved import Ask, Solved, sweep
+from fem_reference.uncertainty import coarser
 from sheetbench.scenes import Scene, Status
 from studies.promises.answer import Promise
 from studies.promises.scenes import SEED, drawn_scenes
@@ -40,29 +37,7 @@ TOLERANCES, COMPARED = (0.005, 0.01, 0.02, 0.05), 20
 LEAST = 1e-6
 
 
-def answer(scene: dict[str, Any], model: str, elements: int, graded: bool = False) -> dict[str, Any]:
-    """Return a model's displacement [m] at the scene's probes and its settings; a task, so plain data.
-
-    graded: finer towards the edges, where a model chooses.
-    """
-    parsed = Scene.model_validate(scene)
-    with running(large=True):
-        return _found(parsed, Elements(model, elements, graded=graded or None))
-
-
-def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
-    """Return the advised model and its answer; a task."""
-    parsed = Scene.model_validate(scene)
-    given = advise(parsed, tolerance)
-    if given.choice is None:
-        return {"status": "none", "message": given.message}
-    return {**_found(parsed, given.choice), "choice": given.document()["choice"]}
-
-
-def _found(scene: Scene, spec: Spec) -> dict[str, Any]:
-    solution = solve(resolve(scene, spec))
-    known = {"status": str(solution.status), "message": solution.message, "settings": solution.settings}
-    return known | {"displacement": solution.displacement(scene.probe_points())}
+Row = dict[tuple[str, int], Solved]  # of a scene, by model and elements
 
 
 def bars(
@@ -77,67 +52,54 @@ def bars(
     solved, skipped = _drawn(store, count, wanted, truth, seed, **how)
     for scene, rows in solved:
         for model in models:
-            of_model = {n: row for (name, n), row in rows.items() if name == model}
-            found += [row for n in meshes for row in measured(scene, model, n, of_model, truth)]
+            for n in meshes:
+                of_mesh = [rows[model, m] for m in coarser(n) if isinstance(m, int)]
+                found += measured(scene, f"{model} {n}", of_mesh, rows[model, truth[model]])
     return found, skipped
 
 
 def _drawn(
     store: Store, count: int, wanted: Sequence[tuple[str, int]], truth: Mapping[str, int], seed: int,
     **how: Unpack[CampaignKeywords],
-) -> tuple[list[tuple[Scene, dict[tuple[str, int], dict[str, Any]]]], dict[str, str]]:  # fmt: skip
-    """Return drawn scenes with the rows of `answer` by model and elements, and the scenes that were replaced.
+) -> tuple[list[tuple[Scene, Row]], dict[str, str]]:  # fmt: skip
+    """Return drawn scenes with what is wanted of them, and the scenes that were replaced.
 
-    Raises RuntimeError where every solve of a draw fails, as after the code has changed under a run: other
-    scenes would too.
+    The truth is graded towards the edges, of the plate by request. Raises RuntimeError where every solve of a
+    draw fails, as after the code has changed under a run: other scenes would too.
     """
-    endless, skipped = drawn_scenes(seed), dict[str, str]()
-    solved: list[tuple[Scene, dict[tuple[str, int], dict[str, Any]]]] = []
+    endless, skipped, solved = drawn_scenes(seed), dict[str, str](), list[tuple[Scene, Row]]()
+    specs = [Elements(model, n, graded=(model, n) == ("plate", truth[model]) or None) for model, n in wanted]
     while len(solved) < count:
         drawn = list(islice(endless, count - len(solved)))
-        runs = [_run(scene, model, n, n == truth[model]) for scene in drawn for model, n in wanted]
-        done = carry_out(runs, store, **how)
-        if all(one.status == "failed" for one in done):
+        done = sweep([Ask(scene, spec) for scene in drawn for spec in specs], store, **how)
+        if all(one.status == Status.FAILED for one in done):
             raise RuntimeError(done[0].message)
         for i, scene in enumerate(drawn):
-            ends = dict(zip(wanted, done[i * len(wanted) : (i + 1) * len(wanted)], strict=True))
-            if failure := next(filter(None, map(_failure, ends.items())), None):
+            own = done[i * len(wanted) : (i + 1) * len(wanted)]
+            if failure := next((one.ending for one in own if not one.stable), None):
                 skipped[scene.name] = failure
             else:
-                solved.append((scene, {key: one.row for key, one in ends.items()}))
+                solved.append((scene, dict(zip(wanted, own, strict=True))))
     return solved, skipped
 
 
-def _run(scene: Scene, model: str, elements: int, fine: bool) -> Run:
-    arguments = {"scene": scene.document(), "model": model, "elements": elements}
-    graded = {"graded": True} if fine and model == "plate" else {}  # the others are graded as they are
-    return Run(f"{__name__}:answer", arguments | graded, f"{scene.name} {model} {elements}")
-
-
-def _failure(end: tuple[tuple[str, int], Finished]) -> str | None:
-    (model, elements), done = end
-    if done.status == Status.CONVERGED:
-        return None
-    return f"{model} on {elements} elements: {done.status}: {done.message}"
-
-
-def measured(
-    scene: Scene, model: str, elements: int, rows: Mapping[int, Mapping[str, Any]],
-    truth: Mapping[str, int] = TRUTH,
-) -> Iterator[Promise]:  # fmt: skip
-    """Return the bars of a model's components: rows of `answer` by their meshes, that of the truth too."""
-    meshes = [n for n in coarser(elements) if isinstance(n, int)]
-    answers = [np.array(rows[n]["displacement"]) for n in meshes]
-    layers = [missed_by(scene, rows[n]["settings"]) for n in meshes]
-    uncertainty = estimate(answers, [mesh_size(scene, n) for n in meshes], layers)
-    fine = np.array(rows[truth[model]]["displacement"])
-    size = float(np.max(np.abs(fine), initial=0.0))
+def measured(scene: Scene, at: str, rows: Sequence[Solved], truth: Solved) -> Iterator[Promise]:
+    """Return the bars of the components that a model's rows on their meshes have."""
+    uncertainty = limit(rows)
+    assert uncertainty is not None
+    size = float(np.max(np.abs(truth.u), initial=0.0))
     changed = ~(uncertainty.trusted & np.isnan(uncertainty.order))
-    counted = changed & (np.maximum(np.abs(uncertainty.answer), np.abs(fine)) > LEAST * size)
+    counted = changed & (np.maximum(np.abs(uncertainty.answer), np.abs(truth.u)) > LEAST * size)
     for i, axis in zip(*np.nonzero(counted), strict=True):
         where = f"{('ux', 'uy', 'uz')[axis]} of {list(scene.probes)[i]}"
-        bar, off = uncertainty.bar[i, axis], abs(uncertainty.answer[i, axis] - fine[i, axis])
-        yield Promise("bar", f"{model} {elements}", scene.name, where, float(bar / size), float(off / size))
+        bar, off = uncertainty.bar[i, axis], abs(uncertainty.answer[i, axis] - truth.u[i, axis])
+        yield Promise("bar", at, scene.name, where, float(bar / size), float(off / size))
+
+
+def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
+    """Return the advised model; a task."""
+    given = advise(Scene.model_validate(scene), tolerance)
+    return {"status": "none" if given.choice is None else "done", **given.document()}
 
 
 def advised(
@@ -147,28 +109,23 @@ def advised(
     """Return the tolerances and errors of advice on `count` drawn scenes, on the first `compared` of them its
     cost, and which scenes were replaced and why."""
     solved, skipped = _drawn(store, count, [("shell", truth["shell"])], truth, seed, **how)
-    cases = [(scene, tolerance) for scene, _ in solved for tolerance in tolerances]
+    cases = [(number, scene, t) for number, (scene, _) in enumerate(solved) for t in tolerances]
     runs = [
         Run(f"{__name__}:advice", {"scene": s.document(), "tolerance": t}, f"{s.name} {t:g}", timed=True)
-        for s, t in cases
+        for _, s, t in cases
     ]
-    outcomes = dict(zip(((s.name, t) for s, t in cases), carry_out(runs, store, **how), strict=True))
     found = []
-    for number, (scene, rows) in enumerate(solved):
-        fine = np.array(rows["shell", truth["shell"]]["displacement"])
-        rivals = rows_of(scene) if number < compared else []
-        for tolerance in tolerances:
-            row = outcomes[scene.name, tolerance].row
-            off = error(np.array(row["displacement"]), fine) if "displacement" in row else None
+    for (number, scene, tolerance), one in zip(cases, carry_out(runs, store, **how), strict=True):
+        actual, cost = float("inf"), None
+        if one.row.get("choice"):
+            choice = spec_of(one.row["choice"]["model"], one.row["choice"]["settings"])
+            specs = [choice, *(rows_of(scene) if number < compared else ())]
+            asks = [Ask(scene, spec, repeats=5 if number < compared else 0) for spec in specs]
+            (own, *rivals), (fine,) = sweep(asks, store, **how), solved[number][1].values()
+            off = error(own.u, fine.u) if own.usable else None
             actual = float("inf") if off is None else off
-            cost = (
-                _cost(scene, row["choice"], rivals, tolerance, fine, store, **how)
-                if rivals and off is not None
-                else None
-            )
-            found.append(
-                Promise("advice", f"{100.0 * tolerance:g} %", scene.name, "", tolerance, actual, cost)
-            )
+            cost = _cost(own, rivals, tolerance, fine)
+        found.append(Promise("advice", f"{100.0 * tolerance:g} %", scene.name, "", tolerance, actual, cost))
     return found, skipped
 
 
@@ -178,15 +135,8 @@ def rows_of(scene: Scene) -> list[Spec]:
     return [*own, *references("plate", ["4"]), *references("shell", ["2", "3", "4", "6", "8", "12"])]
 
 
-def _cost(
-    scene: Scene, choice: dict[str, Any], rivals: Sequence[Spec], tolerance: float, fine: np.ndarray,
-    store: Store, **how: Unpack[CampaignKeywords],
-) -> float | None:  # fmt: skip
+def _cost(own: Solved, rivals: Sequence[Solved], tolerance: float, fine: Solved) -> float | None:
     """Return the time of a choice over that of the cheapest rival within the tolerance, None without one."""
-    specs = [spec_of(choice["model"], choice["settings"]), *rivals]
-    own, *others = carry_out([timing.run(scene, spec) for spec in specs], store, **how)
-    usable = [one for one in others if one.status == Status.CONVERGED]
-    errors = [error(np.array([*one.row["probes"].values()]), fine) for one in usable]
-    times = [one.row["solve_seconds"]["median"] for one in usable]
-    within = [time for time, off in zip(times, errors, strict=True) if off is not None and off <= tolerance]
-    return float(own.row["solve_seconds"]["median"] / min(within)) if within else None
+    errors = [(one.seconds, error(one.u, fine.u)) for one in rivals if one.stable]
+    within = [time for time, off in errors if time and off is not None and off <= tolerance]
+    return own.seconds / min(within) if within and own.seconds else None

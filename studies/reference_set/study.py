@@ -20,12 +20,12 @@ import numpy as np
 
 import fem_reference
 import lumped
-from comparisons.comparison.comparison import error
 from comparisons.motion.comparison import LONGER
 from comparisons.motion.measures import largest
 from comparisons.runs.manifest import machine
 from comparisons.scoring.cases import FREQUENCIES, Case, cases
 from comparisons.scoring.reference import LICENCE, VERSION, document
+from comparisons.sweep.differences import error
 from fem_reference.uncertainty import coarser, estimate, mesh_size, solve_with_bar
 from sheetbench.answers.files import plain
 from sheetbench.scenes import History, Scene, Status

@@ -17,7 +17,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import lumped
-from comparisons.comparison.comparison import error
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
@@ -28,6 +27,7 @@ from comparisons.stability.answer import Stability, limits, summary
 from comparisons.stability.extremes import scaled, stability
 from comparisons.stability.limit import energy, measured_limit, noise, start, system
 from comparisons.stability.rows import Row, broken, percent
+from comparisons.sweep.differences import error
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.report import Picture

@@ -18,10 +18,10 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from comparisons.comparison.comparison import error
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
+from comparisons.sweep.differences import error
 from fem_reference.uncertainty import solve_with_bar
 from sheetbench.answers.table import NUMBER, PERCENT
 from sheetbench.scenes import Scene

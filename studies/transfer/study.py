@@ -20,12 +20,12 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from comparisons.comparison.comparison import error
 from comparisons.models.resolve import resolve, resolve_each
 from comparisons.models.sizes import require_room
 from comparisons.models.spec import Elements, GradingLike, Lattice, lattices
 from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
+from comparisons.sweep.differences import error
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
 from studies.transfer.answer import Transfer

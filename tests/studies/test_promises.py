@@ -8,6 +8,8 @@ import pytest
 from campaigns import Here
 
 from comparisons.cli import main
+from comparisons.models.spec import Elements
+from comparisons.sweep.solved import Ask, Solved
 from sheetbench import scenes
 from sheetbench.scenes.rigid_motions import require_static
 from studies.promises import study
@@ -36,18 +38,21 @@ def test_scenes_are_drawn_the_same_and_have_every_support_and_load():
 def test_a_component_is_inside_where_its_error_is_below_its_bar():
     scene = scenes.load("two-edges-clamped")
 
-    def row(miss):
+    def row(elements, miss, truth=0.0):
         """A field that is off by a share at P4, in uz, and by a hundredth of that elsewhere."""
         u = np.full((len(scene.probes), 3), 1e-3) * (1.0 + 0.01 * miss)
         u[:, 0] = 1e-12  # below rounding
         u[0, 1] = 1e-3  # prescribed: the same on every mesh
-        u[-1, 2] *= 1.0 + miss
-        return {"displacement": u, "settings": {"elements": [8, 8], "graded": True}}
+        u[-1, 2] *= (1.0 + miss) * (1.0 + truth)
+        found = {"probes": dict(zip(scene.probes, u.tolist(), strict=True)), "load_factor": 1.0}
+        settings = {"elements": [elements, elements], "graded": True}
+        return Solved(
+            Ask(scene, Elements("plate", elements)), "converged", "", {**found, "settings": settings}
+        )
 
     def found(truth):
-        rows = {n: row(0.01 * (8 / n) ** 2) for n in (8, 6, 4)} | {48: row(0.0)}
-        rows[48]["displacement"][-1, 2] *= 1.0 + truth
-        promises = list(study.measured(scene, "plate", 8, rows))
+        rows = [row(n, 0.01 * (8 / n) ** 2) for n in (8, 6, 4)]
+        promises = list(study.measured(scene, "plate 8", rows, row(48, 0.0, truth)))
         assert len(promises) == 2 * len(scene.probes) - 1
         assert {one.where[:2] for one in promises} == {"uy", "uz"}
         return [one.kept for one in promises]
@@ -150,6 +155,6 @@ def test_a_study_whose_solves_all_fail_ends(store, monkeypatch):
     def fail(*args, **kwargs):
         raise ValueError("the code changed")
 
-    monkeypatch.setattr("studies.promises.study.answer", fail)
+    monkeypatch.setattr("comparisons.sweep.task.solve", fail)
     with pytest.raises(RuntimeError, match="the code changed"):
         study.bars(store, 2, ("plate",), (8,), TRUTH, pool=Here)

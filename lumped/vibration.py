@@ -100,6 +100,7 @@ def modes(
     inertia = mass_matrix(scene, problem.assembly.lattice, shared, calibration.cells)
     bodies = rotary_masses(scene, problem.assembly.lattice)
     mass = sp.csc_array(transform.T @ (sp.kron(inertia, sp.eye_array(3)) + bodies) @ transform)
+    problem.assembly.grow(float(about == "deformed"))
     blocks = problem.assembly.tangent(at)
     for item in problem.items:
         item.add_tangent(at, Drive(), 1.0, blocks)
@@ -174,7 +175,7 @@ def frequency_slopes(
 
 def _product(problem: Problem, rest: np.ndarray, shape: np.ndarray) -> np.ndarray:
     """K times a shape (n, 3), K the tangent at rest."""
-    return problem.system.apply(problem.assembly.tangent(rest), shape)
+    return problem.system.apply(problem.tangent(rest, 0.0), shape)
 
 
 def _shift(scene: Scene) -> float:

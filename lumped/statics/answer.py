@@ -76,7 +76,15 @@ def solution(
         reactions=reactions,
         energies=energies,
         mesh=LatticeMesh(
-            partial(field_mesh, assembly, u, on_masses, linear, contact_pressure(problem, u, drive))
+            partial(
+                field_mesh,
+                assembly,
+                u,
+                on_masses,
+                state.load_factor,
+                linear,
+                contact_pressure(problem, u, drive),
+            )
         ),
         history=tuple(path.history),
         load_factor=state.load_factor,
@@ -102,8 +110,11 @@ def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float
 
 
 def _of_small_displacements(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:
-    """Return forces K u − f (size, 3) [N] and energies ½ u·K u [J] of small displacements (`flat_step`)."""
+    """Return forces K u + f₀ − f (size, 3) [N] and energies E₀ + f₀·u + ½ u·K u [J] of small displacements
+    (`flat_step`), E₀ and f₀ those of the flat sheet, which has some where it is not flat at rest."""
     flat = np.zeros_like(state.u)
-    internal = problem.system.apply(problem.tangent(flat, 0.0), state.u)
+    bent = problem.system.apply(problem.tangent(flat, 0.0), state.u)
     external = problem.external(flat, state.load_factor)
-    return internal - external, {"elastic": 0.5 * float(np.sum(internal * state.u))}
+    stored, pull = problem.internal(flat, state.load_factor)
+    energy = stored + float(np.sum((pull + 0.5 * bent) * state.u))
+    return bent + pull - external, {"elastic": energy}

@@ -6,6 +6,7 @@ With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0. Displaceme
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -89,13 +90,23 @@ class Problem:
         full: np.ndarray = product(self._free, np.ascontiguousarray(unknowns))
         return full.reshape(-1, 3)
 
+    @cached_property
+    def driving(self) -> float:
+        """Norm of the forces [N] of the natural state on the flat sheet, often the only ones."""
+        if self.assembly.natural is None:
+            return 0.0
+        self.assembly.grow()
+        return float(np.linalg.norm(self.assembly.force(np.zeros_like(self.loads.dead))[1]))
+
     def tangent(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> np.ndarray:
         """Blocks of the tangent of the residual, loads included."""
+        self.assembly.grow(load_factor)
         blocks = self.assembly.tangent(u, stresses, extrapolated=stresses is not None)
         return self._with_loads(blocks, u, load_factor)
 
     def nonnegative_tangent(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """Return blocks of the tangent less what could make that of the springs indefinite."""
+        self.assembly.grow(load_factor)
         return self._with_loads(self.assembly.all_families.nonnegative_tangent(u), u, load_factor, True)
 
     def _with_loads(
@@ -123,6 +134,7 @@ class Problem:
 
     def internal(self, u: np.ndarray, load_factor: float) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and internal force, actuators included."""
+        self.assembly.grow(load_factor)
         energy, force = self.assembly.force(u)
         if self.assembly.coupling is not None:
             energy += self.assembly.coupling.add_force(u, Drive(load_factor), force)
@@ -133,6 +145,7 @@ class Problem:
     def energies(self, u: np.ndarray, load_factor: float) -> dict[str, float]:
         """Return the energy [J] of the springs under each name in the spring set, and of the items
         together."""
+        self.assembly.grow(load_factor)
         found, force = self.assembly.energies(u), np.zeros_like(u)
         stored = [item.add_force(u, Drive(load_factor), force) for item in self.items]
         return found | ({"contact": sum(stored)} if stored else {})
@@ -148,17 +161,20 @@ class Problem:
 
     def residual(self, u: np.ndarray, load_factor: float) -> Residual:
         """Return the residual at u."""
-        flat = self.assembly.coupling is None and not self.items and not u.any()  # where springs are at rest
+        others = self.assembly.coupling is not None or self.assembly.natural is not None or self.items
+        flat = not (others or u.any())  # where springs are at rest
         internal = np.zeros_like(u) if flat else self.internal(u, load_factor)[1]
         return self._residual(internal, u, load_factor)
 
     def _residual(self, internal: np.ndarray, u: np.ndarray, load_factor: float) -> Residual:
         external = self.external(u, load_factor)
         held, free, n = self.constraints.held, self._free, self.system.unknowns
-        return Residual(*unbalanced_force(internal, external, held, free, n))
+        found = Residual(*unbalanced_force(internal, external, held, free, n))
+        return found._replace(scale=found.scale + abs(load_factor) * self.driving) if self.driving else found
 
     def advance(self, u: np.ndarray, step: np.ndarray, load_factor: float) -> LatticeState:
         """Return where a step (n, 3) [m] from u leads, the residual and the predicted stresses there."""
+        self.assembly.grow(load_factor)
         after, length, internal, stresses = self.assembly.advance(u, step, True)
         if self.assembly.coupling is not None:
             self.assembly.coupling.add_force(after, Drive(load_factor), internal)

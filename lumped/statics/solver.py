@@ -13,7 +13,7 @@ from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
 from lumped.contact import ContactPenalties, contacts
-from lumped.lattice import Weights
+from lumped.lattice import Lattice, Weights
 from lumped.loads import Loads
 from lumped.sections import require_alike
 from lumped.statics import validity
@@ -47,6 +47,7 @@ from sheetbench.scenes import (
     scene_of,
 )
 from sheetbench.scenes.material import limit_note
+from sheetbench.scenes.natural_state import NaturalState, natural_of_cells
 from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.orthotropy import FIBRES
 
@@ -135,20 +136,28 @@ def build_problem(
     """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
     supports and loads serve again where they are on the same lattice. Raises BadInput if no mass is left to
     move, and for springs of cells that are all alike where the scene's are not."""
-    fibres_alone = calibration.of_material and scene.drawn_by == FIBRES
+    fibres_alone = calibration.of_material and scene.varied_by == FIBRES and not scene.shaped_by
     if (calibration.cells is None or calibration.of_material) and not fibres_alone:
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
         require_alike(scene, f"the calibration {calibration.method}", instead)
     couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(scene.sheet, calibration, weights, couple, precision, scene.twisting_edges())
+    assembly = Assembly(
+        scene.sheet, calibration, weights, couple, precision, scene.twisting_edges(), natural_of(scene)
+    )
     size = max(scene.sheet.lengths)
-    if same is not None and same.assembly.lattice is assembly.lattice and couple is None:
+    alike = same is not None and same.assembly.lattice is assembly.lattice
+    if same is not None and alike and couple is None and assembly.natural is None:
         return Problem(assembly, same.constraints, same.loads, size, same.items)
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
     return Problem(assembly, constraints, Loads(scene, assembly), size, contacts(scene, assembly))
+
+
+def natural_of(scene: Scene) -> Callable[[Lattice], NaturalState | None]:
+    """Return what finds the natural state of a lattice's cells."""
+    return lambda lattice: natural_of_cells(scene, lattice.lines[0].at, lattice.lines[1].at)
 
 
 def flat_step(scene: Scene, problem: Problem) -> Outcome:
@@ -163,6 +172,7 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
         return Outcome(Status.SINGULAR, path, (f"the flat sheet's tangent is singular: {error}",))
     path.state = LatticeState(u, 1.0)
     links = problem.assembly.links
+    problem.assembly.grow(SMALL)
     strain = links.largest_strain(links.elongations(SMALL * u)) / SMALL
     if outside := outside_model(scene, strain, STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, path, (outside,))
@@ -247,6 +257,7 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
             notes.append(limit_note(scene.material))
         return Outcome(status, path, tuple(notes))
     links = problem.assembly.links
+    problem.assembly.grow(state.load_factor)
     elongations = links.elongations(state.u)
     outside = outside_model(scene, links.largest_strain(elongations), STRETCH)
     if outside and not problem.assembly.any_strain:

@@ -68,6 +68,10 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def multipliers(self) -> int:
         return self.problem.multipliers
 
+    @property
+    def prestrained(self) -> bool:
+        return self.problem.assembly.natural is not None
+
     def rest(self) -> LatticeState:
         return LatticeState(np.zeros_like(self.problem.loads.dead), 0.0)
 
@@ -129,6 +133,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
 
     def has_meaning(self, state: LatticeState) -> bool:
         links = self.problem.assembly.links
+        self.problem.assembly.grow(state.load_factor)
         return not outside_model(self.scene, links.largest_strain(links.elongations(state.u)), STRETCH)
 
     def inspect(self, path: Path[LatticeState, LatticeForces]) -> Fault | None:

@@ -17,6 +17,8 @@ from sheetbench.scenes.loads import EdgeLoad, Pressure
 from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.scene import Scene
 
+STILL = 1e-9  # displacement over the sheet's side within which what is loaded does not move
+
 
 @dataclass(frozen=True)
 class ModeRow:

@@ -156,4 +156,4 @@ def _unmoved(scene: Scene) -> bool:
         for support in scene.supports
     )
     bent = bent or any(obstacle.motion is not None for obstacle in scene.obstacles)
-    return not (weight or bent or scene.loads or scene.actuators)
+    return not (weight or bent or scene.loads or scene.actuators or scene.natural_by)

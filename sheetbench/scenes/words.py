@@ -12,6 +12,7 @@ from sheetbench.scenes.layers import Layer
 from sheetbench.scenes.loads import AnyLoad, AreaLoad, PointLoad, Pressure
 from sheetbench.scenes.masses import Mass, carried
 from sheetbench.scenes.material import CONSTANTS, Material
+from sheetbench.scenes.natural_words import natural_in_words
 from sheetbench.scenes.obstacles import AnyObstacle, Plane, flat_gap, obstacles_by_name
 from sheetbench.scenes.orthotropy import Ply
 from sheetbench.scenes.patches import Patch, mass_of
@@ -55,6 +56,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         *((f"patch {n}", _patch(patch)) for n, patch in enumerate(scene.patches, start=1)),
         *((f"cutout {n}", cutout.shape.in_words()) for n, cutout in enumerate(scene.cutouts, start=1)),
         *((f"mass {n}", _payload(payload, sheet)) for n, payload in enumerate(scene.masses, start=1)),
+        *natural_in_words(scene),
         ("weight", _weight(scene, mass + carried(scene))),
     ]
     if scene.air is not None:
@@ -150,7 +152,8 @@ def _patch(patch: Patch) -> str:
         "density": lambda value: f"ρ = {value:g} kg/m³",
         "angle": lambda value: f"fibres at {degrees(value):.4g}°",
     }
-    return f"{patch.shape.in_words()}: {', '.join(words[name](value) for name, value in patch.own.items())}"
+    own = [words[name](value) for name, value in patch.own.items()]
+    return f"{patch.shape.in_words()}: {', '.join(own) or 'not flat at rest'}"
 
 
 def _constants(material: Material) -> str:

@@ -60,7 +60,8 @@ class Sampling:
             *(("actuator", name, wrench.shape) for name, wrench in actuators.items()),
         ]
         self._observed: Observed | None = None
-        plain = system.coupling is None and system.maxwell is None and not system.items
+        plain = system.coupling is None and system.maxwell is None and system.natural is None
+        plain = plain and not system.items
         if plain and system.assembly.precision == "double":
             masses = system.assembly.pattern.size
             self._observed = Observed(

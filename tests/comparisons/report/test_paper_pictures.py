@@ -8,7 +8,6 @@ import matplotlib
 import numpy as np
 import pytest
 from commands import one_line, run
-from comparisons.linearisation import figure as responding
 from fake_solutions import solution
 from matplotlib.figure import Figure
 
@@ -17,6 +16,7 @@ from comparisons.comparison import probes_figure
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.modes import figure as swinging
+from comparisons.modes import state_figure as responding
 from comparisons.modes.linear import linearise
 from comparisons.modes.spectra import spectra
 from comparisons.tradeoff import figure as trading

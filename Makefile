@@ -18,7 +18,7 @@ help:
 	@echo "make fuzz      20 000 scenes, 1 000 of them solved, command lines and measured files that no one would write"
 	@echo "               (half an hour; goes on where it stopped; files in $(OUT)/fuzz/; others: FUZZ='--seed 2 --scenes 500')"
 	@echo "make kills     a hundred kills of campaigns, runs and trade-offs, and what stands there after (ten minutes; $(OUT)/kills/)"
-	@echo "make tests-of  the test files that run FILE=lumped/statics/polygon.py, the nearest first"
+	@echo "make tests-of  the test files that run FILE=lumped/actuators/division.py, the nearest first"
 	@echo "make mutants   faults put into FILE=… that its nearest tests do not notice, of 20 (COUNT=…); docs/quality.md"
 	@echo "make sizes     files, lines and lines of code of the packages, words of the pages"
 	@echo "make catalogue the table of the catalogue's answers, tests/helpers/catalogue.json, for a change that is meant"
@@ -135,7 +135,7 @@ docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py
 	@$(BIN)/sheetbench schema --markdown > docs/scene.md
 
-# FILE=lumped/statics/polygon.py: the test files that run it, the nearest first; COUNT of them
+# FILE=lumped/actuators/division.py: the test files that run it, the nearest first; COUNT of them
 tests-of:
 	@$(PYTHON) tests/helpers/nearest.py $(FILE) $(COUNT)
 

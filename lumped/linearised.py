@@ -54,6 +54,7 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
+from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.supports import named
 
 MODES = 20  # of the state space unless requested
@@ -128,6 +129,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
             "linearise: pressure, edge moments and per-direction springs have unsymmetric tangents"
         )
     if about == "flat":
+        require_no_obstacles(scene, "a linear system about the flat sheet")
         if scene.actuators:
             raise BadInput("linearise: a flat sheet has no actuators; leave --about out")
         u = np.zeros_like(problem.loads.dead)

@@ -29,6 +29,7 @@ from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene, require_static
+from sheetbench.scenes.natural_state import sheet_at_rest
 from sheetbench.scenes.parameters import FIBRES, parameter, put
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
@@ -137,4 +138,4 @@ def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibr
     if (cells := sections_of(scene, calibration.grid, calibration.grading)) is not None:
         own["cells"] = cells
     method = CLOSED[calibration.method]
-    return scene, method.make(scene.sheet, scene.material, calibration.grid, **own)
+    return scene, method.make(sheet_at_rest(scene), scene.material, calibration.grid, **own)

@@ -6,9 +6,9 @@ from dataclasses import asdict, dataclass
 from math import inf
 from typing import Annotated, Any
 
-from comparisons.comparison.model_error import share_of_tolerance
 from comparisons.runs import load
-from comparisons.tradeoff.pareto import cheapest, error_order, front, grouped, order
+from comparisons.sweep.front import cheapest, error_order, front, grouped, order
+from comparisons.sweep.model_error import share_of_tolerance
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture

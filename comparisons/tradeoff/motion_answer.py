@@ -9,8 +9,8 @@ from math import inf
 from typing import Any
 
 from comparisons.runs import load
+from comparisons.sweep.front import cheapest, error_order, front, grouped
 from comparisons.tradeoff.motion_row import MotionRow
-from comparisons.tradeoff.pareto import cheapest, error_order, front, grouped
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import Table

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison.comparison import error
-from comparisons.comparison.model_error import model_error
 from comparisons.external import plugins
 from comparisons.models.context import running
 from comparisons.models.resolve import resolve
@@ -24,6 +23,7 @@ from comparisons.report.plan import inside
 from comparisons.runs import load
 from comparisons.runs.campaign import Run
 from comparisons.runs.peak_memory import with_peak_memory
+from comparisons.sweep.model_error import model_error
 from sheetbench.scenes import Scene, Solution, Status
 
 SETTLED, MOST = 0.1, 25

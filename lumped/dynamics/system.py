@@ -28,6 +28,7 @@ from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, held_axes, holds_director
 from sheetbench.scenes.motion import kinks
+from sheetbench.scenes.patches import require_flat_at_rest
 from sheetbench.scenes.supports import named
 from sheetbench.scenes.tables import PiecewiseCurve
 
@@ -55,6 +56,7 @@ class System:
     """
 
     def __init__(self, scene: Scene, problem: Problem, mass: np.ndarray | None = None):
+        require_flat_at_rest(scene, "a motion")
         self.scene, self.problem, self.assembly = scene, problem, problem.assembly
         self.coupling = problem.assembly.coupling
         self.transform = problem.constraints.transform

@@ -12,11 +12,13 @@ from typing import TypeVar
 
 from sheetbench.scenes.actuators import Chain, EdgeMotion
 from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
+from sheetbench.scenes.obstacles import AnyObstacle
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.supports import AnySupport, Motion
 from sheetbench.scenes.tables import FactorTable, Loading, OverTime, PiecewiseLinear
 
 Loaded = TypeVar("Loaded", bound=Loading)
+Held = TypeVar("Held", bound=AnySupport | AnyObstacle)
 NO_START = "the motion would start from no stable equilibrium"
 
 
@@ -26,7 +28,7 @@ def kinks(scene: Scene) -> list[float]:
     tables: list[OverTime | None] = [
         load.history for load in (scene.gravity, *scene.loads) if load is not None
     ]
-    tables += [*(support.motion for support in scene.supports), *scene.motions().values()]
+    tables += [*(one.motion for one in (*scene.supports, *scene.obstacles)), *scene.motions().values()]
     commands = (getattr(actuator, "curvature", None) for actuator in scene.actuators)
     tables += [command for command in commands if isinstance(command, OverTime)]
     return sorted({time for table in tables if table is not None for time in table.time})
@@ -51,6 +53,7 @@ def at_start(scene: Scene) -> Scene:
         gravity=scene.gravity and _now(scene.gravity) if static else None,
         loads=tuple(_now(load).replace(hold=False) for load in scene.loads) if static else (),
         supports=tuple(_placed(support) for support in scene.supports),
+        obstacles=tuple(_placed(one).replace(friction=0.0) for one in scene.obstacles),
         actuators=tuple(
             _moved(one, scene) if isinstance(one, EdgeMotion) else _bent(one, static)
             for one in scene.actuators
@@ -65,11 +68,12 @@ def _now(load: Loaded) -> Loaded:
     return load.replace(history=FactorTable(time=(0.0,), factor=(factor,)))
 
 
-def _placed(support: AnySupport) -> AnySupport:
-    if support.motion is None:
-        return support
-    place = tuple(support.motion.course.at(0.0).tolist())
-    return support.replace(motion=Motion(time=(0.0,), displacement=(place,)))
+def _placed(held: Held) -> Held:
+    if held.motion is None:
+        return held
+    place = tuple(held.motion.course.at(0.0).tolist())
+    moved: Held = held.replace(motion=Motion(time=(0.0,), displacement=(place,)))  # type: ignore[assignment]
+    return moved
 
 
 def _bent(chain: Chain, static: bool) -> Chain:

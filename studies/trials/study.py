@@ -24,8 +24,8 @@ import numpy as np
 from comparisons.cells.codes import CODES
 from comparisons.codes.mesh import refusal
 from comparisons.codes.setup import CodeSetup, setup
-from comparisons.comparison.differences import error
 from comparisons.scoring.reference import Reference, references
+from comparisons.sweep.differences import error
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.process import ONE_THREAD, run
 from sheetbench.scenes import Scene, Status

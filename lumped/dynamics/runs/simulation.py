@@ -34,6 +34,7 @@ from sheetbench.runs.schedule import Schedule
 from sheetbench.scenes import AnyScene, History, scene_of
 from sheetbench.scenes.grading import as_settings
 from sheetbench.scenes.motion import let_go
+from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.quantities import require_positive
 
 
@@ -86,6 +87,7 @@ def simulate(
         require_positive(name, value, "s")
     began = now()
     scene = scene_of(scene)
+    require_no_obstacles(scene, "a lattice in motion")
     calibration = calibration or default(scene)
     moving = let_go(scene)
     system = System(moving, build_problem(moving, calibration, weights, precision))

@@ -20,13 +20,13 @@ from comparisons.runs import load
 from comparisons.runs.campaign import campaign
 from comparisons.runs.peak_memory import with_peak_memory
 from comparisons.runs.store import FILE
+from comparisons.sweep.front import front, grouped, order
 from comparisons.tradeoff import timing
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.figure import compose, logarithmic
 from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff, explicit_limit
 from comparisons.tradeoff.motion_answer import folded
 from comparisons.tradeoff.motion_row import MotionRow
-from comparisons.tradeoff.pareto import front, grouped, order
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, parse_figure

@@ -12,7 +12,7 @@ from math import isfinite
 
 import numpy as np
 
-from comparisons.comparison.model_error import left_for_grid
+from comparisons.sweep.model_error import left_for_grid
 from sheetbench.scenes.summary import few, milliseconds
 
 TOLERANCES = (0.05, 0.01, 0.001)  # that are requested most
@@ -41,7 +41,7 @@ def cheapest(
     model_error: float | None = None,
 ) -> list[str]:
     """The quickest row that is certainly within every tolerance, a sentence each, by the rule of `advise`:
-    error, the reference's bar and what it leaves out (`comparisons.comparison.model_error`) together."""
+    error, the reference's bar and what it leaves out (`comparisons.sweep.model_error`) together."""
     known = [(e, s, name) for e, s, name in zip(errors, seconds, names, strict=True) if e is not None and s]
     notes: dict[str, str] = {}
     for tolerance in TOLERANCES:

@@ -12,7 +12,7 @@ from cases import relative
 import fem_reference
 from comparisons.advice.advisor import advise
 from comparisons.comparison.comparison import compare
-from comparisons.comparison.model_error import ModelError, model_error
+from comparisons.sweep.model_error import ModelError, model_error
 from fem_reference.pulled_strip import pulled
 from sheetbench.scenes import Clamped, Gravity, Hinged, Material, Pressure, Scene, Sheet, Status, load
 

@@ -22,7 +22,7 @@ clamp       0.75 |ν|/(1 − ν) h/a where an edge is clamped: a clamp holds the
 Shares of the largest displacement. The clamp's part is no error of the answer to the scene as it is worded,
 but what another clamp would change; so it stands beside the others and is not added to them. Against the
 solid with either clamp, and the shell with the three laws, the bounds hold on the scenes of
-`tests/comparisons/comparison/test_model_error.py`, h/a from 0.013 to 0.15.
+`tests/comparisons/sweep/test_model_error.py`, h/a from 0.013 to 0.15.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The error and the relative difference of displacements, defined in `comparisons.comparison.comparison`."""
+"""The error and the relative difference of displacements, defined in `comparisons.comparison.answer`."""
 
 from __future__ import annotations
 

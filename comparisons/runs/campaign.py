@@ -38,8 +38,6 @@ from sheetbench.sources import source, version
 # Tasks by the names that rows are kept under, so that moving a file loses no result.
 TASKS = {
     "solve": "comparisons.sweep.task:solve",
-    "timing": "comparisons.tradeoff.timing:measure",
-    "motion": "comparisons.motion.run:measure",
     "stability.run": "comparisons.stability.limit:run",
 }
 GOING = "going on"

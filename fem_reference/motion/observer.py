@@ -18,6 +18,8 @@ from sheetbench.scenes.history import ENERGIES
 class ReferenceObserver:
     """The observer (`sheetbench.runs.run`) of a reference."""
 
+    least_energy = 0.0
+
     def __init__(self, model: Moving, scene: Scene):
         self._model, self._points = model, scene.probe_points()
         self._reactions = list(model.reactions(np.zeros(model.mass.shape[0])))

@@ -28,11 +28,11 @@ from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, held_axes, holds_director
 from sheetbench.scenes.motion import kinks
-from sheetbench.scenes.patches import require_flat_at_rest
 from sheetbench.scenes.supports import named
 from sheetbench.scenes.tables import PiecewiseCurve
 
-ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
+ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by, and of energies
+NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,6 @@ class System:
     """
 
     def __init__(self, scene: Scene, problem: Problem, mass: np.ndarray | None = None):
-        require_flat_at_rest(scene, "a motion")
         self.scene, self.problem, self.assembly = scene, problem, problem.assembly
         self.coupling = problem.assembly.coupling
         self.transform = problem.constraints.transform
@@ -64,7 +63,9 @@ class System:
         shared = masses(scene, lattice, self.assembly.inertia, self.assembly.cells)
         self.lattice_mass = shared if mass is None else mass
         self.damping = Damping(scene, self.assembly, self.lattice_mass)
-        self.packing = pack(lattice, self.assembly.springs, self.damping.dampers)
+        self.natural = problem.assembly.natural  # whose springs' rest data change: they are not packed
+        springs = self.assembly.springs if self.natural is None else ()
+        self.packing = pack(lattice, springs, self.damping.dampers)
         self.scratch = scratch(self.packing)
         mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         own = self.assembly.pattern.diagonal[: lattice.mass_count]
@@ -92,9 +93,14 @@ class System:
         self.solve_mass = _mass_solver(self.reduced_mass)
         branches = scene.material.branches
         self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
+        if self.maxwell is not None and self.natural is not None and self.natural.state.moves:
+            raise BadInput(
+                f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
+            )
         if self.maxwell is not None and self.assembly.precision == "single":
             raise BadInput("precision = 'single': takes no Maxwell branches; leave it out")
-        self._elastic_separate = self.maxwell is not None or self.assembly.precision == "single"
+        others = self.maxwell is not None or self.natural is not None
+        self._elastic_separate = others or self.assembly.precision == "single"
         # integrators ask for the same two moments several times a step
         self.place, self.place_rate = lru_cache(16)(self._place), lru_cache(16)(self._place_rate)
         self.motions = self._support_motions()
@@ -103,8 +109,9 @@ class System:
 
     @property
     def working(self) -> bool:
-        """Whether some loads have no potential: they follow the sheet, or change over time."""
-        return not self.problem.loads.potential
+        """Whether some loads have no potential: they follow the sheet, or change over time, as a natural
+        state may."""
+        return not self.problem.loads.potential or (self.natural is not None and self.natural.state.moves)
 
     @property
     def constrained(self) -> bool:
@@ -185,6 +192,7 @@ class System:
 
     def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Elastic energy and internal force, actuators with their multipliers and branches included."""
+        self.assembly.grow(time=time)
         force = np.zeros_like(u)
         if self.maxwell is not None:
             energy = self.maxwell.add_force(u, force)
@@ -222,7 +230,8 @@ class System:
 
     def average_elastic(self, start: State, end: np.ndarray, time: float) -> np.ndarray:
         """Internal force whose work from `start` to the displacement `end` is the energy stored or, by
-        branches, taken; commands as at `time`."""
+        branches, taken; commands and natural state as at `time`."""
+        self.assembly.grow(time=time)
         force = self.assembly.average_force(start.u, end)
         if self.maxwell is not None and start.memory is not None:
             self.maxwell.add_mean_force(start.memory, 0.5 * (start.u + end), end, force)
@@ -234,6 +243,7 @@ class System:
         self, u: np.ndarray, v: np.ndarray, time: float, mass: float, damping: float, stiffness: float
     ) -> np.ndarray:
         """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once."""
+        self.assembly.grow(time=time)
         own = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
         both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
         share, stresses = own / both if both else 0.0, None
@@ -268,6 +278,7 @@ class System:
         if self.maxwell is None or before.memory is None:
             return after, 0.0
         self.since(before, after.time - before.time)
+        self.assembly.grow(time=after.time)
         after = replace(after, memory=self.maxwell.after(after.u))
         assert after.memory is not None
         return after, self.maxwell.dissipated(before.memory, after.memory)
@@ -343,7 +354,42 @@ class System:
             then, now = self.drive(before.time), self.drive(after.time)
             for u in (before.u, after.u):
                 done += 0.5 * self.coupling.command_work(u, then, now)
+        for u in (before.u, after.u) if self.natural is not None else ():
+            done += 0.5 * self.natural_work(u, before.time, after.time)
         return done
+
+    @property
+    def least_energy(self) -> float:
+        """Energy [J] below which all is rounding: of a natural state, in whose shape there is none."""
+        if self.natural is None:
+            return 0.0
+        self.assembly.grow()
+        return ROUNDED * self.assembly.force(np.zeros_like(self._still))[0]
+
+    def natural_work(self, u: np.ndarray, then: float, now: float) -> float:
+        """Work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""
+        if self.natural is None or not self.natural.state.moves:
+            return 0.0
+        energies = []
+        for time in (then, now):
+            self.assembly.grow(time=time)
+            energies.append(self.assembly.force(u)[0])
+        return energies[1] - energies[0]
+
+    def natural_power(self, u: np.ndarray, time: float, before: bool = False) -> float:
+        """Return its power [W] from a moment on, or until then: of a difference that is exact but for third
+        powers of the change."""
+        if self.natural is None or not self.natural.state.moves:
+            return 0.0
+        at, rate = self.natural.state.factors(time), self.natural.state.rates(time, before)
+        if not rate.any():
+            return 0.0
+        step = NATURAL_STEP / np.abs(rate).max()
+        energies = []
+        for sign in (1.0, -1.0):
+            self.natural.set(at + sign * step * rate)
+            energies.append(self.assembly.force(u)[0])
+        return (energies[0] - energies[1]) / (2.0 * step)
 
 
 def _mass_solver(mass: sp.csc_array) -> Callable[[np.ndarray], np.ndarray]:

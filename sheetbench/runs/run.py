@@ -28,9 +28,11 @@ MOST_STEPS = 100_000  # of a method that adapts them, between two samples
 
 class Observer(Protocol):
     """What a model says of samples, as its method gives them. columns: what a row of numbers holds: the time,
-    kinetic, elastic, potential and dissipated energy, work, then the rest."""
+    kinetic, elastic, potential and dissipated energy, work, then the rest; least_energy: [J] below
+    which all is rounding."""
 
     columns: list[Part]
+    least_energy: float
 
     def rows(self, samples: Any) -> np.ndarray:
         """Return the numbers of samples, (k, width)."""
@@ -67,7 +69,7 @@ class Run(Generic[AnyState]):
         self._method, self._observer, self._schedule = method, observer, schedule
         self._kept, self._shown, self._progress = kept, set(shown), progress or (lambda time: None)
         self.samples = self.steps = 0
-        self.resumed_from, self.spent, self.watch = 0.0, np.zeros(2), Watch()
+        self.resumed_from, self.spent, self.watch = 0.0, np.zeros(2), Watch(largest=observer.least_energy)
 
     def finish(self, start: Callable[[], Advance[AnyState]]) -> tuple[Status, str]:
         """Go on to the end, or to a fault, from the last checkpoint or the start: how it ended. start: the

@@ -5,7 +5,7 @@ load number ρ g h a³/D 0.03 to 100 (as far as ρ g a/E ≤ 0.03), ten arrangem
 hinged and curved edges, and a point load of up to the sheet's weight on every fourth scene. A scene whose
 fine shell finds no stable equilibrium is outside the range and replaced by the next.
 
-The truth is a shell with 32 elements along the shorter side. Cost is compared with `timing` rows of the same
+The truth is a shell with 32 elements along the shorter side. Cost is compared with timed rows of the same
 scene: the choice as advised beside `ROWS`, whole sheets all of them.
 """
 
@@ -26,7 +26,7 @@ from comparisons.models.spec import Spec, lattices, references, spec_of
 from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.manifest import record
 from comparisons.runs.store import Finished, Store
-from comparisons.tradeoff import timing
+from comparisons.sweep.solved import Ask, sweep
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import NUMBER, PERCENT, Table
 from sheetbench.scenes import Clamped, Curved, Gravity, Hinged, PointLoad, Scene, Status
@@ -227,17 +227,14 @@ def _compare_costs(
 ) -> None:
     """Adds "cost_ratio" to the cases of a scene: the choice's time over that of the cheapest adequate row."""
     chosen = [spec_of(case["choice"]["model"], case["choice"]["settings"]) for case in cases]
-    queue = [timing.run(scene, spec) for spec in [*rows(scene), *chosen]]
-    outcomes = carry_out(queue, store, **how)
-    dozen, mine = outcomes[: -len(chosen)], outcomes[-len(chosen) :]
+    solved = sweep([Ask(scene, spec, repeats=5) for spec in [*rows(scene), *chosen]], store, **how)
+    dozen, mine = solved[: -len(chosen)], solved[-len(chosen) :]
     truth_displacement = np.array(outcome.row["displacement"])
     for case, own in zip(cases, mine, strict=True):
         adequate = [
-            run.row["solve_seconds"]["median"]
+            run.seconds
             for run in dozen
-            if run.status == Status.CONVERGED
-            and (error(np.array(list(run.row["probes"].values())), truth_displacement) or 1.0)
-            <= case["tolerance"]
+            if run.seconds and run.stable and (error(run.u, truth_displacement) or 1.0) <= case["tolerance"]
         ]
-        case["actual_seconds"] = own.row["solve_seconds"]["median"]
-        case["cost_ratio"] = case["actual_seconds"] / min(adequate) if adequate else None
+        case["actual_seconds"] = own.seconds
+        case["cost_ratio"] = own.seconds / min(adequate) if adequate and own.seconds else None

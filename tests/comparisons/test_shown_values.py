@@ -17,12 +17,9 @@ from comparisons.linearisation.answer import Linearisation
 from comparisons.models.spec import spec_of
 from comparisons.modes.spectra import spectra
 from comparisons.reproduction import figure, nearest
-from comparisons.runs.store import Finished
 from comparisons.stability import tiles as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure
-from comparisons.tradeoff import statics
-from comparisons.tradeoff.answer import Tradeoff
-from comparisons.tradeoff.motion_answer import DynamicTradeoff
+from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from lumped.calibration.tables import moduli
 from sheetbench import scenes
@@ -98,7 +95,7 @@ def test_a_tradeoffs_axis_holds_its_errors_and_the_bar_in_percent():
 
 
 def test_a_front_without_a_bar_has_every_row_that_errs_less_for_more_time():
-    rows = [SimpleNamespace(error=e, seconds_per_second=t) for e, t in ((0.2, 1.0), (0.1, 2.0), (0.1, 3.0))]
+    rows = [SimpleNamespace(error=e, cost=t) for e, t in ((0.2, 1.0), (0.1, 2.0), (0.1, 3.0))]
     for bar, front in ((None, [0, 1]), (0.5, [0])):
         found = SimpleNamespace(rows=rows, uncertainty=bar)
         assert DynamicTradeoff.front.fget(found) == front
@@ -145,19 +142,6 @@ def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer():
         np.testing.assert_allclose(moved.get_ydata(), [0.0, 1.0 + axis])
         np.testing.assert_allclose(rest.get_ydata(), 4.0 + axis)
     assert [panel.get_xlabel() for panel in panels] == ["", "", "time [s]"]
-
-
-def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used():
-    scene, weights, sizes = scenes.load("one-edge-clamped"), np.ones(2), [1.0, 2.0, 4.0]
-
-    def solved(error, status="converged"):
-        moved = [[0.0, 0.0, 1.0 + error]] * 2
-        row = {"probes": dict(zip("ab", moved, strict=True)), "field": moved, "settings": {"elements": 4}}
-        return Finished("key", status, row | {"load_factor": 1.0}, "", "", "", 0.0)
-
-    fine, middle, coarse = solved(0.01), solved(0.04), solved(0.16)
-    assert None not in statics._bars(scene, [fine, middle, solved(0.16, "diverged")], sizes, weights)
-    assert statics._bars(scene, [solved(0.01, "diverged"), middle, coarse], sizes, weights) == (None, None)
 
 
 @pytest.mark.parametrize(

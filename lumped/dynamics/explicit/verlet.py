@@ -28,7 +28,8 @@ class Verlet(Integrator):
         super().__init__(system, step)
         self._projection = Projection(system)
         chains = system.coupling is not None and system.coupling.bodies
-        one_by_one = chains or system.maxwell is not None or system.damping.drag.coefficient > 0.0
+        one_by_one = chains or system.maxwell is not None or system.natural is not None
+        one_by_one = one_by_one or system.damping.drag.coefficient > 0.0
         self._flat = None if one_by_one or system.shared_mass else FlatSystem(system)
         if self._flat is not None:
             self._flat.compile()
@@ -39,9 +40,8 @@ class Verlet(Integrator):
         return step_limit(system, u)
 
     def march(self, state: State, step: float, most: int) -> Advance[State]:
-        """Steps in one compiled call; one at a time where there are chains, branches, air or
-        bodies with moments of inertia. Raises
-        StepFailed."""
+        """Return steps in one compiled call; one at a time where there are chains, branches, a natural state,
+        air or bodies with moments of inertia. Raises StepFailed."""
         if self._flat is None:
             return super().march(state, step, most)
         return self._flat.march(state, step, most)

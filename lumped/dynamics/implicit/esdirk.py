@@ -315,6 +315,7 @@ class Esdirk(Integrator):
         if system.working:
             force = system.external(stage.u, stage.time) - system.problem.loads.dead
             put_in += float(np.sum(force * stage.v))
+            put_in += system.natural_power(stage.u, stage.time, before)
         return put_in
 
 

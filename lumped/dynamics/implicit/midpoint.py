@@ -93,6 +93,8 @@ class Midpoint(Integrator):
         if system.working:
             working = system.external(mean, middle) - system.problem.loads.dead
             done += float(np.sum(working * (after.u - before.u)))
+        done += system.natural_work(before.u, before.time, middle)
+        done += system.natural_work(after.u, middle, after.time)
         if system.coupling is not None:
             then, between, now = (system.drive(t) for t in (before.time, middle, after.time))
             done += system.coupling.command_work(before.u, then, between)

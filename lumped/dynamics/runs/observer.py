@@ -48,6 +48,7 @@ class LatticeObserver:
     """The observer (`sheetbench.runs.run`) of a system. drawn: rows of the displacement that make a frame."""
 
     def __init__(self, system: System, drawn: np.ndarray | None = None):
+        self.least_energy = system.least_energy
         self._system, self._drawn = system, slice(None) if drawn is None else drawn
         scene, lattice = system.scene, system.assembly.lattice
         self._probes = MidSurface(lattice, scene.probe_points())
@@ -63,7 +64,7 @@ class LatticeObserver:
             *(("actuator", name, wrench.shape) for name, wrench in actuators.items()),
         ]
         self._observed: Observed | None = None
-        plain = system.coupling is None and system.maxwell is None
+        plain = system.coupling is None and system.maxwell is None and system.natural is None
         if plain and system.assembly.precision == "double":
             masses = system.assembly.pattern.size
             self._observed = Observed(
@@ -83,9 +84,11 @@ class LatticeObserver:
 
     def stretches(self, samples: Samples, count: int) -> Iterator[float]:
         """Yield the largest strain of a link in each of the first samples."""
-        links = self._system.assembly.links
-        for u in samples.u[:count]:
-            yield 0.0 if self._system.assembly.any_strain else links.largest_strain(links.elongations(u))
+        assembly = self._system.assembly
+        for time, u in zip(samples.time[:count].tolist(), samples.u[:count], strict=True):
+            assembly.grow(time=time)
+            links = assembly.links
+            yield 0.0 if assembly.any_strain else links.largest_strain(links.elongations(u))
 
     def beyond(self, stretch: float) -> str:
         """Return a clause where the law of strain does not hold that far, else ""."""

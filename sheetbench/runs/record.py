@@ -23,7 +23,7 @@ from sheetbench.scenes import History
 @dataclass(frozen=True)
 class Recipe(Generic[AnyState]):
     """A motion to be run. schedule: of a run that begins, to `duration` [s]; key: JSON-able, on what its
-    numbers depend; rows: of a frame; start: of the method, the state
+    numbers depend; rows: of a frame; notes: more to be told; start: of the method, the state
     to begin in, with the work of what moves at once."""
 
     label: str
@@ -36,6 +36,7 @@ class Recipe(Generic[AnyState]):
     observer: Observer
     start: Callable[[Any], Advance[AnyState]]
     rows: int
+    notes: tuple[str, ...] = ()
 
 
 def record(
@@ -74,7 +75,7 @@ def record(
         integrator=recipe.integrator,
         settings={**recipe.settings, **method.settings(), "every": schedule.every},
         status=status,
-        message=message,
+        message="; ".join(filter(None, [message, *recipe.notes])),
         time=parts["time"][""],
         probes=parts.get("probe", {}),
         energies=parts["energy"],

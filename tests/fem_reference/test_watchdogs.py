@@ -22,7 +22,7 @@ from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import MemoryStore
 from sheetbench.runs.watch import Watch
 from sheetbench.scenes import EdgeLoad, Status
-from studies.stability.equilibria import sheet
+from studies.stability.scenes import sheet
 
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not
 

@@ -43,6 +43,7 @@ from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, require_error
 ERROR = 3e-5  # of a step
 FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
 LEAST = 1e-6  # of the sheet's side: no error is asked to be smaller beside it
+ENERGY = 10.0  # of a step that touches something, times its error relative to the largest: losses add up
 FIRST = 0.05  # first step over the time in which the first acceleration goes as far
 STEP_TOLERANCE = 1e-11  # last correction of a fixed step relative to the sheet's side
 SHARE = 0.3  # last correction of an adaptive step relative to the error it may have, or to the default one
@@ -120,6 +121,10 @@ class Esdirk(Integrator):
             error = h * float(np.abs(ERRORS @ stages.v.reshape(len(ERRORS), -1)).max())
             error = max(error, self._largest * self._error_of_branches(h))
             largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
+            if self.system.items:  # which are touched within steps
+                found = self._advance(state, stages, h)
+                gained = self.system.energy_gained(state, found.state, found.dissipated, found.work)
+                error = max(error, largest * gained * ENERGY)
             if control.accepts(error, self._error * largest, h, shortest):
                 self._largest = largest
                 return self._advance(state, stages, h)
@@ -288,7 +293,7 @@ class Esdirk(Integrator):
         else:
             power[0] = self._power(start)
         end = self._stage(stages, -1)
-        if system.moving or system.working:
+        if system.moving or system.working or system.pushed:
             for i in range(1, len(power)):
                 power[i, 1] = self._put_in(self._stage(stages, i), before=True)
         self._step = stages, h
@@ -316,7 +321,7 @@ class Esdirk(Integrator):
             force = system.external(stage.u, stage.time) - system.problem.loads.dead
             put_in += float(np.sum(force * stage.v))
             put_in += system.natural_power(stage.u, stage.time, before)
-        return put_in
+        return put_in + (system.pushing(stage) if system.pushed else 0.0)
 
 
 @njit(cache=True)

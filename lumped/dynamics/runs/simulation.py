@@ -16,6 +16,7 @@ import numpy as np
 
 from lumped.assembly import Precision
 from lumped.calibration import Calibration, default
+from lumped.dynamics.explicit.step_limit import soften_items
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
 from lumped.dynamics.runs.initial import initial_state
@@ -32,9 +33,9 @@ from sheetbench.numerics.time.method import Advance
 from sheetbench.runs.record import Recipe, record
 from sheetbench.runs.schedule import Schedule
 from sheetbench.scenes import AnyScene, History, scene_of
+from sheetbench.scenes.contact import friction_notes
 from sheetbench.scenes.grading import as_settings
 from sheetbench.scenes.motion import let_go
-from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.quantities import require_positive
 
 
@@ -87,10 +88,10 @@ def simulate(
         require_positive(name, value, "s")
     began = now()
     scene = scene_of(scene)
-    require_no_obstacles(scene, "a lattice in motion")
     calibration = calibration or default(scene)
     moving = let_go(scene)
     system = System(moving, build_problem(moving, calibration, weights, precision))
+    soften_items(system)
     integrator, why = resolve_integrator(integrator, system, options)
     start = initial_state(system, calibration, weights, scene)
     limit = INTEGRATORS[integrator].limit(system, start.u)
@@ -128,6 +129,7 @@ def simulate(
         observer=LatticeObserver(system, drawn),
         start=lambda method: Advance(start, 0.0, 0.0),
         rows=len(drawn),
+        notes=tuple(friction_notes(scene)),
     )
     history = record(recipe, frames, store, progress, began)
     history.settings.update({"largest_step": limit.step} if limit is not None else {})

@@ -24,8 +24,8 @@ GROUND += ("sheetbench.process", "sheetbench.runs", "sheetbench.heap", "sheetben
 ALLOWED = {
     "sheetbench/answers": {"sheetbench.answers", "sheetbench.errors", "sheetbench.files"},
     "sheetbench/runs": {
-        *("sheetbench.answers", "sheetbench.errors", "sheetbench.files", "sheetbench.runs"),
-        *("sheetbench.scenes", "sheetbench.sources"),
+        *("sheetbench.answers", "sheetbench.clock", "sheetbench.errors", "sheetbench.files"),
+        *("sheetbench.numerics", "sheetbench.runs", "sheetbench.scenes", "sheetbench.sources"),
     },
     "sheetbench/scenes": {
         *("sheetbench.answers", "sheetbench.errors", "sheetbench.process", "sheetbench.scenes"),

@@ -1,11 +1,13 @@
-"""What a run writes down at its samples: energies, probes, reactions, actuator forces, as rows of numbers.
+"""What a run says of its samples: energies, probes, reactions, actuator forces, as rows of numbers; strains,
+states that mean nothing, and where the sheet is fastest.
 
-All states of a step in one compiled call, for systems without chains and branches in double precision; call
+All rows of a step in one compiled call, for systems without chains and branches in double precision; call
 by call for the others.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -18,8 +20,12 @@ from lumped.mid_surface import MidSurface
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
+from lumped.statics.faults import broken, fastest
+from lumped.statics.structure import STRETCH
+from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.runs.columns import Part, width
+from sheetbench.scenes import outside_model
 from sheetbench.scenes.history import ENERGIES
 
 
@@ -38,11 +44,12 @@ class Observed(NamedTuple):
     supports: Rows
 
 
-class Sampling:
-    """Rows of samples of a system; names and widths of their parts in `columns`, time first."""
+class LatticeObserver:
+    """The observer (`sheetbench.runs.run`) of a system. drawn: rows of the displacement that make a frame."""
 
-    def __init__(self, system: System):
-        self._system = system
+    def __init__(self, system: System, drawn: np.ndarray | None = None):
+        self.least_energy = system.least_energy
+        self._system, self._drawn = system, slice(None) if drawn is None else drawn
         scene, lattice = system.scene, system.assembly.lattice
         self._probes = MidSurface(lattice, scene.probe_points())
         self._supports = list(system.problem.constraints.holders)
@@ -74,11 +81,35 @@ class Sampling:
                 csr_arrays(self._probes.matrix(masses)),
                 system.problem.constraints.summed,
             )
-        self.width = width(self.columns)
+
+    def broken(self, samples: Samples, count: int) -> tuple[int, Fault | None]:
+        """Return how many of the first samples mean something: `lumped.statics.faults`."""
+        return broken(self._system.assembly, samples.u[:count])
+
+    def stretches(self, samples: Samples, count: int) -> Iterator[float]:
+        """Yield the largest strain of a link in each of the first samples."""
+        assembly = self._system.assembly
+        for time, u in zip(samples.time[:count].tolist(), samples.u[:count], strict=True):
+            assembly.grow(time=time)
+            links = assembly.links
+            yield 0.0 if assembly.any_strain else links.largest_strain(links.elongations(u))
+
+    def beyond(self, stretch: float) -> str:
+        """Return a clause where the law of strain does not hold that far, else ""."""
+        system = self._system
+        return "" if system.assembly.any_strain else outside_model(system.scene, stretch, STRETCH)
+
+    def fastest(self, samples: Samples, i: int) -> str:
+        """Return the fastest mass's place."""
+        return fastest(self._system.assembly.lattice, samples.v[i])
+
+    def frame(self, samples: Samples, i: int) -> np.ndarray:
+        """Return the drawn rows of a displacement."""
+        return samples.u[i][self._drawn]
 
     def rows(self, samples: Samples) -> np.ndarray:
-        """The numbers of samples, (k, width)."""
-        system, rows = self._system, np.empty((len(samples.time), self.width))
+        """Return the numbers of samples, (k, width)."""
+        system, rows = self._system, np.empty((len(samples.time), width(self.columns)))
         rows[:, 0], rows[:, 4], rows[:, 5] = samples.time, samples.dissipated, samples.work
         if system.motions:  # integrators have the accelerations beside what is prescribed
             placed = np.array([system.place_acceleration(time) for time in samples.time.tolist()])

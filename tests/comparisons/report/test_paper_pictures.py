@@ -161,7 +161,7 @@ def test_the_option(tmp_path, capsys):
     assert drawn == {"modes.svg", "modes.pdf"} and all((out / name).is_file() for name in drawn)
     capsys.readouterr()
     assert run(*asked, "--figure", "svg") == 2
-    assert "needs --out" in one_line(capsys)
+    assert "--figure: no effect without --out" in one_line(capsys)
     assert run(*asked, "--figure", "svg", "--no-pictures", "--out", str(out)) == 2
     assert "--no-pictures" in one_line(capsys)
     bare = tmp_path / "bare"

@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 from matrix_options import scene_files
 from matrix_rows import check, tally
 
-from comparisons.comparison import comparison as displacement
 from comparisons.report import offscreen
 from comparisons.runs import executors
 from comparisons.runs.campaign import campaign, carry_out
 from comparisons.stability import extremes
+from comparisons.sweep import here as table
 from sheetbench.answers import style
 from sheetbench.scenes import Solution
 
@@ -44,7 +44,7 @@ def quick(monkeypatch):
         size = -0.01 if model == "lumped" else -0.0101
         return answers.get(model) or fake_solutions.solution(asked.scene, name or model, size)
 
-    monkeypatch.setattr(displacement, "solve", answer)
+    monkeypatch.setattr(table, "solve", answer)
     return answers
 
 

@@ -26,11 +26,10 @@ from campaigns import FEW, Here  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from terminals import resize  # noqa: E402
 
-from comparisons.advice import probing  # noqa: E402
 from comparisons.cli import console, main  # noqa: E402
-from comparisons.comparison import comparison  # noqa: E402
 from comparisons.runs import campaign, executors, load  # noqa: E402
 from comparisons.stability import extremes  # noqa: E402
+from comparisons.sweep import here  # noqa: E402
 
 
 class Echo(io.RawIOBase):
@@ -78,8 +77,7 @@ def screen(
 
 if __name__ == "__main__":
     sys.stdin = io.StringIO()  # nobody is there to be asked
-    for module in (comparison, probing):  # what is looked at is how it is shown
-        module.solve = once(module.solve)
+    here.solve = once(here.solve)  # what is looked at is how it is shown
     load.average = lambda: None  # a busy machine is noted with its load, which changes
     executors.processes = Here
     vars(extremes).update(FEW)

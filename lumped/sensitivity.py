@@ -35,6 +35,7 @@ from sheetbench.scenes.parameters import FIBRES, parameter, put
 STEP = 1e-4  # of a parameter, for the difference of residuals
 CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
 STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
+STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6}
 PATCH, PAYLOAD = "patch", "mass"  # with which names of a patch's constants begin, and those of payloads
 
 

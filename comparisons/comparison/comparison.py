@@ -26,7 +26,7 @@ from comparisons.sweep.differences import error as error  # where others take it
 from comparisons.sweep.here import here, with_room
 from fem_reference.uncertainty import coarser
 from sheetbench.choices import REFERENCE
-from sheetbench.scenes import Scene, SceneError, Status, load, require_static
+from sheetbench.scenes import AnyScene, Scene, SceneError, Status, require_static, scene_of
 
 COMPANION = "lumped-uniform"
 
@@ -111,12 +111,14 @@ def compare(
     )
 
 
-def load_static(scene: str | Path) -> Scene:
-    """Return the scene of a catalogue name or file, refused by that name if its supports leave it free to
-    move."""
-    loaded = load(scene)
+def load_static(scene: AnyScene) -> Scene:
+    """Return the scene, that of a catalogue name or file refused by that name if its supports leave it free
+    to move."""
+    loaded = scene_of(scene)
     try:
         require_static(loaded)
     except SceneError as free:
+        if isinstance(scene, Scene):
+            raise
         raise SceneError(f"{scene}: {free}") from None
     return loaded

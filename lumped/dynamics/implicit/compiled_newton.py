@@ -75,8 +75,9 @@ class CompiledNewton:
     def serves(system: System) -> bool:
         """Whether forces are all compiled, and factors lie in a band."""
         plain = system.coupling is None and system.maxwell is None and system.assembly.precision == "double"
+        plain = plain and system.natural is None
         still = system.problem.conservative and not system.problem.loads.follow
-        return plain and still and system.problem.system.band is not None
+        return plain and still and not system.items and system.problem.system.band is not None
 
     def factorise(
         self, u: np.ndarray, v: np.ndarray, time: float, mass_coefficient: float, damping_coefficient: float

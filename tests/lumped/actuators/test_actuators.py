@@ -300,9 +300,7 @@ def test_a_held_base_carries_sheet_and_chain_in_statics_and_at_the_end_of_a_run(
 
 
 def test_one_stiff_segment_held_at_its_middle_is_a_clamp():
-    only = [
-        {"edge": "x1", "segments": 1, "base": "middle", "line_density": 0.02, "bending_stiffness": 1e5}
-    ]
+    only = [{"edge": "x1", "segments": 1, "base": "middle", "line_density": 0.02, "bending_stiffness": 1e5}]
     held = scene("one-edge-clamped", only)
     both = scene("one-edge-clamped", supports=[{"edge": e, "kind": "clamped"} for e in ("x0", "x1")])
     chain, clamp = (lumped.solve(asked, springs(held)) for asked in (held, both))

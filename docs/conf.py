@@ -22,6 +22,7 @@ version = release = version_of("sheetbench")
 copyright = "the sheetbench developers, MIT licence"
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.viewcode", "sphinx_gallery.gen_gallery"]
+extensions += ["run_directive"]  # of this folder
 source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb", ".rst": "restructuredtext"}
 exclude_patterns = ["_build", "examples/*.ipynb"]  # of the gallery: downloads
 html_theme = "furo"

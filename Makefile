@@ -7,9 +7,10 @@ OUT    ?= demo
 EDITABLE := --config-settings editable_mode=compat --editable
 FUZZ   ?=
 KILLS  ?=
+RELEASED ?= python3.11 python3.12 python3.13
 
 .PHONY: docs docs-scene help install demo wheel test check nightly kernels slow fuzz kills sizes catalogue verify tradeoff animations pictures \
-        notebooks bench mutants tests-of viewer wheel-check extras-check lint clean
+        notebooks bench mutants tests-of viewer wheel-check extras-check release-check lint clean
 help:
 	@echo "make demo      set up and compare both models on test 1 of the published study, Habibi et al. (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -36,6 +37,7 @@ help:
 	@echo "make wheel     a wheel for this Python with its kernels compiled (dist/)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
 	@echo "make extras-check  the wheel with each extra on its own, and with none, in environments that have nothing else"
+	@echo "make release-check  wheels with kernels for $(RELEASED), a pure wheel and the source distribution in dist/, each tried bare"
 	@echo "make install   set up only: $(BIN)/sheetbench"
 	@echo "make clean     remove the environment and the demo's files"
 
@@ -149,6 +151,9 @@ wheel-check: install
 
 wheel: install
 	@.ci/wheel $(BIN)/python dist
+
+release-check:
+	@.ci/release-check $(RELEASED)
 
 extras-check: install
 	@.ci/extras-check $(PYTHON)

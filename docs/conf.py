@@ -13,6 +13,7 @@ import pyvista
 sys.path.insert(0, str(Path(__file__).parent))
 from plain_docstrings import as_restructured
 from verb_pages import write_verb_pages
+from version_page import write_version_page
 
 pyvista.BUILDING_GALLERY = pyvista.OFF_SCREEN = True
 logging.getLogger("skfem").setLevel(logging.WARNING)  # it tells of every basis
@@ -59,4 +60,5 @@ def _plain(app: Any, what: str, name: str, what_of: Any, options: Any, lines: li
 def setup(app: Any) -> None:
     """The verbs' pages before the pages are read, and docstrings as they are written."""
     app.connect("builder-inited", lambda built: write_verb_pages(Path(built.srcdir) / "verbs"))
+    app.connect("builder-inited", lambda built: write_version_page(Path(built.srcdir) / "versions.md"))
     app.connect("autodoc-process-docstring", _plain)

@@ -1,7 +1,7 @@
 """Error and time of ten fixed cases, a file a release: `python benchmarks/versions.py VERSION`.
 
-The rows go to `benchmarks/versions/VERSION.json`; `docs/version_page.py` sets all files side by side. An error is
-the largest difference from the values of a finer mesh, over their largest. The first release stores these
+The rows go to `benchmarks/versions/VERSION.json`; `docs/version_page.py` shows all files together. An error
+is the largest difference from the values of a finer mesh, over their largest. The first release stores these
 values; later ones read them, so that a change of the reference itself shows too.
 """
 

@@ -9,7 +9,7 @@ FOLDER = Path(__file__).parents[1] / "benchmarks" / "versions"
 HEAD = """# Over versions
 
 Error and CPU time of ten fixed cases in every release, held against values of finer meshes that the first
-release stored (`python benchmarks/versions.py VERSION`). Times of different machines do not compare; errors do.
+release stored (`python benchmarks/versions.py VERSION`). Errors compare, times of different machines do not.
 """
 
 

@@ -19,7 +19,7 @@ from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.buckling import buckling_modes
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import AnyScene, require_static, scene_of
-from sheetbench.scenes.modes import Buckling, require_flat_and_dead
+from sheetbench.scenes.modes import STILL, Buckling, require_flat_and_dead
 
 
 def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, count: int = 1) -> Buckling:
@@ -60,7 +60,7 @@ def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, cou
 
     else:
         raise BadInput(f"model = {model!r}: buckling is of shell and solid; the plate's strains are linear")
-    factors, states = buckling_modes(structure, solver, surface, count)
+    factors, states = buckling_modes(structure, solver, surface, count, STILL * max(scene.sheet.lengths))
     return Buckling(
         model=model,
         label=f"{model} {counts[0]} × {counts[1]}",

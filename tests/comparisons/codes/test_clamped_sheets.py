@@ -9,9 +9,9 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
 import fem_reference
-from comparisons.cells.coefficients import STIFF, nearest
-from comparisons.cells.homogenise import moduli_of
-from comparisons.cells.meshes import mesh
+from comparisons.codes.cell_meshes import mesh
+from comparisons.codes.coefficients import STIFF, nearest
+from comparisons.codes.homogenise import moduli_of
 from fem_reference.surface.materials import Section, section_of
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, Gravity, Sheet

@@ -1,5 +1,5 @@
 """A scene's lattice, linear about its equilibrium: matrices, state space of the lowest modes or of the most
-important states, their files: the answer of `sheetbench linearise`."""
+important states, their files: the answer of `sheetbench modes --state-space`."""
 
 from __future__ import annotations
 
@@ -79,11 +79,19 @@ class Linearisation(Answer):
         return found
 
     def document(self) -> dict[str, Any]:
-        poles, matrices = self.space.poles, self.matrices
+        lattice = {"model": "lumped", "label": self.label, "frequencies_hz": self.modal.frequencies}
         return {
             "scene": self.scene.document(),
-            "label": self.label,
             "about": self.about,
+            "solutions": [lattice],
+            "state_space": self.form(),
+        }
+
+    def form(self) -> dict[str, Any]:
+        """Return poles, inputs, outputs and static gains, and what a reduction promises."""
+        poles, matrices = self.space.poles, self.matrices
+        return {
+            "label": self.label,
             "unknowns": matrices.mass.shape[0],
             "poles": np.column_stack([poles.real, poles.imag]),
             "frequencies_hz": self.space.frequencies,
@@ -165,7 +173,7 @@ class Linearisation(Answer):
         return Table.of(InputRow, rows, "Static uz per unit of input")
 
     def figures(self) -> tuple[Picture, ...]:
-        return (Picture("responses", "comparisons.linearisation.figure:compose", (self,)),)
+        return (Picture("responses", "comparisons.modes.state_figure:compose", (self,)),)
 
     def files(self) -> dict[str, Write]:
         """Return the matrices; in MATLAB and Octave ss(ss_A, ss_B, ss_C, ss_D)."""

@@ -7,7 +7,7 @@ import re
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.linearisation.answer import Linearisation, unit_of
+from comparisons.modes.state_space import Linearisation, unit_of
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import GREY, plain
 

@@ -6,11 +6,11 @@ from typing import Unpack
 
 import numpy as np
 
-from comparisons.linearisation.answer import Linearisation
 from comparisons.models.context import context, in_context
 from comparisons.models.keywords import LatticeKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
+from comparisons.modes.state_space import Linearisation
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, scene_of

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from comparisons.cells.cell import Cell
-from comparisons.cells.coefficients import best_hinge, limit_error, nearest
-from comparisons.cells.homogenise import Moduli, moduli_of
-from comparisons.cells.meshes import cell_on
-from comparisons.cells.parameters import Parameter, parameters
+from comparisons.codes.cell import Cell
+from comparisons.codes.cell_meshes import cell_on
+from comparisons.codes.coefficients import best_hinge, limit_error, nearest
+from comparisons.codes.homogenise import Moduli, moduli_of
+from comparisons.codes.parameters import Parameter, parameters
 from fem_reference.surface.materials import section_of
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Column, Table, number
@@ -167,10 +167,8 @@ def homogenise(
     that the cell does not have, a scene without an answer at rest, and spacing and hinge of a cell that has
     its own.
     """
-    if isinstance(cell, Scene):
-        raise BadInput("homogenise(scene, cell): the scene comes first")
     scene, given = scene_of(scene), dict(coefficients or {})
-    require_plain(scene, "homogenise")
+    require_plain(scene, "--cell")
     if isinstance(cell, str):
         cell = cell_on(scene.sheet, cell, spacing, hinge)
     else:
@@ -186,3 +184,18 @@ def homogenise(
     except NoEquilibrium as error:
         return CellModuli(cell, scene, chosen, moduli_of(cell, chosen), None, missing=str(error))
     return CellModuli(cell, scene, chosen, moduli_of(cell, chosen), off, others)
+
+
+def given_coefficients(entries: Sequence[Mapping[str, float] | str]) -> dict[str, float]:
+    """Return coefficients by name from NAME=VALUE texts or mappings. Raises BadInput for what is neither."""
+    given: dict[str, float] = {}
+    for entry in entries:
+        if not isinstance(entry, str):
+            given |= entry
+            continue
+        name, _, value = entry.partition("=")
+        try:
+            given[name] = float(value)
+        except ValueError:
+            raise BadInput(f"--coefficient {entry}: NAME=VALUE, the value a number") from None
+    return given

@@ -16,14 +16,14 @@ from rubbers import LAWS, rubber
 from scipy.io import loadmat
 
 import lumped
-from comparisons.export.arrays import NAMES, arrays
-from comparisons.export.export import export
+from comparisons.codes.arrays import NAMES, arrays
+from comparisons.codes.lattice import export
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, Held, Hinged, Material, PointLoad, Pressure, Scene, Sheet, Symmetric
 from sheetbench.scenes.grid import grid_of
 
-READERS = Path(__file__).parents[3] / "examples" / "other-codes"
+READERS = Path(__file__).parents[3] / "comparisons" / "codes" / "scripts"
 NUMPY = runpy.run_path(str(READERS / "read_lattice.py"))
 AGREED = 1e-6  # of the largest displacement, as the readers themselves ask
 

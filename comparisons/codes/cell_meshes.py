@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import Delaunay
 
-from comparisons.cells.cell import Cell, Place, from_toml
+from comparisons.codes.cell import Cell, Place, from_toml
 from sheetbench.errors import BadInput, require_effect
 from sheetbench.scenes import Sheet
 
@@ -22,7 +22,7 @@ def cell_of(
 ) -> Cell:
     """The cell of a mesh's name, with its nodes `spacing` [m] apart, or of a file that ends in .toml.
 
-    thickness [m]: of bricks; hinge: the energy of the others' hinges, of `comparisons.cells.cell.HINGES`,
+    thickness [m]: of bricks; hinge: the energy of the others' hinges, of `comparisons.codes.cell.HINGES`,
     "length" unless given. Raises BadInput for what is missing, and for what has no effect on this cell.
     """
     of_file = cell.endswith(".toml")

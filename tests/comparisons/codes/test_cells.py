@@ -9,12 +9,12 @@ import pytest
 from commands import json_of, one_line, run
 
 import sheetbench as sb
-from comparisons.cells.cell import Cell
-from comparisons.cells.codes import CODES
-from comparisons.cells.coefficients import limit_error, nearest
-from comparisons.cells.homogenise import moduli_of
-from comparisons.cells.meshes import MESHES, mesh
-from comparisons.cells.parameters import parameters_of
+from comparisons.codes.cell import Cell
+from comparisons.codes.cell_meshes import MESHES, mesh
+from comparisons.codes.coefficients import limit_error, nearest
+from comparisons.codes.homogenise import moduli_of
+from comparisons.codes.parameters import parameters_of
+from comparisons.codes.table import CODES
 from lumped import moduli
 from lumped.lattice import STEPS
 from sheetbench.errors import BadInput
@@ -155,10 +155,10 @@ def test_the_verb_shows_and_writes_a_cell_of_a_file(tmp_path, capsys):
         "periods = [[0.01, 0], [0, 0.01]]\nnodes = [[0, 0]]\nhinge = 'length'\n"
         "triangles = [[[0, 0, 0], [0, 1, 0], [0, 1, 1]], [[0, 0, 0], [0, 1, 1], [0, 0, 1]]]\n"
     )
-    found = json_of(capsys, "homogenise", str(file), SCENE.name, "--coefficient", "hinge=2")
+    found = json_of(capsys, "calibrate", SCENE.name, "--cell", str(file), "--coefficient", "hinge=2")
     assert found["coefficients"]["hinge"] == 2.0 and found["units"]["hinge"] == "N"
     assert {row["name"]: row["got"] for row in found["moduli"]}["D16"] == pytest.approx(0.01)
-    assert run("homogenise", str(file), SCENE.name, "--quiet") == 0
+    assert run("calibrate", SCENE.name, "--cell", str(file), "--quiet") == 0
     assert "These coefficients miss D11" in capsys.readouterr().out
 
 
@@ -173,7 +173,7 @@ load = [{kind = "edge", edge = "x1", force_per_length = [-0.6, 0.0, 0.0]}]
 
 @pytest.mark.parametrize(
     "line",
-    ["homogenise alternate-diagonals {}", "calibrate {} --for newton", "calibrate {} --for pybullet"],
+    ["calibrate {} --cell alternate-diagonals", "calibrate {} --for newton", "calibrate {} --for pybullet"],
 )
 def test_a_sheet_without_a_stable_equilibrium_has_no_error(tmp_path, capsys, line):
     """Its shell is unstable: the coefficients nearest to the moduli stay, and the status is 3."""
@@ -188,11 +188,11 @@ def test_a_sheet_without_a_stable_equilibrium_has_no_error(tmp_path, capsys, lin
 
 def test_the_parameter_shown_is_the_best_one_and_calibrates(capsys):
     """The nearest hinge leaves an error of 71 % in this scene; `calibrate --for` has the best one too."""
-    found = json_of(capsys, "homogenise", "alternate-diagonals", "one-edge-clamped")
+    found = json_of(capsys, "calibrate", "one-edge-clamped", "--cell", "alternate-diagonals")
     other = json_of(capsys, "calibrate", "one-edge-clamped", "--for", "newton")
     assert found["coefficients"]["hinge"] == pytest.approx(other["coefficients"]["hinge"], rel=1e-9)
     assert found["limit_error"] < 0.02 and found["nearest"]["limit_error"] > 0.5
-    assert run("homogenise", "alternate-diagonals", "one-edge-clamped", "--quiet") == 0
+    assert run("calibrate", "one-edge-clamped", "--cell", "alternate-diagonals", "--quiet") == 0
     said = " ".join(capsys.readouterr().out.split())
     assert re.search(r"edge_ke 8\.36\d+ N ", said)
     assert said.index("even an infinitely fine mesh is 1.4 % off") < said.index("Coefficients")
@@ -204,8 +204,8 @@ def test_no_scene_that_nobody_named_heads_an_answer(capsys):
     said = " ".join(capsys.readouterr().out.split())
     assert said.startswith("sheet for MuJoCo") and "No SCENE was named" in said
     assert "one-edge-clamped" not in said and "in this scene" not in said
-    assert run("homogenise", "bricks") == 2
-    assert "Missing argument 'SCENE'" in one_line(capsys)
+    assert run("calibrate", *sheet, "--cell", "bricks") == 2
+    assert "--cell: needs a SCENE" in one_line(capsys)
 
 
 @pytest.mark.parametrize(
@@ -219,22 +219,22 @@ def test_options_without_effect_on_a_cell_are_refused(tmp_path, capsys, option, 
     file = tmp_path / "cell.toml"
     file.write_text("periods = [[1, 0], [0, 1]]\nnodes = [[0, 0]]\nsprings = [[[0, 0, 0], [0, 1, 0], 'k']]")
     cell, *others = option.replace("FILE", str(file)).split()
-    assert run("homogenise", cell, SCENE.name, *others) == 2
+    assert run("calibrate", SCENE.name, "--cell", cell, *others) == 2
     assert why in one_line(capsys)
     with pytest.raises(BadInput, match="no effect on a Cell"):
-        sb.homogenise(SCENE, sb.cell("equilateral", 0.01), hinge="angle")
+        sb.calibrate(SCENE, cell=sb.cell("equilateral", 0.01), hinge="angle")
 
 
 def test_a_folder_is_of_one_cell(tmp_path, capsys):
     options = (SCENE.name, "--coefficient", "hinge=2", "--quiet", "--out", str(tmp_path / "out"))
-    assert run("homogenise", "equilateral", *options) == 0
+    assert run("calibrate", "--cell", "equilateral", *options) == 0
     before = (tmp_path / "out" / "cell.json").read_text()
     capsys.readouterr()
     for other in ("one-diagonal", "equilateral --spacing 5mm", "equilateral --hinge angle"):
-        assert run("homogenise", *other.split(), *options) == 2
+        assert run("calibrate", "--cell", *other.split(), *options) == 2
         assert "--overwrite" in one_line(capsys)
     assert (tmp_path / "out" / "cell.json").read_text() == before
-    assert run("homogenise", "one-diagonal", *options, "--overwrite") == 0
+    assert run("calibrate", "--cell", "one-diagonal", *options, "--overwrite") == 0
 
 
 @pytest.mark.parametrize(
@@ -250,7 +250,7 @@ def test_a_folder_is_of_one_cell(tmp_path, capsys):
 def test_what_is_no_cell_is_refused_with_its_file_or_name(tmp_path, capsys, text, reason):
     file = tmp_path / "cell.toml"
     file.write_text(text)
-    assert run("homogenise", str(file), SCENE.name) == 2
+    assert run("calibrate", SCENE.name, "--cell", str(file)) == 2
     line = one_line(capsys)
     assert reason in line and "cell" in line
 
@@ -259,4 +259,4 @@ def test_a_mesh_that_is_not_there_and_a_foreign_coefficient_are_refused():
     with pytest.raises(BadInput, match="one of one-diagonal"):
         sb.cell("hexagons", 0.01, 0.001)
     with pytest.raises(BadInput, match="coefficient bend"):
-        sb.homogenise(SCENE, "equilateral", coefficients={"bend": 1.0})
+        sb.calibrate(SCENE, cell="equilateral", coefficient={"bend": 1.0})

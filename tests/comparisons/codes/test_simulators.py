@@ -10,14 +10,16 @@ from cases import CLAMP, GRAVITY, OBLONG, SILICONE
 from commands import run
 
 import lumped
-from comparisons.export.mujoco import to_mjcf
-from comparisons.export.sofa import to_sofa
+from comparisons.codes.lattice import CODES, MODELS, READERS
+from comparisons.codes.mujoco import to_mjcf
+from comparisons.codes.sofa import to_sofa
 from comparisons.external.mujoco import relax
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Hinged, PointLoad, Scene
 
-READER = runpy.run_path(str(Path(__file__).parents[3] / "examples" / "other-codes" / "read_lattice.py"))
+SCRIPTS = Path(__file__).parents[3] / "comparisons" / "codes" / "scripts"
+READER = runpy.run_path(str(SCRIPTS / "read_lattice.py"))
 CORNER = scenes.load("two-edges-clamped").replace(
     loads=(PointLoad(at=(0.188, 0.188), force=(0.05, 0.0, 0.1)),), gravity=None
 )
@@ -144,15 +146,49 @@ def test_sofas_scene_has_what_it_names():
     assert len(set(order)) == len(order)
 
 
-def test_what_they_do_not_have_is_refused(tmp_path, capsys):
+def test_what_they_do_not_have_is_refused():
     with pytest.raises(BadInput, match="area and strain springs of cells; take --calibration central"):
         to_mjcf(described(CORNER, method="consistent"), CORNER)
     with pytest.raises(BadInput, match="hold the mean of their layers"):
         to_sofa(described(HINGED, 3), HINGED)
-    asked = ["calibrate", "two-edges-clamped", "--grid", "3", "--method", "central"]
-    assert run(*asked, "--for", "mujoco", "--for", "sofa", "--export", str(tmp_path / "b")) == 0
-    assert {"mujoco.xml", "sofa.scn", "links.csv"} <= {path.name for path in (tmp_path / "b").iterdir()}
-    assert "`sofa.scn`" in (tmp_path / "b" / "README.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_the_verb_writes_the_lattice_for_a_code(code, tmp_path):
+    """Beside the tables; MuJoCo has a sheet of its own unless springs are named, SOFA central ones."""
+    springs = ("--calibration", "central") if code == "mujoco" else ()
+    asked = ("two-edges-clamped", "--grid", "3", *springs, "--for", code, "--out", str(tmp_path))
+    assert run("calibrate", *asked, "--quiet") == 0
+    own = {**{name: file for name, (file, _) in MODELS.items()}, **READERS}[code]
+    assert {own, "links.csv", "lattice.npz", "calibration.json"} <= {path.name for path in tmp_path.iterdir()}
+    assert f"`{own}`" in (tmp_path / "README.md").read_text(encoding="utf-8")
+    if code in READERS:
+        assert (tmp_path / own).read_text(encoding="utf-8") == (SCRIPTS / own).read_text(encoding="utf-8")
+
+
+def test_simulators_get_masses_gravity_held_ones_and_loads():
+    """Read back without the simulator; SOFA's in `test_sofas_scene_holds_the_lattice`."""
+    scene = LADEN.replace(loads=CORNER.loads)
+    lattice = described(scene, 3)
+    root = ElementTree.fromstring(to_mjcf(lattice, scene))
+    bodies = root.findall("worldbody/body")
+    free = [n for n, body in enumerate(bodies) if body.find("joint") is not None]
+    held = {hold.masses[0] for hold in lattice.holds}
+    assert set(range(len(bodies))) - set(free) == held
+    masses = [
+        float(body.find("inertial").attrib["mass"]) for body in bodies if body.find("joint") is not None
+    ]
+    assert masses == lattice.mass[free].tolist()
+    gravity = np.array(root.find("option").attrib["gravity"].split(), float)
+    assert gravity.tolist() == [0.0, 0.0, -9.81]
+    force = np.zeros_like(lattice.dead)
+    values = root.find("keyframe/key").attrib["ctrl"].split()
+    for motor, value in zip(root.findall("actuator/motor"), values, strict=True):
+        joint = motor.attrib["joint"]
+        force[int(joint[4:-1]), "xyz".index(joint[-1])] = float(value)
+    expected = lattice.dead - lattice.mass[:, None] * gravity
+    expected[sorted(held)] = 0.0
+    assert force == pytest.approx(expected, abs=1e-12)
 
 
 def lattice_of(root):

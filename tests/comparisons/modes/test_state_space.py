@@ -10,8 +10,8 @@ from commands import run
 from scipy.io import loadmat
 
 import lumped
-from comparisons.linearisation import figure
-from comparisons.linearisation.linearisation import linearise
+from comparisons.modes import state_figure as figure
+from comparisons.modes.linear import linearise
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
@@ -147,9 +147,9 @@ def test_what_has_no_linear_form_is_refused():
 
 
 def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
-    asked = ["one-edge-clamped", "--lumped", "4", "--modes", "5", "--out", str(tmp_path), "--json"]
-    assert run("linearise", *asked) == 0
-    document = json.loads(capsys.readouterr().out)
+    asked = ["one-edge-clamped", "--lumped", "4", "--state-space", "5", "--out", str(tmp_path), "--json"]
+    assert run("modes", *asked) == 0
+    document = json.loads(capsys.readouterr().out)["state_space"]
     assert len(document["poles"]) == 10 and document["unknowns"] == 72
     arrays, other = dict(np.load(tmp_path / "linear.npz")), loadmat(tmp_path / "linear.mat")
     assert other["K"].shape == (72, 72) and other["ss_A"].shape == (10, 10)
@@ -160,7 +160,7 @@ def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
 
 def test_a_lattice_without_an_equilibrium_ends_with_3(capsys):
     springs = ("--k", "550", "--layer-distance", "0.004", "--grid", "3x3x3")
-    assert run("linearise", "curved-edge-down", *springs) == 3
+    assert run("modes", "curved-edge-down", "--state-space", "20", *springs) == 3
     said = capsys.readouterr().err
     assert "no linear form about the equilibrium" in said and "Traceback" not in said
 

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.optimize import least_squares, minimize_scalar
 
 import fem_reference
-from comparisons.cells.cell import Cell
-from comparisons.cells.homogenise import Moduli, moduli_of
+from comparisons.codes.cell import Cell
+from comparisons.codes.homogenise import Moduli, moduli_of
 from comparisons.sweep.differences import error
 from fem_reference.surface.materials import Section, section_of
 from sheetbench.errors import BadInput, NoEquilibrium

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import null_space
 
-from comparisons.cells.cell import Cell
+from comparisons.codes.cell import Cell
 
 ROUNDING = 1e-12  # of both moduli beside one off the diagonal
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from comparisons.export.arrays import NAMES
+from comparisons.codes.arrays import NAMES
 from sheetbench.answers.escape import markdown
 from sheetbench.scenes import Scene
 from sheetbench.scenes.words import in_words
@@ -85,13 +85,13 @@ Every mass is also dragged by {rate:g} 1/s × its mass × its velocity.
 
 {arrays}
 
-Programs in NumPy, MATLAB and C++ that read this folder and solve it, of rubber the one in NumPy:
-`examples/other-codes` of sheetbench.
+Programs that read this folder and solve it, of rubber the one in NumPy: `sheetbench calibrate SCENE --for
+numpy --out DIR`, likewise `cpp` and `matlab`.
 """
 
 
 def page(lattice: Description, scene: Scene, calibration: Calibration, others: Iterable[str] = ()) -> str:
-    """Return the README, in Markdown; others: names of files of the same lattice for one simulator each."""
+    """Return the README, in Markdown; others: names of files beside it for one code."""
     nx, ny, layers = calibration.grid
     sheet = scene.sheet
     own = [f"{name}: {text}" for name, text in in_words(scene) if name.split()[0] in OWN]
@@ -109,6 +109,6 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
         rate=lattice.damping_rate,
         layers=layers,
         plan="" if scene.uniform and not scene.pierced else PLAN,
-        notes=notes + "".join(f"\nThe same lattice for one simulator: `{name}`.\n" for name in others),
+        notes=notes + "".join(f"\nFor one code: `{name}`.\n" for name in others),
         arrays="\n".join(f"- `{name}` {markdown(note)}" for name, note in NAMES.items()),
     )

@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from comparisons.export.links import held_masses, require_links, weight_and_rest, words
+from comparisons.codes.links import held_masses, require_links, weight_and_rest, words
 from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from comparisons.cells.codes import CODES, Code, Numbers
+from comparisons.codes.table import CODES, Code, Numbers
 from sheetbench.answers.table import Column
 from sheetbench.scenes import Material, Scene
 

@@ -8,10 +8,10 @@ import pytest
 from cases import CLAMP, GRAVITY
 
 import lumped
-from comparisons.export.arrays import arrays
+from comparisons.codes.arrays import arrays
 from sheetbench.scenes import Material, Scene, Sheet
 
-PLACE = Path(__file__).parents[3] / "examples" / "other-codes" / "read_lattice.py"
+PLACE = Path(__file__).parents[3] / "comparisons" / "codes" / "scripts" / "read_lattice.py"
 NUMPY = runpy.run_path(str(PLACE))
 
 

@@ -25,7 +25,7 @@ from comparisons.models.sizes import has_room, require_room
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice, Spec, counted
 from comparisons.models.symmetry import planes
-from comparisons.report.work import silent
+from comparisons.pictures.work import silent
 from comparisons.runs import load
 from comparisons.sweep.model_error import ModelError, model_error
 from sheetbench.choices import CALIBRATION

@@ -37,7 +37,7 @@ import numpy as np
 from comparisons.models.grids import scene_grid
 from comparisons.models.layers import layers
 from comparisons.models.spec import Lattice
-from comparisons.report.plan import inside
+from comparisons.pictures.plan import inside
 from sheetbench.choices import EXTRAPOLATED
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grid import LAYERS, Grid

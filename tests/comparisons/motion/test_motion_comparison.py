@@ -164,7 +164,7 @@ def test_both_sheets_move_side_by_side(tmp_path):
     """A GIF with both in every frame, the lattice's half and the shell's each changing over time."""
     from PIL import Image
 
-    from comparisons.report import offscreen
+    from comparisons.pictures import offscreen
 
     if impossible := offscreen.why_not():
         pytest.skip(impossible)

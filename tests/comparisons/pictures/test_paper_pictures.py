@@ -22,8 +22,8 @@ from comparisons.modes.spectra import spectra
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
-from comparisons.verification import locking
 from fem_reference.uncertainty import Uncertainty
+from fem_reference.verification import locking_figure as locking
 from fem_reference.verification.rows import relatively
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure

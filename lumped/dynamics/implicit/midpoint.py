@@ -14,8 +14,9 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.implicit.newton import Newton
-from lumped.dynamics.integrator import Advance, Integrator
+from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
+from sheetbench.numerics.time.method import Advance
 
 STEP_TOLERANCE = 1e-13  # last correction relative to the sheet's side
 
@@ -33,7 +34,7 @@ class Midpoint(Integrator):
         """Drop the factors."""
         self._newton.forget()
 
-    def advance(self, state: State, at_most: float) -> Advance:
+    def advance(self, state: State, at_most: float) -> Advance[State]:
         """One step. Raises StepFailed."""
         system, h = self.system, at_most
         time, middle = state.time + h, state.time + 0.5 * h

@@ -33,7 +33,7 @@ from sheetbench.errors import NoEquilibrium
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
-from sheetbench.scenes.motion import NO_START, at_start, let_go, starts_flat
+from sheetbench.scenes.motion import NO_START, at_start, kinks, let_go, starts_flat
 from sheetbench.scenes.supports import held_axes, named
 
 ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
@@ -87,6 +87,7 @@ class Moving(ABC):
         supports = tuple(support.model_copy(update={"motion": None}) for support in scene.supports)
         self.still = at_rest(scene.replace(loads=(), gravity=None, supports=supports))
         self._scene = scene
+        self.kinks = np.array(kinks(scene))
         self._air = scene.air
         self._edge_motions = scene.motions().values()
         self.tau, self.alpha = scene.material.dashpot_time, scene.material.damping_rate

@@ -16,10 +16,14 @@ from sheetbench.scenes import ContactState
 
 
 class Item(Protocol):
-    """A physics of its own. name: of its part in an answer; moves: whether what it is fixed to does."""
+    """A physics of its own. name: of its part in an answer; moves: whether what it is fixed to does;
+    resists: whether it takes energy."""
 
     name: str
     moves: bool
+
+    @property
+    def resists(self) -> bool: ...
 
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         """Add the internal force; return the energy [J]."""
@@ -60,6 +64,12 @@ class Item(Protocol):
 
     def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive) -> float:
         """Return the share of a move up to which what the item says holds, 1 for all of it."""
+
+    def stiffest(self, mass: np.ndarray) -> float:
+        """Return by how much it may raise a squared frequency ω² [1/s²] at most; mass: (n,) [kg]."""
+
+    def move_freely(self, mass: np.ndarray, squared: float) -> None:
+        """Take what stiffness it has in motion, beside springs whose highest frequency has this ω²."""
 
     def rounding(self) -> float:
         """Return what rounding of displacements leaves of its forces, as a norm [N]."""

@@ -22,7 +22,7 @@ no estimate is given
 - where the sheet stretches so far that the laws of strain weigh more (LAW);
 - where the finer lattice would have more than MOST masses in plan.
 
-`sheetbench study expected-errors` measures on a hundred scenes how good it is (docs/theory.md, section 6).
+`sheetbench study promises` measures on a hundred scenes how good it is (docs/theory.md, section 6).
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
-from sheetbench.scenes.motion import NO_START, at_start, let_go, starts_flat
+from sheetbench.scenes.motion import NO_START, at_start, kinks, let_go, starts_flat
 from sheetbench.scenes.natural_state import sources_of
 from sheetbench.scenes.supports import held_axes, named
 
@@ -92,6 +92,7 @@ class Moving(ABC):
             )
         self.still = at_rest(scene.replace(loads=(), gravity=None, supports=supports))
         self._scene = scene
+        self.kinks = np.array(kinks(scene))
         self._air = scene.air
         self._edge_motions = scene.motions().values()
         self.tau, self.alpha = scene.material.dashpot_time, scene.material.damping_rate

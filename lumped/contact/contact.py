@@ -7,8 +7,7 @@ d = ⟨δ₀ − g⟩, δ₀ = 1e-9 h so that a sheet that lies on a plane is he
 
 k = E/h is the sheet's own give through its thickness, which neither model resolves: bending contact has p/E
 of 1e-6 to 1e-4, so that the depth p h/E is far below 1e-3 h. `share` scales k: statics begin with a soft one
-(`sheetbench.numerics.continuation.stiffening`), motion has 0.1 ρ h ω_max² at most, with which explicit steps
-are as long as without.
+(`sheetbench.numerics.continuation.stiffening`).
 
 Points are the columns of masses, with their tributary areas, on a plane. On a sphere or cylinder the masses
 alone sample the contact to first order only: each side l of a cell is in s parts, s = max(2, ⌈2 l/R⌉), with
@@ -16,10 +15,14 @@ l as far as it is across a cylinder's axis, and points are at their middles; at 
 them, of a sheet that rests on the obstacle, or nothing would hold it at the start. A point's force is shared
 as its position is made up, by the layers equally.
 
-In motion p (1 + τ ḋ) ≥ 0 adds a dashpot (Hunt and Crossley, 1975): energy ∮ p τ ḋ² dt, and
-m v dv = −k d (1 + τ v) dd has e = 1 − 2 τ v/3 + O(τ²v²). Friction is regularised Coulomb,
-−μ p A v_t/√(v_t² + v₀²), v₀ = 1 mm/s: it creeps where it should stick.
-Mean force of the conserving midpoint rule: −A (Δψ/Δφ) n̄, ψ = ½ k d² (Gonzalez, 1996).
+In motion k is 0.1 ρ h ω_max² at most and the law is rounded over δ = 0.3 h, or every touch costs explicit
+steps energy: ψ = k d³/6δ up to δ, beyond k (d²/2 − δ d/2 + δ²/6). Conserving midpoint steps have the mean
+force −A (Δψ/Δφ) n̄ (Gonzalez, 1996). A dashpot p (1 + τ ḋ) ≥ 0 takes ∮ p τ ḋ² dt (Hunt and Crossley, 1975):
+m v dv = −p (1 + τ v) dd leads from a speed v to e v with, whatever the law p(d),
+
+    v/τ − ln(1 + τ v)/τ² = −e v/τ − ln(1 − τ e v)/τ²,   e = 1 − 2 τ v/3 + O(τ²v²).
+
+Friction is regularised Coulomb, −μ p A v_t/√(v_t² + v₀²), v₀ = 1 mm/s: it creeps where it should stick.
 """
 
 from __future__ import annotations
@@ -34,7 +37,7 @@ from lumped.assembly import Assembly
 from lumped.contact.surface import At, Surface
 from sheetbench.errors import BadInput
 from sheetbench.scenes import ContactState, Scene, free_rigid_motions
-from sheetbench.scenes.obstacles import AnyObstacle, obstacles_by_name
+from sheetbench.scenes.obstacles import SLIP_SPEED, AnyObstacle, obstacles_by_name
 from sheetbench.scenes.patches import constants_at
 
 if TYPE_CHECKING:
@@ -44,22 +47,22 @@ TOUCH = 1e-9  # δ₀, of the thickness
 UNDECIDED = 1e-6  # of the thickness, or 1e-3 of the deepest: points as near as that to touching
 FINEST = 32  # points a side of a cell
 DEEPEST = 0.5  # of the radius: how deep no step may take a point
-SLIP_SPEED = 1e-3  # v₀, m/s
+MOVING = 0.13  # of ω_max², what contact in motion adds at most: 0.1 in the interior, where A ρ h is the mass
+ROUNDED = 0.3  # δ of the thickness, in motion
+SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
 
 
 class _Touching(NamedTuple):
-    """Where some patches of points are: which, their points, depth less than 0 included [m], and k [N/m³]."""
+    """Where some patches of points are: which, their points, depth less than 0 included [m], A k [N/m], and
+    A ψ [J], A p [N] and A p' [N/m] (m, p)."""
 
     patches: np.ndarray
     at: At
     depth: np.ndarray
     stiffness: np.ndarray
-    area: np.ndarray
-
-    @property
-    def load(self) -> np.ndarray:
-        """A p (m, p) [N]."""
-        return self.area * self.stiffness * np.maximum(self.depth, 0.0)
+    energy: np.ndarray
+    load: np.ndarray
+    slope: np.ndarray
 
 
 class Contact:
@@ -108,7 +111,7 @@ class Contact:
             np.broadcast_to(part, self.area.size).reshape(shape) for part in of_points
         )
         self.full = stretching / self.thickness**2
-        self.share, self._masses = 1.0, lattice.mass_count
+        self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
         self.slots = assembly.pattern.among(self.nodes)
         self._eps = assembly.rounding
 
@@ -140,7 +143,9 @@ class Contact:
         at = self.surface.at(self.weights @ places[which])
         thickness = self.thickness[which]
         depth = (0.5 + TOUCH) * thickness - at.distance
-        return _Touching(which, at, depth, self.share * self.full[which], self.area[which])
+        stiffness = self.share * self.full[which] * self.area[which]
+        law = _law(depth, self.rounded * thickness)
+        return _Touching(which, at, depth, stiffness, *(stiffness * part for part in law))
 
     def _spread(self, patches: np.ndarray, load: np.ndarray, out: np.ndarray) -> None:
         """Add forces of points (m, p, 3) [N] to those of the masses."""
@@ -157,9 +162,8 @@ class Contact:
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         """Add the internal force (n, 3) [N] at u (n, 3) [m]; return the energy [J]."""
         found = self._at(u, drive)
-        load = found.load
-        self._spread(found.patches, -load[..., None] * found.at.normal, force)
-        return 0.5 * float((load * np.maximum(found.depth, 0.0)).sum())
+        self._spread(found.patches, -found.load[..., None] * found.at.normal, force)
+        return float(found.energy.sum())
 
     def add_tangent(
         self, u: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray, definite: bool = False
@@ -167,8 +171,7 @@ class Contact:
         """Add scale × the tangent; definite: without the obstacle's curvature."""
         found = self._at(u, drive)
         normal = found.at.normal
-        stiff = scale * found.area * found.stiffness * (found.depth > 0.0)
-        points = stiff[..., None, None] * normal[..., :, None] * normal[..., None, :]
+        points = (scale * found.slope)[..., None, None] * normal[..., :, None] * normal[..., None, :]
         if not definite:
             points = points - (scale * found.load)[..., None, None] * self.surface.curvature(found.at)
         self._spread_blocks(found.patches, points, blocks)
@@ -179,15 +182,16 @@ class Contact:
         """Return A × the mean pressure −Δψ/Δφ (m, p) [N], A × its derivative by the depth at the end [N/m],
         and n̄ (m, p, 3)."""
         before, after = (self._at(u, drive, True) for u, drive in zip((start, end), drives, strict=True))
-        d0, d1 = np.maximum(before.depth, 0.0), np.maximum(after.depth, 0.0)
-        both = (before.depth > 0.0) & (after.depth > 0.0)
-        one = (before.depth > 0.0) ^ (after.depth > 0.0)
-        over = np.where(one, after.depth - before.depth, 1.0)
-        gained = d1 * d1 - d0 * d0
-        mean = np.where(both, d0 + d1, np.where(one, gained / over, 0.0))
-        slope = np.where(both, 1.0, np.where(one, (2.0 * d1 - gained / over) / over, 0.0))
-        scale = 0.5 * after.area * after.stiffness
-        return scale * mean, scale * slope, self.surface.mean_normal(before.at, after.at)
+        sunk = after.depth - before.depth
+        far = np.abs(sunk) > SAME_DEPTH * self.thickness
+        over = np.where(far, sunk, 1.0)
+        _, load, slope = (
+            after.stiffness * part
+            for part in _law(0.5 * (before.depth + after.depth), self.rounded * self.thickness)
+        )
+        mean = np.where(far, (after.energy - before.energy) / over, load)
+        slope = np.where(far, (after.load - mean) / over, 0.5 * slope)
+        return mean, slope, self.surface.mean_normal(before.at, after.at)
 
     def add_average_force(
         self, start: np.ndarray, end: np.ndarray, drives: tuple[Drive, Drive], force: np.ndarray
@@ -287,6 +291,21 @@ class Contact:
         first = (-b[hit] - np.sqrt((b * b - a * c)[hit])) / a[hit]
         return float(min(1.0, 0.99 * first.min()))
 
+    def _over_mass(self, mass: np.ndarray) -> float:
+        """Return k A/m at its largest [1/s²], of the whole stiffness."""
+        stiffness = np.zeros(self._masses)
+        np.add.at(stiffness, self.nodes, (self.area * self.full) @ self.weights)
+        return float((stiffness / mass).max())
+
+    def stiffest(self, mass: np.ndarray) -> float:
+        """Return by how much contact may raise ω² [1/s²]; mass: of the lumped masses (n,) [kg]."""
+        return self.share * self._over_mass(mass)
+
+    def move_freely(self, mass: np.ndarray, squared: float) -> None:
+        """Take 0.1 ρ h ω² for k where it is less, so that steps need be no shorter than without."""
+        self.rounded = ROUNDED
+        self.share = min(1.0, MOVING / self._over_mass(mass) * squared)
+
     def rounding(self) -> float:
         """Return what rounding of positions leaves of its forces, as a norm [N]."""
         return self._eps * float(
@@ -298,10 +317,10 @@ class Contact:
         undecided."""
         found = self._at(u, drive)
         over = found.depth / self.thickness[found.patches] - TOUCH
-        touching = found.depth > 0.0
+        touching, area = found.depth > 0.0, self.area[found.patches]
         near = np.minimum(UNDECIDED, 1e-3 * over.max(initial=0.0))
         return ContactState(
-            area=float(found.area[touching].sum()),
+            area=float(area[touching].sum()),
             penetration=float(over.max(initial=0.0)),
             points=int(touching.sum()),
             undecided=int((np.abs(over) <= near).sum()),
@@ -314,6 +333,16 @@ class Contact:
         np.add.at(load, self.nodes[found.patches], found.load @ self.weights)
         np.add.at(area, self.nodes, self.area @ self.weights)
         return np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
+
+
+def _law(depth: np.ndarray, rounded: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ψ, p and p' over k at depths (m, p) [m] of a law that is rounded over δ (m, p) [m]."""
+    d = np.maximum(depth, 0.0)
+    over = np.where(rounded > 0.0, rounded, 1.0)
+    near = d < rounded
+    energy = np.where(near, d**3 / (6.0 * over), 0.5 * d * (d - rounded) + rounded**2 / 6.0)
+    pressure = np.where(near, 0.5 * d * d / over, d - 0.5 * rounded)
+    return energy, np.where(depth > 0.0, pressure, 0.0), np.where(near, d / over, depth > 0.0)
 
 
 def _rule(parts: int, ends: bool) -> tuple[np.ndarray, np.ndarray]:

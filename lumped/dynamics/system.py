@@ -58,6 +58,8 @@ class System:
     def __init__(self, scene: Scene, problem: Problem, mass: np.ndarray | None = None):
         self.scene, self.problem, self.assembly = scene, problem, problem.assembly
         self.coupling = problem.assembly.coupling
+        self.items = problem.items
+        self.pushed = any(item.moves for item in self.items)
         self.transform = problem.constraints.transform
         size, lattice = self.assembly.pattern.size, self.assembly.lattice
         shared = masses(scene, lattice, self.assembly.inertia, self.assembly.cells)
@@ -106,12 +108,19 @@ class System:
         self.motions = self._support_motions()
         self.moving = bool(self.motions or (self.coupling is not None and self.coupling.moved.any()))
         self._still = problem.constraints.turned(1.0)
+        self._energy: tuple[State | None, list[float]] = None, []
+        self._level, self._largest = 0.0, 0.0
 
     @property
     def working(self) -> bool:
         """Whether some loads have no potential: they follow the sheet, or change over time, as a natural
         state may."""
         return not self.problem.loads.potential or (self.natural is not None and self.natural.state.moves)
+
+    @property
+    def resists(self) -> bool:
+        """Whether anything takes energy, but for branches."""
+        return self.damping.present or any(item.resists for item in self.items)
 
     @property
     def constrained(self) -> bool:
@@ -183,6 +192,9 @@ class System:
         power += self.damping.add_other_forces(u, v, force)
         if self.coupling is not None and not self._elastic_separate:
             energy += self.coupling.add_force(u, self.drive(time), force)
+        for item in self.items:
+            energy += 0.0 if self._elastic_separate else item.add_force(u, self.drive(time), force)
+            power += item.add_resistance(u, v, self.drive(time), force)
         return energy + stored, power, force
 
     @cached_property
@@ -202,18 +214,22 @@ class System:
             energy, _ = add_forces(u, u, True, False, self.packing, self.scratch, force)
         if self.coupling is not None:
             energy += self.coupling.add_force(u, self.drive(time), force)
+        for item in self.items:
+            energy += item.add_force(u, self.drive(time), force)
         return energy, force
 
-    def damping_force(self, u: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
+    def damping_force(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Power taken and damping force."""
         force, power = np.zeros_like(u), 0.0
         if self.packing.damped:
             _, power = add_forces(u, v, False, True, self.packing, self.scratch, force)
+        for item in self.items:
+            power += item.add_resistance(u, v, self.drive(time), force)
         return power + self.damping.add_other_forces(u, v, force), force
 
     def power(self, state: State) -> float:
         """Power [W] that goes into dampers and branches."""
-        power, _ = self.damping_force(state.u, state.v)
+        power, _ = self.damping_force(state.u, state.v, state.time)
         if self.maxwell is not None and state.memory is not None:
             force = np.zeros_like(state.u)
             self.maxwell.add_branch_force(state.u, state.memory, force)
@@ -237,12 +253,26 @@ class System:
             self.maxwell.add_mean_force(start.memory, 0.5 * (start.u + end), end, force)
         if self.coupling is not None:
             self.coupling.add_average_force(start.u, end, self.drive(time), force)
+        for item in self.items:
+            item.add_average_force(start.u, end, self._ends(start, time), force)
         return force
 
+    def _ends(self, start: State, middle: float) -> tuple[Drive, Drive]:
+        """The commands at both ends of a step."""
+        return self.drive(start.time), self.drive(2.0 * middle - start.time)
+
     def matrix(
-        self, u: np.ndarray, v: np.ndarray, time: float, mass: float, damping: float, stiffness: float
+        self,
+        u: np.ndarray,
+        v: np.ndarray,
+        time: float,
+        mass: float,
+        damping: float,
+        stiffness: float,
+        ends: tuple[State, np.ndarray] | None = None,
     ) -> np.ndarray:
-        """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once."""
+        """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once. ends: of a
+        step of which the items have the average force's derivative by its end."""
         self.assembly.grow(time=time)
         own = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
         both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
@@ -265,6 +295,12 @@ class System:
                 np.add.at(blocks, slots, mass * self._chain_mass)
             blocks += stiffness * others
         self.damping.add_velocity_tangent(u, v, damping, blocks)
+        for item in self.items:
+            if ends is None:
+                item.add_tangent(u, self.drive(time), stiffness, blocks)
+            else:
+                item.add_average_tangent(ends[0].u, ends[1], self._ends(ends[0], time), blocks)
+            item.add_resistance_tangent(u, v, self.drive(time), damping, blocks)
         return blocks
 
     def since(self, state: State, ahead: float = 0.0) -> None:
@@ -299,6 +335,38 @@ class System:
     def accelerate(self, force: np.ndarray) -> np.ndarray:
         """T M⁻¹ Tᵀ f, (size, 3) [m/s²]."""
         return self.expand(self.solve_mass(self.reduce(force)))
+
+    def energy_gained(self, before: State, after: State, taken: float, work: float) -> float:
+        """Return by how much energy has grown from nothing in a step [J], over the largest part of it so far;
+        taken, work: by dampers and by what moves in it."""
+        if self._energy[0] is not before:
+            self._energy = before, self._parts(before)
+        parts = self._parts(after)
+        then, self._energy = self._energy[1], (after, parts)
+        self._largest = max(self._largest, parts[0], abs(parts[1]), abs(parts[2] - self._level))
+        gained = float(sum(parts) - sum(then)) + taken - work
+        return abs(gained) / self._largest if self._largest else 0.0
+
+    def _parts(self, state: State) -> list[float]:
+        return list(self.balance(state)[0].values())
+
+    def pushed_between(self, start: State, end: np.ndarray, middle: float) -> float:
+        """Work [J] of what items are fixed to in a step of the conserving midpoint rule."""
+        done, ends = 0.0, self._ends(start, middle)
+        rate = (end - start.u) / (2.0 * (middle - start.time))
+        for item in self.items:
+            force = np.zeros_like(end)
+            item.add_average_force(start.u, end, ends, force)
+            item.add_resistance(0.5 * (start.u + end), rate, self.drive(middle), force)
+            done -= item.work(force.sum(axis=0), start.time, 2.0 * middle - start.time)
+        return done
+
+    def pushing(self, state: State) -> float:
+        """Power [W] of what items are fixed to, as it moves."""
+        return sum(
+            item.power(item.exerted(state.u, self.drive(state.time), state.v).sum(axis=0), state.time)
+            for item in self.items
+        )
 
     def balance(self, state: State) -> tuple[dict[str, float], np.ndarray]:
         """Kinetic, elastic and potential energy [J], of which only constant dead loads have the last; and
@@ -350,6 +418,9 @@ class System:
         if self.working:
             mean = 0.5 * (self.external(before.u, before.time) + self.external(after.u, after.time))
             done += float(np.sum((mean - self.problem.loads.dead) * (after.u - before.u)))
+        for item in self.items if self.pushed else ():
+            ends = (item.exerted(s.u, self.drive(s.time), s.v).sum(axis=0) for s in (before, after))
+            done += item.work(0.5 * sum(ends, np.zeros(3)), before.time, after.time)
         if self.coupling is not None:
             then, now = self.drive(before.time), self.drive(after.time)
             for u in (before.u, after.u):

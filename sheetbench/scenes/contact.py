@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from sheetbench.answers.table import NUMBER
+from sheetbench.scenes.obstacles import SLIP_SPEED, obstacles_by_name
+
+if TYPE_CHECKING:
+    from sheetbench.scenes.scene import Scene
 
 DEEP = 1e-3  # penetration over the thickness from which on a note says so
 
@@ -24,6 +28,15 @@ class ContactState:
     def document(self) -> dict[str, Any]:
         """Return the JSON object."""
         return asdict(self)
+
+
+def friction_notes(scene: Scene) -> list[str]:
+    """Return what a model of friction cannot do, a clause an obstacle that rubs."""
+    return [
+        f"{name}: friction is regular below {1e3 * SLIP_SPEED:g} mm/s, so that what should stick creeps"
+        for name, obstacle in obstacles_by_name(scene).items()
+        if obstacle.friction > 0.0
+    ]
 
 
 def contact_notes(contacts: Mapping[str, ContactState]) -> list[str]:

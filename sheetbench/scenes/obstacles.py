@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
 
 INSIDE = 1e-6  # of the thickness: the depth from which on a sheet begins inside an obstacle
+SLIP_SPEED = 1e-3  # m/s, v₀ of the friction −μ p v/√(v² + v₀²)
 GRID = 65  # points a side of a drawn sheet that its distance is looked for at
 
 

@@ -1,8 +1,6 @@
 """What tables, a picture and lists of cells hold, where nothing else would notice another number."""
 
-import csv
 from inspect import signature
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,9 +11,9 @@ import fem_reference
 import lumped
 from comparisons.advice import probing
 from comparisons.cli import modes
-from comparisons.linearisation.answer import Linearisation
 from comparisons.models.spec import spec_of
 from comparisons.modes.spectra import spectra
+from comparisons.modes.state_space import Linearisation
 from comparisons.reproduction import figure, nearest
 from comparisons.stability import tiles as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure
@@ -23,10 +21,7 @@ from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from lumped.calibration.tables import moduli
 from sheetbench import scenes
-from sheetbench.answers.figure_style import PLAIN, WIDTHS
-from studies.stability import STUDIES
-
-PUBLISHED = Path(__file__).parents[2] / "docs" / "stability"
+from sheetbench.answers.figure_style import PLAIN
 
 
 def shown(table):
@@ -60,20 +55,6 @@ def test_time_is_predicted_by_the_models_own_family():
     found = [probing.Probing.predicted_seconds(SimpleNamespace(trials=trials), one) for one in asked]
     # as measured; 8 times as long for 4 times the cells; by the usual power of one; by the unknowns alone
     assert found == pytest.approx([0.1, 0.064, 0.1 * 4**probing.EXPONENT, probing.unknowns(plate) * 1e-5])
-
-
-@pytest.mark.parametrize(("name", "key"), [
-    ("slenderness", "slenderness"), ("slenderness", "load_number"), ("load", "size"),
-    ("damping", "damping_ratio"), ("mass", "ratio"), ("curved-edge", "turn"),
-])  # fmt: skip
-def test_quick_maps_reach_as_far_as_full_ones(name, key):
-    quick, full = ([cell[key] for cell in STUDIES[name].cells(full)] for full in (False, True))
-    assert (min(quick), max(quick)) == (min(full), max(full)) and set(quick) <= set(full)
-
-
-def test_maps_are_as_wide_as_both_columns_of_a_paper():
-    widths = [study.size[0] for study in STUDIES.values()]
-    assert widths == pytest.approx([WIDTHS["double"]] * len(widths), abs=0.05)
 
 
 def test_tiles_reach_half_way_to_their_neighbours():
@@ -142,30 +123,3 @@ def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer():
         np.testing.assert_allclose(moved.get_ydata(), [0.0, 1.0 + axis])
         np.testing.assert_allclose(rest.get_ydata(), 4.0 + axis)
     assert [panel.get_xlabel() for panel in panels] == ["", "", "time [s]"]
-
-
-@pytest.mark.parametrize(
-    "name", ["stiffness", "grid", "load", "damping", "mass", "slenderness", "curved-edge"]
-)
-def test_full_maps_have_the_published_cells(name):
-    """Every published row is a cell, with as many samples of it."""
-    with (PUBLISHED / f"{name}.csv").open(encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    cells = STUDIES[name].cells(True)
-    heads = {head: head.partition(" [")[0].replace(" ", "_") for head in rows[0]}
-    keys = {key for cell in cells for key in cell} & set(heads.values())
-    assert keys
-
-    def values(row):
-        return tuple(plain(row.get(key)) for key in sorted(keys))
-
-    published = [{key: row[head] for head, key in heads.items()} for row in rows]
-    assert sorted(map(values, cells)) == sorted(map(values, published))
-
-
-def plain(value):
-    """A value of a cell, or of a file, as the same text; nothing where there is none."""
-    try:
-        return f"{float(value):g}"
-    except (TypeError, ValueError):
-        return str(value or "")

@@ -77,7 +77,7 @@ class CompiledNewton:
         plain = system.coupling is None and system.maxwell is None and system.assembly.precision == "double"
         plain = plain and system.natural is None
         still = system.problem.conservative and not system.problem.loads.follow
-        return plain and still and system.problem.system.band is not None
+        return plain and still and not system.items and system.problem.system.band is not None
 
     def factorise(
         self, u: np.ndarray, v: np.ndarray, time: float, mass_coefficient: float, damping_coefficient: float

@@ -32,15 +32,18 @@ from numba import njit
 from lumped.dynamics.implicit.compiled_stages import Stages, Step
 from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
-from lumped.dynamics.integrator import Advance, DenseIntegrator, Samples, StepFailed
+from lumped.dynamics.integrator import Integrator, Samples
 from lumped.dynamics.system import State, System
 from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
-from sheetbench.runs.schedule import require_error
+from sheetbench.numerics.time.controller import Controller
+from sheetbench.numerics.time.method import Advance, StepFailed
+from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, require_error
 
 ERROR = 3e-5  # of a step
 FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
 LEAST = 1e-6  # of the sheet's side: no error is asked to be smaller beside it
+ENERGY = 10.0  # of a step that touches something, times its error relative to the largest: losses add up
 FIRST = 0.05  # first step over the time in which the first acceleration goes as far
 STEP_TOLERANCE = 1e-11  # last correction of a fixed step relative to the sheet's side
 SHARE = 0.3  # last correction of an adaptive step relative to the error it may have, or to the default one
@@ -51,7 +54,7 @@ STALE = (
 KEEP_FACTORS_UP_TO = 12  # corrections of a step's stages up to which the next one keeps the factors: two each
 
 
-class Esdirk(DenseIntegrator):
+class Esdirk(Integrator):
     """ESDIRK5(4)7L[2]SA2; adaptive unless the step is `fixed`. error: of a step, relative to the largest
     displacement."""
 
@@ -61,8 +64,9 @@ class Esdirk(DenseIntegrator):
         if system.coupling is not None:
             raise BadInput("integrator = 'esdirk': does not take chains; choose another integrator")
         require_error(error)
-        super().__init__(system, step)
-        self._fixed, self._first, self._error = fixed, step, error
+        super().__init__(system, step, fixed)
+        self._control = Controller(5, 4.0, (1.0, 1.2), step)
+        self._first, self._error = step, error
         self._newton = Newton(system, STEP_TOLERANCE, STALE)
         self._largest = 0.0
         self._end: tuple[State | None, np.ndarray] = None, np.zeros(2)  # the last state, and its power
@@ -72,48 +76,58 @@ class Esdirk(DenseIntegrator):
         """Infinite: an adaptive run finds its first step where it begins."""
         return np.inf
 
+    @property
+    def span(self) -> int:
+        """Adaptive steps end at checkpoints."""
+        return SAMPLES_PER_CHECKPOINT if self.adapts else 1
+
     def forget(self) -> None:
         """Drop the factors."""
         self._newton.forget()
 
     def memory(self) -> dict[str, Any]:
-        """The step's control."""
-        return {"step": self.step, "first": self._first, "largest": self._largest}
+        """Return the step's control."""
+        return {**self._control.memory(), "first": self._first, "largest": self._largest}
 
     def recall(self, memory: dict[str, Any]) -> None:
         """Take up what `memory` gave."""
-        self.step, self._first, self._largest = (float(memory[k]) for k in ("step", "first", "largest"))
+        self._control.recall(memory)
+        self._first, self._largest = float(memory["first"]), float(memory["largest"])
 
-    def advance(self, state: State, at_most: float) -> Advance:
-        """One step; an adaptive one divides `at_most` evenly and is repeated until its error is small."""
-        if not self._fixed:
-            if self._largest == 0.0:
-                self._begin(state)
-            state, at_most = self._from_kink(state, at_most)
-        shortest = 1e-6 * min(self.step, at_most)
-        while True:
-            h = at_most if self._fixed else at_most / np.ceil(at_most / self.step - 1e-9)
+    def notes(self) -> str:
+        """Return a clause on steps that counted in spite of their error."""
+        return self._control.notes()
+
+    def advance(self, state: State, at_most: float) -> Advance[State]:
+        """Return one step; an adaptive one divides `at_most` evenly and is repeated until its error is small.
+        Raises StepFailed."""
+        if not self.adapts:
             try:
-                stages = self._stages(state, h, None if self._fixed else self._enough)
+                return self._advance(state, self._stages(state, at_most, None), at_most)
+            except SingularMatrixError as failure:
+                raise StepFailed(str(failure)) from None
+        control = self._control
+        if self._largest == 0.0:
+            self._begin(state)
+        state, at_most = self._from_kink(state, at_most)
+        shortest = 1e-6 * min(control.step, at_most)
+        while True:
+            h = control.dividing(at_most)
+            try:
+                stages = self._stages(state, h, self._enough)
             except (StepFailed, SingularMatrixError) as failure:
-                if self._fixed or h < shortest:
-                    raise StepFailed(str(failure)) from None
-                self.step = 0.25 * h
+                control.shorten(failure, h, shortest)
                 continue
-            if self._fixed:
-                break
             error = h * float(np.abs(ERRORS @ stages.v.reshape(len(ERRORS), -1)).max())
             error = max(error, self._largest * self._error_of_branches(h))
             largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
-            ratio = 0.9 * (self._error * largest / max(error, 1e-30)) ** (1.0 / 5.0)
-            if ratio < 0.9 and h > shortest:
-                self.step = h * max(ratio, 0.2)
-                continue
-            if ratio > 1.2 or ratio < 1.0:
-                self.step = h * min(max(ratio, 0.5), 4.0)
-            self._largest = largest
-            break
-        return self._advance(state, stages, h)
+            if self.system.items:  # which are touched within steps
+                found = self._advance(state, stages, h)
+                gained = self.system.energy_gained(state, found.state, found.dissipated, found.work)
+                error = max(error, largest * gained * ENERGY)
+            if control.accepts(error, self._error * largest, h, shortest):
+                self._largest = largest
+                return self._advance(state, stages, h)
 
     @property
     def _enough(self) -> float:
@@ -135,7 +149,7 @@ class Esdirk(DenseIntegrator):
         goal = min(goal, problem.size)
         fastest = float(np.abs(system.accelerate(force)).max())
         if goal > 0.0:
-            self.step = self._first = min(self.step, FIRST * np.sqrt(goal / fastest))
+            self._control.step = self._first = min(self._control.step, FIRST * np.sqrt(goal / fastest))
         self._largest = max(FORETOLD * goal, LEAST * problem.size, float(np.abs(state.u).max()))
 
     def _from_kink(self, state: State, at_most: float) -> tuple[State, float]:
@@ -146,7 +160,7 @@ class Esdirk(DenseIntegrator):
         near = 1e-9 * at_most
         if np.any(np.abs(system.kinks - now) < near) and now > near:
             if system.jumps(now):  # and dampers with the velocity: the steps begin as at the start
-                self.step = min(self.step, self._first)
+                self._control.step = min(self._control.step, self._first)
             system.since(state)
             force = system.unbalanced(state.u, state.v, now)
             state = replace(state, time=now, a=system.accelerate(force))
@@ -227,8 +241,11 @@ class Esdirk(DenseIntegrator):
         missed = self._relaxed(h * ERRORS)[:, 1] / maxwell.times[:, None]
         return float(np.abs(missed).max()) / largest if largest else 0.0
 
-    def at(self, times: np.ndarray) -> Samples:
-        """The states at times (k,) [s] within the last step; energies since it began."""
+    def at(self, times: np.ndarray, last: Advance[State]) -> Samples:
+        """Return the states at times (k,) [s] within the last step; energies since it began."""
+        end = last.state
+        if end.time == times[0]:
+            return super().at(times, last)
         stages, h = self._step
         theta = (times - stages.time[0]) / h
         u, v, a = self._within(stages, h, theta)
@@ -250,6 +267,8 @@ class Esdirk(DenseIntegrator):
             if system.moving:
                 rate = system.place_rate(time, before=True)
                 put_in[i] += system.kinetic_of(rate) - system.kinetic_of(system.place_rate(began))
+        if end.time == times[-1]:
+            u[-1], v[-1], a[-1] = end.u, end.v, end.a
         return Samples(times, u, v, a, memories, taken, put_in)
 
     def _within(self, stages: Stages, h: float, theta: np.ndarray) -> np.ndarray:
@@ -267,14 +286,14 @@ class Esdirk(DenseIntegrator):
         found[1] += np.array([system.place_rate(time, before=True) for time in times])
         return found
 
-    def _advance(self, start: State, stages: Stages, h: float) -> Advance:
+    def _advance(self, start: State, stages: Stages, h: float) -> Advance[State]:
         system, power = self.system, stages.power
         if self._end[0] is start:
             power[0] = self._end[1]
         else:
             power[0] = self._power(start)
         end = self._stage(stages, -1)
-        if system.moving or system.working:
+        if system.moving or system.working or system.pushed:
             for i in range(1, len(power)):
                 power[i, 1] = self._put_in(self._stage(stages, i), before=True)
         self._step = stages, h
@@ -302,7 +321,7 @@ class Esdirk(DenseIntegrator):
             force = system.external(stage.u, stage.time) - system.problem.loads.dead
             put_in += float(np.sum(force * stage.v))
             put_in += system.natural_power(stage.u, stage.time, before)
-        return put_in
+        return put_in + (system.pushing(stage) if system.pushed else 0.0)
 
 
 @njit(cache=True)

@@ -7,8 +7,8 @@
     αm = (2ρ∞ − 1)/(ρ∞ + 1),  αf = ρ∞/(ρ∞ + 1),  γ = ½ + αf − αm,  β = ¼ (γ + ½)²
 
 Source: Chung and Hulbert (1993) in the form of Arnold and Brüls (2007), which keeps its order with
-constraints. The step adapts to an estimate of the local error, h² |β − 1/6| |a₁ − a₀| (Zienkiewicz and Xie
-1991), relative to the largest displacement so far.
+constraints. a is the acceleration at t + (αm − αf) h, so that the local error of u, to which the step adapts,
+is h² |β + ½ (αm − αf) − 1/6| |a₁ − a₀|, relative to the largest displacement so far.
 """
 
 from __future__ import annotations
@@ -18,10 +18,12 @@ from typing import Any
 import numpy as np
 
 from lumped.dynamics.implicit.newton import Newton, StepEquation
-from lumped.dynamics.integrator import Advance, Integrator, StepFailed
+from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
 from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.numerics.time.controller import Controller
+from sheetbench.numerics.time.method import Advance, StepFailed
 
 ERROR = 1e-6  # of a step, relative to the largest displacement so far
 STEP_TOLERANCE = 1e-11  # last correction relative to the sheet's side
@@ -33,13 +35,14 @@ class GeneralisedAlpha(Integrator):
     name, order, adaptive, options = "generalised-alpha", 2, True, ("radius",)
 
     def __init__(self, system: System, step: float, radius: float = 0.9, fixed: bool = True):
-        super().__init__(system, step)
+        super().__init__(system, step, fixed)
+        self._control = Controller(3, 2.0, (1.0, 1.3), step)
         if not 0.0 <= radius <= 1.0:
             raise BadInput(f"radius = {radius:g}: the spectral radius at high frequencies lies in [0, 1]")
         self._am, self._af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
         self._gamma = 0.5 + self._af - self._am
         self._beta = 0.25 * (self._gamma + 0.5) ** 2
-        self._fixed = fixed
+        self._error = abs(self._beta + 0.5 * (self._am - self._af) - 1.0 / 6.0)
         self._newton = Newton(system, STEP_TOLERANCE)
         self._algorithm: np.ndarray | None = None
         self._largest = 0.0
@@ -50,50 +53,49 @@ class GeneralisedAlpha(Integrator):
         self._newton.forget()
 
     def memory(self) -> dict[str, Any]:
-        """The algorithm's acceleration and the step's control."""
-        return {"a": self._algorithm, "step": self.step, "largest": self._largest}
+        """Return the algorithm's acceleration and the step's control."""
+        return {**self._control.memory(), "a": self._algorithm, "largest": self._largest}
 
     def recall(self, memory: dict[str, Any]) -> None:
         """Take up what `memory` gave."""
-        self._algorithm, self.step = memory["a"], float(memory["step"])
-        self._largest = float(memory["largest"])
+        self._control.recall(memory)
+        self._algorithm, self._largest = memory["a"], float(memory["largest"])
 
-    def advance(self, state: State, at_most: float) -> Advance:
-        """One step; an adaptive one divides `at_most` evenly and is repeated until its error is small."""
-        shortest = 1e-6 * self.step
+    def notes(self) -> str:
+        """Return a clause on steps that counted in spite of their error."""
+        return self._control.notes()
+
+    def advance(self, state: State, at_most: float) -> Advance[State]:
+        """Return one step; an adaptive one divides `at_most` evenly and is repeated until its error is small.
+        Raises StepFailed."""
+        if not self.adapts:
+            try:
+                return self._advance(state, *self._step(state, at_most), at_most)
+            except SingularMatrixError as failure:
+                raise StepFailed(str(failure)) from None
+        control = self._control
+        shortest = 1e-6 * control.step
         while True:
-            h = at_most if self._fixed else at_most / np.ceil(at_most / self.step - 1e-9)
+            h = control.dividing(at_most)
             try:
                 after, algorithm = self._step(state, h)
             except (StepFailed, SingularMatrixError) as failure:
-                if self._fixed or h < shortest:
-                    raise StepFailed(str(failure)) from None
-                self.step = 0.25 * h
+                control.shorten(failure, h, shortest)
                 continue
-            if self._fixed:
-                break
             start = self._algorithm if self._algorithm is not None else state.a
-            error = (
-                h
-                * h
-                * (abs(self._beta - 1.0 / 6.0))
-                * float(np.abs((algorithm - start)[: self._masses]).max())
-            )
+            jump = float(np.abs((algorithm - start)[: self._masses]).max())
             largest = max(self._largest, float(np.abs(after.u[: self._masses]).max()))
             allowed = ERROR * max(largest, 1e-6 * self.system.problem.size)
-            ratio = 0.9 * (allowed / max(error, 1e-30)) ** (1.0 / 3.0)
-            if error > allowed and h > shortest:
-                self.step = h * max(ratio, 0.2)
-                continue
-            if ratio > 1.3 or ratio < 1.0:
-                self.step = h * min(max(ratio, 0.5), 2.0)
-            self._largest = largest
-            break
+            if control.accepts(h * h * self._error * jump, allowed, h, shortest):
+                self._largest = largest
+                return self._advance(state, after, algorithm, h)
+
+    def _advance(self, state: State, after: State, algorithm: np.ndarray, h: float) -> Advance[State]:
         self._algorithm = algorithm
         after, relaxed = self.system.relaxed(state, after)
         if self._taken[0] is not state:
-            self._taken = state, self.system.damping_force(state.u, state.v)[0]
-        before, power = self._taken[1], self.system.damping_force(after.u, after.v)[0]
+            self._taken = state, self.system.damping_force(state.u, state.v, state.time)[0]
+        before, power = self._taken[1], self.system.damping_force(after.u, after.v, after.time)[0]
         self._taken = after, power
         return Advance(after, 0.5 * h * (before + power) + relaxed, self.system.work(state, after))
 

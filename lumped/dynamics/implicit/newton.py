@@ -18,9 +18,9 @@ import numpy as np
 from lumped.dynamics.implicit import compiled_newton
 from lumped.dynamics.implicit.compiled_newton import CONVERGED, CompiledNewton
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
-from lumped.dynamics.integrator import StepFailed
 from lumped.dynamics.system import System
 from sheetbench.numerics.reduced import Factor
+from sheetbench.numerics.time.method import StepFailed
 
 CORRECTIONS = 20
 STALE = 0.2  # ratio of successive corrections above which the factors are made anew

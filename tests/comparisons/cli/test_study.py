@@ -4,8 +4,7 @@ from pathlib import Path
 
 from commands import one_line, run
 
-from comparisons.cli import arguments, study
-from comparisons.cli.app import VERBS
+from comparisons.cli import study
 from studies import STUDIES
 
 ROOT = Path(__file__).parents[3]
@@ -31,19 +30,9 @@ def test_an_installed_package_has_the_reproduction_and_names_the_way_to_the_othe
     tmp_path, monkeypatch, capsys
 ):
     monkeypatch.setattr(study, "CHECKOUT", tmp_path)
-    assert run("study", "coverage") == 2
+    assert run("study", "promises") == 2
     assert "choose from reproduction; others need a clone of the repository" in one_line(capsys)
     assert run("study") == 0
     listed = capsys.readouterr().out
-    assert "reproduction " in listed and "coverage" not in listed
+    assert "reproduction " in listed and "promises" not in listed
     assert run("study", "reproduction", "--part", "nearest", "--json") == 0
-
-
-def test_what_is_gone_is_refused_with_what_replaces_it(capsys):
-    for verb, instead in arguments.REMOVED_VERBS.items():
-        assert verb not in VERBS
-        assert run(verb, "two-edges-clamped") == 2
-        assert one_line(capsys) == f"sheetbench: {verb}: removed; {instead}\n"
-    for (verb, option), instead in arguments.REMOVED_OPTIONS.items():
-        assert run(verb, option) == 2
-        assert one_line(capsys) == f"sheetbench: {verb} {option}: removed; {instead}\n"

@@ -1,18 +1,7 @@
-"""Generalised-α with constraints, its step by the error: one integrator for every reference.
+"""Generalised-α of a reference (`sheetbench.numerics.time.rule`), its step by the error.
 
-    M a₁ + g(q₁, v₁, t₁) ⊥ Z(q₁)                             equilibrium at the step's end
-    (1 − αm) a'₁ + αm a'₀ = (1 − αf) a₁ + αf a₀              a': the algorithm's acceleration
-    q₁ = q₀ + h v₀ + h² ((½ − β) a'₀ + β a'₁),   v₁ = v₀ + h ((1 − γ) a'₀ + γ a'₁)
-
-    αm = (2ρ − 1)/(ρ + 1),  αf = ρ/(ρ + 1),  γ = ½ + αf − αm,  β = ¼ (γ + ½)²
-
-ρ is the spectral radius at high frequencies. Chung & Hulbert 1993 in the form of Arnold & Brüls 2007, second
-order with constraints too. a' is the acceleration at t + (αm − αf) h, which gives the local error of q,
-
-    h² (β + ½ (αm − αf) − 1/6) |a'₁ − a'₀|,
-
-and what becomes of a' where h changes: a + (a' − a) h/h_before. Where a history or a motion bends a step ends
-and the next begins with new accelerations; velocities that a motion changes at once pass their impulse on.
+Equilibrium at a step's end is M a₁ + g(q₁, v₁, t₁) ⊥ Z(q₁). Where a motion changes velocities at once a step
+ends, they pass their impulse on, and the next begins with new accelerations.
 
 Behind such a jump dampers slow the shortest waves faster than any step resolves: the rule would answer with
 swings of their strains that fall by ρ a step, and dampers would seem to take many times the energy there is.
@@ -32,6 +21,7 @@ from fem_reference.motion.moving import Motion, Moving
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
+from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted
 
 RADIUS = 0.8
 ERROR = 1e-5  # of a step, relative to the largest displacement so far
@@ -45,29 +35,7 @@ SMALLEST = 1e-9  # step, relative to the run
 EULER = 2  # steps behind a jump whose length does not double
 TAKEN = 1e-3  # of the kinetic energy, that the first of them may take
 
-REMEMBERED = ("_before", "_largest", "_local", "_euler", "rejected", "failed")
-
-
-class Rule(NamedTuple):
-    """Coefficients of a step: αm, αf, γ, β, and `old`, that of h² a'₀ in q₁; order: of q's local error."""
-
-    am: float
-    af: float
-    gamma: float
-    beta: float
-    old: float
-    order: int
-
-
-BACKWARD_EULER = Rule(0.0, 0.0, 1.0, 1.0, 0.0, 2)
-
-
-def generalised(radius: float) -> Rule:
-    """Return generalised-α's coefficients of a spectral radius at high frequencies."""
-    am, af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
-    gamma = 0.5 + af - am
-    beta = 0.25 * (gamma + 0.5) ** 2
-    return Rule(am, af, gamma, beta, 0.5 - beta, 3)
+REMEMBERED = ("_before", "_largest", "_local", "_euler", "failed")
 
 
 class Sampled(NamedTuple):
@@ -104,7 +72,7 @@ class GeneralisedAlpha:
             1.0,
         )  # displacement [m], and the last step's error over that allowed
         self._euler = 0  # steps to come by backward Euler
-        self.rejected = self.failed = 0
+        self.failed = 0
 
     @property
     def _rule(self) -> Rule:
@@ -193,39 +161,38 @@ class GeneralisedAlpha:
 
     def advance(self, motion: Motion, at_most: float) -> Motion:
         """One step of at most so long [s]. Raises StepFailed."""
-        smallest, control = SMALLEST * max(motion.time, at_most), self._control
-        while True:
+        control, largest = self._control, self._largest
+        control.order = self._rule.order
+
+        def attempt(h: float) -> tuple[tuple[Motion, float], float, float]:
+            nonlocal largest
+            old = shifted(motion.a, motion.algorithm, h, self._before)
+            after = self._halving(motion, h)
+            largest = max(self._largest, float(np.abs(self._model.displacement(after.q)).max()))
+            error = self._local_error(after, old, h) / (self._error * largest)
+            return (after, error), error, 1.0
+
+        if self.adapts:
+            smallest = SMALLEST * max(motion.time, at_most)
+            (after, error), h = control.take(attempt, at_most, smallest, fewer=4)
+            self._before = h
+        else:
             h = control.dividing(at_most, fewer=4)
-            before = self._shifted(motion, h)
             try:
-                after = self._halving(motion, h)
+                (after, error), *_ = attempt(h)
             except (StepFailed, SingularMatrixError) as failure:
-                control.shorten(failure, h, smallest if self.adapts else np.inf)
-                continue
-            local = self._local_error(after, before, h)
-            shown = self._model.displacement(after.q)
-            largest = max(self._largest, float(np.abs(shown).max()))
-            error = local / (self._error * largest)
-            control.order = self._rule.order
-            if self.adapts and not control.accepts(error, 1.0, h, smallest):
-                self.rejected += 1
-                continue
-            if self.adapts:
-                self._before = h
-            self._largest, self._local = largest, error
-            short = control.ratio(error, 1.0) < 2.0 or h > 0.5 * at_most
-            if self._euler and (short or not self.adapts):
-                self._euler -= 1
-                self._factor = self._factor if self._euler else None
-            return after
+                raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
+        self._largest, self._local = largest, error
+        short = control.ratio(error, 1.0) < 2.0 or h > 0.5 * at_most
+        if self._euler and (short or not self.adapts):
+            self._euler -= 1
+            self._factor = self._factor if self._euler else None
+        return after
 
     def _local_error(self, after: Motion, before: np.ndarray, h: float) -> float:
         """Of the displacement [m] in a step; before: its a'₀."""
-        if self._euler:
-            return 0.5 * h * h * float(np.abs(self._model.displacement(after.a)).max())
-        am, af, _, beta, *_ = self._usual
-        jump = self._model.displacement(after.algorithm - before)
-        return h * h * abs(beta + 0.5 * (am - af) - 1.0 / 6.0) * float(np.abs(jump).max())
+        jump = after.a if self._euler else after.algorithm - before
+        return h * h * self._rule.error * float(np.abs(self._model.displacement(jump)).max())
 
     def _halving(self, motion: Motion, h: float, times: int = 0) -> Motion:
         """A step, in halves where it is fixed and fails. Raises StepFailed, SingularMatrixError."""
@@ -242,18 +209,13 @@ class GeneralisedAlpha:
             self._before = h
         return after
 
-    def _shifted(self, motion: Motion, h: float) -> np.ndarray:
-        """The algorithm's acceleration as steps of this length have it."""
-        scale = h / self._before if self._before else 1.0
-        return motion.a + scale * (motion.algorithm - motion.a)
-
     def _advanced(self, motion: Motion, h: float) -> Motion:
         model, time = self._model, motion.time + h
         model.memory.since(motion.time, motion.memory)
-        am, af, gamma, beta, by_old, _ = self._rule
+        am, af, gamma, beta, by_old, *_ = rule = self._rule
         self.late = 1.0 - af
-        old = self._shifted(motion, h)
-        by_a, by_v = (1.0 - am) / ((1.0 - af) * beta * h * h), gamma / (beta * h)
+        old = shifted(motion.a, motion.algorithm, h, self._before)
+        by_a, by_v = rule.by_a(h), rule.by_v(h)
         start = motion.q + h * motion.v + h * h * by_old * old
 
         def at(q: np.ndarray) -> Motion:

@@ -48,7 +48,7 @@ class Verlet(Integrator):
 
     def advance(self, state: State, at_most: float) -> Advance[State]:
         """One explicit step. Raises StepFailed when a number overflows or constraints find no solution."""
-        system, h, time = self.system, at_most, state.time + at_most
+        system, h, time = self.system.within(state, at_most), at_most, state.time + at_most
         moved = state.u + h * state.v + 0.5 * h * h * state.a
         if system.moving:
             held = system.place(time) - system.place(state.time) - h * system.place_rate(state.time)
@@ -62,7 +62,6 @@ class Verlet(Integrator):
             u = moved
         if system.moving:
             half = half + system.place_rate(time) - system.place_rate(state.time)
-        system.since(state, h)
         _, elastic = system.elastic(u, time)
         force = system.external(u, time) - elastic
         damped = system.resists

@@ -106,18 +106,14 @@ class Esdirk(Integrator):
                 return self._advance(state, self._stages(state, at_most, None), at_most)
             except SingularMatrixError as failure:
                 raise StepFailed(str(failure)) from None
-        control = self._control
         if self._largest == 0.0:
             self._begin(state)
         state, at_most = self._from_kink(state, at_most)
-        shortest = 1e-6 * min(control.step, at_most)
-        while True:
-            h = control.dividing(at_most)
-            try:
-                stages = self._stages(state, h, self._enough)
-            except (StepFailed, SingularMatrixError) as failure:
-                control.shorten(failure, h, shortest)
-                continue
+        largest = self._largest
+
+        def attempt(h: float) -> tuple[Stages, float, float]:
+            nonlocal largest
+            stages = self._stages(state, h, self._enough)
             error = h * float(np.abs(ERRORS @ stages.v.reshape(len(ERRORS), -1)).max())
             error = max(error, self._largest * self._error_of_branches(h))
             largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
@@ -125,9 +121,12 @@ class Esdirk(Integrator):
                 found = self._advance(state, stages, h)
                 gained = self.system.energy_gained(state, found.state, found.dissipated, found.work)
                 error = max(error, largest * gained * ENERGY)
-            if control.accepts(error, self._error * largest, h, shortest):
-                self._largest = largest
-                return self._advance(state, stages, h)
+            return stages, error, self._error * largest
+
+        shortest = 1e-6 * min(self._control.step, at_most)
+        stages, h = self._control.take(attempt, at_most, shortest)
+        self._largest = largest
+        return self._advance(state, stages, h)
 
     @property
     def _enough(self) -> float:
@@ -138,8 +137,8 @@ class Esdirk(Integrator):
     def _begin(self, state: State) -> None:
         """What the error is relative to before anything has moved, and the first step [s]: parts of how far
         the forces lead until all rests, were it linear, and of the time in which they get there."""
-        system, problem, still = self.system, self.system.problem, np.zeros_like(state.u)
-        system.since(state)
+        system, still = self.system.within(state), np.zeros_like(state.u)
+        problem = system.problem
         force = system.unbalanced(state.u, still, state.time)
         try:
             factor = problem.system.factor(system.matrix(state.u, still, state.time, 0.0, 0.0, 1.0))
@@ -161,8 +160,7 @@ class Esdirk(Integrator):
         if np.any(np.abs(system.kinks - now) < near) and now > near:
             if system.jumps(now):  # and dampers with the velocity: the steps begin as at the start
                 self._control.step = min(self._control.step, self._first)
-            system.since(state)
-            force = system.unbalanced(state.u, state.v, now)
+            force = system.within(state).unbalanced(state.u, state.v, now)
             state = replace(state, time=now, a=system.accelerate(force))
         ahead = system.kinks[system.kinks > now + near]
         return state, min([at_most, *(ahead[:1] - now)])
@@ -174,10 +172,10 @@ class Esdirk(Integrator):
         u[0], v[0], a[0] = state.u, state.v, state.a
         stages = Stages(times, u, v, a, np.zeros((len(times), 2)))
         self._memories = [state.memory] * len(times)
-        self._begin_stage(0, h)
         if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
-            middle = state.u + 0.5 * h * state.v
-            self._newton.renew(StepEquation(state.time + 0.5 * h, middle, state.v, by * by, by), middle)
+            middle, system = state.u + 0.5 * h * state.v, self._in_stage(0, h)
+            equation = StepEquation(system, state.time + 0.5 * h, middle, state.v, by * by, by)
+            self._newton.renew(equation, middle)
         step = Step(h, STAGES, GUESSES, by, by * by, *self._shifts(times, h), self._loads(times))
         if not self._newton.solve_stages(step, stages, tolerance):
             self._solve_one_by_one(step, stages, tolerance)
@@ -209,14 +207,14 @@ class Esdirk(Integrator):
             v = stages.v[0] + h * np.tensordot(STAGES[i, :i], stages.a[:i], 1)
             if len(step.shifts):
                 u, v = u + step.shifts[i], v + step.turns[i]
-            self._begin_stage(i, h)
-            equation = StepEquation(float(stages.time[i]), u + v / c1, v, c2, c1)
+            system = self._in_stage(i, h)
+            equation = StepEquation(system, float(stages.time[i]), u + v / c1, v, c2, c1)
             guess = equation.base_u + np.tensordot(GUESSES[i, :i], stages.a[:i], 1) / c1**2
             u = self._newton.solve_equation(equation, guess, tolerance)
             stages.u[i] = u
             stages.v[i], stages.a[i] = self._newton.state(equation, u)
-            if self.system.maxwell is not None:
-                self._memories[i] = self.system.maxwell.after(u)
+            if system.maxwell is not None:
+                self._memories[i] = system.maxwell.after(u)
             stages.power[i, 0] = self.system.power(self._stage(stages, i))
 
     def _stage(self, stages: Stages, i: int) -> State:
@@ -227,9 +225,17 @@ class Esdirk(Integrator):
         parts = zip(weights, self._memories, strict=False)
         return np.sum([weight * memory[1:] for weight, memory in parts if memory is not None], axis=0)
 
-    def _begin_stage(self, i: int, h: float) -> None:
-        if self.system.maxwell is not None and (start := self._memories[0]) is not None:
-            self.system.maxwell.stage(start, h * self._relaxed(STAGES[i, : max(i, 1)]), GAMMA * h)
+    def _in_stage(self, i: int, h: float) -> System:
+        """The equations of stage i."""
+        if self.system.maxwell is None:
+            return self.system
+        return self._relaxing(h * self._relaxed(STAGES[i, : max(i, 1)]), GAMMA * h)
+
+    def _relaxing(self, relaxed: np.ndarray, own: float) -> System:
+        """The equations with the branches as `Maxwell.stage` has them."""
+        if self.system.maxwell is None or (start := self._memories[0]) is None:
+            return self.system
+        return self.system.with_branches(self.system.maxwell.stage(start, relaxed, own))
 
     def _error_of_branches(self, h: float) -> float:
         """Error of what the branches' springs remember in a step, relative to the largest strain."""
@@ -251,19 +257,19 @@ class Esdirk(Integrator):
         u, v, a = self._within(stages, h, theta)
         weights = h * (np.vander(theta, len(CUMULATIVE), increasing=True) @ CUMULATIVE)
         taken, put_in = (weights @ stages.power).T
-        system, maxwell, start = self.system, self.system.maxwell, self._memories[0]
+        system, start = self.system, self._memories[0]
         memories: list[np.ndarray | None] = [None] * len(times)
         began, c1 = float(stages.time[0]), 1.0 / (GAMMA * h)
         for i, time in enumerate(times.tolist()):
-            if maxwell is not None and start is not None:
-                maxwell.stage(start, self._relaxed(weights[i]), 0.0)
-            equation = StepEquation(time, u[i] - a[i] / c1**2, v[i] - a[i] / c1, c1**2, c1)
+            inside = self._relaxing(self._relaxed(weights[i]), 0.0)
+            equation = StepEquation(inside, time, u[i] - a[i] / c1**2, v[i] - a[i] / c1, c1**2, c1)
             with suppress(StepFailed, SingularMatrixError):  # the polynomial it is then
                 u[i] = self._newton.solve_equation(equation, u[i], self._enough)
                 a[i] = self._newton.state(equation, u[i])[1]
-            if maxwell is not None and start is not None:
-                memories[i] = memory = maxwell.after(u[i])
-                taken[i] -= maxwell.stored(memory) - maxwell.stored(start)
+            if inside.maxwell is not None and start is not None:
+                memories[i] = memory = inside.maxwell.after(u[i])
+                branches = inside.maxwell.branches
+                taken[i] -= branches.stored(memory) - branches.stored(start)
             if system.moving:
                 rate = system.place_rate(time, before=True)
                 put_in[i] += system.kinetic_of(rate) - system.kinetic_of(system.place_rate(began))
@@ -299,7 +305,8 @@ class Esdirk(Integrator):
         self._step = stages, h
         taken, put_in = h * (STAGES[-1] @ power)
         if system.maxwell is not None and start.memory is not None and end.memory is not None:
-            taken -= system.maxwell.stored(end.memory) - system.maxwell.stored(start.memory)
+            branches = system.maxwell.branches
+            taken -= branches.stored(end.memory) - branches.stored(start.memory)
         if system.moving:
             rate = system.place_rate(end.time)
             end = replace(end, v=end.v + rate - system.place_rate(end.time, before=True))

@@ -36,7 +36,7 @@ class Midpoint(Integrator):
 
     def advance(self, state: State, at_most: float) -> Advance[State]:
         """One step. Raises StepFailed."""
-        system, h = self.system, at_most
+        system, h = self.system.within(state, at_most), at_most
         time, middle = state.time + h, state.time + 0.5 * h
         coupling = system.coupling
         algebraic = coupling.algebraic if coupling is not None else np.zeros((1, 1), dtype=bool)
@@ -68,7 +68,6 @@ class Midpoint(Integrator):
         def weigh(correction: np.ndarray) -> np.ndarray:
             return np.where(algebraic, 0.5 * correction, correction)
 
-        system.since(state, h)
         guess = state.u + moved
         free = state.v - system.place_rate(state.time) + 0.5 * h * state.a
         guess = guess + h * system.expand(system.contract(free))

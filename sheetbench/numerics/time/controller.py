@@ -11,26 +11,32 @@ spite of its error, and the run says so. Source: Hairer and Wanner (1996), IV.8.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
+from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.method import StepFailed
 
 SAFETY = 0.9
+
+T = TypeVar("T")
+Tried = tuple[T, float, float]  # a step, its error and what is allowed
 
 
 @dataclass
 class Controller:
     """order: p; growth: the longest step after one, over that; band: of r, in which lengths stay; step: the
-    next to be tried [s]; floored: steps that counted in spite of their error."""
+    next to be tried [s]; floored: steps that counted in spite of their error; rejected: those repeated."""
 
     order: int
     growth: float
     band: tuple[float, float]
     step: float
     floored: int = 0
+    rejected: int = 0
 
     def dividing(self, at_most: float, fewer: float = np.inf) -> float:
         """Return a step no longer than the one to be tried that divides a time [s] evenly; that one itself
@@ -54,19 +60,32 @@ class Controller:
             self.step = h * min(max(ratio, 0.5), self.growth)
         return True
 
-    def shorten(self, failure: Exception, h: float, shortest: float) -> None:
-        """Try a quarter of a step that found no solution. Raises StepFailed where it was the shortest."""
-        if h < shortest:
-            raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
-        self.step = 0.25 * h
+    def take(
+        self, attempt: Callable[[float], Tried[T]], at_most: float, shortest: float, fewer: float = np.inf
+    ) -> tuple[T, float]:
+        """Return the first step of at most so long [s] that counts, and its length [s]. attempt: a step of a
+        length, its error and what is allowed. Raises StepFailed where the shortest one finds no solution."""
+        while True:
+            h = self.dividing(at_most, fewer)
+            try:
+                found, error, allowed = attempt(h)
+            except (StepFailed, SingularMatrixError) as failure:
+                if h < shortest:
+                    raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
+                self.step = 0.25 * h
+                continue
+            if self.accepts(error, allowed, h, shortest):
+                return found, h
+            self.rejected += 1
 
     def memory(self) -> dict[str, Any]:
         """Return what a resumed run needs."""
-        return {"step": self.step, "floored": self.floored}
+        return {"step": self.step, "floored": self.floored, "rejected": self.rejected}
 
     def recall(self, memory: dict[str, Any]) -> None:
         """Take up what `memory` gave."""
-        self.step, self.floored = float(memory["step"]), int(memory["floored"])
+        self.step = float(memory["step"])
+        self.floored, self.rejected = int(memory["floored"]), int(memory["rejected"])
 
     def notes(self) -> str:
         """Return a clause on steps that counted in spite of their error."""

@@ -228,7 +228,8 @@ def _solve(
 
 def natural_of(scene: Scene, plate: Plate, section: Section | None = None) -> NaturalPlate:
     """Return what makes a scene's plate other than flat at rest."""
-    return NaturalPlate(scene, plate, section or section_at(scene, plate.plan.corners))
+    corners = plate.plan.corners
+    return NaturalPlate(scene, plate.elements, corners, section or section_at(scene, corners))
 
 
 def section_stiffness(scene: Scene, plate: Plate, section: Section | None = None) -> dict[str, np.ndarray]:

@@ -138,7 +138,8 @@ OTHER_BASE = {  # where an option has an effect on something else alone
 PLACES = "where the answer goes, and how it looks"
 SAME = {  # no number of the answer is another with them, and why
     **dict.fromkeys(
-        ("--json", "--out", "--overwrite", "--figure", "--no-pictures", "--quiet", "--export"), PLACES
+        ("--json", "--out", "--overwrite", "--figure", "--no-pictures", "--quiet", "--verbose", "--export"),
+        PLACES,
     ),
     **dict.fromkeys(("--toml", "--animate"), PLACES),
     "--large": "lets a model be larger than memory",

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 out = Console(highlight=False)
 err = Console(stderr=True, highlight=False)
-_quiet = False
+_quiet = _verbose = False
 
 
 @contextmanager
@@ -35,6 +35,17 @@ def quietly() -> Iterator[None]:
         _quiet = False
 
 
+@contextmanager
+def verbosely() -> Iterator[None]:
+    """Print a line for everything that is begun within a block."""
+    global _verbose
+    _verbose = True
+    try:
+        yield
+    finally:
+        _verbose = False
+
+
 def printable(text: str, keep: str = "") -> str:
     """Return a text without control characters but those in `keep`, in characters that the output's encoding
     has."""
@@ -46,6 +57,9 @@ def progress() -> Iterator[Callable[[Work | str], None]]:
     """Yield a function that shows what is being done: a spinner on a terminal, else lines."""
     if _quiet:
         yield lambda what: None
+        return
+    if _verbose:
+        yield lambda what: tell(str(what)) if getattr(what, "share", None) is None else None
         return
     if not err.is_terminal:
         with Lines(tell) as lines:

@@ -236,7 +236,7 @@ def test_the_same_call_from_python_gives_the_same_answer(kept, name, here):
 
 
 def test_an_option_has_one_name_and_one_default_in_command_and_function():
-    of_terminal = {"json", "quiet", "help", "progress", "lattice"}
+    of_terminal = {"json", "quiet", "verbose", "help", "progress", "lattice"}
     for verb in set(VERBS) - {"live", "study"}:
         known = inspect.signature(getattr(sb, verb)).parameters
         options = {one.name: one for one in verb_group().commands[verb].params}

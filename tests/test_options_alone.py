@@ -213,7 +213,9 @@ def in_python(verb, arguments):
     function, command = getattr(sb, verb), verb_group((verb,)).commands[verb]
     asked = command.make_context(verb, list(arguments)).params
     known = signature(function).parameters
-    return json.loads(to_json(function(**{k: v for k, v in asked.items() if k in known}).document()))
+    return json.loads(
+        to_json(function(**{k: v for k, v in asked.items() if k in known and v != ()}).document())
+    )
 
 
 @pytest.fixture(scope="module")

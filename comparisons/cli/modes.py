@@ -84,7 +84,7 @@ def command(
                     lattice.spec,
                     count=count,
                     masses=masses,
-                    reference=reference or REFERENCE,
+                    reference=REFERENCE if reference is None else reference,
                     elements=parse_elements(elements),
                     about=about or "flat",
                     buckling=buckling,

@@ -75,7 +75,7 @@ def answer(
         sample=partial(interpolate, plan.mesh, plan.elements, sheet.middles(sheet.displacement(q))),
         reactions=reactions,
         energies=energies | ({"rod": rods.energy(q, share)} if scene.actuators else {}),
-        mesh=sheet.mesh(q, line if scene.actuators else None),
+        mesh=sheet.drawn(q, line if scene.actuators else None),
         actuators=wrenches,
         balance=left_over(scene, surface, edges, reactions, held, size, allowed, share) if balanced else None,
         **own,

@@ -31,7 +31,6 @@ class DiscreteElements(Discrete):
     element: Element | Bricks
     pattern: Pattern
     per_vector: np.ndarray
-    scale: np.ndarray
 
     @abstractmethod
     def gather(self, q: np.ndarray) -> np.ndarray:

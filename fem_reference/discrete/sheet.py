@@ -41,7 +41,7 @@ from sheetbench.errors import NoEquilibrium
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
-from sheetbench.scenes.motion import NO_START, at_start, starts_flat
+from sheetbench.scenes.motion import NO_START, at_start, kinks, starts_flat
 from sheetbench.scenes.relaxation import Branches
 
 
@@ -88,7 +88,7 @@ class Discrete(ABC):
     rods: Rods
     unknowns: int
     size: int
-    scale: np.ndarray | float
+    scale: np.ndarray
 
     def __init__(self, scene: Scene, moving: bool = False):
         self.scene, self.moving = scene, moving
@@ -158,6 +158,11 @@ class Discrete(ABC):
     def instant(self, at: float) -> tuple[float, float | None]:
         """The share of what bends and tilts edges, and the time [s] of what moves them, None for the last."""
         return (1.0, at) if self.moving else (at, None)
+
+    @cached_property
+    def kinks(self) -> np.ndarray:
+        """Times [s] at which something prescribed bends its course."""
+        return np.array(kinks(self.scene))
 
     def jumps(self, time: float) -> bool:
         """Whether what is prescribed changes its velocity at once."""
@@ -247,6 +252,10 @@ class Discrete(ABC):
     @abstractmethod
     def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
         """Forces (N,) of dead ones on the mid-surface (n, 3)."""
+
+    @abstractmethod
+    def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
+        """Coordinates (N,) of displacements and changes of the directors of the plan's nodes, (n, 3)."""
 
     @abstractmethod
     def on_surface(self, q: np.ndarray) -> np.ndarray:
@@ -358,8 +367,14 @@ class Discrete(ABC):
         """Forces (3,) [N] of what holds the sheet, of M ü + g (N,)."""
 
     @abstractmethod
-    def mesh(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
+    def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         """The sheet for drawing, and the line force (n, 3) [N/m] of actuators on it."""
+
+    def mesh(self, displacement: np.ndarray) -> FieldMesh:
+        """The sheet for drawing, of nodal displacements as `displacement`."""
+        q = np.zeros(self.size)
+        self.displacement(q)[:] = displacement
+        return self.drawn(q)
 
     @abstractmethod
     def surface(self, q: np.ndarray) -> Surface:

@@ -87,8 +87,7 @@ def _start(
     sheet: DiscreteShell, displacement: np.ndarray, turn: np.ndarray, strain: np.ndarray
 ) -> Start[State]:
     """That of displacements and changes of directors (n, 3), its stresses those of strains (m, 54)."""
-    q, static = np.zeros(sheet.size), Static(sheet)
-    q[: 6 * sheet.nodes] = np.concatenate([displacement, turn]).ravel()
+    q, static = sheet.of_vectors(displacement, turn), Static(sheet)
     no_rods = tuple(np.zeros_like(body.elements.stiffness) for body in sheet.bodies)
     found = State(q, sheet.element.stress(strain), on_rods=no_rods)
     return Start(found, 1.0, static.length(static.rest(), found), static.potential(found, 1.0)[1])

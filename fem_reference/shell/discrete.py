@@ -296,6 +296,9 @@ class DiscreteShell(DiscreteElements):
         """Dead forces turn no director."""
         return np.pad(dead.ravel(), (0, self.size - dead.size))
 
+    def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
+        return self.on_coordinates(np.concatenate([displacement, turn]))
+
     def on_surface(self, q: np.ndarray) -> np.ndarray:
         return self.element.reference + self.gather(q)
 
@@ -321,7 +324,7 @@ class DiscreteShell(DiscreteElements):
     def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
         return self.supports.reactions(self.displacement(exerted))
 
-    def mesh(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
+    def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         fields = {} if line_force is None else {"actuator_line_force": line_force}
         directors = self.directors(q)[: self.nodes]
         return field_mesh(self.plan.nodes, self.plan.elements, self.displacement(q), directors, **fields)

@@ -25,7 +25,7 @@ from fem_reference.shell.laws import LAWS
 from fem_reference.shell.validity import STRETCHED, inspector
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.materials import Section, section_at
-from fem_reference.surface.mesh import Elements, Plan, divisions, has_lines, mesh_of, nodes_of
+from fem_reference.surface.mesh import Elements, Plan, divisions, has_lines, mesh_of, plan_of
 from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
@@ -186,20 +186,17 @@ def _solution(
 
 
 def discretise(
-    mesh: MeshQuad,
-    scene: Scene,
-    section: Section | None = None,
-    law: str = STRAIN_LAW,
-    moving: bool = False,
+    mesh: MeshQuad, scene: Scene, section: Section | None = None, law: str = STRAIN_LAW
 ) -> DiscreteShell:
-    """The discrete shell of a scene on a mesh, at rest or moving."""
-    nodes, element_nodes = nodes_of(mesh)
-    plan = Plan(mesh, element_nodes, nodes)
-    element = _elements(plan.corners, scene, section, law)
-    return DiscreteShell(plan, scene, element, law == STRAIN_LAW, moving)
+    """The discrete shell of a scene at rest, on a mesh."""
+    plan = plan_of(mesh)
+    return DiscreteShell(plan, scene, elements_of(plan, scene, section, law), law == STRAIN_LAW)
 
 
-def _elements(nodes: np.ndarray, scene: Scene, section: Section | None, law: str) -> Element:
+def elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:
+    """The elements of a scene's shell on a plan, of a law of strain and, unless that is another than the
+    default, of a section."""
+    nodes = plan.corners
     material, thickness = scene.material, scene.sheet.thickness
     require_law(law, LAWS, material)
     if law == STRAIN_LAW:

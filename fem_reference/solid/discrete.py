@@ -233,6 +233,9 @@ class DiscreteSolid(DiscreteElements):
         """Uniform through the thickness."""
         return self._padded(self.columns.averages[0][:, None] * dead[:, None, :])
 
+    def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
+        return self._padded(self.column_supports.spread(np.array([displacement, turn])))
+
     def on_surface(self, q: np.ndarray) -> np.ndarray:
         return self._averages(self.columns.positions + self._on_columns(q))
 
@@ -269,7 +272,7 @@ class DiscreteSolid(DiscreteElements):
     def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
         return self.column_supports.reactions(self._on_columns(exerted), self.instant(at)[0])
 
-    def mesh(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
+    def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         return self.columns.field_mesh(self._on_columns(q))
 
     def surface(self, q: np.ndarray) -> Surface:

@@ -33,7 +33,7 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.path import Fault, Path, Progress
 from sheetbench.numerics.continuation.trace import trace_path
-from sheetbench.scenes import Constants, EdgeLoad, Pressure, Scene, Solution, Status, require_uniform
+from sheetbench.scenes import Constants, EdgeLoad, Material, Pressure, Scene, Solution, Status, require_uniform
 from sheetbench.scenes.orthotropy import Ply, impossible_in_space
 from sheetbench.scenes.patches import constants_at, of_sheet
 from sheetbench.scenes.rigid_motions import require_static
@@ -182,13 +182,20 @@ def discretise(
     layers: int = 1,
     law: str = STRAIN_LAW,
     clamp: str = "shell-like",
-    moving: bool = False,
 ) -> DiscreteSolid:
-    """The discrete solid of a scene, at rest or moving, on a plan mesh of straight-sided quadrilaterals.
+    """The discrete solid of a scene at rest, on a plan mesh of straight-sided quadrilaterals.
 
     Supports and loads act on the mesh's boundaries of their edges' names; of the scene's sheet only the
     thickness is used. Raises BadInput for an unknown law or clamp, no layers or a folded element.
     """
+    columns, material = columns_of(mesh, scene, layers, law)
+    return DiscreteSolid(columns, scene, law, material, clamp)
+
+
+def columns_of(
+    mesh: MeshQuad, scene: Scene, layers: int, law: str
+) -> tuple[Columns, Material | Constants]:
+    """The columns of a scene's solid over a mesh, and what its bricks are made of."""
     require_upright(mesh)
     require_law(law, LAWS, scene.material)
     if layers < 1:
@@ -196,6 +203,7 @@ def discretise(
     _require_meshable(scene, law)
     layers = bricks_through(scene, layers)
     columns = Columns.on(mesh, scene.sheet, layers)
+    if scene.uniform:
+        return columns, scene.material
     middles = np.tile(columns.plan.corners.mean(axis=1), (layers, 1))[:, None]
-    material = scene.material if scene.uniform else _constants_of_bricks(scene, middles, layers)
-    return DiscreteSolid(columns, scene, law, material, clamp, moving)
+    return columns, _constants_of_bricks(scene, middles, layers)

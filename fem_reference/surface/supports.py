@@ -79,9 +79,12 @@ class Supports:
         for driven in self.driven:
             placed = driven.placed(load_factor, time)
             out[0, driven.nodes], out[1, driven.nodes] = placed.displacement, placed.director
-        share = load_factor if time is None else 1.0
-        out[0] += self._shifted(lambda course: share * course.at(time))
+        out[0] += (load_factor if time is None else 1.0) * self.shift(time)
         return out
+
+    def shift(self, time: float | None = None) -> np.ndarray:
+        """Where supports that move are at a time [s], or in the end (n, 3) [m]."""
+        return self._shifted(lambda course: course.at(time))
 
     def rate(self, time: float) -> np.ndarray:
         """Rate (2, n, 3) of that change from a time [s] on."""

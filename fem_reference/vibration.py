@@ -154,13 +154,18 @@ def _slow(scene: Scene) -> float:
     return np.sqrt(material.young / (12.0 * material.density)) * sheet.thickness / max(sheet.lengths) ** 2
 
 
-def _free_rigid_motions(sheet: Discrete) -> int:
-    """How many independent rigid motions of the flat sheet vanish at all that is held."""
+def rigid_motions(sheet: Discrete) -> np.ndarray:
+    """Return the flat sheet's rigid motions (N, 6), along the axes and about them through its middle."""
     arms = np.pad(sheet.plan.nodes - sheet.plan.nodes.mean(axis=0), ((0, 0), (0, 1)))
-    up, still = np.array([0.0, 0.0, 1.0]), np.zeros(3)
-    motions = [(np.tile(axis, (len(arms), 1)), still) for axis in np.eye(3)]
+    still, up = np.zeros_like(arms), np.tile([0.0, 0.0, 1.0], (len(arms), 1))
+    motions = [(still + axis, still) for axis in np.eye(3)]
     motions += [(np.cross(axis, arms), np.cross(axis, up)) for axis in np.eye(3)]
-    rigid = np.array([sheet.of_vectors(moved, np.tile(turn, (len(arms), 1))) for moved, turn in motions]).T
+    return np.array([sheet.of_vectors(*motion) for motion in motions]).T
+
+
+def _free_rigid_motions(sheet: Discrete) -> int:
+    """How many independent rigid motions vanish at all that is held."""
+    rigid = rigid_motions(sheet)
     held = sheet.held(rigid / np.linalg.norm(rigid, axis=0), 0.0)
     return 6 - int(np.sum(np.linalg.svd(held, compute_uv=False) > 1e-9))
 

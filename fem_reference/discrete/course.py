@@ -7,7 +7,7 @@ load factor or the time [s]. Statics take the last factor of every history and t
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Protocol
+from typing import Any, Protocol
 
 from sheetbench.scenes import Chain, Scene
 from sheetbench.scenes.actuators import CurvatureTable
@@ -17,7 +17,7 @@ from sheetbench.scenes.tables import PiecewiseLinear
 
 
 class Growing(Protocol):
-    def at(self, at: float) -> float:
+    def at(self, at: float, /) -> Any:
         """The factor at a time [s] or load factor."""
 
 
@@ -37,8 +37,8 @@ def factor_at(factor: Factor, at: float) -> float:
 
 
 def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
-    """Scenes with a part of the loads each, without its history, and the factor that the part has: all of them
-    in statics, in a motion one by one but for those let go at the start."""
+    """Scenes with a part of the loads each, and the factor that it has: all of them in statics, in a motion
+    one by one, without their histories and without those let go at the start."""
     if not moving:
         yield scene, Ramp()
         return
@@ -48,8 +48,8 @@ def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
         if load is not None:
             constant = load.replace(history=None)
             alone = {"gravity": constant} if isinstance(load, Gravity) else {"loads": (constant,)}
-            over_time = load.history and PiecewiseLinear(load.history.time, load.history.factor)
-            yield bare.replace(**alone), over_time
+            table = load.history
+            yield bare.replace(**alone), PiecewiseLinear(table.time, table.factor) if table else None
 
 
 def commands_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:

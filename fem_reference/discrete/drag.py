@@ -29,9 +29,9 @@ class Drag(Item):
         out[:, :9] = np.einsum("g,gi,eg,egc->eic", GAUSS_WEIGHTS, AT_GAUSS[0], pressure, area, optimize=True)
         return shape.sheet.of_surface(np.arange(len(out)), out)
 
-    def tangent(self, shape: Shape, by_v: float) -> Tangent | None:
+    def damping(self, shape: Shape) -> Tangent | None:
         area, size, speed = _flow(shape)
-        share = -2.0 * by_v * self._coefficient * GAUSS_WEIGHTS * np.abs(speed) / size
+        share = -2.0 * self._coefficient * GAUSS_WEIGHTS * np.abs(speed) / size
         value = AT_GAUSS[0]
         out = np.zeros((len(area), 18, 3, 18, 3))
         out[:, :9, :, :9] = np.einsum(

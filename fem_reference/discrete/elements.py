@@ -17,7 +17,7 @@ from scipy.sparse import csr_matrix
 
 from fem_reference.discrete.relaxation import Strained
 from fem_reference.discrete.rods import Rods
-from fem_reference.discrete.shape import ElementShape
+from fem_reference.discrete.shape import ElementShape, Shape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.shell.element import Element, weighed
 from fem_reference.solid.element import Bricks
@@ -49,7 +49,7 @@ class DiscreteElements(Discrete):
 
     @abstractmethod
     def fold(self, shape: ElementShape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
-        """Derivatives (k, 18, 3, 18, 3) of forces on φ and d of elements `on`, on their unknowns (k, b, b)."""
+        """Those (k, 18, 3, 18, 3) of forces on φ and d at elements `on`, by their unknowns, (k, b, b)."""
 
     @abstractmethod
     def onto_rods(self, shape: ElementShape) -> np.ndarray:
@@ -79,7 +79,8 @@ class DiscreteElements(Discrete):
         stress = shape.elastic + self.memory.added(shape.elastic) if self.memory else shape.elastic
         return stress + self.tau * weighed(shape.moduli, shape.rate) if self.tau else stress
 
-    def elements_internal(self, shape: ElementShape) -> np.ndarray:
+    def elements_internal(self, shape: Shape) -> np.ndarray:
+        assert isinstance(shape, ElementShape)
         return self.scatter(self.element.forces(shape.operator, self.stress(shape)))
 
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
@@ -119,13 +120,16 @@ class DiscreteElements(Discrete):
             of_move = self.gather(move)
             pull = element.forces(shape.operator, weighed(moduli, element.step(shape.operator, of_move)))
             product += self.scatter(pull + element.geometric(of_move, stress))
-            on_surface = self.surface_change(move) if self.items else None
         for item in self.items:
-            if (found := item.tangent(shape, by_v)) is not None:
-                on, tangent = found
-                add_blocks(data, slots[0][on], -self.fold(shape, on, tangent))
+            if (found := item.tangent(shape)) is not None:
+                on, by_surface = found
+                add_blocks(data, slots[0][on], -self.fold(shape, on, by_surface))
                 if move is not None:
-                    product -= self.of_surface(on, np.einsum("eicjd,ejd->eic", tangent, on_surface[on]))
+                    moved = self.surface_change(move)[on]
+                    product -= self.of_surface(on, np.einsum("eicjd,ejd->eic", by_surface, moved))
+            if by_v and (found := item.damping(shape)) is not None:
+                on, by_rates = found
+                add_blocks(data, slots[0][on], -by_v * self.fold(shape, on, by_rates))
         for body, own in zip(self.bodies, on_rods, strict=True):
             sides, onto = body.tangent(shape, own, by_a, by_v), self.onto_rods(shape)
             add_blocks(data, slots[1], onto.swapaxes(1, 2) @ sides @ onto)

@@ -1,5 +1,5 @@
-"""What acts on a sheet: items that bring their own force and tangent, summed by one loop at rest, in motion and
-in modes.
+"""What acts on a sheet: items that bring their own force and tangent, summed by one loop at rest, in motion
+and in modes.
 
 An item sees the sheet in a `Shape` and acts on all coordinates, or, as those of `surface.loads` do, on
 the position and director of the nodes of the plan's elements. Nothing but its class knows what it is.
@@ -19,8 +19,8 @@ Tangent = tuple[np.ndarray, np.ndarray]  # elements (k,) of the plan, and their 
 
 
 class Item(Protocol):
-    """An item. conservative: it has a potential, and so a symmetric tangent. One that inherits this leaves out
-    what has a default here."""
+    """An item. conservative: it has a potential, and so a symmetric tangent. One that inherits this leaves
+    out what has a default here."""
 
     @property
     def conservative(self) -> bool:
@@ -29,9 +29,12 @@ class Item(Protocol):
     def force(self, shape: Shape) -> np.ndarray:
         """On the coordinates (N,)."""
 
-    def tangent(self, shape: Shape, by_v: float) -> Tangent | None:
-        """Derivative of the force by the surface's vectors, and `by_v` times that by their rates; None of a
-        force that depends on neither."""
+    def tangent(self, shape: Shape) -> Tangent | None:
+        """Derivative of the force by the surface's vectors, None of one that does not depend on them."""
+        return None
+
+    def damping(self, shape: Shape) -> Tangent | None:
+        """That by their rates."""
         return None
 
     def potential(self, shape: Shape) -> float:
@@ -81,12 +84,10 @@ class Following(Item):
         pull = factor_at(self._factor, shape.at) * self._load.force(shape.vectors[on])
         return shape.sheet.of_surface(on, pull)
 
-    def tangent(self, shape: Shape, by_v: float) -> Tangent | None:
+    def tangent(self, shape: Shape) -> Tangent | None:
         on = self._load.elements
         return on, factor_at(self._factor, shape.at) * self._load.tangent(shape.vectors[on])
 
     def potential(self, shape: Shape) -> float:
         on = self._load.elements
         return -factor_at(self._factor, shape.at) * self._load.work(shape.vectors[on])
-
-

@@ -46,9 +46,9 @@ def components_of(bound: BoundRods) -> np.ndarray:
 class Rods:
     """The rods of a scene's chains among the coordinates (N,) of a sheet.
 
-    bound: to the sheet's vectors; bind: does that for a scene with the same chains; rows: coordinates (k, 3 a)
-    of the sides' Q, −1 for none; size: N; commands: scenes with a part of the curvature each, and its factor;
-    places: of φ, d and m (9,) in Q; linear: strains are those about the flat sheet.
+    bound: to the sheet's vectors; bind: does that for a scene with the same chains; rows: coordinates
+    (k, 3 a) of the sides' Q, −1 for none; size: N; commands: scenes with a part of the curvature each, and
+    its factor; places: of φ, d and m (9,) in Q; linear: strains are those about the flat sheet.
     """
 
     def __init__(
@@ -126,7 +126,7 @@ class Rods:
         return np.einsum("es,esic->eic", np.abs(stress), np.abs(self._gradient(self.gather(q))))
 
     def dragged(self, shape: Shape, drag: float) -> Rods:
-        """Rods of stresses (1 + σ) S e − σ S e_n − S e₀: a step of creep from a shape of strains e_n, drag σ."""
+        """Rods of stresses (1 + σ) S e − σ S e_n − S e₀: a step of creep from strains e_n of a shape."""
         past = self._intrinsic(shape.at) + drag * self._strain(self.gather(shape.q))
         slow = copy(self)
         slow.elements = replace(self.elements, stiffness=(1.0 + drag) * self.elements.stiffness)

@@ -65,6 +65,8 @@ class ElementShape(Shape):
         return self.sheet.element.moduli(self.strain)
 
     @cached_property
-    def rate(self) -> np.ndarray | float:
+    def rate(self) -> np.ndarray:
         """Rate of the strain (m, k)."""
-        return 0.0 if self.v is None else self.sheet.element.step(self.operator, self.sheet.gather(self.v))
+        if self.v is None:
+            return np.zeros_like(self.strain)
+        return self.sheet.element.step(self.operator, self.sheet.gather(self.v))

@@ -71,9 +71,9 @@ class Discrete(ABC):
     """N coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
 
     norm: order of the norm that residuals are measured in. conservative: whether the law of strain is
-    linear in Green's strain; any_strain: whether it is meant for large strains. size: N; lever: the flat sheet's longer
-    side [m]; scale: 1 of positions (N,), of directors the lever. own: whether the mesh has an outline of its
-    own, in place of the scene's sheet. bodies: the rods, if there are any.
+    linear in Green's strain; any_strain: whether it is meant for large strains. size: N; lever: the flat
+    sheet's longer side [m]; scale: 1 of positions (N,), of directors the lever. own: whether the mesh has an
+    outline of its own, in place of the scene's sheet. bodies: the rods, if there are any.
     """
 
     model: ClassVar[str]

@@ -123,7 +123,8 @@ class Static(Creeping[State, Forces]):
         move = sheet.expand(shape, step) + forces.short
         by = sheet.element.step(shape.operator, sheet.gather(move))
         on_rods = (
-            body.extrapolated(shape, own, move) for body, own in zip(sheet.bodies, forces.on_rods, strict=True)
+            body.extrapolated(shape, own, move)
+            for body, own in zip(sheet.bodies, forces.on_rods, strict=True)
         )
         stress = shape.elastic + weighed(sheet.moduli(shape, state.pressure), by)
         return State(state.q + move, stress, sheet.pressure(shape, by), tuple(on_rods))

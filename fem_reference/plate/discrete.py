@@ -2,9 +2,9 @@
 
     M ü + (τ K + α M) u̇ + K u = F
 
-q: ux, uy, w and the director's tilts, (n, 5), then m_s and m_z at the nodes of the rods' edges. A pressure acts
-along +z, an edge moment m as −m on the tilt towards the outward normal. The mass has ρh on the displacements
-and ρh³/12 on the tilts.
+q: ux, uy, w and the director's tilts, (n, 5), then m_s and m_z at the nodes of the rods' edges. A pressure
+acts along +z, an edge moment m as −m on the tilt towards the outward normal. The mass has ρh on the
+displacements and ρh³/12 on the tilts.
 """
 
 from __future__ import annotations
@@ -66,7 +66,9 @@ class DiscretePlate(Discrete):
             return on_surface(rod.of_scene(of, plan), len(nodes))
 
         bound = bind(scene)
-        self.number = number = np.full((2 * len(nodes) + len(bound.own), 3), -1)  # of every vector's components
+        self.number = number = np.full(
+            (2 * len(nodes) + len(bound.own), 3), -1
+        )  # of every vector's components
         of_plate = np.arange(self._cut).reshape(-1, 5)
         number[: len(nodes)], number[len(nodes) : 2 * len(nodes), :2] = of_plate[:, :3], of_plate[:, 3:]
         across = bound.own == 0.0
@@ -162,11 +164,13 @@ class DiscretePlate(Discrete):
             whole = (by_a + self.alpha * by_v) * self.sheet_mass + whole
         for body in self.bodies:
             whole = whole + body.matrix(body.tangent(shape, body.stress(shape), by_a, by_v))
-        for item in self.items if by_v else ():  # as they act on the flat sheet, but for rates
-            if (found := item.tangent(shape, by_v)) is not None:
-                on, tangent = found
+        for item in (
+            self.items if by_v else ()
+        ):  # which act on the flat sheet: rates alone change their forces
+            if (found := item.damping(shape)) is not None:
+                on, by_rates = found
                 blocks = np.zeros((len(self.plan.elements), 9, 5, 9, 5))
-                blocks[on, :, :3, :, :3] = tangent[:, :9, :, :9]
+                blocks[on, :, :3, :, :3] = by_v * by_rates[:, :9, :, :9]
                 whole = whole - self._assembled(blocks)
         return whole.tocsr()
 
@@ -242,8 +246,8 @@ class DiscretePlate(Discrete):
         return Surface(self.plan, flat, up, self.own)
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
-        nodal = self._fields(exerted)
-        couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])  # e_z × what holds the tilts
+        nodal = self._fields(exerted)  # of the tilts' forces f the couple is e_z × f
+        couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])
         return Held(np.concatenate([nodal[:, :3], couple], axis=1), self.surface(q).position)
 
     def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:

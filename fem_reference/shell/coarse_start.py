@@ -67,9 +67,7 @@ def start(coarser: DiscreteShell, q: np.ndarray, sheet: DiscreteShell) -> Start[
     director = turn + UP
     director /= np.linalg.norm(director, axis=1, keepdims=True)
     stretched = np.zeros(finer.stiffness.shape[:2])
-    stretched[:, MEMBRANE] = sampled(
-        finer.reference[:, :9, :2], flat.reshape(-1, 2, 2)[sheet.plan.elements]
-    )
+    stretched[:, MEMBRANE] = sampled(finer.reference[:, :9, :2], flat.reshape(-1, 2, 2)[sheet.plan.elements])
     return _start(sheet, displacement, director - UP, stretched)
 
 

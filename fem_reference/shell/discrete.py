@@ -7,8 +7,8 @@ in the step of statics,
 
     d · δd = ½ (1 − d · d),
 
-and its multiplier, −(R_d · d)/(d · d), stiffens T (the curvature of the sphere). The kinetic energy per area is
-½ ρh |u̇|² + ½ ρh³/12 |ḋ|².
+and its multiplier, −(R_d · d)/(d · d), stiffens T (the curvature of the sphere). The kinetic energy per area
+is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|².
 """
 
 from __future__ import annotations
@@ -107,7 +107,10 @@ class DiscreteShell(DiscreteElements):
 
     @cached_property
     def sheet_mass(self) -> csr_matrix:
-        pattern, none = Pattern(self.plan.elements, size=self.nodes), csr_matrix((self.size - 6 * self.nodes,) * 2)
+        pattern, none = (
+            Pattern(self.plan.elements, size=self.nodes),
+            csr_matrix((self.size - 6 * self.nodes,) * 2),
+        )
         by_place, by_turn = self._products
         turning = sum(kron(pattern.matrix(by_turn[axis]), np.diag(row)) for axis, row in enumerate(np.eye(3)))
         return block_diag([kron(pattern.matrix(by_place), np.eye(3)), turning, none], format="csr")

@@ -48,8 +48,8 @@ def inspector(graded: bool) -> Inspect[State, Forces]:
 
 
 def inverted(element: Element, change: np.ndarray) -> str:
-    """A sentence on the element that has turned inside out most, "" for none; change: of the elements' vectors
-    (m, 18, 3)."""
+    """A sentence on the element that has turned inside out most, "" for none; change: of the elements'
+    vectors (m, 18, 3)."""
     value, slope = AT_GAUSS
     now = element.reference + change
     along, across, director = slope[0] @ now[:, :9], slope[1] @ now[:, :9], value @ now[:, 9:]

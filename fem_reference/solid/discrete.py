@@ -16,7 +16,6 @@ from typing import ClassVar
 
 import numpy as np
 from scipy.sparse import block_diag, bsr_matrix, csc_matrix, csr_matrix, identity
-from skfem import MeshQuad
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.rods import components_of
@@ -37,7 +36,7 @@ from sheetbench.scenes import Constants, FieldMesh, Material, Scene
 
 
 class DiscreteSolid(DiscreteElements):
-    """A scene's solid on columns of bricks, layer by layer over the plan's elements, of a law and a material."""
+    """A scene's solid on columns of bricks, layer by layer over the plan's elements."""
 
     model = "solid"
     norm: ClassVar[int] = 2
@@ -249,9 +248,7 @@ class DiscreteSolid(DiscreteElements):
     def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
         out = np.zeros_like(self.columns.positions)
         force = pull.reshape(len(on), 2, 9, 3)
-        np.add.at(
-            out, self.plan.elements[on], np.einsum("epic,pl->eilc", force, self.columns.averages)
-        )
+        np.add.at(out, self.plan.elements[on], np.einsum("epic,pl->eilc", force, self.columns.averages))
         return self._padded(out)
 
     # what is shown

@@ -33,7 +33,16 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.path import Fault, Path, Progress
 from sheetbench.numerics.continuation.trace import trace_path
-from sheetbench.scenes import Constants, EdgeLoad, Material, Pressure, Scene, Solution, Status, require_uniform
+from sheetbench.scenes import (
+    Constants,
+    EdgeLoad,
+    Material,
+    Pressure,
+    Scene,
+    Solution,
+    Status,
+    require_uniform,
+)
 from sheetbench.scenes.orthotropy import Ply, impossible_in_space
 from sheetbench.scenes.patches import constants_at, of_sheet
 from sheetbench.scenes.rigid_motions import require_static
@@ -192,9 +201,7 @@ def discretise(
     return DiscreteSolid(columns, scene, law, material, clamp)
 
 
-def columns_of(
-    mesh: MeshQuad, scene: Scene, layers: int, law: str
-) -> tuple[Columns, Material | Constants]:
+def columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Columns, Material | Constants]:
     """The columns of a scene's solid over a mesh, and what its bricks are made of."""
     require_upright(mesh)
     require_law(law, LAWS, scene.material)

@@ -55,8 +55,8 @@ class Supports:
     """What is held: position (n, 3) by component, director (n,); edges: name → nodes and held axes.
 
     tilt: (n, 2), whether the director's component along x or y is held at 0, as on a plane of symmetry;
-    turning: what bends or tilts edges that are held; moved: what moves edges, by the actuators' names; shifts:
-    the supports that move.
+    turning: what bends or tilts edges that are held; moved: what moves edges, by the actuators' names;
+    shifts: the supports that move.
     """
 
     position: np.ndarray
@@ -73,8 +73,8 @@ class Supports:
         return (*self.turning, *self.moved.values())
 
     def change(self, load_factor: float, time: float | None = None) -> np.ndarray:
-        """Prescribed change (2, n, 3) of positions [m] and directors; zero where nothing moves them. time [s]:
-        of motions, their last samples where None."""
+        """Prescribed change (2, n, 3) of positions [m] and directors; zero where nothing moves them. time
+        [s]: of motions, their last samples where None."""
         out = np.zeros((2, len(self.director), 3))
         for driven in self.driven:
             placed = driven.placed(load_factor, time)

@@ -18,7 +18,7 @@ help:
 	@echo "make fuzz      20 000 scenes, 1 000 of them solved, command lines and measured files that no one would write"
 	@echo "               (half an hour; goes on where it stopped; files in $(OUT)/fuzz/; others: FUZZ='--seed 2 --scenes 500')"
 	@echo "make kills     a hundred kills of campaigns, runs and trade-offs, and what stands there after (ten minutes; $(OUT)/kills/)"
-	@echo "make tests-of  the test files that run FILE=lumped/statics/polygon.py, the nearest first"
+	@echo "make tests-of  the test files that run FILE=lumped/actuators/division.py, the nearest first"
 	@echo "make mutants   faults put into FILE=… that its nearest tests do not notice, of 20 (COUNT=…); docs/quality.md"
 	@echo "make sizes     files, lines and lines of code of the packages, words of the pages"
 	@echo "make catalogue the table of the catalogue's answers, tests/helpers/catalogue.json, for a change that is meant"
@@ -28,7 +28,7 @@ help:
 	@echo "make tradeoff  error against time on test 1 of Habibi et al., with the picture (files in $(OUT)/)"
 	@echo "make bench     settling beside SciPy's BDF, statics, explicit steps, start-up: time and what it goes to (files in $(OUT)/, history in benchmarks/history/)"
 	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
-	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
+	@echo "make docs-scene  the sketch of a scene, docs/images/scene.svg"
 	@echo "make animations  the README's moving pictures, docs/images/settling.gif and actuated.gif (two minutes)"
 	@echo "make pictures  the still pictures of the README and of docs/motion.md, live.md and report.md (a minute; needs chromium)"
 	@echo "make notebooks the notebooks of docs/notebooks anew, with what they print and draw"
@@ -133,9 +133,8 @@ notebooks: $(VENV)/testing
 
 docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py
-	@$(BIN)/sheetbench schema --markdown > docs/scene.md
 
-# FILE=lumped/statics/polygon.py: the test files that run it, the nearest first; COUNT of them
+# FILE=lumped/actuators/division.py: the test files that run it, the nearest first; COUNT of them
 tests-of:
 	@$(PYTHON) tests/helpers/nearest.py $(FILE) $(COUNT)
 
@@ -161,6 +160,6 @@ lint: $(VENV)/testing
 	@$(BIN)/mypy
 
 clean:
-	rm -rf $(VENV) $(OUT) build *.egg-info docs/_build docs/verbs docs/examples
+	rm -rf $(VENV) $(OUT) build *.egg-info docs/_build docs/verbs docs/tables docs/scene.md docs/examples
 
 include studies/Makefile

@@ -36,14 +36,14 @@ TIMES = np.linspace(0.0, DURATION, round(DURATION / EVERY) + 1)
 Answer = tuple[np.ndarray, int]  # P4 (n, 3) [m] at TIMES, and steps
 
 
-def bdf(rtol: float) -> Callable[[], Answer]:
-    """SciPy's BDF on the lattice's equations as a system of first order."""
+def equations() -> tuple[Any, Callable[..., np.ndarray], Callable[..., sp.csc_array]]:
+    """The lattice's system, and ẏ and ∂ẏ/∂y of y = (free displacements, their velocities): of dampers that
+    turn the Jacobian leaves the turning out, as an implicit step does."""
     asked = scenes.load(SCENE)
     springs = lumped.calibrate(asked.sheet, asked.material, grid=GRID)
     system = lumped.System(asked, lumped.build_problem(asked, springs))
     n = system.reduced_mass.shape[0]
     weight = sp.diags_array(1.0 / system.reduced_mass.diagonal())
-    corner = system.assembly.lattice.columns()[-1, -1]
 
     def rate(t: float, y: np.ndarray) -> np.ndarray:
         u, v = system.expand(y[:n]), system.expand(y[n:])
@@ -56,6 +56,14 @@ def bdf(rtol: float) -> Callable[[], Answer]:
             for by in ((0.0, 1.0), (1.0, 0.0))
         )
         return sp.csc_array(sp.block_array([[None, sp.eye_array(n)], [-k, -c]]))
+
+    return system, rate, jacobian
+
+
+def bdf(rtol: float) -> Callable[[], Answer]:
+    """SciPy's BDF on the lattice's equations as a system of first order."""
+    system, rate, jacobian = equations()
+    n, corner = system.reduced_mass.shape[0], system.assembly.lattice.columns()[-1, -1]
 
     def run() -> Answer:
         found = solve_ivp(

@@ -64,7 +64,6 @@ class Clock:
 def watched() -> Clock:
     """Return a clock of the shell's functions."""
     from fem_reference.discrete.static import Static
-
     from fem_reference.shell import statics
     from sheetbench.numerics.direct import DirectSolver, Factor
 

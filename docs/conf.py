@@ -10,8 +10,10 @@ from typing import Any
 
 import pyvista
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parent))
 from plain_docstrings import as_restructured
+from study_pages import write_study_pages
 from verb_pages import write_verb_pages
 
 pyvista.BUILDING_GALLERY = pyvista.OFF_SCREEN = True
@@ -56,6 +58,7 @@ def _plain(app: Any, what: str, name: str, what_of: Any, options: Any, lines: li
 
 
 def setup(app: Any) -> None:
-    """The verbs' pages before the pages are read, and docstrings as they are written."""
+    """The verbs' and studies' pages before the pages are read, and docstrings as they are written."""
     app.connect("builder-inited", lambda built: write_verb_pages(Path(built.srcdir) / "verbs"))
+    app.connect("builder-inited", lambda built: write_study_pages(Path(built.srcdir)))
     app.connect("autodoc-process-docstring", _plain)

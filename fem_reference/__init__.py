@@ -19,6 +19,7 @@ from sheetbench.choices import REFERENCE, REFERENCES, STRAIN_LAWS
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, Iteration, Solution, scene_of
 from sheetbench.scenes.material import WORDS
+from sheetbench.scenes.obstacles import require_no_obstacles
 
 MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
 
@@ -52,6 +53,7 @@ def solve(
     scene = scene_of(scene)
     requested = with_defaults(scene, options(model), requested)
     check(model, requested)
+    require_no_obstacles(scene, model)
     if "progress" in _parameters(model):
         requested["progress"] = progress
     if near is not None:

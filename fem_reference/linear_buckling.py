@@ -17,7 +17,7 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.buckling import buckling_modes
 from sheetbench.scenes import AnyScene, require_static, scene_of
-from sheetbench.scenes.modes import Buckling, require_flat_and_dead
+from sheetbench.scenes.modes import STILL, Buckling, require_flat_and_dead
 
 
 def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, count: int = 1) -> Buckling:
@@ -41,8 +41,13 @@ def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, cou
         sheet = solid.discretise(solid.plan_mesh(scene, counts, "edges"), scene, law=law)
     else:
         raise BadInput(f"model = {model!r}: buckling is of shell and solid; the plate's strains are linear")
+    smallest = STILL * max(scene.sheet.lengths)
     found, states = buckling_modes(
-        Static(sheet), sheet.solver(), lambda state: sheet.middles(sheet.displacement(state.q)), count
+        Static(sheet),
+        sheet.solver(),
+        lambda state: sheet.middles(sheet.displacement(state.q)),
+        count,
+        smallest,
     )
     shapes = [sheet.displacement(state.q) for state in states]
     return Buckling(

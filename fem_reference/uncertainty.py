@@ -26,7 +26,7 @@ of η bound it. With two meshes p = 2 is assumed and U = 3 e. Changes that are r
 anything: the bar is their size.
 
 The numbers 0.3 and 0.35 were set on scenes drawn at random; how often the bars hold is measured on
-others: `sheetbench study coverage`. Meshes of n, ¾ n and ½ n elements: a quarter as many is too coarse for
+others: `sheetbench study promises`. Meshes of n, ¾ n and ½ n elements: a quarter as many is too coarse for
 an order to show.
 
 Sources: Roache, J. Fluids Eng. 116 (1994) 405–413; Celik et al., J. Fluids Eng. 130 (2008) 078001 (order);

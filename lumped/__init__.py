@@ -21,7 +21,6 @@ from lumped.mid_surface import MidSurface
 from lumped.sections import require_alike, sections_of
 from lumped.sensitivity import Sensitivity, sensitivity
 from lumped.statics.buckling import buckling
-from lumped.statics.polygon import polygons
 from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
 
@@ -69,7 +68,6 @@ __all__ = [
     "linearise",
     "modes",
     "moduli",
-    "polygons",
     "require_alike",
     "require_integrator",
     "sections_of",

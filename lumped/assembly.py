@@ -15,10 +15,12 @@ import numpy as np
 from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
+from lumped.natural import NaturalSprings
 from lumped.pattern import Pattern, neighbours, of_grid
-from lumped.springs.all_families import springs_of
+from lumped.springs.all_families import AllFamilies, springs_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
+from sheetbench.scenes.natural_state import NaturalState
 from sheetbench.scenes.springs import Distribution
 
 Precision = Literal["double", "single"]
@@ -30,7 +32,7 @@ class Assembly:
     springs: the families (`lumped.springs.families`), the central `links` first. inertia: how masses that
     move are shared out. couple: makes the actuators bound to the lattice; their rows follow those of the
     masses in every array. precision: of the internal force. twisting: edges along which nothing holds the
-    director (`Scene.twisting_edges`).
+    director (`Scene.twisting_edges`). natural: the cells' natural strains and curvatures.
     """
 
     def __init__(
@@ -41,6 +43,7 @@ class Assembly:
         couple: Callable[[Lattice], Coupling] | None = None,
         precision: Precision = "double",
         twisting: frozenset[str] = frozenset(),
+        natural: Callable[[Lattice], NaturalState | None] = lambda lattice: None,
     ):
         self.lattice: Lattice = build(
             sheet,
@@ -64,7 +67,14 @@ class Assembly:
             rows, columns = (np.concatenate(part) for part in zip(pairs, own, strict=True))
             self.pattern = Pattern(self.coupling.size, rows, columns)
             self.coupling_slots = self.pattern.slots(*own)
-        self.all_families = springs_of(self.lattice, self.pattern, calibration.springs, precision == "single")
+        springs = springs_of(self.lattice, self.pattern, calibration.springs, precision == "single")
+        state = natural(self.lattice)
+        self.natural = None if state is None else NaturalSprings(self.lattice, springs.families, state)
+        self.all_families = springs
+        if self.natural is not None:
+            if precision == "single":
+                raise BadInput("precision = 'single': of a sheet that is flat at rest; leave it out")
+            self.all_families = AllFamilies(self.natural.families, self.pattern)
         self.force, self.advance = self.all_families.force, self.all_families.advance
         self.tangent, self.springs = self.all_families.tangent, self.all_families.families
         self.links, self.conservative = self.all_families.links, self.all_families.conservative
@@ -80,6 +90,11 @@ class Assembly:
     def rounding(self) -> float:
         """Relative spacing of the numbers that the internal force is computed with."""
         return float(np.finfo(np.float32 if self.precision == "single" else float).eps)
+
+    def grow(self, share: float = 1.0, time: float | None = None) -> None:
+        """Set the springs to a share of the sheet's natural state at a time [s], if it has one."""
+        if self.natural is not None:
+            self.natural.grow(share, time)
 
     def require_energy(self) -> None:
         """Raise BadInput when the springs have no energy."""

@@ -23,6 +23,7 @@ from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Status, free_rigid_motions, require_no_branches
+from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.supports import named
 
 STRETCH, WARP, TURN = 0.02, 0.05, 2.0  # of the imposed states: strain, height over length, rad in all
@@ -122,6 +123,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         raise BadInput("mass.inertia: an exported lattice has masses alone, which neighbours do not share")
     if scene.air is not None:
         raise BadInput("air: an exported lattice has no drag; leave [air] out")
+    require_no_obstacles(scene, "an exported lattice")
     problem = build_problem(scene, calibration)
     assembly, lattice = problem.assembly, problem.assembly.lattice
     if not assembly.conservative:

@@ -6,6 +6,7 @@ changes of what acts:
     load N, gravity     as a share of the load [-]
     PROBE fx, fy, fz    a force at a probe [N]
     EDGE curvature      of a chain's command or of a bent support [1/m]
+    natural.kxx, …      of the sheet's natural curvature, or of a patch's, a muscle's [1/m]
     EDGE x, y, z        of a held edge's place [m]; it reaches the sheet by springs and dampers, F and F′
 
 M holds the masses that move in `lumped.simulate`, which `lumped.modes` has as "gregory".
@@ -54,6 +55,7 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
+from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.supports import named
 
 MODES = 20  # of the state space unless requested
@@ -128,6 +130,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
             "linearise: pressure, edge moments and per-direction springs have unsymmetric tangents"
         )
     if about == "flat":
+        require_no_obstacles(scene, "a linear system about the flat sheet")
         if scene.actuators:
             raise BadInput("linearise: a flat sheet has no actuators; leave --about out")
         u = np.zeros_like(problem.loads.dead)
@@ -215,6 +218,9 @@ def _inputs(
             place[row if holds_director(support) else row[free], axis] = 1.0
             moved = place.ravel()
             columns.append((f"{name} {'xyz'[axis]}", -spring @ moved, -drag @ moved, moved))
+    for name in _muscles(scene):
+        _, pull, _ = rates(scene, calibration, problem, u, name)
+        columns.append((name, pull.ravel(), nothing, nothing))
     names, *values = zip(*columns, strict=True)
     force, rate, place = (np.stack(value, axis=1) for value in values)
     return tuple(names), force, rate, place
@@ -238,6 +244,13 @@ def _loads(scene: Scene) -> list[tuple[str, Scene]]:
         *found,
         *([("gravity", bare.replace(gravity=scene.gravity))] if scene.gravity is not None else []),
     ]
+
+
+def _muscles(scene: Scene) -> list[str]:
+    """The natural curvatures of the sheet and of patches with their own, as parameters."""
+    every = {f"patch{n}.natural": patch.natural for n, patch in enumerate(scene.patches, start=1)}
+    owners = [name for name, own in {"natural": scene.natural, **every}.items() if own is not None]
+    return [f"{owner}.k{component}" for owner in owners for component in ("xx", "yy", "xy")]
 
 
 def _bent(scene: Scene) -> list[str]:

@@ -29,11 +29,13 @@ from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene, require_static
+from sheetbench.scenes.natural_state import sheet_at_rest
 from sheetbench.scenes.parameters import FIBRES, parameter, put
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
 CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
 STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
+STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6}
 PATCH, PAYLOAD = "patch", "mass"  # with which names of a patch's constants begin, and those of payloads
 
 
@@ -137,4 +139,4 @@ def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibr
     if (cells := sections_of(scene, calibration.grid, calibration.grading)) is not None:
         own["cells"] = cells
     method = CLOSED[calibration.method]
-    return scene, method.make(scene.sheet, scene.material, calibration.grid, **own)
+    return scene, method.make(sheet_at_rest(scene), scene.material, calibration.grid, **own)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from lumped.actuators import Drive
 from lumped.calibration import Calibration, default
 from lumped.carried import pairs_of, rotary_masses
 from lumped.lattice import Lattice
@@ -87,7 +88,7 @@ def modes(
     if about == "deformed":
         problem, at = _equilibrium(scene, calibration)
     else:
-        scene = scene.replace(actuators=())
+        scene = scene.replace(actuators=(), obstacles=())
         problem = build_problem(scene, calibration)
         at = np.zeros_like(problem.loads.dead)
     transform = problem.constraints.transform
@@ -99,7 +100,10 @@ def modes(
     inertia = mass_matrix(scene, problem.assembly.lattice, shared, calibration.cells)
     bodies = rotary_masses(scene, problem.assembly.lattice)
     mass = sp.csc_array(transform.T @ (sp.kron(inertia, sp.eye_array(3)) + bodies) @ transform)
+    problem.assembly.grow(float(about == "deformed"))
     blocks = problem.assembly.tangent(at)
+    for item in problem.items:
+        item.add_tangent(at, Drive(), 1.0, blocks)
     stiffness = problem.system.matrix(blocks)
     wanted, shift = count + rigid, _shift(scene)
 
@@ -171,7 +175,7 @@ def frequency_slopes(
 
 def _product(problem: Problem, rest: np.ndarray, shape: np.ndarray) -> np.ndarray:
     """K times a shape (n, 3), K the tangent at rest."""
-    return problem.system.apply(problem.assembly.tangent(rest), shape)
+    return problem.system.apply(problem.tangent(rest, 0.0), shape)
 
 
 def _shift(scene: Scene) -> float:

@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     from comparisons.comparison.answer import Comparison
     from comparisons.motion.comparison_answer import MotionComparison
     from comparisons.runs.campaign import Progress
-    from comparisons.tradeoff.answer import Tradeoff
-    from comparisons.tradeoff.motion_answer import DynamicTradeoff
+    from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
     from lumped import Calibration
 
 

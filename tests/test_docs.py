@@ -14,8 +14,8 @@ from comparisons.cli.app import VERBS
 from sheetbench import scenes
 
 ROOT = Path(__file__).parent.parent
-PAGES = sorted((ROOT / "docs").glob("*.md"))
-GENERATED = ("verbs/", "examples/")  # by `make docs`
+PAGES = sorted(page for page in (ROOT / "docs").glob("*.md") if page.name != "scene.md")  # the build's
+GENERATED = ("verbs/", "tables/", "examples/", "scene.md")  # by `make docs`
 
 
 def blocks(page, languages):

@@ -28,17 +28,13 @@ from sheetbench.scenes.template import template
 from sheetbench.scenes.toml import to_toml
 from sheetbench.scenes.words import in_words
 
-PAGE = Path(__file__).parent.parent / "docs" / "scene.md"
+DOCS = Path(__file__).parent.parent / "docs"
 SHEET, MATERIAL = Sheet(0.3, 0.2, 0.002), Material(1.2e6, 0.45, 1100.0)
-
-
-def test_the_reference_page_is_that_of_the_types():
-    assert PAGE.read_text(encoding="utf-8") == markdown(), "make docs-scene"
 
 
 def test_the_reference_page_has_every_key_with_its_unit():
     page, schema = markdown(), json_schema(Scene)
-    assert (PAGE.parent / "images" / "scene.svg").is_file()
+    assert (DOCS / "images" / "scene.svg").is_file()
     for table in schema["$defs"].values():
         for key, node in table["properties"].items():
             if key != "kind" and "x" not in table.get("required", ()):  # {x, y, z} stands in its users' rows

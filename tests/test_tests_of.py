@@ -8,7 +8,7 @@ from nearest import Nearest, words_of
 def test_the_nearest_tests_speak_of_the_module():
     nearest = Nearest(Path(__file__).parent.parent)
     for module, function, test in (
-        ("lumped/statics/polygon.py", "", "tests/lumped/statics/test_polygon.py"),
+        ("lumped/actuators/division.py", "", "tests/lumped/actuators/test_division.py"),
         ("lumped/dynamics/explicit/verlet.py", "Verlet.advance", "tests/lumped/dynamics/test_dynamics.py"),
         ("fem_reference/solid/element.py", "Bricks.build", "tests/fem_reference/solid/test_solid_element.py"),
     ):
@@ -29,5 +29,5 @@ def test_tests_beside_the_module_come_before_those_that_speak_of_its_folder():
     ):
         folder = "/".join(module.split("/")[:2])
         assert sum(test.startswith(f"tests/{folder}/") for test in of(module)[:4]) >= 3, of(module)[:4]
-    assert "tests/lumped/statics/test_polygon.py" in of("lumped/statics/polygon.py")[:2]
+    assert "tests/lumped/actuators/test_division.py" in of("lumped/actuators/division.py")[:2]
     assert of("comparisons/runs/store.py")[0].startswith("tests/comparisons/runs/")

@@ -2,7 +2,7 @@
 
 Scales (`comparisons.models.scales`) decide what may be left out; a few quick solves
 (`comparisons.advice.probing`) decide the rest. A model is adequate if its distance from the reference, the
-reference's error bar and what the reference leaves out on every mesh (`comparisons.comparison.model_error`)
+reference's error bar and what the reference leaves out on every mesh (`comparisons.sweep.model_error`)
 are together within the tolerance; where the bar leaves that open the reference is refined. Where the last
 alone is above the tolerance, the choice meets it against a converged shell only, and the advice says so.
 Predicted error: the distance; predicted time: as measured here.
@@ -21,13 +21,13 @@ from typing import Unpack
 from comparisons.advice.answer import Advice, Tried
 from comparisons.advice.probing import Probing, Trial
 from comparisons.comparison import strain_law
-from comparisons.comparison.model_error import left_for_grid
 from comparisons.models.context import in_context
 from comparisons.models.keywords import SpringKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, items
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
+from comparisons.sweep.model_error import left_for_grid
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, require_static, scene_of

@@ -7,10 +7,10 @@ from math import isfinite
 from shlex import join
 from typing import Annotated, Any
 
-from comparisons.comparison.model_error import ModelError, share_of_tolerance
 from comparisons.models.grading import parse_grading
 from comparisons.models.scales import Scales
 from comparisons.models.spec import Elements, Lattice, Spec, counted
+from comparisons.sweep.model_error import ModelError, share_of_tolerance
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import MILLISECONDS, PERCENT, Column, Table, number, quantity
 from sheetbench.choices import CALIBRATION

@@ -17,7 +17,6 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from comparisons.comparison.comparison import error
-from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.models.context import running
 from comparisons.models.grading import fixed
 from comparisons.models.resolve import resolve
@@ -28,6 +27,7 @@ from comparisons.models.spec import Elements, Lattice, Spec, counted
 from comparisons.models.symmetry import planes
 from comparisons.report.work import silent
 from comparisons.runs import load
+from comparisons.sweep.model_error import ModelError, model_error
 from sheetbench.choices import CALIBRATION
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene, Solution, Status

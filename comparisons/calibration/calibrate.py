@@ -71,8 +71,7 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
             )
     found = resolve(scene, lattice, "springs", own=False)
     springs = found.calibrated([scene] if named else None)
-    known = [slip] if named and (slip := lumped.polygons(scene)) else []
-    return replace(springs, remarks=(*choice_notes(found.settings), *known, *springs.remarks))
+    return replace(springs, remarks=(*choice_notes(found.settings), *springs.remarks))
 
 
 def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:

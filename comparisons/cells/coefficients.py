@@ -10,7 +10,7 @@ from scipy.optimize import least_squares, minimize_scalar
 import fem_reference
 from comparisons.cells.cell import Cell
 from comparisons.cells.homogenise import Moduli, moduli_of
-from comparisons.comparison.differences import error
+from comparisons.sweep.differences import error
 from fem_reference.surface.materials import Section, section_of
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import Material, Scene

@@ -11,7 +11,6 @@ from functools import cached_property
 from typing import Annotated, Any
 from warnings import catch_warnings, simplefilter
 
-import lumped
 from comparisons.models.grids import scene_grid
 from comparisons.models.method import RUBBER
 from sheetbench.answers.answer import Answer
@@ -58,18 +57,11 @@ class Check(Answer):
         """Rigid motions that nothing stops."""
         return free_rigid_motions(self.scene)
 
-    @cached_property
-    def foretold(self) -> list[str]:
-        """Error of the lattice, as far as it is known before solving."""
-        known = lumped.polygons(self.scene)
-        return [known] if known else []
-
     def document(self) -> dict[str, Any]:
         return {
             "scene": self.scene.document(),
             "parts": [vars(part) for part in self.parts],
             "free_rigid_motions": self.free,
-            "foretold": self.foretold,
             "warnings": self.warnings,
         }
 
@@ -81,7 +73,7 @@ class Check(Answer):
 
     def notes(self) -> list[str]:
         solve = f"Solve it with:\nsheetbench compare {shlex.quote(self.called)}"
-        return [*self.foretold, *([] if self.free else [solve])]
+        return [] if self.free else [solve]
 
     def complaints(self) -> list[str]:
         floats = "the sheet can move as a rigid body: only `modes` and `simulate` can answer"

@@ -30,13 +30,13 @@ REMOVED_OPTIONS = {
     ("compare", "--tolerance"): "give it to 'sheetbench advise SCENE', which prints the command to run",
     ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout; "
     "'sheetbench stability SCENE --vary NAME' those of your sheet",
-    ("stability", "--full"): "'sheetbench study stability --full' has the published maps, in a checkout",
+    ("stability", "--full"): "'sheetbench study stability' has maps of extreme scenes, in a checkout",
     (
         "verify",
         "--locking",
     ): "'--case locking-plate --case locking-shell --case locking-solid' draws the picture",
     ("verify", "--laws"): "'--case strain-laws' has the table",
-    ("verify", "--coverage"): "run 'sheetbench study coverage' in a checkout",
+    ("verify", "--coverage"): "run 'sheetbench study promises --part bars' in a checkout",
 }
 
 

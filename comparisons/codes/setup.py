@@ -32,6 +32,7 @@ from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table, number
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice
 from sheetbench.scenes import EDGES, AnyScene, Scene, SceneError, require_static, require_uniform, scene_of
+from sheetbench.scenes.patches import require_flat_at_rest
 from sheetbench.scenes.words import sheet_in_words
 
 SQUARES = 8  # along the shorter side
@@ -141,6 +142,8 @@ class CodeSetup(Answer):
         """Why the code gets no files, "" where it does."""
         if self.scene.masses and self.code.name not in OWN_MASSES:
             return f"mass: {self.code.title} has one density, no vertex a mass of its own"
+        if self.scene.obstacles:
+            return "obstacle: it is not handed over"
         return refusal(self.scene)
 
     def _too_coarse(self) -> str:
@@ -220,6 +223,7 @@ def setup(
     scene = scene_of(scene)
     require_choice("--for", code, WRITERS)
     require_uniform(scene, f"--for {code}", "its numbers are of one isotropic material and thickness")
+    require_flat_at_rest(scene, f"--for {code}")
     row = CODES[code]
     if squares < 2:
         raise BadInput(f"{squares} squares along the shorter side: at least 2")

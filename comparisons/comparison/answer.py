@@ -20,14 +20,14 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison import branches
-from comparisons.comparison.differences import error, relative
 from comparisons.comparison.error_bar import ErrorBar
-from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.comparison.rows import CostRow, Difference, ProbeRow, ReactionRow
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
 from comparisons.report.plan import plan_mesh
 from comparisons.report.vtk import write_mesh
+from comparisons.sweep.differences import error, relative
+from comparisons.sweep.model_error import ModelError, model_error
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import Table

@@ -8,7 +8,6 @@ from typing import Any, Unpack
 
 from comparisons.comparison import branches
 from comparisons.comparison.answer import Comparison
-from comparisons.comparison.differences import error
 from comparisons.comparison.error_bar import CHEAP, error_bar
 from comparisons.comparison.far_apart import far_apart_note
 from comparisons.comparison.strain_law import strain_law_note
@@ -24,6 +23,7 @@ from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
 from comparisons.report.work import Progress, silent
 from comparisons.runs.load import average
 from comparisons.runs.load import warnings as doubts
+from comparisons.sweep.differences import error
 from sheetbench.choices import REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static
 

@@ -4,7 +4,7 @@ A coarse grid's answer comes nearer to the reference's where its cells are halve
 equilibria it goes elsewhere: extrapolated to first order, the slowest that a lattice converges, it is as far
 off. The lattice is solved once more to tell. (Begun in the
 other's shape a model comes back to its own in both cases.) Up to 100 % something else may keep them apart on
-every grid: springs that do not tend to the sheet's, laws of strain, rigid segments; then branches are not
+every grid: springs that do not tend to the sheet's, laws of strain; then branches are not
 told. What else is known of either cause stands beside it: layers narrower than cells, springs that miss the
 sheet's moduli, snaps.
 """

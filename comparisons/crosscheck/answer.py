@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from itertools import combinations
+from dataclasses import asdict, dataclass
+from functools import cached_property
 from typing import Annotated, Any
 
 import numpy as np
 
-from comparisons.crosscheck.convergence import Convergence, Pair, pair
 from comparisons.external.installed import InstalledCode
+from comparisons.sweep.limits import Limit, Pair, pairs
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import MILLIMETRES, PERCENT, Column, Table
 from sheetbench.choices import REFERENCE
@@ -63,29 +63,29 @@ class CodeRow:
 
 @dataclass(frozen=True, repr=False)
 class Crosscheck(Answer):
-    """The convergence of every model, by scene; codes: the external ones, absent too."""
+    """The limit of every model, by scene; codes: the external ones, absent too."""
 
     file_name = "crosscheck"
     scenes: tuple[Scene, ...]
-    convergences: dict[str, tuple[Convergence, ...]]
+    limits: dict[str, tuple[Limit, ...]]
     codes: tuple[InstalledCode, ...]
 
-    def against(self, scene: str) -> Convergence | None:
+    def against(self, scene: str) -> Limit | None:
         """Return what the other models of a scene are compared with: the shell, else the first with a bar."""
-        with_bar = [one for one in self.convergences[scene] if one.uncertainty is not None]
+        with_bar = [one for one in self.limits[scene] if one.uncertainty is not None]
         return next((one for one in with_bar if one.name == REFERENCE), with_bar[0] if with_bar else None)
 
-    def pairs(self, scene: Scene) -> list[Pair]:
+    @cached_property
+    def pairs(self) -> list[Pair]:
         """Every two models of a scene that have bars."""
-        both = combinations(self.convergences[scene.name], 2)
-        every = (pair(a, b, list(scene.probes)) for a, b in both)
-        return [one for one in every if one is not None]
+        return [pair for limits in self.limits.values() for pair in pairs(limits)]
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench crosscheck`: metres, seconds, fractions."""
+        names = {"distinguishable_at": "apart"}
         return {
-            "solutions": [_document(scene, one) for scene, one in self._each()],
-            "pairs": [one.document() for scene in self.scenes for one in self.pairs(scene)],
+            "solutions": [_document(one) for one in self._each()],
+            "pairs": [{names.get(key, key): v for key, v in asdict(pair).items()} for pair in self.pairs],
             "judges": [
                 {
                     "name": one.code.name,
@@ -101,12 +101,11 @@ class Crosscheck(Answer):
     @property
     def failures(self) -> list[str]:
         """A sentence for every mesh that has no answer without having been refused."""
-        every = (one for of in self.convergences.values() for one in of)
-        return [f"{one.scene}, {one.name}: {failure}" for one in every for failure in one.failures]
+        return [f"{one.scene.name}, {one.name}: {ended}" for one in self._each() for ended in one.failures]
 
-    def _each(self) -> Iterator[tuple[Scene, Convergence]]:
-        """Every scene with every model."""
-        return ((scene, one) for scene in self.scenes for one in self.convergences[scene.name])
+    def _each(self) -> Iterator[Limit]:
+        """Every model of every scene."""
+        return (one for limits in self.limits.values() for one in limits)
 
     @property
     def _single(self) -> bool:
@@ -120,9 +119,8 @@ class Crosscheck(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         """Limits, displacements, every two models, external codes."""
-        pairs = (one for scene in self.scenes for one in self.pairs(scene))
         limits, moved, *codes = self._shown()
-        return (limits, moved, Table.of(Pair, pairs, "Every two models", "pairs"), *codes)
+        return (limits, moved, Table.of(Pair, self.pairs, "Every two models", "pairs"), *codes)
 
     def printed(self) -> tuple[Table, ...]:
         """All but every two models, and displacements of one scene alone."""
@@ -131,9 +129,13 @@ class Crosscheck(Answer):
 
     def _shown(self) -> list[Table]:
         scene = ("scene",) if self._single else ()
-        rows = (self._limit(scene, one) for scene, one in self._each())
         limits = Table.of(
-            LimitRow, rows, "Extrapolated answers", "crosscheck", details=scene, grouped=not self._single
+            LimitRow,
+            map(self._limit, self._each()),
+            "Extrapolated answers",
+            "crosscheck",
+            details=scene,
+            grouped=not self._single,
         )
         moved = [
             DisplacementRow(
@@ -145,7 +147,7 @@ class Crosscheck(Answer):
             )
             for scene in self.scenes
             for i, probe in enumerate(scene.probes)
-            for one in self.convergences[scene.name]
+            for one in self.limits[scene.name]
             if (bar := one.uncertainty) is not None
         ]
         codes = [
@@ -158,18 +160,17 @@ class Crosscheck(Answer):
             *([Table.of(CodeRow, codes, "External codes", "judges")] if codes else []),
         ]
 
-    def _limit(self, scene: Scene, one: Convergence) -> LimitRow:
+    def _limit(self, one: Limit) -> LimitRow:
+        scene, bar = one.scene, one.uncertainty
         truth = self.against(scene.name)
-        if truth is None or truth.uncertainty is None or one.uncertainty is None:
+        if truth is None or truth.uncertainty is None or bar is None:
             status = str(Status.REFUSED) if one.refused else "no answer"
             return LimitRow(scene.name, one.name, one.meshes or None, differs_from=status)
-        bar, limit = one.uncertainty, truth.uncertainty.extrapolated
-        probe, axis = np.unravel_index(np.argmax(np.abs(limit)), limit.shape)
-        pairs = self.pairs(scene)
-        between = next((p for p in pairs if {p.a, p.b} == {truth.name, one.name}), None)
-        differing = [
-            p.b if p.a == one.name else p.a for p in pairs if p.distinguishable_at and one.name in (p.a, p.b)
-        ]
+        u = truth.uncertainty.extrapolated
+        probe, axis = np.unravel_index(np.argmax(np.abs(u)), u.shape)
+        own = [p for p in self.pairs if p.scene == scene.name and one.name in (p.a, p.b)]
+        between = next((p for p in own if {p.a, p.b} == {truth.name, one.name}), None)
+        differing = [p.b if p.a == one.name else p.a for p in own if p.distinguishable_at]
         return LimitRow(
             scene.name,
             one.name,
@@ -184,10 +185,10 @@ class Crosscheck(Answer):
 
     def result(self) -> str:
         """Return how far the models are from the one that they are compared with, scene by scene."""
-        return "; ".join(filter(None, map(self._apart, self.scenes)))
+        return "; ".join(filter(None, map(self._difference, self.scenes)))
 
-    def _apart(self, scene: Scene) -> str:
-        rows = [self._limit(scene, one) for one in self.convergences[scene.name]]
+    def _difference(self, scene: Scene) -> str:
+        rows = map(self._limit, self.limits[scene.name])
         off = [f"{r.model} {few(100 * r.off)} %" for r in rows if r.off is not None]
         truth = self.against(scene.name)
         return f"{scene.name}: {', '.join(off)} from {truth.name}" if off and truth is not None else ""
@@ -195,18 +196,16 @@ class Crosscheck(Answer):
     def notes(self) -> list[str]:
         """Why models leave scenes out, and what the columns mean."""
         reasons: dict[tuple[str, str], list[str]] = {}
-        for scene, one in self._each():
+        for one in self._each():
             if one.refused:
-                reasons.setdefault((one.name, one.finest["message"]), []).append(scene.name)
+                reasons.setdefault((one.name, one.finest.message), []).append(one.scene.name)
         left = (f"{name} leaves out {', '.join(of)}: {why}." for (name, why), of in reasons.items())
         return [*left, EXPLANATION]
 
     def complaints(self) -> list[str]:
         """The meshes without an answer, and those whose answer is no stable or no physical one."""
-        return [
-            *self.failures,
-            *(f"{scene.name}: {said}" for scene, one in self._each() for said in one.unsound),
-        ]
+        unsound = (f"{one.scene.name}: {ending}" for one in self._each() for ending in one.unsound)
+        return [*self.failures, *unsound]
 
     def choices(self) -> dict[str, Any]:
         """The scenes and the external codes."""
@@ -216,16 +215,20 @@ class Crosscheck(Answer):
     @property
     def succeeded(self) -> bool:
         """Whether every model that takes a scene has a bar there."""
-        return not self.failures and all(one.refused or one.uncertainty for _, one in self._each())
+        return not self.failures and all(one.refused or one.uncertainty for one in self._each())
 
 
-def _document(scene: Scene, one: Convergence) -> dict[str, Any]:
+def _document(one: Limit) -> dict[str, Any]:
     """A model's finest answer as `compare` has it, with its bars."""
-    row = {key: value for key, value in one.finest.items() if key not in ("size", "traceback")}
-    row |= {"scene": scene.name, "model": one.name, "version": one.version, "meshes": one.meshes}
+    finest = one.finest
+    row: dict[str, Any] = {"label": finest.label}
+    if finest.status == Status.REFUSED:
+        row |= {"settings": finest.ask.spec.settings, "advice": Status.REFUSED.advice}
+    row |= finest.document | {"status": finest.status, "message": finest.message}
+    row |= {"scene": one.scene.name, "model": one.name, "version": finest.ask.version, "meshes": one.meshes}
     row |= {"failed": one.failures}
     if (bar := one.uncertainty) is not None:
-        row["uncertainty"] = dict(zip(scene.probes, bar.bar, strict=True))
-        row["extrapolated"] = dict(zip(scene.probes, bar.extrapolated, strict=True))
+        row["uncertainty"] = dict(zip(one.scene.probes, bar.bar, strict=True))
+        row["extrapolated"] = dict(zip(one.scene.probes, bar.extrapolated, strict=True))
         row["order"] = bar.overall_order
     return row

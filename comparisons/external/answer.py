@@ -68,6 +68,8 @@ def refusal(
     if unknown:
         known = "sheets without" if drawn else "isotropic whole rectangles that are the same all over"
         return f"{', '.join(unknown)}: it is given {known}"
+    if scene.obstacles:
+        return "obstacles are not handed over"
     law = scene.material.law
     if law is not None and law not in laws:
         known = (

@@ -194,6 +194,8 @@ def _refusal(scene: Scene) -> str:
         return "MuJoCo's sheet is held by clamped and hinged edges only"
     if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
         return "clamps of MuJoCo's sheet cannot be tilted, nor its supports move"
+    if scene.obstacles:
+        return "obstacles are not handed over"
     if any(not isinstance(load, PointLoad) for load in scene.loads):
         return "gravity and point loads only"
     return ""

@@ -9,11 +9,8 @@ in the norm of `error` (largest component over the probes; Roache, J. Fluids Eng
 the finer answer known). The finer grid has half as many cells again, and FINEST_COARSE or more along the
 shorter side, where the error is not yet second order on coarser ones.
 
-Chains keep their segments on the finer grid: the edge is a smooth curve through their joints in every model,
-so that they are no part of the grid. (24 segments, `--lumped` 9 and 25x3: 0.04 to 0.05 % off, no estimate,
-for laws of strain would put them further apart; `actuated-edge` on 5, 9, 13: 4.6, 1.5, 0.62 % off,
-4.5, 1.5, 0.81 expected. What a chain of few segments is off on every grid it does not see: six of a strip
-4.1 %.)
+Chains are divided as the grid is (`lumped.actuators.division`), so that the finer lattice has the finer
+chain.
 
 It is the grid's error and no more: what differs on every grid, as the laws of strain do, it does not see. So
 no estimate is given
@@ -25,7 +22,7 @@ no estimate is given
 - where the sheet stretches so far that the laws of strain weigh more (LAW);
 - where the finer lattice would have more than MOST masses in plan.
 
-`sheetbench study expected-errors` measures on a hundred scenes how good it is (docs/theory.md, section 6).
+`sheetbench study promises` measures on a hundred scenes how good it is (docs/theory.md, section 6).
 """
 
 from __future__ import annotations

@@ -33,6 +33,7 @@ from sheetbench.choices import (
 from sheetbench.errors import BadInput, Implausible, require_choice, require_effect
 from sheetbench.scenes import Scene
 from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.natural_state import sheet_at_rest
 from sheetbench.scenes.plausibility import layer_slips
 from sheetbench.scenes.quantities import require_positive
 from sheetbench.scenes.size import Size
@@ -100,7 +101,7 @@ class Resolved(Generic[S]):
         grading = fixed(spec.grading)
         if spec.calibration is None:
             return lumped.given(self.scene, self.grid, grading)
-        sheet, material = self.scene.sheet, self.scene.material
+        sheet, material = sheet_at_rest(self.scene), self.scene.material
         if spec.layer_distance is not None:
             for slip in layer_slips(sheet, spec.layer_distance, "layer-distance"):
                 warn(Implausible(slip), stacklevel=2)

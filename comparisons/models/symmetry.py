@@ -40,9 +40,9 @@ def planes(scene: Scene) -> tuple[int, ...]:
 
     A moment on an edge that crosses the plane counts as unsymmetric: a lattice measures such an edge's
     direction between neighbouring masses, of which the part has one only. A sheet that is no plain
-    one, or carries a payload, is solved whole.
+    one, or carries a payload or touches an obstacle, is solved whole.
     """
-    if scene.drawn_by or scene.actuators or scene.masses:
+    if scene.drawn_by or scene.actuators or scene.masses or scene.obstacles:
         return ()
     if any(isinstance(s, Symmetric) or s.motion for s in scene.supports):
         return ()

@@ -37,10 +37,8 @@ from sheetbench.sources import source, version
 
 # Tasks by the names that rows are kept under, so that moving a file loses no result.
 TASKS = {
-    "timing": "comparisons.tradeoff.timing:measure",
-    "motion": "comparisons.motion.run:measure",
+    "solve": "comparisons.sweep.task:solve",
     "stability.run": "comparisons.stability.limit:run",
-    "crosscheck": "comparisons.crosscheck.crosscheck:answer",
 }
 GOING = "going on"
 POLL = 1.0  # s between looks at who carries out the runs

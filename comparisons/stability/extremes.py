@@ -16,21 +16,23 @@ largest displacement.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Any, Unpack
 
 import numpy as np
 
-from comparisons.comparison.comparison import error
+import lumped
 from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
-from comparisons.models.spec import Elements, Lattice
-from comparisons.motion.run import motion_run
-from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
-from comparisons.runs.store import Finished, Store
+from comparisons.models.spec import Elements, Lattice, Spec
+from comparisons.runs.campaign import CampaignKeywords
+from comparisons.runs.store import Store
 from comparisons.stability.answer import Stability
+from comparisons.stability.limit import DefaultSteps
 from comparisons.stability.rows import Row
+from comparisons.sweep.differences import error
+from comparisons.sweep.solved import Ask, Solved, sweep
 from comparisons.tradeoff.motion import explicit_limit, shortest_period
 from sheetbench.choices import INTEGRATORS, REFERENCE
 from sheetbench.errors import BadInput, require_choice
@@ -41,6 +43,7 @@ from sheetbench.scenes.parameters import put
 from sheetbench.scenes.patches import Patch
 from sheetbench.scenes.tables import FactorTable, Loading
 
+Cell = tuple[Ask, Ask | str | None]  # a run, and what its error is against, or why it is refused
 FACTORS = {
     "load": (0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0),
     "slenderness": (0.03, 0.1, 0.3, 1.0, 3.0, 10.0),
@@ -54,17 +57,6 @@ FINE, SAMPLES = 400, 40  # steps of the midpoint rule and samples, a period
 PERIODS = 3.0  # of a run
 PARTS = ("patches", "layers")
 VARIED = (*FACTORS, "grid", "damping", "time-step")
-
-
-@dataclass(frozen=True)
-class _Cell:
-    """A cell, its run, and the run of its reference; refusal: why there is no run."""
-
-    study: str
-    cell: dict[str, Any]
-    run: Run | None
-    truth: Run | None = None
-    refusal: str = ""
 
 
 @large_in_context
@@ -89,100 +81,88 @@ def stability(
         require_choice("vary", name, VARIED)
     resolve(scene, lattice, "motion")
     resolve(scene, Elements(reference, elements))
-    maker = _Maker(scene, lattice, reference, elements)
-    cells = [cell for name in VARIED if name in varied for cell in maker.cells(name)]
-    runs = [run for cell in cells for run in (cell.run, cell.truth) if run is not None]
-    done = carry_out(runs, store, **how)
-    outcomes = {run.key: outcome for run, outcome in zip(runs, done, strict=True)}
-    return Stability(scene, reference, maker.period, tuple(_row(cell, outcomes) for cell in cells))
+    kinds = dict.fromkeys(("plate", "shell", reference))
+    models = {lattice.model: lattice, **{kind: Elements(kind, elements) for kind in kinds}}
+    moving = not {"damping", "time-step"}.isdisjoint(varied)
+    period = shortest_period(scene, resolve(scene, lattice).springs) if moving else 0.0
+    truth = models[reference]
+    makers: dict[str, Callable[[], Iterator[Cell]]] = {
+        **{name: partial(_scaled, scene, name, models, truth) for name in FACTORS},
+        "grid": partial(_grids, scene, models, truth),
+        "damping": partial(_damped, scene, lattice, period),
+        "time-step": partial(_stepped, scene, lattice, period),
+    }
+    cells = [cell for name in VARIED if name in varied for cell in makers[name]()]
+    asks = [one for cell in cells if not isinstance(cell[1], str) for one in cell if isinstance(one, Ask)]
+    solved = {id(row.ask): row for row in sweep(asks, store, **how)}
+    refused = str(Status.REFUSED)
+    rows = tuple(
+        _row(solved.get(id(ask)) or Solved(ask, refused, str(why)), solved.get(id(why))) for ask, why in cells
+    )
+    return Stability(scene, reference, period or None, rows)
 
 
-class _Maker:
-    """Makes the cells of a scene."""
+def _tags(study: str, **cell: Any) -> dict[str, Any]:
+    return {"study": study, "cell": cell}
 
-    def __init__(self, scene: Scene, lattice: Lattice, reference: str, elements: int) -> None:
-        self.scene, self.lattice, self.reference, self.elements = scene, lattice, reference, elements
-        self.period: float | None = None
 
-    def cells(self, name: str) -> Iterator[_Cell]:
-        """Those of a study."""
-        if name in FACTORS:
-            yield from self._scaled(name)
-        elif name == "grid":
-            yield from self._grids()
-        else:
-            springs = resolve(self.scene, self.lattice).springs
-            self.period = self.period or shortest_period(self.scene, springs)
-            yield from (self._damped if name == "damping" else self._stepped)(self.period)
+def _scaled(scene: Scene, name: str, models: Mapping[str, Spec], truth: Spec) -> Iterator[Cell]:
+    if name == "load" and scene.gravity is None and not scene.loads:
+        return
+    for factor in FACTORS[name]:
+        label, refusal, there = f"{name} × {factor:g}", "", scene
+        try:
+            there = scaled(scene, name, factor)
+        except BadInput as impossible:
+            refusal = str(impossible)
+        against = Ask(there, truth, label=f"{truth.model} {label}")
+        for model, spec in models.items():
+            tags = _tags(name, factor=factor, model=model)
+            yield Ask(there, spec, tags=tags, label=f"{model} {label}"), refusal or against
 
-    def _models(self) -> dict[str, dict[str, Any]]:
-        """Return the settings of every model."""
-        references = dict.fromkeys(("plate", "shell", self.reference))
-        return {"lumped": self.lattice.settings, **{name: {"elements": self.elements} for name in references}}
 
-    def _static(self, scene: Scene, model: str, settings: dict[str, Any], label: str) -> Run:
-        arguments = {"scene": scene.document(), "model": model, "settings": settings}
-        return Run("crosscheck", arguments, f"{model} {label}")
+def _grids(scene: Scene, models: Mapping[str, Any], truth: Any) -> Iterator[Cell]:
+    meshes = sorted({*CELLS["references"], truth.count})
+    against = Ask(scene, truth.but(count=meshes[-1]), label=f"{truth.model} {meshes[-1]} cells")
+    for model, spec in models.items():
+        for count in CELLS.get(model) or meshes:
+            sized = spec.but(grid=count + 1) if spec.MASSES else spec.but(count=count)
+            tags = _tags("grid", cells=count, model=model)
+            yield Ask(scene, sized, tags=tags, label=f"{model} {count} cells"), against
 
-    def _scaled(self, name: str) -> Iterator[_Cell]:
-        if name == "load" and self.scene.gravity is None and not self.scene.loads:
-            return
-        for factor in FACTORS[name]:
-            try:
-                scene = scaled(self.scene, name, factor)
-            except BadInput as error:
-                for model in self._models():
-                    yield _Cell(name, {"factor": factor, "model": model}, None, refusal=str(error))
-                continue
-            label = f"{name} × {factor:g}"
-            truth = self._static(scene, self.reference, self._models()[self.reference], label)
-            for model, settings in self._models().items():
-                cell = {"factor": factor, "model": model}
-                yield _Cell(name, cell, self._static(scene, model, settings, label), truth)
 
-    def _grids(self) -> Iterator[_Cell]:
-        meshes = sorted({*CELLS["references"], self.elements})
-        finest = {**self._models()[self.reference], "elements": meshes[-1]}
-        truth = self._static(self.scene, self.reference, finest, f"{meshes[-1]} cells")
-        for model, settings in self._models().items():
-            size = "grid" if model == "lumped" else "elements"
-            for count in CELLS.get(model) or meshes:
-                sized = {**settings, size: count + 1 if model == "lumped" else count}
-                run = self._static(self.scene, model, sized, f"{count} cells")
-                yield _Cell("grid", {"cells": count, "model": model}, run, truth)
-
-    def _damped(self, period: float) -> Iterator[_Cell]:
-        for ratio in (None, *DAMPING):
-            scene = self.scene
-            if ratio is not None:
-                damping = {"damping_time": ratio * period / np.pi, "damping_rate": 0.0}
-                scene = scene.replace(material=scene.material.replace(**damping))
-            for name in INTEGRATORS:
-                arguments = {"scene": scene.document(), "lattice": self.lattice.settings, "integrator": name}
-                label = f"{name} {'own damping' if ratio is None else f'damping {ratio:g}'}"
-                run = Run("stability.run", {**arguments, "period": period}, label)
-                yield _Cell("damping", {"damping_ratio": ratio, "integrator": name}, run)
-
-    def _stepped(self, period: float) -> Iterator[_Cell]:
-        import lumped
-
-        springs = resolve(self.scene, self.lattice).springs
-
-        def run(integrator: str, step: float, duration: float) -> Run:
-            every, label = max(step, period / SAMPLES), f"{integrator} {step:.3g} s"
-            of = (self.scene, self.lattice, duration, every, label)
-            return motion_run(*of, integrator=integrator, step=step)
-
-        truth = run("midpoint", period / FINE, PERIODS * period)
+def _damped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
+    for ratio in (None, *DAMPING):
+        there = scene
+        if ratio is not None:
+            damping = {"damping_time": ratio * period / np.pi, "damping_rate": 0.0}
+            there = scene.replace(material=scene.material.replace(**damping))
         for name in INTEGRATORS:
-            steps = [period / n for n in DIVISIONS]
-            if lumped.INTEGRATORS[name].explicit:
-                limit = explicit_limit(name, self.scene, springs)
-                steps = [share * limit for share in SHARES]
-            for step in steps:
-                yield _Cell(
-                    "time-step", {"integrator": name, "step": step}, run(name, step, PERIODS * period), truth
-                )
+            label = f"{name} {'own damping' if ratio is None else f'damping {ratio:g}'}"
+            tags = _tags("damping", damping_ratio=ratio, integrator=name)
+            run = {"integrator": name, "period": period}
+            yield DefaultSteps(there, lattice, run=run, tags=tags, label=label), None
+
+
+def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
+    def ask(name: str, step: float) -> Ask:
+        return Ask(
+            scene,
+            lattice,
+            duration=PERIODS * period,
+            every=max(step, period / SAMPLES),
+            run={"integrator": name, "step": step},
+            tags=_tags("time-step", integrator=name, step=step),
+            label=f"{name} {step:.3g} s",
+        )
+
+    against = ask("midpoint", period / FINE)
+    for name in INTEGRATORS:
+        steps = [period / n for n in DIVISIONS]
+        if lumped.INTEGRATORS[name].explicit:
+            limit = explicit_limit(name, scene, resolve(scene, lattice).springs)
+            steps = [share * limit for share in SHARES]
+        yield from ((ask(name, step), against) for step in steps)
 
 
 def scaled(scene: Scene, name: str, factor: float) -> Scene:
@@ -215,23 +195,21 @@ def _times(acting: Loading, factor: float) -> Any:
     return acting.replace(history=table.replace(factor=tuple(factor * sample for sample in table.factor)))
 
 
-def _row(cell: _Cell, outcomes: Mapping[str, Finished]) -> Row:
+def _row(found: Solved, truth: Solved | None) -> Row:
     """Return a cell's row: how it ended, and its error where its reference has an answer too."""
-    row: Row = {"study": cell.study, "cell": cell.cell, "error": None, "iterations": None, "seconds": None}
-    if cell.run is None:
-        return {**row, "status": str(Status.REFUSED), "message": cell.refusal}
-    outcome = outcomes[cell.run.key]
-    row |= {"status": outcome.status, "message": outcome.message, "seconds": outcome.seconds}
-    kept = ("iterations", "computed", "measured", "advised")
-    row |= {name: outcome.row[name] for name in kept if name in outcome.row}
-    row["iterations"] = row["iterations"] or outcome.row.get("steps")
-    truth = outcomes[cell.truth.key] if cell.truth is not None else None
-    if truth is None or truth is outcome or any(one.status != Status.CONVERGED for one in (outcome, truth)):
+    steps = found.row.get("iterations") or found.row.get("steps")
+    known = {name: found.row[name] for name in ("computed", "measured", "advised") if name in found.row}
+    row: Row = {**found.ask.tags, "error": None, "iterations": steps, "seconds": found.run_seconds}
+    row |= {"status": found.status, "message": found.message, **known}
+    if truth is None or not found.stable or not truth.stable or _alike(found.ask, truth.ask):
         return row
-    if "time" in outcome.row:
-        return {**row, "error": _motion_error(outcome.row, truth.row)}
-    u, known = (np.array([*one.row["probes"].values()]) for one in (outcome, truth))
-    return {**row, "error": error(u, known)}
+    if found.ask.duration is not None:
+        return {**row, "error": _motion_error(found.row, truth.row)}
+    return {**row, "error": error(found.u, truth.u)}
+
+
+def _alike(ask: Ask, truth: Ask) -> bool:
+    return ask.spec == truth.spec and ask.run == truth.run
 
 
 def _motion_error(row: Mapping[str, Any], truth: Mapping[str, Any]) -> float | None:

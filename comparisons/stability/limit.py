@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,8 +17,21 @@ import numpy as np
 import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
+from comparisons.runs.campaign import Run
+from comparisons.sweep.solved import Ask
 from lumped import Calibration, State, StepFailed, System
 from sheetbench.scenes import Clamped, Held, Hinged, Scene
+
+
+@dataclass(frozen=True)
+class DefaultSteps(Ask):
+    """A run of an integrator with its default steps about the lowest `period` [s], and its largest step."""
+
+    @property
+    def task(self) -> Run:
+        arguments = {"scene": self.scene.document(), "lattice": self.spec.settings, **self.run}
+        return Run("stability.run", arguments, self.label)
+
 
 STEPS, GROWTH, SHARPNESS = 600, 10.0, 1e-3
 RUN_STEPS, PERIODS = 500, 2.0  # of a run: explicit steps at most, lowest periods at most

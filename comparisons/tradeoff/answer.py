@@ -1,43 +1,92 @@
-"""Models of one scene with their errors and costs: the answer of `sheetbench tradeoff`."""
+"""Models of one scene with their errors and costs, at rest and in motion: the answers of `sheetbench
+tradeoff`."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+import re
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
 from math import inf
 from typing import Annotated, Any
 
-from comparisons.comparison.model_error import share_of_tolerance
 from comparisons.runs import load
-from comparisons.tradeoff.pareto import cheapest, error_order, front, grouped, order
-from comparisons.tradeoff.row import TradeoffRow
+from comparisons.sweep.front import cheapest, error_order, front, grouped, order
+from comparisons.sweep.model_error import share_of_tolerance
+from comparisons.tradeoff.row import MotionRow, TradeoffRow
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
-from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, Unit
-from sheetbench.scenes import Scene, Status
+from sheetbench.answers.table import NUMBER, Column, Table
+from sheetbench.scenes import Scene, Status, comparable
 from sheetbench.scenes.summary import few
 
 STATED = 0.01  # the tolerance whose parts are said
+SHOWN = (
+    *("number", "series", "size", "unknowns", "iterations", "setup_seconds", "seconds", "quickest"),
+    *("slowest", "peak_memory_bytes", "error", "bar", "field_error", "front", "status"),
+)
+SHOWN_MOTION = (
+    *("model", "size", "integrator", "step", "steps", "unknowns", "seconds_per_second", "peak_memory_bytes"),
+    *("error", "step_error", "period_error", "damping", "front", "status"),
+)
 
 
-@dataclass(frozen=True)
-class CostRow:
-    """What a row of a trade-off shows: times of the solve are the median, the quickest and the slowest."""
+class Priced(Answer):
+    """What both trades are: rows with an error and a cost each, and the reference they are measured against.
 
-    row: Annotated[int, NUMBER("d")]
-    model: Annotated[str, Column(prose=True)]
-    size: str
-    unknowns: Annotated[int | None, NUMBER("d")]
-    iterations: Annotated[int | None, NUMBER("d", "factorisations", detail=True)]
-    setup: Annotated[float | None, MILLISECONDS(".1f", "set-up", detail=True)]
-    solve: Annotated[float | None, MILLISECONDS(".2f")]
-    quickest: Annotated[float | None, MILLISECONDS(".2f", "from", detail=True)]
-    slowest: Annotated[float | None, MILLISECONDS(".2f", "to", detail=True)]
-    memory: Annotated[float | None, Unit("B", "MB", 1e-6)(".1f")]
-    error: Annotated[float | None, PERCENT(".3g")]
-    own_bar: Annotated[float | None, PERCENT(".2g", detail=True)]
-    field_error: Annotated[float | None, PERCENT(".3g")]
-    front: Annotated[bool, Column(words=("yes", ""))]
-    status: Annotated[str, Column(detail=True)]
+    uncertainty: of the reference, a fraction, None where it is not known; reasons: sentences on what was
+    chosen.
+    """
+
+    PER, DRAWN = "", ""  # what a cost is for, in words; what draws the picture
+    scene: Scene
+    rows: tuple[Any, ...]
+    reference: Any
+    uncertainty: float | None
+    reasons: tuple[str, ...]
+
+    @property
+    def front(self) -> list[int]:
+        """Numbers of the rows on the Pareto front of error and cost, the quickest first."""
+        costs = [inf if row.cost is None else row.cost for row in self.rows]
+        return front([row.error for row in self.rows], costs, self.uncertainty or 0.0)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What to hold against the times."""
+        return load.warnings(
+            [row.load_average for row in self.rows], [row.solve_seconds for row in self.rows]
+        )
+
+    @property
+    def known(self) -> str:
+        """The reference's uncertainty in words."""
+        return "unknown" if self.uncertainty is None else f"{few(100 * self.uncertainty)} %"
+
+    @property
+    def numbered(self) -> list[Any]:
+        """The rows with their numbers, and whether they are on the front."""
+        front = self.front
+        return [replace(row, number=i, front=i in front) for i, row in enumerate(self.rows)]
+
+    def figures(self) -> tuple[Picture, ...]:
+        """The picture, where a row has an error."""
+        drawn = Picture(self.file_name, self.DRAWN, (self,))
+        return (drawn,) if any(row.error for row in self.rows) else ()
+
+    def result(self) -> str:
+        """The quickest rows within the tolerances, or why there is none."""
+        return " ".join(self.cheapest()) or super().result()
+
+    def cheapest(self) -> list[str]:
+        """A sentence for every tolerance that a row meets."""
+        return cheapest(
+            [row.name for row in self.rows],
+            [row.error for row in self.rows],
+            [row.cost for row in self.rows],
+            self.PER,
+            inf if self.uncertainty is None else self.uncertainty,
+            self.reference.model_error,
+        )
 
 
 @dataclass(frozen=True)
@@ -52,26 +101,17 @@ class Orders:
 
 
 @dataclass(frozen=True, repr=False)
-class Tradeoff(Answer):
-    """The rows of a scene with their errors, and the reference they are measured against.
+class Tradeoff(Priced):
+    """The rows of a scene; uncertainty, field_uncertainty: None where the reference did not converge on two
+    meshes."""
 
-    uncertainty, field_uncertainty: of the reference, fractions, None where it did not converge on both
-    meshes.
-    """
-
-    file_name = "tradeoff"
+    file_name, DRAWN = "tradeoff", "comparisons.tradeoff.figure:compose"
     scene: Scene
     rows: tuple[TradeoffRow, ...]
     reference: TradeoffRow
     uncertainty: float | None
     field_uncertainty: float | None
     reasons: tuple[str, ...] = ()
-
-    @property
-    def front(self) -> list[int]:
-        """Numbers of the rows on the Pareto front of error and time, the quickest first."""
-        seconds = [inf if row.seconds is None else row.seconds for row in self.rows]
-        return front([row.error for row in self.rows], seconds, self.uncertainty or 0.0)
 
     @property
     def orders(self) -> list[Orders]:
@@ -88,13 +128,6 @@ class Tradeoff(Answer):
             error_order=error_order(sizes, [row.error for row in rows], self.uncertainty),
             field_error_order=error_order(sizes, [row.field_error for row in rows], self.field_uncertainty),
             time_order=order([row.unknowns or 0 for row in rows], [row.seconds or 0.0 for row in rows]),
-        )
-
-    @property
-    def warnings(self) -> list[str]:
-        """What to hold against the times."""
-        return load.warnings(
-            [row.load_average for row in self.rows], [row.solve_seconds for row in self.rows]
         )
 
     def document(self) -> dict[str, Any]:
@@ -114,47 +147,21 @@ class Tradeoff(Answer):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        front = self.front
-        rows = (
-            CostRow(
-                i, r.series, r.size, r.unknowns, r.iterations, r.setup_seconds, r.seconds,
-                min(r.solve_seconds, default=None), max(r.solve_seconds, default=None), r.peak_memory_bytes,
-                r.error, r.bar, r.field_error, i in front, r.status,
-            )
-            for i, r in enumerate(self.rows)
-        )  # fmt: skip
         costs = "Cost and error; solve: median of the repeats"
         orders = "Observed orders: of errors in the cell size, of time in the unknowns"
-        return Table.of(CostRow, rows, costs, "tradeoff"), Table.of(Orders, self.orders, orders, "orders")
-
-    def figures(self) -> tuple[Picture, ...]:
-        drawn = Picture("tradeoff", "comparisons.tradeoff.figure:compose", (self,))
-        return (drawn,) if any(row.error for row in self.rows) else ()
+        rows = Table.of(TradeoffRow, self.numbered, costs, "tradeoff", fields=SHOWN)
+        return rows, Table.of(Orders, self.orders, orders, "orders")
 
     def notes(self) -> list[str]:
         """What the errors are measured against."""
-        known = "unknown" if self.uncertainty is None else f"{few(100 * self.uncertainty)} %"
         explained = (
             f"errors against {self.reference.label} ({self.reference.unknowns} unknowns), whose own "
-            f"uncertainty is {known}: the grid convergence index of n, ¾ n and ½ n elements. error: at the "
-            "probes; field error: root mean square over the sheet. One thread; times on warm code; memory: "
-            "growth of the process."
+            f"uncertainty is {self.known}: the grid convergence index of n, ¾ n and ½ n elements. error: at "
+            "the probes; field error: root mean square over the sheet. One thread; times on warm code; "
+            "memory: growth of the process."
         )
         taken = share_of_tolerance(STATED, self.reference.model_error, self.uncertainty, self.reference.model)
-        return [*self.reasons, *self._cheapest(), *filter(None, [taken]), explained, *self.warnings]
-
-    def result(self) -> str:
-        """The quickest rows within the tolerances, or why there is none."""
-        return " ".join(self._cheapest()) or super().result()
-
-    def _cheapest(self) -> list[str]:
-        return cheapest(
-            [r.label for r in self.rows],
-            [r.error for r in self.rows],
-            [r.seconds for r in self.rows],
-            bar=inf if self.uncertainty is None else self.uncertainty,
-            model_error=self.reference.model_error,
-        )
+        return [*self.reasons, *self.cheapest(), *filter(None, [taken]), explained, *self.warnings]
 
     def complaints(self) -> list[str]:
         failed = [row for row in self.rows if row.status != Status.CONVERGED]
@@ -172,3 +179,101 @@ class Tradeoff(Answer):
     @property
     def succeeded(self) -> bool:
         return self.uncertainty is not None
+
+
+@dataclass(frozen=True, repr=False)
+class DynamicTradeoff(Priced):
+    """A row per model, size, integrator and step.
+
+    lowest_period [s]: the lattice's about the flat sheet or its equilibrium, the shorter; uncertainty: of the
+    reference by its mesh and its steps; lattices: what their runs are of; step_uncertainty: of the runs that
+    errors of steps are measured against.
+    """
+
+    file_name, DRAWN = "motion", "comparisons.tradeoff.motion_figure:compose"
+    PER = " per simulated second"
+    scene: Scene
+    duration: float
+    lowest_period: float
+    rows: tuple[MotionRow, ...]
+    reference: MotionRow
+    uncertainty: float | None
+    reasons: tuple[str, ...] = ()
+    lattices: tuple[str, ...] = ()
+    step_uncertainty: float = 0.0
+
+    @property
+    def series(self) -> dict[str, list[int]]:
+        """Row numbers by lattice and integrator, and by other model."""
+        return grouped([row.run if row.step_error is not None else row.model for row in self.rows])
+
+    @property
+    def orders(self) -> dict[str, float | None]:
+        """Observed order in the step of what the steps of a lattice miss, by series."""
+        found = {}
+        for name, numbers in self.series.items():
+            rows = [self.rows[i] for i in numbers if self.rows[i].step_error is not None]
+            if rows:
+                errors = [row.step_error for row in rows]
+                found[name] = error_order([row.step for row in rows], errors, self.step_uncertainty)
+        return found
+
+    def document(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "scene": self.scene.document(),
+            "duration": self.duration,
+            "lowest_period": self.lowest_period,
+            "lattices": self.lattices,
+            "warnings": self.warnings,
+            "rows": [row.as_dict() for row in self.rows],
+            "front": self.front,
+            "orders": [{"series": name, "step_error_order": slope} for name, slope in self.orders.items()],
+            "reference": {**self.reference.as_dict(), "uncertainty": self.uncertainty},
+            "step_uncertainty": self.step_uncertainty,
+        }
+
+    def tables(self) -> tuple[Table, ...]:
+        """A row per run."""
+        caption = (
+            f"Motion over {self.duration:g} s. cost: time per simulated second; step error: the part by "
+            "the lattice's steps; period: its error; damping: damping ratio"
+        )
+        return (Table.of(MotionRow, self.numbered, caption, "motion", fields=SHOWN_MOTION),)
+
+    def notes(self) -> list[str]:
+        lattices = " · ".join(self.lattices)
+        of = f"{self.reference.model} with {self.reference.size} elements"
+        return [
+            f"errors: at the probes, against the {of}; uncertainty of that reference: {self.known}",
+            *([f"{lattices}; lowest period {self.lowest_period:.4g} s"] if lattices else []),
+            *self.reasons,
+            *self.cheapest(),
+            *self.warnings,
+        ]
+
+    def complaints(self) -> tuple[str, ...]:
+        return folded([*self.rows, self.reference])
+
+    def choices(self) -> dict[str, Any]:
+        return {"duration": self.duration}
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether there is a reference to measure against."""
+        return comparable(self.reference.status, 1.0)
+
+
+def folded(rows: Sequence[MotionRow]) -> tuple[str, ...]:
+    """A line for all steps of a model that ended alike."""
+    ends: dict[tuple[str, str, str], list[MotionRow]] = {}
+    for row in rows:
+        if row.status != Status.CONVERGED:
+            why = re.sub(r"^(at [\d.e+-]+ s:|from [\d.e+-]+ s on) ", "", row.message)
+            ends.setdefault((row.run, row.status, why), []).append(row)
+    return tuple(f"{name}{_steps(alike)}: {status}: {why}" for (name, status, why), alike in ends.items())
+
+
+def _steps(rows: Sequence[MotionRow]) -> str:
+    fixed = [f"{1e3 * row.step:.3g}" for row in rows if row.step is not None]
+    return f", {'steps' if len(fixed) > 1 else 'step'} {', '.join(fixed)} ms" if fixed else ""

@@ -12,9 +12,8 @@ from comparisons.models.grids import Elements as Count
 from comparisons.models.grids import parse_elements
 from comparisons.models.resolve import resolve_each
 from comparisons.models.spec import Elements, Lattice, Spec, items, lattices, pairs, parse, references
-from comparisons.tradeoff.answer import Tradeoff
+from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
 from comparisons.tradeoff.motion import dynamic_tradeoff
-from comparisons.tradeoff.motion_answer import DynamicTradeoff
 from comparisons.tradeoff.statics import tradeoff
 from comparisons.tradeoff.usual import GRIDS, MESHES, MOVING, PAIRS, REPEATS, SPRINGS
 from sheetbench.choices import AUTO, CALIBRATION, INTEGRATORS, REFERENCE

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from comparisons.sweep.front import grouped
 from comparisons.tradeoff.answer import Tradeoff
-from comparisons.tradeoff.pareto import grouped
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import GREY, SERIES, plain

@@ -25,19 +25,21 @@ from typing import TYPE_CHECKING, Unpack
 import numpy as np
 
 from comparisons.models.context import large_in_context
-from comparisons.models.resolve import Resolved, resolve
+from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.motion.measures import largest
-from comparisons.motion.run import history_of, motion_run, require_motion
-from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
-from comparisons.runs.store import Finished, Store
-from comparisons.tradeoff.motion_answer import DynamicTradeoff
-from comparisons.tradeoff.motion_row import measured_row
+from comparisons.motion.run import require_motion
+from comparisons.runs.campaign import CampaignKeywords
+from comparisons.runs.store import Store
+from comparisons.sweep.limits import limit
+from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.tradeoff.answer import DynamicTradeoff
+from comparisons.tradeoff.row import MotionRow
 from comparisons.tradeoff.statics import finest_shell
-from fem_reference.uncertainty import coarser, estimate, mesh_size
+from fem_reference.uncertainty import coarser
 from sheetbench.choices import INTEGRATORS
 from sheetbench.errors import NoEquilibrium
-from sheetbench.scenes import Scene, SceneError, Status, comparable
+from sheetbench.scenes import Scene, SceneError, Status
 from sheetbench.scenes.quantities import require_positive
 
 if TYPE_CHECKING:
@@ -83,109 +85,85 @@ def dynamic_tradeoff(
     for other in (*others, finest):
         require_motion(scene, other)
     meant = [resolve(scene, one, "motion") for one in lattices]
-    each = [(one, shortest_period(scene, one.springs)) for one in meant]
-    every = min(period for _, period in each) / SAMPLES
-    run = partial(motion_run, scene, duration=duration, every=every)
+    periods = [shortest_period(scene, one.springs) for one in meant]
+    ask = partial(Ask, scene, duration=duration, every=min(periods) / SAMPLES)
 
-    def of_lattice(one: Resolved[Lattice], name: str, step: float, timed: bool = True) -> Run:
-        label = f"{one.springs.title}, {name} {step:.3g} s"
-        return run(one.spec, label=label, timed=timed, integrator=name, step=step)
+    def of_lattice(number: int, name: str, step: float, repeats: int = 1) -> Ask:
+        label = f"{meant[number].springs.title}, {name} {step:.3g} s"
+        run, tags = {"integrator": name, "step": step}, {"lattice": number}
+        return ask(meant[number].spec, repeats=repeats, run=run, tags=tags, label=label)
 
-    finer_runs = [run(finest.but(count=n), error=ERRORS[-1]) for n in coarser(finest.elements)]
-    finer_runs.append(run(finest, error=LONGER * ERRORS[-1]))
-    own = [of_lattice(one, "midpoint", period / n, False) for n in (fine, fine // 2) for one, period in each]
-    model_runs: list[tuple[Run, int | None]] = []  # with the number of its lattice
-    for number, (one, period) in enumerate(each):
+    finer = [ask(finest.but(count=n), run={"error": ERRORS[-1]}) for n in coarser(finest.elements)]
+    finer.append(ask(finest, run={"error": LONGER * ERRORS[-1]}))
+    own = [of_lattice(i, "midpoint", at / n, 0) for n in (fine, fine // 2) for i, at in enumerate(periods)]
+    asks: list[Ask] = []
+    for number, (one, period) in enumerate(zip(meant, periods, strict=True)):
         for name in integrators:
             steps = [period / n for n in divisions]
             if lumped.INTEGRATORS[name].explicit:
-                limit = explicit_limit(name, scene, one.springs)
-                steps = [share * limit for share in SHARES]
-            model_runs += [(of_lattice(one, name, step), number) for step in steps]
+                largest_step = explicit_limit(name, scene, one.springs)
+                steps = [share * largest_step for share in SHARES]
+            asks += [of_lattice(number, name, step) for step in steps]
     for other in others:
-        if isinstance(other, Elements):
-            model_runs += [(run(other, timed=True, error=error), None) for error in ERRORS]
-        else:
-            model_runs.append((run(other, timed=True), None))
-    found = carry_out([*finer_runs, *own, *(one for one, _ in model_runs)], store, **how)
-    finer_outcomes, found = found[: len(finer_runs)], found[len(finer_runs) :]
-    truths, halves, found = found[: len(each)], found[len(each) : len(own)], found[len(own) :]
-    finer = 2 * max(divisions)
-    while finer <= fine and (unsolved := _unsolved(model_runs, found)):
-        more = [(of_lattice(each[n][0], name, each[n][1] / finer), n) for n, name in unsolved]
-        found += carry_out([one for one, _ in more], store, **how)
-        model_runs += more
-        finer *= 2
-    ordered = sorted(
-        zip(model_runs, found, strict=True), key=lambda both: _place(both[0][0], both[0][1], integrators)
-    )
-    reasons = (why for one, _ in each for why in one.reasons.items())
+        runs = [{"error": error} for error in ERRORS] if isinstance(other, Elements) else [{}]
+        asks += [ask(other, repeats=1, run=run) for run in runs]
+    found = sweep([*finer, *own, *asks], store, **how)
+    finer_rows, found = found[: len(finer)], found[len(finer) :]
+    truths, halves, found = found[: len(meant)], found[len(meant) : len(own)], found[len(own) :]
+    halved = 2 * max(divisions)
+    while halved <= fine and (unsolved := _unsolved(found)):
+        found += sweep([of_lattice(i, name, periods[i] / halved) for i, name in unsolved], store, **how)
+        halved *= 2
+    found.sort(key=lambda row: _place(row.ask, integrators))
+    reasons = (why for one in meant for why in one.reasons.items())
     return DynamicTradeoff(
         scene,
         duration,
-        min(period for _, period in each),
+        min(periods),
         tuple(
-            measured_row(one, outcome, finer_outcomes[0], None if n is None else truths[n])
-            for (one, n), outcome in ordered
+            MotionRow.of(row, finer_rows[0], truths[row.ask.tags["lattice"]] if row.ask.tags else None)
+            for row in found
         ),
-        measured_row(finer_runs[0], finer_outcomes[0], finer_outcomes[0]),
-        _uncertainty(scene, finer_runs, finer_outcomes),
+        MotionRow.of(finer_rows[0], finer_rows[0]),
+        _uncertainty(*finer_rows),
         tuple(dict.fromkeys(f"{name.removesuffix('_reason')}: {why}" for name, why in reasons)),
-        tuple(f"lumped {one.springs.title}" for one, _ in each),
-        max((_off(half, truth) for half, truth in zip(halves, truths, strict=True)), default=0.0),
+        tuple(f"lumped {one.springs.title}" for one in meant),
+        max(map(_off, halves, truths), default=0.0),
     )
 
 
-def _place(run: Run, number: int | None, integrators: Sequence[str]) -> tuple[float, int]:
+def _place(ask: Ask, integrators: Sequence[str]) -> tuple[float, int]:
     """Lattices first, and the rows of each by integrator."""
-    name = run.arguments["run"].get("integrator")
-    return (np.inf if number is None else number, integrators.index(name) if name in integrators else 0)
+    name = ask.run.get("integrator")
+    return (ask.tags.get("lattice", np.inf), integrators.index(name) if name in integrators else 0)
 
 
-def _uncertainty(scene: Scene, runs: Sequence[Run], outcomes: Sequence[Finished]) -> float | None:
+def _uncertainty(*rows: Solved) -> float | None:
     """Of the reference, by its meshes, the finest first, and the run in longer steps, the last."""
-    *meshes, longer = (history_of(outcome) for outcome in outcomes)
-    truth = meshes[0]
-    if truth is None or longer is None:
+    *meshes, longer = rows
+    truth, slower = meshes[0].history, longer.history
+    by_mesh = limit(meshes)
+    if truth is None or slower is None or by_mesh is None:
         return None
-    usable = [
-        (np.concatenate(list(history.probes.values())), mesh_size(scene, _counts(one)))
-        for one, history in zip(runs, meshes, strict=False)
-        if history is not None
-    ]
-    if len({size for _, size in usable}) < 2:
-        return None
-    by_mesh = estimate([u for u, _ in usable], [size for _, size in usable]).error
-    return by_mesh + largest(longer, truth) / 3.0
+    return by_mesh.error + largest(slower, truth) / 3.0
 
 
-def _counts(run: Run) -> int | tuple[int, int]:
-    counts = run.arguments["settings"]["elements"]
-    return counts if isinstance(counts, int) else (counts[0], counts[1])
-
-
-def _off(one: Finished, other: Finished) -> float:
+def _off(one: Solved, other: Solved) -> float:
     """The largest difference of two runs, 0 where one of them has not ended."""
-    ours, theirs = history_of(one), history_of(other)
+    ours, theirs = one.history, other.history
     return 0.0 if ours is None or theirs is None else largest(ours, theirs)
 
 
-def _unsolved(
-    model_runs: Sequence[tuple[Run, int | None]], found: Sequence[Finished]
-) -> list[tuple[int, str]]:
+def _unsolved(rows: Sequence[Solved]) -> list[tuple[int, str]]:
     """Numbers of lattices and the implicit integrators that came to their end there with no step so far."""
     import lumped
 
-    ended: dict[tuple[int, str], set[str]] = {}
-    for (one, number), outcome in zip(model_runs, found, strict=True):
-        if number is not None:
-            ended.setdefault((number, one.arguments["run"]["integrator"]), set()).add(outcome.status)
-    return [
-        (number, name)
-        for (number, name), statuses in ended.items()
-        if not lumped.INTEGRATORS[name].explicit
-        and not any(status == Status.REFUSED or comparable(status, 1.0) for status in statuses)
-    ]
+    ended: dict[tuple[int, str], bool] = {}
+    for row in rows:
+        if row.ask.tags:
+            case = row.ask.tags["lattice"], row.ask.run["integrator"]
+            ended[case] = ended.get(case, False) or row.usable or row.status == Status.REFUSED
+    return [case for case, some in ended.items() if not some and not lumped.INTEGRATORS[case[1]].explicit]
 
 
 def shortest_period(scene: Scene, springs: Calibration) -> float:

@@ -7,9 +7,9 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.figure import logarithmic
-from comparisons.tradeoff.motion_answer import DynamicTradeoff
-from comparisons.tradeoff.motion_row import MotionRow
+from comparisons.tradeoff.row import MotionRow
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import GREY, SERIES, plain
 

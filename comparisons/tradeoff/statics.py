@@ -4,7 +4,7 @@
     field error  (∫ |u − u_ref|² dA / ∫ |u_ref|² dA)^½ over the undeformed sheet
     uncertainty  of the reference, in both measures: its bar by the grid convergence index, from meshes of
                  n, ¾ n and ½ n elements a side (`fem_reference.uncertainty`)
-    cost         see `comparisons.tradeoff.timing`
+    cost         see `comparisons.sweep.task`
 
 Orders: the slope of log error over log h, h the size of a cell, and of log time over log unknowns, over the
 rows of a family whose errors are well above the uncertainty.
@@ -13,25 +13,26 @@ rows of a family whose errors are well above the uncertainty.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Unpack
 
 import numpy as np
 
-from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Spec
-from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
-from comparisons.runs.store import Finished, Store
-from comparisons.tradeoff import timing
+from comparisons.runs.campaign import CampaignKeywords
+from comparisons.runs.store import Store
+from comparisons.sweep.columns import field_points
+from comparisons.sweep.differences import error
+from comparisons.sweep.limits import limit
+from comparisons.sweep.solved import Ask, Solved, sweep
 from comparisons.tradeoff.answer import Tradeoff
-from comparisons.tradeoff.row import measured_row
-from fem_reference.edge_layer import missed_by
-from fem_reference.uncertainty import coarser, estimate, mesh_size
-from sheetbench.scenes import Scene, comparable, require_static
+from comparisons.tradeoff.row import TradeoffRow
+from fem_reference.uncertainty import coarser
+from sheetbench.scenes import Scene, require_static
 
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
+TRADED = ("field", "bar", "model_error")  # columns
 
 
 @large_in_context
@@ -57,50 +58,21 @@ def tradeoff(
     require_static(scene)
     for candidate in candidates:
         resolve(scene, candidate, option=f"--{candidate.model}")
-    fine = reference or finest_shell(candidates, REFERENCE_ELEMENTS)
-    resolve(scene, fine)
-    finer_runs = [timing.run(scene, fine.but(count=n), timed=False) for n in coarser(fine.elements)]
-    model_runs = [timing.run(scene, candidate, repeats) for candidate in candidates]
-    outcomes = carry_out([*finer_runs, *model_runs], store, **how)
-    count = len(finer_runs)
-    return replace(
-        assemble(scene, finer_runs, outcomes[:count], model_runs, outcomes[count:]), reasons=reasons
-    )
-
-
-def assemble(
-    scene: Scene,
-    finer_runs: Sequence[Run],
-    finer_outcomes: Sequence[Finished],
-    model_runs: Sequence[Run],
-    outcomes: Sequence[Finished],
-) -> Tradeoff:
-    """The trade-off of finished runs: the reference on meshes from fine to coarse, and the rows."""
-    weights, truth = timing.field_points(scene)[1], finer_outcomes[0]
-    rows = tuple(
-        measured_row(scene, run, outcome, *_errors(outcome, truth, weights))
-        for run, outcome in zip(model_runs, outcomes, strict=True)
-    )
-    meshes = [run.arguments["settings"]["elements"] for run in finer_runs]
-    sizes = [mesh_size(scene, n if isinstance(n, int) else tuple(n)) for n in meshes]
+    fine = resolve(scene, reference or finest_shell(candidates, REFERENCE_ELEMENTS)).spec
+    meshes = [Ask(scene, fine.but(count=n), columns=TRADED) for n in coarser(fine.elements)]
+    asks = [Ask(scene, candidate, repeats, TRADED) for candidate in candidates]
+    found = sweep([*meshes, *asks], store, **how)
+    finer, rows = found[: len(meshes)], found[len(meshes) :]
+    truth, shares = finer[0], field_points(scene)[1]
+    at_probes, field = (limit(finer, of) if truth.usable else None for of in ("probes", "field"))
     return Tradeoff(
-        scene, rows, measured_row(scene, finer_runs[0], truth), *_bars(scene, finer_outcomes, sizes, weights)
+        scene,
+        tuple(TradeoffRow.of(row, *_errors(row, truth, shares)) for row in rows),
+        TradeoffRow.of(truth),
+        None if at_probes is None else at_probes.error,
+        None if field is None else _ratio(field.bar, field.answer, shares),
+        reasons,
     )
-
-
-def _bars(
-    scene: Scene, finer_outcomes: Sequence[Finished], sizes: Sequence[float], weights: np.ndarray
-) -> tuple[float | None, float | None]:
-    """Uncertainty of the finest of the reference's answers, at the probes and over the sheet."""
-    usable = [(o.row, size) for o, size in zip(finer_outcomes, sizes, strict=True) if _comparable(o)]
-    if len({size for _, size in usable}) < 2 or not _comparable(finer_outcomes[0]):
-        return None, None
-    used = [size for _, size in usable]
-    layers = [missed_by(scene, row["settings"]) for row, _ in usable]
-    at_probes = estimate([np.array(list(row["probes"].values())) for row, _ in usable], used, layers)
-    field = estimate([np.array(row["field"]) for row, _ in usable], used, layers)
-    bar, size = (float(weights @ np.sum(u**2, axis=1)) for u in (field.bar, field.answer))
-    return at_probes.error, float(np.sqrt(bar / size)) if size > 0.0 else None
 
 
 def finest_shell(candidates: Sequence[Spec], least: int) -> Elements:
@@ -109,15 +81,14 @@ def finest_shell(candidates: Sequence[Spec], least: int) -> Elements:
     return Elements("shell", max([least, *(2 * int(n) for n in shells)]))
 
 
-def _errors(outcome: Finished, truth: Finished, weights: np.ndarray) -> tuple[float | None, float | None]:
-    if not (_comparable(outcome) and _comparable(truth)):
+def _errors(row: Solved, truth: Solved, shares: np.ndarray) -> tuple[float | None, float | None]:
+    if not (row.usable and truth.usable):
         return None, None
-    u, ref = (np.array(list(o.row["probes"].values()), dtype=float) for o in (outcome, truth))
-    field, field_ref = (np.array(o.row["field"], dtype=float) for o in (outcome, truth))
-    size = float(weights @ np.sum(field_ref**2, axis=1))
-    off = float(weights @ np.sum((field - field_ref) ** 2, axis=1))
-    return probe_error(u, ref), float(np.sqrt(off / size)) if size > 0.0 and np.isfinite(off) else None
+    field, known = row.values("field"), truth.values("field")
+    return error(row.u, truth.u), _ratio(field - known, known, shares)
 
 
-def _comparable(outcome: Finished) -> bool:
-    return comparable(outcome.status, outcome.row.get("load_factor", 0.0))
+def _ratio(off: np.ndarray, known: np.ndarray, shares: np.ndarray) -> float | None:
+    """Return the root mean square of one field (n, 3) over another's; shares (n,): of the area."""
+    part, whole = (float(shares @ np.sum(u**2, axis=1)) for u in (off, known))
+    return float(np.sqrt(part / whole)) if whole > 0.0 and np.isfinite(part) else None

@@ -95,8 +95,11 @@ def faces(lattice, along, x, g):
 
 def neighbours(along):
     """Which masses (n, n) share a spring, and groups of masses of which no two have one in common."""
-    pairs = [abs(each) if kind == "link" else sum(map(abs, each))
-             for kind, each in along.items() if not kind.endswith("_warp")]
+    pairs = [
+        abs(each) if kind == "link" else sum(map(abs, each))
+        for kind, each in along.items()
+        if not kind.endswith("_warp")
+    ]
     near = sum(touched.T @ touched for touched in pairs) > 0
     alone, groups, left = near @ near, [], list(range(len(near)))
     while left:

@@ -34,6 +34,7 @@ from sheetbench.runs.columns import split
 from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, require_error, sample_count
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import AnyScene, History, Scene, require_no_branches, scene_of
+from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.quantities import require_positive
 
 MODELS: dict[str, Callable[..., Moving]] = {
@@ -86,6 +87,7 @@ def simulate(
     require_error(error)
     began = now()
     requested = scene_of(scene)
+    require_no_obstacles(requested, f"the {model} in motion")
     require_choice("integrator", integrator, INTEGRATORS)
     options = with_defaults(requested, signature(MODELS[model]).parameters, options)
     moving = MODELS[model](requested, **options)

@@ -7,7 +7,7 @@ With s the arc length along the flat edge,
     ½ EI ∫ (κ_n − κ₀)² ds,   κ_n = −r' · d'     bending in the plane of the edge and the normal
     ½ EI ∫ (κ_g − κ₀)² ds,   κ_g = −r' · m'     bending in the sheet's plane
 
-are its energy. A chain of rigid segments neither stretches, shears nor twists, and its joints turn about
+are its energy. A chain neither stretches, shears nor twists, and its joints turn about
 certain axes only; so these vanish, by stiffnesses `FIRM` times the sheet's and `SLENDER` times the rod's own:
 
     ½ (r' · r' − 1),   r' · d,   r' · m,   d · m,   d' · m,
@@ -124,25 +124,12 @@ def _rod(scene: Scene, edge_name: str, here: dict[str, Chain], nodes: np.ndarray
     )
 
 
-def pieces(chain: Chain, length: float) -> tuple[np.ndarray, np.ndarray]:
-    """Bounds (n + 1,) [m] and curvatures (n,) [1/m] of the pieces of constant intrinsic curvature."""
-    share = length / chain.segments
-    inner = (np.arange(1, chain.segments - 1) + 0.5) * share  # between the joints of whole length
-    if chain.base == "middle" and chain.segments % 2 == 0:
-        inner = np.sort(np.append(inner, length / 2.0))
-    if chain.base == "start":
-        inner = np.append(0.5 * share, inner)
-    if chain.base == "end":
-        inner = np.append(inner, length - 0.5 * share)
-    return np.concatenate([[0.0], inner, [length]]), chain.curvatures().at()
-
-
 def _mean_curvature(chain: Chain, length: float, along: np.ndarray) -> np.ndarray:
     """Curvature at the two Gauss points (k, 2) that does the work of the piecewise one on linear fields.
 
     along: distance from the start of the edge (k, 3) [m] of the sides' nodes.
     """
-    bounds, values = pieces(chain, length)
+    bounds, values = chain.pieces() * length / chain.segments, chain.curvatures().at()
     xi = (np.arange(_SAMPLES) + 0.5) / _SAMPLES * 2.0 - 1.0
     at = along[:, :1] + 0.5 * (xi + 1.0) * (along[:, 2:] - along[:, :1])
     piece = np.clip(np.searchsorted(bounds, at) - 1, 0, len(values) - 1)

@@ -1,4 +1,4 @@
-"""Actuators: chains of rigid segments and prescribed motions, bound to the sheet's edges."""
+"""Actuators: chains and prescribed motions, bound to the sheet's edges."""
 
 from lumped.actuators.actuator import Drive
 from lumped.actuators.coupling import Coupling

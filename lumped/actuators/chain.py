@@ -7,8 +7,9 @@ Lagrangian of the rows y (see `lumped.actuators.frames`), with multipliers λ [m
 
 Joints are damped with damping_time × k.
 
-Chains of a pair are one kinematic chain on the mean of their axes, each with its own joints, mass and offset.
-What binds masses of the edge to them is in `lumped.actuators.binding`.
+The segments here are the equal parts into which `lumped.actuators.division` divides those of the scene;
+forces are given for the scene's. Chains of a pair are one kinematic chain on the mean of their axes, each
+with its own joints, mass and offset. What binds masses of the edge to them is in `lumped.actuators.binding`.
 
 Where an end is a corner whose position and director another edge holds, so are the chain's end point and, by
 a joint of half length, the bending and the twist of its end segment, which may turn about the director. The
@@ -25,6 +26,7 @@ import numpy as np
 from lumped.actuators import joints
 from lumped.actuators.actuator import Acting, Drive
 from lumped.actuators.binding import bind, mass_matrix
+from lumped.actuators.division import mean_curvatures, parts_of_a_segment
 from lumped.actuators.frames import Frames, SharedEnd
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Sheet
@@ -67,7 +69,10 @@ class Chain:
         self.offset = float(offsets.mean())
         start = np.append(np.array(sheet.edge_ends(first.edge)[0]), self.offset)
         axes = np.array([along, UP, edge.outward])
-        self.frames = frames = Frames(first, start, sheet.lengths[edge.along_axis], axes, held, shared)
+        self._parts = parts_of_a_segment(first, len(lattice.edge_columns(first.edge)) - 1)
+        divided = first.replace(segments=self._parts * first.segments, curvature=0.0)
+        self.frames = frames = Frames(divided, start, sheet.lengths[edge.along_axis], axes, held, shared)
+        self._pieces = [mean_curvatures(chain, frames) for chain in chains]
         self.rest, self.axis, self.corners = frames.rest, frames.rest[: frames.points], frames.held
         self.multipliers = frames.constraints
         self.rows = frames.coordinates + frames.multiplier_rows
@@ -225,14 +230,16 @@ class Chain:
         segment's axis; chains of a pair share them evenly."""
         frames = self.frames
         place = frames.rest + acting.y[: frames.coordinates]
-        middle = 0.5 * (place[1 : frames.points] + place[: frames.segments])
+        first = self._parts * np.arange(frames.segments // self._parts)
+        middle = 0.5 * (place[first + self._parts // 2] + place[first + (self._parts + 1) // 2])
         arm = acting.positions[None, :, :] - middle[:, None, :]
-        force = self.share @ acting.on_masses
-        moment = np.einsum("sm,smq->sq", self.share, np.cross(arm, acting.on_masses[None, :, :]))
+        share = np.add.reduceat(self.share, first)
+        force = share @ acting.on_masses
+        moment = np.einsum("sm,smq->sq", share, np.cross(arm, acting.on_masses[None, :, :]))
         total = np.concatenate([force, moment], axis=1)
         exerted = acting.on_rows + self.binding.T @ acting.on_masses
         for end in frames.corners:  # of a free row only another chain's part of the corner is left
-            segment, row = frames.end_segment(end), frames.corner_row[end]
+            segment, row = end * (len(first) - 1), frames.corner_row[end]
             push = exerted[frames.end_point(end)] if end in frames.shared else self.corner_force(end, exerted)
             couple = np.cross(place[row], exerted[row])
             lever = place[frames.end_point(end)] - middle[segment]
@@ -241,7 +248,7 @@ class Chain:
 
     def curvature(self, member: int, drive: Drive) -> np.ndarray:
         """Commanded intrinsic curvature at every joint of one chain, (j,) [1/m]."""
-        values = self._curvatures[member].at(drive.time)
+        values = self._pieces[member] @ self._curvatures[member].at(drive.time)
         return drive.load_factor * values[self.frames.command]
 
     def _joint_springs(self, drive: Drive) -> tuple[np.ndarray, np.ndarray, float]:

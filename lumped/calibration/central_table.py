@@ -2,7 +2,7 @@
 
 ν, then a, b, c with D11 = a D, D12 = D66 = b D, A11 = c A, A12 = A66 = (b/a) c A, D and A the sheet's own;
 the worst error that a sheet of these moduli makes on the training scenes that bend, on those that stretch,
-and that of `cauchy` on those that bend. Trained on: `studies.central.training`.
+and that of `cauchy` on those that bend. Trained on: `studies.transfer.training`.
 """
 
 ROWS = (

@@ -21,6 +21,7 @@ from sheetbench.errors import Impossible
 from sheetbench.scenes import Scene, SpringTable
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import MASSES, grid_of
+from sheetbench.scenes.natural_state import sheet_at_rest
 
 
 @dataclass(frozen=True)
@@ -103,4 +104,4 @@ def default(scene: Scene) -> Calibration:
     grid = grid_of(scene.sheet)
     if scene.material.law is not None:
         return hyperelastic(scene.sheet, scene.material, grid, cells=sections_of(scene, grid))
-    return consistent(scene.sheet, scene.material, grid, cells=sections_of(scene, grid))
+    return consistent(sheet_at_rest(scene), scene.material, grid, cells=sections_of(scene, grid))

@@ -30,7 +30,8 @@ def resolve_integrator(name: str, system: System, options: Collection[str] = ())
     """The integrator of a run, and why in a sentence where the name is "auto".
 
     Of those that adapt their steps `esdirk` takes a fifth of the time of `generalised-alpha` at like error
-    (docs/performance.md), and explicit ones take more; it has no chains. options: that it has to take.
+    (docs/performance.md), and explicit ones take more, but for sheets that touch and leave an obstacle; it
+    has no chains. options: that it has to take.
     Raises BadInput where the integrator does not take one.
     """
     chains = system.coupling is not None
@@ -39,6 +40,8 @@ def resolve_integrator(name: str, system: System, options: Collection[str] = ())
         unlike = [one for one in options if one not in Esdirk.options]
         takes_unlike = bool(unlike) and set(options) <= set(GeneralisedAlpha.options)
         name = GeneralisedAlpha.name if chains or takes_unlike else Esdirk.name
+        if system.items and set(options) <= set(Verlet.options):
+            return Verlet.name, "least time at equal error, with obstacles"
         why = "least time at equal error"
         why += ", with chains" if chains else f", that takes {', '.join(unlike)}" if takes_unlike else ""
     foreign = [one for one in options if one not in INTEGRATORS[name].options]

@@ -31,7 +31,8 @@ from sheetbench.scenes.motion import kinks
 from sheetbench.scenes.supports import named
 from sheetbench.scenes.tables import PiecewiseCurve
 
-ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
+ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by, and of energies
+NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
 
 
 @dataclass(frozen=True)
@@ -57,12 +58,16 @@ class System:
     def __init__(self, scene: Scene, problem: Problem, mass: np.ndarray | None = None):
         self.scene, self.problem, self.assembly = scene, problem, problem.assembly
         self.coupling = problem.assembly.coupling
+        self.items = problem.items
+        self.pushed = any(item.moves for item in self.items)
         self.transform = problem.constraints.transform
         size, lattice = self.assembly.pattern.size, self.assembly.lattice
         shared = masses(scene, lattice, self.assembly.inertia, self.assembly.cells)
         self.lattice_mass = shared if mass is None else mass
         self.damping = Damping(scene, self.assembly, self.lattice_mass)
-        self.packing = pack(lattice, self.assembly.springs, self.damping.dampers)
+        self.natural = problem.assembly.natural  # whose springs' rest data change: they are not packed
+        springs = self.assembly.springs if self.natural is None else ()
+        self.packing = pack(lattice, springs, self.damping.dampers)
         self.scratch = scratch(self.packing)
         mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         own = self.assembly.pattern.diagonal[: lattice.mass_count]
@@ -90,19 +95,32 @@ class System:
         self.solve_mass = _mass_solver(self.reduced_mass)
         branches = scene.material.branches
         self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
+        if self.maxwell is not None and self.natural is not None and self.natural.state.moves:
+            raise BadInput(
+                f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
+            )
         if self.maxwell is not None and self.assembly.precision == "single":
             raise BadInput("precision = 'single': takes no Maxwell branches; leave it out")
-        self._elastic_separate = self.maxwell is not None or self.assembly.precision == "single"
+        others = self.maxwell is not None or self.natural is not None
+        self._elastic_separate = others or self.assembly.precision == "single"
         # integrators ask for the same two moments several times a step
         self.place, self.place_rate = lru_cache(16)(self._place), lru_cache(16)(self._place_rate)
         self.motions = self._support_motions()
         self.moving = bool(self.motions or (self.coupling is not None and self.coupling.moved.any()))
         self._still = problem.constraints.turned(1.0)
+        self._energy: tuple[State | None, list[float]] = None, []
+        self._level, self._largest = 0.0, 0.0
 
     @property
     def working(self) -> bool:
-        """Whether some loads have no potential: they follow the sheet, or change over time."""
-        return not self.problem.loads.potential
+        """Whether some loads have no potential: they follow the sheet, or change over time, as a natural
+        state may."""
+        return not self.problem.loads.potential or (self.natural is not None and self.natural.state.moves)
+
+    @property
+    def resists(self) -> bool:
+        """Whether anything takes energy, but for branches."""
+        return self.damping.present or any(item.resists for item in self.items)
 
     @property
     def constrained(self) -> bool:
@@ -174,6 +192,9 @@ class System:
         power += self.damping.add_other_forces(u, v, force)
         if self.coupling is not None and not self._elastic_separate:
             energy += self.coupling.add_force(u, self.drive(time), force)
+        for item in self.items:
+            energy += 0.0 if self._elastic_separate else item.add_force(u, self.drive(time), force)
+            power += item.add_resistance(u, v, self.drive(time), force)
         return energy + stored, power, force
 
     @cached_property
@@ -183,6 +204,7 @@ class System:
 
     def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Elastic energy and internal force, actuators with their multipliers and branches included."""
+        self.assembly.grow(time=time)
         force = np.zeros_like(u)
         if self.maxwell is not None:
             energy = self.maxwell.add_force(u, force)
@@ -192,18 +214,22 @@ class System:
             energy, _ = add_forces(u, u, True, False, self.packing, self.scratch, force)
         if self.coupling is not None:
             energy += self.coupling.add_force(u, self.drive(time), force)
+        for item in self.items:
+            energy += item.add_force(u, self.drive(time), force)
         return energy, force
 
-    def damping_force(self, u: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
+    def damping_force(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Power taken and damping force."""
         force, power = np.zeros_like(u), 0.0
         if self.packing.damped:
             _, power = add_forces(u, v, False, True, self.packing, self.scratch, force)
+        for item in self.items:
+            power += item.add_resistance(u, v, self.drive(time), force)
         return power + self.damping.add_other_forces(u, v, force), force
 
     def power(self, state: State) -> float:
         """Power [W] that goes into dampers and branches."""
-        power, _ = self.damping_force(state.u, state.v)
+        power, _ = self.damping_force(state.u, state.v, state.time)
         if self.maxwell is not None and state.memory is not None:
             force = np.zeros_like(state.u)
             self.maxwell.add_branch_force(state.u, state.memory, force)
@@ -220,18 +246,34 @@ class System:
 
     def average_elastic(self, start: State, end: np.ndarray, time: float) -> np.ndarray:
         """Internal force whose work from `start` to the displacement `end` is the energy stored or, by
-        branches, taken; commands as at `time`."""
+        branches, taken; commands and natural state as at `time`."""
+        self.assembly.grow(time=time)
         force = self.assembly.average_force(start.u, end)
         if self.maxwell is not None and start.memory is not None:
             self.maxwell.add_mean_force(start.memory, 0.5 * (start.u + end), end, force)
         if self.coupling is not None:
             self.coupling.add_average_force(start.u, end, self.drive(time), force)
+        for item in self.items:
+            item.add_average_force(start.u, end, self._ends(start, time), force)
         return force
 
+    def _ends(self, start: State, middle: float) -> tuple[Drive, Drive]:
+        """The commands at both ends of a step."""
+        return self.drive(start.time), self.drive(2.0 * middle - start.time)
+
     def matrix(
-        self, u: np.ndarray, v: np.ndarray, time: float, mass: float, damping: float, stiffness: float
+        self,
+        u: np.ndarray,
+        v: np.ndarray,
+        time: float,
+        mass: float,
+        damping: float,
+        stiffness: float,
+        ends: tuple[State, np.ndarray] | None = None,
     ) -> np.ndarray:
-        """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once."""
+        """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once. ends: of a
+        step of which the items have the average force's derivative by its end."""
+        self.assembly.grow(time=time)
         own = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
         both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
         share, stresses = own / both if both else 0.0, None
@@ -253,6 +295,12 @@ class System:
                 np.add.at(blocks, slots, mass * self._chain_mass)
             blocks += stiffness * others
         self.damping.add_velocity_tangent(u, v, damping, blocks)
+        for item in self.items:
+            if ends is None:
+                item.add_tangent(u, self.drive(time), stiffness, blocks)
+            else:
+                item.add_average_tangent(ends[0].u, ends[1], self._ends(ends[0], time), blocks)
+            item.add_resistance_tangent(u, v, self.drive(time), damping, blocks)
         return blocks
 
     def since(self, state: State, ahead: float = 0.0) -> None:
@@ -266,6 +314,7 @@ class System:
         if self.maxwell is None or before.memory is None:
             return after, 0.0
         self.since(before, after.time - before.time)
+        self.assembly.grow(time=after.time)
         after = replace(after, memory=self.maxwell.after(after.u))
         assert after.memory is not None
         return after, self.maxwell.dissipated(before.memory, after.memory)
@@ -286,6 +335,38 @@ class System:
     def accelerate(self, force: np.ndarray) -> np.ndarray:
         """T M⁻¹ Tᵀ f, (size, 3) [m/s²]."""
         return self.expand(self.solve_mass(self.reduce(force)))
+
+    def energy_gained(self, before: State, after: State, taken: float, work: float) -> float:
+        """Return by how much energy has grown from nothing in a step [J], over the largest part of it so far;
+        taken, work: by dampers and by what moves in it."""
+        if self._energy[0] is not before:
+            self._energy = before, self._parts(before)
+        parts = self._parts(after)
+        then, self._energy = self._energy[1], (after, parts)
+        self._largest = max(self._largest, parts[0], abs(parts[1]), abs(parts[2] - self._level))
+        gained = float(sum(parts) - sum(then)) + taken - work
+        return abs(gained) / self._largest if self._largest else 0.0
+
+    def _parts(self, state: State) -> list[float]:
+        return list(self.balance(state)[0].values())
+
+    def pushed_between(self, start: State, end: np.ndarray, middle: float) -> float:
+        """Work [J] of what items are fixed to in a step of the conserving midpoint rule."""
+        done, ends = 0.0, self._ends(start, middle)
+        rate = (end - start.u) / (2.0 * (middle - start.time))
+        for item in self.items:
+            force = np.zeros_like(end)
+            item.add_average_force(start.u, end, ends, force)
+            item.add_resistance(0.5 * (start.u + end), rate, self.drive(middle), force)
+            done -= item.work(force.sum(axis=0), start.time, 2.0 * middle - start.time)
+        return done
+
+    def pushing(self, state: State) -> float:
+        """Power [W] of what items are fixed to, as it moves."""
+        return sum(
+            item.power(item.exerted(state.u, self.drive(state.time), state.v).sum(axis=0), state.time)
+            for item in self.items
+        )
 
     def balance(self, state: State) -> tuple[dict[str, float], np.ndarray]:
         """Kinetic, elastic and potential energy [J], of which only constant dead loads have the last; and
@@ -337,11 +418,49 @@ class System:
         if self.working:
             mean = 0.5 * (self.external(before.u, before.time) + self.external(after.u, after.time))
             done += float(np.sum((mean - self.problem.loads.dead) * (after.u - before.u)))
+        for item in self.items if self.pushed else ():
+            ends = (item.exerted(s.u, self.drive(s.time), s.v).sum(axis=0) for s in (before, after))
+            done += item.work(0.5 * sum(ends, np.zeros(3)), before.time, after.time)
         if self.coupling is not None:
             then, now = self.drive(before.time), self.drive(after.time)
             for u in (before.u, after.u):
                 done += 0.5 * self.coupling.command_work(u, then, now)
+        for u in (before.u, after.u) if self.natural is not None else ():
+            done += 0.5 * self.natural_work(u, before.time, after.time)
         return done
+
+    @property
+    def least_energy(self) -> float:
+        """Energy [J] below which all is rounding: of a natural state, in whose shape there is none."""
+        if self.natural is None:
+            return 0.0
+        self.assembly.grow()
+        return ROUNDED * self.assembly.force(np.zeros_like(self._still))[0]
+
+    def natural_work(self, u: np.ndarray, then: float, now: float) -> float:
+        """Work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""
+        if self.natural is None or not self.natural.state.moves:
+            return 0.0
+        energies = []
+        for time in (then, now):
+            self.assembly.grow(time=time)
+            energies.append(self.assembly.force(u)[0])
+        return energies[1] - energies[0]
+
+    def natural_power(self, u: np.ndarray, time: float, before: bool = False) -> float:
+        """Return its power [W] from a moment on, or until then: of a difference that is exact but for third
+        powers of the change."""
+        if self.natural is None or not self.natural.state.moves:
+            return 0.0
+        at, rate = self.natural.state.factors(time), self.natural.state.rates(time, before)
+        if not rate.any():
+            return 0.0
+        step = NATURAL_STEP / np.abs(rate).max()
+        energies = []
+        for sign in (1.0, -1.0):
+            self.natural.set(at + sign * step * rate)
+            energies.append(self.assembly.force(u)[0])
+        return (energies[0] - energies[1]) / (2.0 * step)
 
 
 def _mass_solver(mass: sp.csc_array) -> Callable[[np.ndarray], np.ndarray]:

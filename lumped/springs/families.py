@@ -103,12 +103,14 @@ class Family(ABC):
 @dataclass(frozen=True, eq=False)
 class Links(Family):
     """Central links, all together: offset (m, 3) [m] rest vectors, rest_length (m,) [m], kind (m,) numbers
-    into the lattice's `names`."""
+    into the lattice's `names`; natural: rest_length and δg₀ (2, m) of a sheet that is not flat at rest, which
+    rest_length then is a row of."""
 
     offset: np.ndarray
     rest_length: np.ndarray
     kind: np.ndarray
     names: tuple[str, ...]
+    natural: np.ndarray | None = None
 
     loops: ClassVar[Any] = links
     measures: ClassVar[int] = 1
@@ -117,7 +119,8 @@ class Links(Family):
     @cached_property
     def arrays(self) -> LinkArrays:
         """Return what the loops take."""
-        return LinkArrays(self.nodes, self.offset, self.rest_length, self.stiffness, self.slots)
+        rest = self.rest_length if self.natural is None else self.natural
+        return LinkArrays(self.nodes, self.offset, rest, self.stiffness, self.slots)
 
     def largest_strain(self, elongations: np.ndarray) -> float:
         """Return the largest relative change of length of the in-plane links, of elongations (m,) [m]."""
@@ -192,7 +195,7 @@ class Cells(Family):
     (c, 4) of small strains, against the change of area and the Green strains ε1, ε2, γ of the mean sides, or
     (c, 7) with what couples these, which dampers in proportion resist; at rest sides (c, 2, 3) [m] and area
     (c,) [m²]; the names of area springs and of all others; their law, and what constants it has beside
-    (c, n)."""
+    (c, n); natural: all constants of a sheet that is not flat at rest."""
 
     sides: np.ndarray
     area: np.ndarray
@@ -200,6 +203,7 @@ class Cells(Family):
     upright: bool = False  # faces between the layers
     law: Law = AREA_AND_STRAINS
     others: np.ndarray | None = None
+    natural: np.ndarray | None = None
 
     loops: ClassVar[Any] = cells
     no_stress: ClassVar[np.ndarray] = np.empty((0, 4))
@@ -207,6 +211,8 @@ class Cells(Family):
     @cached_property
     def constants(self) -> np.ndarray:
         """Return the law's constants, those of small strains first [N/m³]: (c, 7), or (c, 4 + n)."""
+        if self.natural is not None:
+            return self.natural
         springs = laws.of_stiffness(self.stiffness, self.sides, self.area)
         return springs if self.others is None else np.column_stack([springs[:, :4], self.others])
 
@@ -231,8 +237,8 @@ class Cells(Family):
     def energies(self, u: np.ndarray) -> np.ndarray:
         """Return the energy of the area spring and of all else of every cell; of rubber that of the membrane
         less that of the links along its sides."""
-        areas = np.zeros_like(self.constants)
-        areas[:, 0] = self.constants[:, 0]
+        areas = self.constants.copy()
+        areas[:, 1 : 7 if self.natural is not None else None] = 0.0
         stored: np.ndarray = cells.energies(u, self.arrays, self.law.tag(areas))
         return stored
 
@@ -244,4 +250,5 @@ class Cells(Family):
 
     def damped(self, time: float) -> Cells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""
-        return replace(self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None)
+        own = None if self.natural is None else time * self.natural[:, :7]
+        return replace(self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None, natural=own)

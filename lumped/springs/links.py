@@ -9,6 +9,9 @@ predicts (Magisano, Leonetti and Garcea 2017). What is linear in a step then is 
 large rotation all links are stretched for a moment, and D with them. Dampers have the stress M ġ, ġ = 2 r·dv;
 of it the derivative by the displacement, 2 M ġ I + 4 M r (dv − ġ r/g)ᵀ, is unsymmetric.
 
+A link of another natural length than d₀ is long, g₀ = d₀·d₀ + δg₀ (`lumped.natural`), has δg − δg₀ in place
+of δg and √g₀ as its length at rest.
+
 The per-direction law of Habibi et al., F_q = k_q Δ_q (1 − L/r), has unequal stiffness along x, y and z; no
 energy, hence no stress to extrapolate, and an unsymmetric tangent.
 
@@ -28,8 +31,9 @@ HALF = 0.5
 
 
 class LinkArrays(NamedTuple):
-    """nodes (m, 2); offset (m, 3) [m], d₀; rest_length (m,) [m]; constants (m,), stiffness [N/m] or damping
-    [N·s/m], of the per-direction law (m, 3); slots (m, 4) block numbers aa, ab, ba, bb."""
+    """nodes (m, 2); offset (m, 3) [m], d₀; rest_length (m,) [m], or (2, m), beside it δg₀ [m²]; constants
+    (m,), stiffness [N/m] or damping [N·s/m], of the per-direction law (m, 3); slots (m, 4) block numbers aa,
+    ab, ba, bb."""
 
     nodes: np.ndarray
     offset: np.ndarray
@@ -55,6 +59,15 @@ def measure(u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, m: int) -> tup
 
 
 @njit(cache=True, error_model="numpy")
+def natural(change: float, rest: np.ndarray, m: int) -> tuple[float, float]:
+    """δg since link m is as long as it naturally is, and that length [m]. numba compiles one of these lines,
+    by the kind of array."""
+    if rest.ndim == 1:
+        return change, rest[m]
+    return change - rest[1, m], rest[0, m]
+
+
+@njit(cache=True, error_model="numpy")
 def pull(nodes: np.ndarray, m: int, k: float, r: Vector, force: np.ndarray) -> None:
     """Add ± k r to the forces on the ends of link m."""
     a, b = np.uint64(nodes[m, 0]), np.uint64(nodes[m, 1])
@@ -69,7 +82,8 @@ def add_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) -> float:
     energy = 0.0
     for m in range(len(links.nodes)):
         change, square, r = measure(u, links.nodes, links.offset, m)
-        stored, stress, _, _ = elongation(HALF, change, square, links.rest_length[m], links.constants[m])
+        change, length = natural(change, links.rest_length, m)
+        stored, stress, _, _ = elongation(HALF, change, square, length, links.constants[m])
         energy += stored
         pull(links.nodes, m, stress + stress, r, force)
     return energy
@@ -90,7 +104,8 @@ def add_remembering_forces(
     energy = 0.0
     for m in range(len(links.nodes)):
         d, square, r = measure(u, links.nodes, links.offset, m)
-        stored, s, _, _ = elongation(HALF, d, square, links.rest_length[m], links.constants[m])
+        d, length = natural(d, links.rest_length, m)
+        stored, s, _, _ = elongation(HALF, d, square, length, links.constants[m])
         stress[m, 0], change[m, 0] = s, d
         energy += stored
         pull(links.nodes, m, 2.0 * (own * s + constant[m, 0]), r, force)
@@ -103,7 +118,8 @@ def elongations(u: np.ndarray, links: LinkArrays) -> np.ndarray:
     out = np.empty(len(links.nodes))
     for m in range(len(links.nodes)):
         change, square, _ = measure(u, links.nodes, links.offset, m)
-        out[m] = change / (np.sqrt(square) + links.rest_length[m])
+        change, length = natural(change, links.rest_length, m)
+        out[m] = change / (np.sqrt(square) + length)
     return out
 
 
@@ -114,7 +130,8 @@ def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: boo
     out = np.empty(len(links.nodes))
     for m in range(len(links.nodes)):
         change, square, r = measure(u, links.nodes, links.offset, m)
-        _, stress, material, rest = elongation(HALF, change, square, links.rest_length[m], links.constants[m])
+        change, length = natural(change, links.rest_length, m)
+        _, stress, material, rest = elongation(HALF, change, square, length, links.constants[m])
         along = 2.0 * dot(r, difference(step, links.nodes, m))
         if strain:
             out[m] = (stress + material * along) * np.sqrt(square)
@@ -130,8 +147,10 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, fo
     for m in range(len(links.nodes)):
         change0, square0, r0 = measure(start, links.nodes, links.offset, m)
         change1, square1, r1 = measure(end, links.nodes, links.offset, m)
+        change0, length = natural(change0, links.rest_length, m)
+        change1, _ = natural(change1, links.rest_length, m)
         l0, l1 = np.sqrt(square0), np.sqrt(square1)
-        e0, e1 = change0 / (l0 + links.rest_length[m]), change1 / (l1 + links.rest_length[m])
+        e0, e1 = change0 / (l0 + length), change1 / (l1 + length)
         stress = mean_elongation(l0, l1, e0, e1, links.constants[m])
         pull(links.nodes, m, stress, (r0[0] + r1[0], r0[1] + r1[1], r0[2] + r1[2]), force)
 
@@ -153,7 +172,8 @@ def add_tangent(
     own = len(stress) == 0
     for m in range(len(links.nodes)):
         change, square, r = measure(u, links.nodes, links.offset, m)
-        _, at_u, material, rest = elongation(HALF, change, square, links.rest_length[m], links.constants[m])
+        change, length = natural(change, links.rest_length, m)
+        _, at_u, material, rest = elongation(HALF, change, square, length, links.constants[m])
         s, curved = share * at_u if own else stress[m], share * rest
         if extrapolated:
             s /= np.sqrt(square)

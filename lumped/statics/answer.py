@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from lumped.actuators import Drive
 from lumped.calibration import Calibration
+from lumped.contact import contact_pressure
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
 from lumped.statics.balance import balance
@@ -16,6 +18,7 @@ from lumped.statics.energy_descent import LatticePath
 from lumped.statics.fields import LatticeMesh, field_mesh
 from lumped.statics.problem import LatticeState, Problem
 from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes.contact import contact_notes
 from sheetbench.scenes.grading import as_settings
 
 
@@ -53,6 +56,10 @@ def solution(
     wrenches = coupling.wrenches(state.u, exerted) if coupling is not None else {}
     if coupling is not None:
         reactions |= coupling.reactions(exerted)
+    drive = Drive(state.load_factor)
+    touching = {item.name: item.exerted(u, drive) for item in problem.items}
+    reactions |= {name: force.sum(axis=0) for name, force in touching.items()}
+    contacts = {item.name: item.report(u, drive) for item in problem.items}
     nx, ny, layers = lattice.grid
     settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
     settings |= {"layer_distance": calibration.layer_distance, **as_settings(calibration.grading)}
@@ -68,13 +75,24 @@ def solution(
         sample=partial(_sampled, lattice, u),
         reactions=reactions,
         energies=energies,
-        mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, linear)),
+        mesh=LatticeMesh(
+            partial(
+                field_mesh,
+                assembly,
+                u,
+                on_masses,
+                state.load_factor,
+                linear,
+                contact_pressure(problem, u, drive),
+            )
+        ),
         history=tuple(path.history),
         load_factor=state.load_factor,
         actuators=wrenches,
-        balance=balance(scene, problem, state, reactions, exerted, linear),
+        balance=balance(scene, problem, state, reactions, exerted, sum(touching.values()), linear),
+        contacts=contacts,
         snaps=tuple(path.snaps),
-        remarks=outcome.notes,
+        remarks=(*outcome.notes, *contact_notes(contacts)),
     )
 
 
@@ -86,14 +104,17 @@ def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float
     """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
     the energies [J]."""
     state = outcome.state
-    energies = outcome.energies or problem.assembly.energies(state.u)
+    energies = outcome.energies or problem.energies(state.u, state.load_factor)
     residual = state.residual or problem.residual(state.u, state.load_factor)
     return -residual.force, energies
 
 
 def _of_small_displacements(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:
-    """Return forces K u − f (size, 3) [N] and energies ½ u·K u [J] of small displacements (`flat_step`)."""
+    """Return forces K u + f₀ − f (size, 3) [N] and energies E₀ + f₀·u + ½ u·K u [J] of small displacements
+    (`flat_step`), E₀ and f₀ those of the flat sheet, which has some where it is not flat at rest."""
     flat = np.zeros_like(state.u)
-    internal = problem.system.apply(problem.tangent(flat, 0.0), state.u)
+    bent = problem.system.apply(problem.tangent(flat, 0.0), state.u)
     external = problem.external(flat, state.load_factor)
-    return internal - external, {"elastic": 0.5 * float(np.sum(internal * state.u))}
+    stored, pull = problem.internal(flat, state.load_factor)
+    energy = stored + float(np.sum((pull + 0.5 * bent) * state.u))
+    return bent + pull - external, {"elastic": energy}

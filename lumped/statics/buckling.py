@@ -12,7 +12,7 @@ from sheetbench.clock import now
 from sheetbench.numerics.continuation.buckling import buckling_modes
 from sheetbench.scenes import AnyScene, require_static, scene_of
 from sheetbench.scenes.grading import as_settings
-from sheetbench.scenes.modes import Buckling, require_flat_and_dead
+from sheetbench.scenes.modes import STILL, Buckling, require_flat_and_dead
 
 
 def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int = 1) -> Buckling:
@@ -34,7 +34,9 @@ def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int
     problem = build_problem(scene, calibration)
     lattice, structure = problem.assembly.lattice, LatticeStructure(scene, problem)
     middle = MidSurface(lattice, lattice.positions[lattice.columns()[:, :, 0].ravel(), :2])
-    factors, states = buckling_modes(structure, structure, lambda state: middle.of(state.u), count)
+    factors, states = buckling_modes(
+        structure, structure, lambda state: middle.of(state.u), count, STILL * problem.size
+    )
 
     def displacement(points: np.ndarray) -> np.ndarray:
         at = MidSurface(lattice, points)

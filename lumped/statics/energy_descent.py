@@ -13,6 +13,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
+from lumped.actuators import Drive
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.structure import LatticeForces, LatticeStructure
 from sheetbench.numerics.continuation.newton import Start, newton
@@ -30,11 +31,16 @@ def settle(path: LatticePath, load_factor: float) -> LatticeState:
     """Return the stable equilibrium at a load factor that descent reaches from a path's last one, from beside
     it where that is at this load factor and unstable. Raises StepFailed where there is none."""
     assert isinstance(path.structure, LatticeStructure)
-    problem, u = path.structure.problem, path.state.u
+    problem, state, factor = path.structure.problem, path.state, path.factor
     problem.assembly.require_energy()
     try:
-        if load_factor == path.load_factor:
-            u = _disturbed(path, problem)
+        if load_factor != path.load_factor:
+            u = problem.project_to_supports(state.u, load_factor)
+            state, factor = _descend(path, problem, u, load_factor), None
+        factor = factor or path.factored(path.tangent(state, load_factor))
+        if load_factor != path.load_factor and not factor.negative:
+            return state
+        u = _disturbed(path, problem, state, factor)  # a saddle, as a flat sheet that has buckled
         return _descend(path, problem, problem.project_to_supports(u, load_factor), load_factor)
     except SingularMatrixError as error:
         raise StepFailed(Status.SINGULAR, str(error), 0.0) from None
@@ -58,6 +64,9 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
             raise _failed("no direction of descent: the projected tangent is not positive definite")
         move = problem.expand(direction)
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
+        share *= min(
+            (one.step_share(u, share * move, Drive(load_factor)) for one in problem.items), default=1.0
+        )
         start = problem.potential(u, load_factor)
         while share > 1e-10:
             if problem.potential(u + share * move, load_factor) <= start + 1e-4 * share * slope:
@@ -74,14 +83,13 @@ def _failed(reason: str) -> StepFailed:
     return StepFailed(Status.STEP_LIMIT, reason, 0.0)
 
 
-def _disturbed(path: LatticePath, problem: Problem) -> np.ndarray:
+def _disturbed(path: LatticePath, problem: Problem, state: LatticeState, factor: Factor) -> np.ndarray:
     """Displacement beside an unstable equilibrium, moved along a direction of negative curvature.
 
     The move is a tenth of the layer distance; of its two signs the one of lower energy (the first if even).
     """
-    n, state = problem.system.unknowns, path.state
-    blocks = path.tangent(state, path.load_factor)
-    factor = path.factor or path.factored(blocks)
+    n, load_factor = problem.system.unknowns, state.load_factor
+    blocks = path.tangent(state, load_factor)
     inverse = LinearOperator((n, n), matvec=factor.solve, dtype=float)
     start = np.random.default_rng(0).standard_normal(n)
     matrix = problem.system.matrix(blocks)
@@ -91,7 +99,7 @@ def _disturbed(path: LatticePath, problem: Problem) -> np.ndarray:
         raise _failed("no direction of negative curvature found") from None
     move = problem.expand(vectors[:, 0])
     move *= 0.1 * problem.assembly.lattice.spacing[2] / np.abs(move).max()
-    return min((state.u + move, state.u - move), key=lambda u: problem.potential(u, path.load_factor))
+    return min((state.u + move, state.u - move), key=lambda u: problem.potential(u, load_factor))
 
 
 def _definite_factor(

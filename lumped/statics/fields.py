@@ -9,7 +9,7 @@ of a plan cell's layers have equal parts).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,7 @@ from lumped.lattice import Lattice
 from lumped.springs.families import Cells
 from sheetbench.scenes import FieldMesh
 
+NO_FIELDS: Mapping[str, np.ndarray] = {}
 SMALL = 1e-12  # of a displacement: what is left that is not linear in it
 
 
@@ -39,11 +40,20 @@ class LatticeMesh(FieldMesh):
         return FieldMesh, tuple(getattr(self, name) for name in FieldMesh.__dataclass_fields__)
 
 
-def field_mesh(assembly: Assembly, u: np.ndarray, reactions: np.ndarray, linear: bool = False) -> FieldMesh:
+def field_mesh(
+    assembly: Assembly,
+    u: np.ndarray,
+    reactions: np.ndarray,
+    share: float = 1.0,
+    linear: bool = False,
+    contact: Mapping[str, np.ndarray] = NO_FIELDS,
+) -> FieldMesh:
     """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N];
-    rows of actuators after those of the masses are left out. linear: of a solution for small displacements,
-    of which the springs have a small part."""
+    rows of actuators after those of the masses are left out. share: of a natural state; linear: of a solution
+    for small displacements, of which the springs have a small part; contact: the pressure of obstacles (n,)
+    [Pa] as "contact_pressure", where there are any."""
     part = SMALL if linear else 1.0
+    assembly.grow(part * share)
     small, links, lattice = part * u, assembly.links, assembly.lattice
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
     quads, masses = len(layer_cells), lattice.mass_count
@@ -68,6 +78,7 @@ def field_mesh(assembly: Assembly, u: np.ndarray, reactions: np.ndarray, linear:
             "displacement": u[:masses],
             "reaction": reactions[:masses],
             "mass_share": lattice.share,
+            **contact,
         },
         cell_data={
             "tension": [links.stiffness * elongation, np.zeros(quads)],

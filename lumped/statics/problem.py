@@ -6,6 +6,7 @@ With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0. Displaceme
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from numba import njit
 
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
+from lumped.items import Item
 from lumped.loads import Loads
 from lumped.springs.all_families import Stresses
 from lumped.supports import Constraints
@@ -47,13 +49,14 @@ class LatticeState(NamedTuple):
 class Problem:
     """A lattice under its supports and loads, which grow with the load factor λ.
 
-    size: the sheet's longer side [m].
+    size: the sheet's longer side [m]; items: what else acts on the sheet (`lumped.items`).
     """
 
     assembly: Assembly
     constraints: Constraints
     loads: Loads
     size: float
+    items: tuple[Item, ...] = ()
 
     def __post_init__(self) -> None:
         self.conservative = self.assembly.conservative and self.loads.conservative
@@ -87,17 +90,31 @@ class Problem:
         full: np.ndarray = product(self._free, np.ascontiguousarray(unknowns))
         return full.reshape(-1, 3)
 
+    @cached_property
+    def driving(self) -> float:
+        """Norm of the forces [N] of the natural state on the flat sheet, often the only ones."""
+        if self.assembly.natural is None:
+            return 0.0
+        self.assembly.grow()
+        return float(np.linalg.norm(self.assembly.force(np.zeros_like(self.loads.dead))[1]))
+
     def tangent(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> np.ndarray:
         """Blocks of the tangent of the residual, loads included."""
+        self.assembly.grow(load_factor)
         blocks = self.assembly.tangent(u, stresses, extrapolated=stresses is not None)
         return self._with_loads(blocks, u, load_factor)
 
     def nonnegative_tangent(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """Return blocks of the tangent less what could make that of the springs indefinite."""
-        return self._with_loads(self.assembly.all_families.nonnegative_tangent(u), u, load_factor)
+        self.assembly.grow(load_factor)
+        return self._with_loads(self.assembly.all_families.nonnegative_tangent(u), u, load_factor, True)
 
-    def _with_loads(self, blocks: np.ndarray, u: np.ndarray, load_factor: float) -> np.ndarray:
+    def _with_loads(
+        self, blocks: np.ndarray, u: np.ndarray, load_factor: float, definite: bool = False
+    ) -> np.ndarray:
         self.loads.add_tangent(u, load_factor, blocks)
+        for item in self.items:
+            item.add_tangent(u, Drive(load_factor), 1.0, blocks, definite)
         if self.assembly.coupling is not None:
             slots = self.assembly.coupling_slots
             self.assembly.coupling.add_tangent(u, Drive(load_factor), slots, blocks)
@@ -117,10 +134,21 @@ class Problem:
 
     def internal(self, u: np.ndarray, load_factor: float) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and internal force, actuators included."""
+        self.assembly.grow(load_factor)
         energy, force = self.assembly.force(u)
         if self.assembly.coupling is not None:
             energy += self.assembly.coupling.add_force(u, Drive(load_factor), force)
+        for item in self.items:
+            energy += item.add_force(u, Drive(load_factor), force)
         return energy, force
+
+    def energies(self, u: np.ndarray, load_factor: float) -> dict[str, float]:
+        """Return the energy [J] of the springs under each name in the spring set, and of the items
+        together."""
+        self.assembly.grow(load_factor)
+        found, force = self.assembly.energies(u), np.zeros_like(u)
+        stored = [item.add_force(u, Drive(load_factor), force) for item in self.items]
+        return found | ({"contact": sum(stored)} if stored else {})
 
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """External force λ f(u)."""
@@ -133,20 +161,25 @@ class Problem:
 
     def residual(self, u: np.ndarray, load_factor: float) -> Residual:
         """Return the residual at u."""
-        flat = self.assembly.coupling is None and not u.any()  # where springs are at rest
+        others = self.assembly.coupling is not None or self.assembly.natural is not None or self.items
+        flat = not (others or u.any())  # where springs are at rest
         internal = np.zeros_like(u) if flat else self.internal(u, load_factor)[1]
         return self._residual(internal, u, load_factor)
 
     def _residual(self, internal: np.ndarray, u: np.ndarray, load_factor: float) -> Residual:
         external = self.external(u, load_factor)
         held, free, n = self.constraints.held, self._free, self.system.unknowns
-        return Residual(*unbalanced_force(internal, external, held, free, n))
+        found = Residual(*unbalanced_force(internal, external, held, free, n))
+        return found._replace(scale=found.scale + abs(load_factor) * self.driving) if self.driving else found
 
     def advance(self, u: np.ndarray, step: np.ndarray, load_factor: float) -> LatticeState:
         """Return where a step (n, 3) [m] from u leads, the residual and the predicted stresses there."""
+        self.assembly.grow(load_factor)
         after, length, internal, stresses = self.assembly.advance(u, step, True)
         if self.assembly.coupling is not None:
             self.assembly.coupling.add_force(after, Drive(load_factor), internal)
+        for item in self.items:
+            item.add_force(after, Drive(load_factor), internal)
         residual = self._residual(internal, after, load_factor)
         return LatticeState(after, load_factor, residual, stresses, u, length)
 
@@ -155,7 +188,8 @@ class Problem:
         assembly, largest = self.assembly, float(np.abs(u).max())
         # relative displacements are differences of u: their rounding, times the stiffness
         if assembly.coupling is None:
-            return assembly.rounding * largest * assembly.all_families.link_stiffness_norm
+            links = assembly.rounding * largest * assembly.all_families.link_stiffness_norm
+            return links + sum(item.rounding() for item in self.items)
         carried = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
         return float(assembly.rounding * np.linalg.norm(carried))
 

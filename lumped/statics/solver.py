@@ -12,7 +12,8 @@ from lumped.actuators import Coupling
 from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
-from lumped.lattice import Weights
+from lumped.contact import ContactPenalties, contacts
+from lumped.lattice import Lattice, Weights
 from lumped.loads import Loads
 from lumped.sections import require_alike
 from lumped.statics import validity
@@ -20,13 +21,14 @@ from lumped.statics.answer import Outcome, solution
 from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import LatticePath, settle
 from lumped.statics.fields import SMALL
-from lumped.statics.polygon import polygons
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.structure import STRETCH, LatticeStructure
 from lumped.supports import constrain
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_effect
+from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.path import Path, Progress
+from sheetbench.numerics.continuation.stiffening import trace_stiffening
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
@@ -45,6 +47,8 @@ from sheetbench.scenes import (
     scene_of,
 )
 from sheetbench.scenes.material import limit_note
+from sheetbench.scenes.natural_state import NaturalState, natural_of_cells
+from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.orthotropy import FIBRES
 
 Branch = Literal["path", "stable"]
@@ -83,6 +87,8 @@ def solve(
     (<Status.CONVERGED: 'converged'>, array([[-0.0004 , -0.0004 , -0.01345]]))
     """
     require_static(scene := scene_of(scene))
+    if linear:
+        require_no_obstacles(scene, "a linear solve")
     if linear and scene.actuators:
         raise BadInput("linear = True: actuators turn with the sheet; solve without")
     if linear:
@@ -130,20 +136,28 @@ def build_problem(
     """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
     supports and loads serve again where they are on the same lattice. Raises BadInput if no mass is left to
     move, and for springs of cells that are all alike where the scene's are not."""
-    fibres_alone = calibration.of_material and scene.drawn_by == FIBRES
+    fibres_alone = calibration.of_material and scene.varied_by == FIBRES and not scene.shaped_by
     if (calibration.cells is None or calibration.of_material) and not fibres_alone:
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
         require_alike(scene, f"the calibration {calibration.method}", instead)
     couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(scene.sheet, calibration, weights, couple, precision, scene.twisting_edges())
+    assembly = Assembly(
+        scene.sheet, calibration, weights, couple, precision, scene.twisting_edges(), natural_of(scene)
+    )
     size = max(scene.sheet.lengths)
-    if same is not None and same.assembly.lattice is assembly.lattice and couple is None:
-        return Problem(assembly, same.constraints, same.loads, size)
+    alike = same is not None and same.assembly.lattice is assembly.lattice
+    if same is not None and alike and couple is None and assembly.natural is None:
+        return Problem(assembly, same.constraints, same.loads, size, same.items)
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
-    return Problem(assembly, constraints, Loads(scene, assembly), size)
+    return Problem(assembly, constraints, Loads(scene, assembly), size, contacts(scene, assembly))
+
+
+def natural_of(scene: Scene) -> Callable[[Lattice], NaturalState | None]:
+    """Return what finds the natural state of a lattice's cells."""
+    return lambda lattice: natural_of_cells(scene, lattice.lines[0].at, lattice.lines[1].at)
 
 
 def flat_step(scene: Scene, problem: Problem) -> Outcome:
@@ -158,6 +172,7 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
         return Outcome(Status.SINGULAR, path, (f"the flat sheet's tangent is singular: {error}",))
     path.state = LatticeState(u, 1.0)
     links = problem.assembly.links
+    problem.assembly.grow(SMALL)
     strain = links.largest_strain(links.elongations(SMALL * u)) / SMALL
     if outside := outside_model(scene, strain, STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, path, (outside,))
@@ -176,9 +191,21 @@ def solve_path(
     structure = LatticeStructure(scene, problem)
     start = None if near is None else structure.start(near)
     slenderness = scene.sheet.thickness / problem.size
-    path = trace_path(
-        structure, structure, structure.inspect, settle if problem.descends else None, progress, start,
-        slenderness, structure.limits, branch == "stable",
+    down = settle if problem.descends else None
+
+    def trace(limits: Limits, buckled: bool = False) -> LatticePath:
+        return trace_path(
+            structure, structure, structure.inspect, down, progress, start, slenderness, limits, buckled
+        )
+
+    buckled = branch == "stable"
+    if not problem.items:
+        return classify(scene, problem, trace(structure.limits, buckled))
+    penalties = ContactPenalties(problem)
+    path = trace_stiffening(
+        penalties, Path(structure, structure, structure.rest(), limits=structure.limits, progress=progress),
+        lambda: trace(structure.limits.direct), structure.inspect, down,
+        lambda state: LatticeState(state.u, state.load_factor), buckled,
     )  # fmt: skip
     return classify(scene, problem, path)
 
@@ -204,6 +231,8 @@ def solve_from_best_start(
         raise BadInput(f"near: of shape {near.shape}, and the lattice's {problem.loads.dead.shape}")
     if problem.assembly.coupling is not None:
         return solve_path(scene, problem, progress=progress)
+    if problem.items:  # whose points are others on another grid
+        return solve_path(scene, problem, progress=progress)
     large = near is None and problem.descends and problem.system.unknowns > FROM
     springs = halved(scene, calibration) if large else None
     if springs is None:
@@ -228,12 +257,13 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
             notes.append(limit_note(scene.material))
         return Outcome(status, path, tuple(notes))
     links = problem.assembly.links
+    problem.assembly.grow(state.load_factor)
     elongations = links.elongations(state.u)
     outside = outside_model(scene, links.largest_strain(elongations), STRETCH)
     if outside and not problem.assembly.any_strain:
         status = Status.STRAIN_OUTSIDE_MODEL
         notes.insert(0, outside)
-    energies = problem.assembly.energies(state.u)
+    energies = problem.energies(state.u, state.load_factor)
     doubts = validity.layers(scene, problem.assembly, state.u, elongations, sum(energies.values()))
     rounded = validity.digits(problem, state, path.factor)
     if rounded is not None and status is Status.CONVERGED:
@@ -243,7 +273,6 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
             None,
             [
                 doubts,
-                polygons(scene),
                 rounded.message if rounded is not None else "",
             ],
         )

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sp
 
+from lumped.actuators import Drive
 from lumped.statics.faults import broken
 from lumped.statics.problem import LatticeState, Problem, Residual
 from sheetbench.numerics.continuation.limits import Limits
@@ -20,7 +21,7 @@ from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Path
 from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.direct import Count, Factor, iterated
-from sheetbench.scenes import Scene, outside_model
+from sheetbench.scenes import Scene, Status, outside_model
 
 STRETCH = "largest in-plane link strain"
 ITERATED = 5000  # unknowns from which a factorisation costs as much as ten solutions
@@ -54,6 +55,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def __init__(self, scene: Scene, problem: Problem):
         self.scene, self.problem, self.limits = scene, problem, LIMITS
         self._moves = bool(problem.prescribed(1.0).any())
+        self._before = self.rest()  # the last equilibrium inspected
         self._iterates = problem.descends and problem.system.unknowns > ITERATED
         if problem.assembly.precision == "single":  # whose corrections never are idle
             self.limits = replace(LIMITS, idle=np.inf)
@@ -65,6 +67,10 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     @property
     def multipliers(self) -> int:
         return self.problem.multipliers
+
+    @property
+    def prestrained(self) -> bool:
+        return self.problem.assembly.natural is not None
 
     def rest(self) -> LatticeState:
         return LatticeState(np.zeros_like(self.problem.loads.dead), 0.0)
@@ -127,11 +133,19 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
 
     def has_meaning(self, state: LatticeState) -> bool:
         links = self.problem.assembly.links
+        self.problem.assembly.grow(state.load_factor)
         return not outside_model(self.scene, links.largest_strain(links.elongations(state.u)), STRETCH)
 
     def inspect(self, path: Path[LatticeState, LatticeForces]) -> Fault | None:
         """Return why the path's last equilibrium means nothing, if it does."""
-        return broken(self.problem.assembly, path.state.u[None])[1]
+        state, before = path.state, self._before
+        if self.problem.items:
+            before = before if 0.0 < before.load_factor <= path.load_factor else self.rest()
+            self._before = state
+            drive = Drive(path.load_factor)
+            if any(one.step_share(before.u, state.u - before.u, drive) < 1.0 for one in self.problem.items):
+                return Fault(Status.STEP_LIMIT, "a step led through an obstacle")
+        return broken(self.problem.assembly, state.u[None])[1]
 
     def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
         return self.problem.system.factor(blocks, more)

@@ -3,7 +3,7 @@
 digits     a link's elongation is rounded as the scalar product of its rest vector and its ends' relative
            displacement Δu is, its force by k Δu ε: K⁻¹ times random forces of that size tells, at a few
            solves with the factors at hand, how far rounding may move the equilibrium: twenty to tens of
-           thousands of times as far as it does in the studies of docs/stability.md. (The condition number,
+           thousands of times as far as it does in the maps of docs/stability.md. (The condition number,
            which the message gives too, bounds it yet more loosely.) What it has moved shows, mostly within
            ten times, in K⁻¹ times the unbalanced force that is left.
 layers     A thin sheet that curves by κ both ways keeps its stretching within lines and borders of width

@@ -5,12 +5,14 @@ from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMot
 from sheetbench.scenes.air import Air
 from sheetbench.scenes.balance import Balance, dead_force
 from sheetbench.scenes.cells import Cells, Constants
+from sheetbench.scenes.contact import ContactState
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
 from sheetbench.scenes.layers import Layer
 from sheetbench.scenes.loads import AreaLoad, EdgeLoad, Load, PointLoad, Pressure
 from sheetbench.scenes.masses import Mass
 from sheetbench.scenes.material import Material, require_no_branches
+from sheetbench.scenes.obstacles import Cylinder, Plane, Sphere
 from sheetbench.scenes.patches import Patch, require_plain, require_uniform
 from sheetbench.scenes.region import Cutout, require_rectangle
 from sheetbench.scenes.relaxation import Branches, Relaxation
@@ -36,13 +38,73 @@ from sheetbench.scenes.supports import (
 from sheetbench.scenes.tables import FactorTable, PiecewiseLinear
 
 __all__ = [
-    "EDGES", "About", "Actuator", "Air", "AnyScene", "AreaLoad", "BadInput", "Balance", "Branches",
-    "Cells", "Chain", "Clamped", "Constants", "CurvatureTable", "Curved", "Cutout", "DamperSet", "Edge",
-    "EdgeLoad", "EdgeMotion", "FactorTable", "FieldMesh", "Gravity", "Held", "Hinged", "History",
-    "Implausible", "Iteration", "Layer", "Load", "Mass", "Material", "Motion", "Patch", "PerDirection",
-    "PiecewiseLinear", "PointLoad", "Pressure", "Relaxation", "Scene", "SceneError", "Sheet", "Solution",
-    "SpringSet", "SpringTable", "Status", "Support", "Symmetric", "catalogue", "comparable", "dead_force",
-    "encloses_volume", "free_rigid_motions", "held_axes", "holds_director", "holds_tilt", "load",
-    "outside_model", "require_no_branches", "require_plain", "require_rectangle", "require_static",
-    "require_uniform", "scene_of", "weight_strain",
+    "EDGES",
+    "About",
+    "Actuator",
+    "Air",
+    "AnyScene",
+    "AreaLoad",
+    "BadInput",
+    "Balance",
+    "Branches",
+    "Cells",
+    "Chain",
+    "Clamped",
+    "Constants",
+    "ContactState",
+    "CurvatureTable",
+    "Curved",
+    "Cutout",
+    "Cylinder",
+    "DamperSet",
+    "Edge",
+    "EdgeLoad",
+    "EdgeMotion",
+    "FactorTable",
+    "FieldMesh",
+    "Gravity",
+    "Held",
+    "Hinged",
+    "History",
+    "Implausible",
+    "Iteration",
+    "Layer",
+    "Load",
+    "Mass",
+    "Material",
+    "Motion",
+    "Patch",
+    "PerDirection",
+    "PiecewiseLinear",
+    "Plane",
+    "PointLoad",
+    "Pressure",
+    "Relaxation",
+    "Scene",
+    "SceneError",
+    "Sheet",
+    "Solution",
+    "Sphere",
+    "SpringSet",
+    "SpringTable",
+    "Status",
+    "Support",
+    "Symmetric",
+    "catalogue",
+    "comparable",
+    "dead_force",
+    "encloses_volume",
+    "free_rigid_motions",
+    "held_axes",
+    "holds_director",
+    "holds_tilt",
+    "load",
+    "outside_model",
+    "require_no_branches",
+    "require_plain",
+    "require_rectangle",
+    "require_static",
+    "require_uniform",
+    "scene_of",
+    "weight_strain",
 ]  # fmt: skip

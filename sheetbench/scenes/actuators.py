@@ -1,10 +1,12 @@
 """The two kinds of actuator, each bound to one edge of the sheet.
 
-A chain's joints divide the edge evenly; each has the stiffness EI/ds and the rest angle curvature × ds. The
-chain alone carries its own weight and inertia, and holds the edge's tilt about the rod. A curvature is a
-number, a list with one value a joint (in the order of the edge's axis; a held base adds the half-length
-joints beside it), or a table {time, value}, of which statics take the last value, as of a motion. A motion is
-no chain and has no forces of its own. What neighbouring edges must agree on: `sheetbench.scenes.corners`.
+A chain is an elastic rod: joints divide the edge evenly into segments, and a joint's curvature is that of
+what lies nearest to it. A model may have it as rigid parts, with joints of the stiffness EI/ds and the rest
+angle curvature × ds between them. The chain alone carries its own weight and inertia, and holds the edge's
+tilt about the rod. A curvature is a number, a list with one value a joint (in the order of the edge's axis; a
+held base adds the half-length joints beside it), or a table {time, value}, of which statics take the last
+value, as of a motion. A motion is no chain and has no forces of its own. What neighbouring edges must agree
+on: `sheetbench.scenes.corners`.
 
 An actuator's name is its edge, or, where an edge has several, its edge and its number in the scene: "x1.2".
 What holds it is named among the reactions: a motion as its edge, the base of an edge's chains as "EDGE base".
@@ -18,6 +20,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from sheetbench.scenes.quantities import (
@@ -54,16 +57,16 @@ Curvature = Annotated[
 
 
 class Chain(Frozen):
-    """A flexible chain of rigid segments bound to an edge; it carries weight and inertia of its own."""
+    """A flexible chain bound to an edge: a rod that bends; it carries weight and inertia of its own."""
 
     kind: Literal["chain"] = Field(default="chain", kw_only=True)
     edge: EdgeName
     """The edge it is bound to, which has no support."""
     segments: Annotated[int, Field(ge=1, strict=True)]
-    """Rigid segments, of equal length; the sheet's edge is a smooth curve through their joints in every
-    model, so cells may be shorter or longer."""
+    """Segments of equal length, with a curvature for each joint between them; forces are summed over them.
+    Every model has a rod that bends smoothly: the lattice divides segments that are longer than its cells."""
     bending_stiffness: Annotated[Positive, Unit("N·m²")]
-    """EI of the chain; a joint's stiffness is EI divided by a segment's length."""
+    """EI of the chain; a joint's stiffness is EI divided by the length of a rigid part."""
     line_density: Annotated[Positive, Unit("kg/m")]
     """Mass per length of the chain."""
     radius: Length
@@ -97,14 +100,22 @@ class Chain(Frozen):
 
     @property
     def base_ends(self) -> tuple[int, ...]:
-        """Ends that its base holds: 0 where the edge starts, 1 where it ends. A single segment has both."""
-        only = (0, 1) if self.segments == 1 else ()
-        return {"free": (), "start": (0,), "middle": only, "end": (1,)}[self.base]
+        """Ends that its base holds: 0 where the edge starts, 1 where it ends."""
+        return {"free": (), "start": (0,), "middle": (), "end": (1,)}[self.base]
 
     def axis_height(self, thickness: float) -> float:
         """Height [m] of its axis along the director of a sheet of a thickness [m]."""
         side = {"mid": 0.0, "top": 1.0, "bottom": -1.0}[self.face]
         return side * (thickness / 2.0 + self.radius)
+
+    def pieces(self) -> np.ndarray:
+        """Bounds (n + 1,) of the pieces of its edge that have a joint's curvature each, in segments: what
+        lies nearest to the joint, and what is left at the ends. All of it is one piece where no joint is."""
+        inner = np.arange(1, self.segments - 1) + 0.5  # between joints of whole length
+        extra = {"start": 0.5, "end": self.segments - 0.5, "middle": self.segments / 2.0}.get(self.base)
+        if extra is not None and self.joints == self.segments and self.joints > 1:
+            inner = np.sort(np.append(inner, extra))
+        return np.concatenate([[0.0], inner, [self.segments]])
 
     def curvatures(self) -> PiecewiseLinear:
         """Intrinsic curvature (joints,) [1/m] of every joint over time; (1,), if it has none."""

@@ -1,4 +1,4 @@
-"""Keys of a scene that people ask for and that sheetbench does not model, with what it models instead.
+"""Keys of a scene that people ask for and that sheetbench does not have, with what it has instead.
 
 They are refused with that sentence and the page of limits, not as slips of typing. Whoever adds one of them
 takes its line away.
@@ -24,14 +24,17 @@ _VISCOUS = (
     "viscosity is linear and of the whole [material]: damping_time, damping_rate, loss_factor with a "
     "frequency or a band, or [[material.relaxation]]"
 )
-_CONTACT = "contact is not modelled, neither with other bodies nor of the sheet with itself"
-_STRESS_FREE = "the flat sheet is free of stress: pre-stretch and residual stress are not modelled"
-_FLAT = "the sheet is flat where nothing acts on it: a curved rest shape is not modelled"
+_CONTACT = (
+    "what the sheet touches is an [[obstacle]], a rigid plane, sphere or cylinder, with friction in "
+    "motion; no other bodies, nor the sheet itself"
+)
+_STRESS_FREE = "what the sheet is stretched by where it is drawn is [natural] strain or pretension"
+_FLAT = "a sheet that is bent where nothing acts on it has a [natural] curvature"
 _FROM_REST = (
     'motion starts at rest, from the flat sheet or, with [initial] shape = "static", from the equilibrium '
     "under loads, of which those with hold = true are let go at t = 0; `history` makes loads come and go"
 )
-_HEAT = "heat, swelling and growth are not modelled"
+_HEAT = "heat is [temperature] with an expansion of the material; swelling and growth are [natural] strain"
 _FLUID = "of a fluid there is the drag of still air, [air]; no flow, lift or mass that moves along"
 _FIELDS = "magnetic and electric forces are not modelled; give the loads that they make"
 _ACTUATORS = "actuators are chains of segments on an edge and prescribed motions of an edge"
@@ -47,12 +50,12 @@ _WORDS = {
     "anisotropic fibre fibres fiber fibers fibre_angle fiber_angle",
     _RUBBER: "laws hyperelastic neo_hookean ogden yeoh gent c10 c01 c20 c30",
     _VISCOUS: "prony viscoelastic viscoelasticity viscosity creep tan_delta damping_ratio quality",
-    _CONTACT: "contact contacts friction obstacle obstacles floor ground table wall",
-    _STRESS_FREE: "prestretch pre_stretch prestrain pre_strain prestress pre_stress pretension "
+    _CONTACT: "contact contacts obstacles floor ground table wall ball rod box self_contact",
+    _STRESS_FREE: "prestretch pre_stretch prestrain pre_strain prestress pre_stress "
     "residual_stress initial_stress initial_strain",
     _FLAT: "rest_shape rest_curvature natural_curvature initial_curvature",
     _FROM_REST: "initial_state initial_displacement initial_velocity velocity release",
-    _HEAT: "temperature thermal thermal_expansion expansion swelling growth",
+    _HEAT: "heat thermal thermal_expansion swelling growth",
     _FLUID: "fluid water wind lift added_mass buoyancy aerodynamics",
     _FIELDS: "magnetic magnetisation magnetization electric voltage charge",
     _ACTUATORS: "tendon tendons cable cables muscle muscles bellows chamber pneumatic",

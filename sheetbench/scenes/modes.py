@@ -14,7 +14,10 @@ from sheetbench.answers.table import HERTZ, NUMBER, Table
 from sheetbench.errors import BadInput
 from sheetbench.scenes.kinematics import bent_or_tilted
 from sheetbench.scenes.loads import EdgeLoad, Pressure
+from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.scene import Scene
+
+STILL = 1e-9  # displacement over the sheet's side within which what is loaded does not move
 
 
 @dataclass(frozen=True)
@@ -88,5 +91,6 @@ def require_flat_and_dead(scene: Scene) -> None:
             )
     if scene.actuators:
         raise BadInput("actuator 1: buckling is of a sheet without actuators")
+    require_no_obstacles(scene, "buckling")
     if bent_or_tilted(scene.supports, scene.sheet):
         raise BadInput("support: a curved or tilted one bends the sheet; buckling is of a flat one")

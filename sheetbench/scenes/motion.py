@@ -12,21 +12,26 @@ from typing import TypeVar
 
 from sheetbench.scenes.actuators import Chain, EdgeMotion
 from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
+from sheetbench.scenes.natural import Natural
+from sheetbench.scenes.obstacles import AnyObstacle
+from sheetbench.scenes.patches import Patch
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.supports import AnySupport, Motion
 from sheetbench.scenes.tables import FactorTable, Loading, OverTime, PiecewiseLinear
 
 Loaded = TypeVar("Loaded", bound=Loading)
+Held = TypeVar("Held", bound=AnySupport | AnyObstacle)
 NO_START = "the motion would start from no stable equilibrium"
 
 
 def kinks(scene: Scene) -> list[float]:
     """The times [s] at which a history, a command or a motion has a sample, increasing: between them all that
     is prescribed is smooth."""
+    natural = (scene.natural, scene.temperature, *(patch.natural for patch in scene.patches))
     tables: list[OverTime | None] = [
-        load.history for load in (scene.gravity, *scene.loads) if load is not None
+        load.history for load in (scene.gravity, *scene.loads, *natural) if load is not None
     ]
-    tables += [*(support.motion for support in scene.supports), *scene.motions().values()]
+    tables += [*(one.motion for one in (*scene.supports, *scene.obstacles)), *scene.motions().values()]
     commands = (getattr(actuator, "curvature", None) for actuator in scene.actuators)
     tables += [command for command in commands if isinstance(command, OverTime)]
     return sorted({time for table in tables if table is not None for time in table.time})
@@ -44,13 +49,17 @@ def starts_flat(scene: Scene) -> bool:
 
 def at_start(scene: Scene) -> Scene:
     """The statics in whose equilibrium a motion starts: supports and moved edges where they are at t = 0;
-    with `[initial]` loads and commands as they are then, else none."""
+    with `[initial]` loads, commands and natural states as they are then, else none."""
     static = scene.initial is not None
     return scene.replace(
         initial=None,
         gravity=scene.gravity and _now(scene.gravity) if static else None,
+        natural=scene.natural and _now(scene.natural) if static else None,
+        temperature=scene.temperature and _now(scene.temperature) if static else None,
+        patches=tuple(_bent_now(patch, static) for patch in scene.patches),
         loads=tuple(_now(load).replace(hold=False) for load in scene.loads) if static else (),
         supports=tuple(_placed(support) for support in scene.supports),
+        obstacles=tuple(_placed(one).replace(friction=0.0) for one in scene.obstacles),
         actuators=tuple(
             _moved(one, scene) if isinstance(one, EdgeMotion) else _bent(one, static)
             for one in scene.actuators
@@ -65,11 +74,18 @@ def _now(load: Loaded) -> Loaded:
     return load.replace(history=FactorTable(time=(0.0,), factor=(factor,)))
 
 
-def _placed(support: AnySupport) -> AnySupport:
-    if support.motion is None:
-        return support
-    place = tuple(support.motion.course.at(0.0).tolist())
-    return support.replace(motion=Motion(time=(0.0,), displacement=(place,)))
+def _bent_now(patch: Patch, static: bool) -> Patch:
+    if patch.natural is None:
+        return patch
+    return patch.replace(natural=_now(patch.natural) if static else Natural())
+
+
+def _placed(held: Held) -> Held:
+    if held.motion is None:
+        return held
+    place = tuple(held.motion.course.at(0.0).tolist())
+    moved: Held = held.replace(motion=Motion(time=(0.0,), displacement=(place,)))  # type: ignore[assignment]
+    return moved
 
 
 def _bent(chain: Chain, static: bool) -> Chain:

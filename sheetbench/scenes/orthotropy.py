@@ -13,12 +13,12 @@ Source: R. M. Jones, Mechanics of Composite Materials (1999), 2.3 and 2.4.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
 from pydantic import Field
 
-from sheetbench.scenes.quantities import Frozen, Modulus, Number
+from sheetbench.scenes.quantities import Frozen, Modulus, Number, Unit
 from sheetbench.scenes.units import numbers
 
 if TYPE_CHECKING:
@@ -47,6 +47,15 @@ class Fibres(Frozen):
     """Transverse shear modulus along 1; shear_12 unless given."""
     shear_23: Modulus | None = Field(default=None, kw_only=True)
     """Transverse shear modulus along 2; shear_12 unless given."""
+    expansion: Annotated[Number | tuple[Number, Number], Unit("1/K")] | None = Field(
+        default=None, kw_only=True
+    )
+    """Thermal expansion, or [along axis 1, across it]; see [temperature]."""
+
+    @property
+    def expansions(self) -> tuple[float, float] | None:
+        """Return the expansion along axis 1 and across it, if it is given."""
+        return self.expansion if isinstance(self.expansion, tuple | None) else 2 * (self.expansion,)
 
 
 class Ply(NamedTuple):

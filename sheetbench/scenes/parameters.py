@@ -10,6 +10,8 @@ curvature_EDGE                                        of the curved support, or 
 tilt_EDGE                                             of the clamp on an edge
 drag                                                  of the air
 massN                                                 of the scene's Nth [[mass]]
+natural.exx, …, natural.kxy                           of [natural]: strain (e), curvature (k)
+patchN.natural.exx, …                                 of the scene's Nth [[patch]], where that has its own
 """
 
 from __future__ import annotations
@@ -22,6 +24,7 @@ from typing import Any
 
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes.actuators import Chain
+from sheetbench.scenes.natural import LARGEST_STRAIN
 from sheetbench.scenes.patches import CONSTANTS
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.supports import LARGEST_TILT, Clamped, Curved
@@ -30,7 +33,7 @@ MATERIAL = ("young", "poisson", "density", "damping_time", "damping_rate", "loss
 FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23", "angle")
 BRANCH = ("share", "time")
 NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
-NAMES += ["drag", "massN"]
+NAMES += ["drag", "massN", "natural.KEY", "patchN.natural.KEY"]
 UNITS = {  # none of other keys
     **dict.fromkeys(("young", "young_1", "young_2", "shear_12", "shear_13", "shear_23"), "Pa"),
     **{"density": "kg/m³", "thickness": "m", "curvature": "1/m", "angle": "rad", "tilt": "rad"},
@@ -42,6 +45,7 @@ BOUNDS = {  # others are above 0
     "tilt": (-LARGEST_TILT, LARGEST_TILT),
     "curvature": (-inf, inf),
     "share": (0.0, 1.0),
+    "strain": (-LARGEST_STRAIN, LARGEST_STRAIN),
 }
 Path = tuple[str | int, ...]  # keys, and numbers in lists
 
@@ -60,7 +64,7 @@ class Parameter:
 def parameter(scene: Scene, name: str) -> Parameter:
     """Return the parameter of this name. Raises BadInput where the scene has none."""
     path = _paths(scene, name)[0]
-    key = str(path[-1])
+    key = [part for part in path if isinstance(part, str)][-1]
     low, high = BOUNDS.get(key, (0.0, inf))
     if key == "thickness":
         high = min(scene.sheet.lengths)
@@ -111,6 +115,8 @@ def _paths(scene: Scene, name: str) -> list[Path]:
         if key not in scene.patches[number - 1].own:
             raise BadInput(f"'{name}': patch {number} has no {key} of its own; give a first guess there")
         return [("patches", number - 1, key)]
+    if natural := re.fullmatch(r"(?:patch(\d+)\.)?natural\.([ek])(xx|yy|xy)", name):
+        return [_natural(scene, name, *natural.groups())]
     if payload := re.fullmatch(r"mass(\d+)", name):
         if not 1 <= int(payload[1]) <= len(scene.masses):
             raise BadInput(f"'{name}': the scene has {len(scene.masses)} masses")
@@ -133,6 +139,18 @@ def _paths(scene: Scene, name: str) -> list[Path]:
     raise BadInput(f"'{name}': not a parameter of a scene; choose from {', '.join(NAMES)}")
 
 
+def _natural(scene: Scene, name: str, patch: str | None, kind: str, component: str) -> Path:
+    """Return the place of a component of a natural strain or curvature."""
+    path: Path = ("natural",)
+    if patch is not None:
+        if not 1 <= int(patch) <= len(scene.patches):
+            raise BadInput(f"'{name}': the scene has {len(scene.patches)} patches")
+        path = ("patches", int(patch) - 1, "natural")
+    if _value(scene, path) is None:
+        raise BadInput(f"'{name}': the scene has no {'.'.join(map(str, path))}; give a first guess there")
+    return (*path, {"e": "strain", "k": "curvature"}[kind], ("xx", "yy", "xy").index(component))
+
+
 def _holders(scene: Scene, kind: Any, edge: str) -> list[Path]:
     """Return the places of an edge's supports and actuators of a kind."""
     lists = {"supports": scene.supports, "actuators": scene.actuators}
@@ -149,6 +167,8 @@ def _value(scene: Scene, path: Path) -> Any:
 
 def _replaced(of: Any, path: Path, value: Any) -> Any:
     """Return a scene object, or a list of some, with another value at a place within."""
+    if not path:
+        return value
     part, *rest = path
     if isinstance(part, int):
         return tuple(_replaced(one, tuple(rest), value) if i == part else one for i, one in enumerate(of))

@@ -17,6 +17,7 @@ from sheetbench.errors import Impossible
 from sheetbench.scenes.cells import NUMBERS, Constants
 from sheetbench.scenes.layers import plies
 from sheetbench.scenes.material import Material
+from sheetbench.scenes.natural import Natural
 from sheetbench.scenes.orthotropy import in_own_axes
 from sheetbench.scenes.quantities import Angle, Density, Frozen, Length, Modulus, PoissonRatio
 from sheetbench.scenes.region import area_in, require_rectangle
@@ -48,11 +49,15 @@ class Patch(Frozen):
     """The material's unless given."""
     angle: Angle | None = Field(default=None, kw_only=True)
     """Of an orthotropic material's axis 1 from x towards y; the material's unless given."""
+    natural: Natural | None = Field(default=None, kw_only=True)
+    """Natural strain and curvature in place of the sheet's, there."""
 
     @model_validator(mode="after")
     def _differs(self) -> Patch:
-        if not self.own:
-            raise ValueError(f"needs one of {', '.join(CONSTANTS)}")
+        if not self.own and self.natural is None:
+            raise ValueError(f"needs one of {', '.join((*CONSTANTS, 'natural'))}")
+        if self.natural is not None and self.natural.pretension is not None:
+            raise ValueError("natural.pretension: is of a whole sheet; give strain")
         return self
 
     @property
@@ -117,7 +122,7 @@ def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
     plain = of_sheet(scene).replace(thickness=scene.sheet.thickness_at(*np.meshgrid(*middle)))
     left_over = np.ones(boxes.shape)
     for area, own in _disjoint(scene.patches):
-        share = _shares(area, boxes)
+        share = shares_in(area, boxes)
         left_over -= share
         constants = plain.arrays(boxes.shape)
         _put(constants, own)
@@ -127,7 +132,7 @@ def parts_between(scene: Scene, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
 
 def shares_of(area: Polygon, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """What share an area takes of every cell between lines at x and at y [m], (rows, columns)."""
-    return _shares(area, boxes_of(x, y))
+    return shares_in(area, boxes_of(x, y))
 
 
 def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -139,7 +144,7 @@ def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return np.asarray(shapely.box(left, low, right, high))
 
 
-def _shares(area: Any, boxes: np.ndarray) -> np.ndarray:
+def shares_in(area: Any, boxes: np.ndarray) -> np.ndarray:
     """What share of each box (…) an area takes."""
     import shapely
 
@@ -250,8 +255,17 @@ def require_uniform(scene: Scene, who: str, instead: str = "") -> None:
         )
 
 
+def require_flat_at_rest(scene: Scene, who: str) -> None:
+    """Raise Impossible for a sheet that is not flat and free of stress at rest, which `who` does not know."""
+    if scene.natural_by:
+        raise Impossible(
+            f"scene '{scene.name}': {scene.natural_by}: {who} is for sheets that are flat at rest"
+        )
+
+
 def require_plain(scene: Scene, who: str) -> None:
     """Raise Impossible for a sheet that is no plain one (`Scene.drawn_by`), which a verb or a file does not
     know."""
     require_uniform(scene, who)
     require_rectangle(scene, who)
+    require_flat_at_rest(scene, who)

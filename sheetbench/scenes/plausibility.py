@@ -155,4 +155,5 @@ def _unmoved(scene: Scene) -> bool:
         getattr(support, "tilt", 0.0) or getattr(support, "curvature", 0.0) or support.motion is not None
         for support in scene.supports
     )
-    return not (weight or bent or scene.loads or scene.actuators)
+    bent = bent or any(obstacle.motion is not None for obstacle in scene.obstacles)
+    return not (weight or bent or scene.loads or scene.actuators or scene.natural_by)

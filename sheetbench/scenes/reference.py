@@ -1,6 +1,6 @@
-"""The reference page of the scene language, docs/scene.md, made of the schema: all keys, table by table.
+"""The reference page of the scene language, made of the schema: all keys, table by table.
 
-`make docs-scene` writes it, and a test holds that page and types say the same.
+The documentation's build writes it as scene.md, `sheetbench schema --markdown` prints it.
 """
 
 from __future__ import annotations

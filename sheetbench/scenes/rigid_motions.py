@@ -9,9 +9,10 @@ import numpy as np
 
 from sheetbench.errors import SceneError
 from sheetbench.scenes.actuators import Chain
+from sheetbench.scenes.obstacles import require_frictionless
 from sheetbench.scenes.region import Cutout, common, region
 from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import Support, held_axes, holds_tilt, place
+from sheetbench.scenes.supports import Held, Support, held_axes, holds_tilt, place
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
@@ -78,8 +79,13 @@ def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
 
 
 def require_static(scene: Scene) -> None:
-    """Raise SceneError unless the supports stop every rigid motion."""
+    """Raise SceneError unless the supports stop every rigid motion, or obstacles those out of the plane; and
+    for friction."""
+    require_frictionless(scene)
     free = free_rigid_motions(scene)
+    if free and scene.obstacles:
+        resting = (Held(edge="x0", components=("z",)), Held(edge="x1", components=("z",)))
+        free = list(_left_free(scene.sheet, scene.supports + resting, scene.cutouts))
     if free:
         raise SceneError(
             f"scene '{scene.name}': support: nothing stops {', '.join(free)}; a static answer needs supports "

@@ -18,7 +18,7 @@ import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.errors import Implausible, SceneError
-from sheetbench.scenes import corners, region, summary
+from sheetbench.scenes import corners, obstacles, region, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion
 from sheetbench.scenes.air import Air
 from sheetbench.scenes.initial import Initial
@@ -26,6 +26,8 @@ from sheetbench.scenes.layers import Layer, misfit
 from sheetbench.scenes.loads import AreaLoad, Load
 from sheetbench.scenes.masses import Mass
 from sheetbench.scenes.material import Material
+from sheetbench.scenes.natural import Natural, Temperature
+from sheetbench.scenes.obstacles import Obstacle
 from sheetbench.scenes.orthotropy import FIBRES
 from sheetbench.scenes.patches import Patch, mismatched, misplaced
 from sheetbench.scenes.plausibility import slips
@@ -41,7 +43,7 @@ if TYPE_CHECKING:
 
 LISTS = {  # by their keys in Python: those in a file, where each entry is a table
     "layers": "layer", "patches": "patch", "cutouts": "cutout", "supports": "support", "loads": "load",
-    "masses": "mass", "actuators": "actuator",
+    "masses": "mass", "obstacles": "obstacle", "actuators": "actuator",
 }  # fmt: skip
 SHAPED = (
     "sheet.outline", "sheet.mesh", "cutout", "support.where", "load.where", 'load.kind = "area"',
@@ -72,6 +74,10 @@ class Scene(Frozen):
     """Parts of the sheet with a thickness or a material of their own; where they overlap later ones win."""
     cutouts: tuple[Cutout, ...] = Field(default=(), kw_only=True)
     """Holes and notches: parts of the plan where there is no sheet."""
+    natural: Natural | None = Field(default=None, kw_only=True)
+    """Strain and curvature of a sheet that is not flat and free of stress at rest."""
+    temperature: Temperature | None = Field(default=None, kw_only=True)
+    """How much warmer the sheet is than where it was flat."""
     gravity: Gravity | None = None
     """The sheet's weight; without this table the sheet is weightless."""
     air: Air | None = Field(default=None, kw_only=True)
@@ -82,6 +88,8 @@ class Scene(Frozen):
     """Forces, moments and pressures, which add up."""
     masses: tuple[Mass, ...] = Field(default=(), kw_only=True)
     """Payloads: they weigh under gravity and are inert in motion, and stiffen nothing."""
+    obstacles: tuple[Obstacle, ...] = Field(default=(), kw_only=True)
+    """Rigid bodies that the sheet may touch from one side, without friction at rest."""
     actuators: tuple[Actuator, ...] = ()
     """What moves edges that have no support."""
     initial: Initial | None = Field(default=None, kw_only=True)
@@ -139,14 +147,34 @@ class Scene(Frozen):
         if self.layers:
             varied = None if self.homogeneous else self.varied_by
             yield "layer: ", varied and f"a laminate is the same all over, without {varied}"
-            yield "layer: ", misfit(self.layers, self.sheet, self.material)
+            heated = self.temperature is not None
+            yield "layer: ", misfit(self.layers, self.sheet, self.material, heated)
+        yield "", self._unnatural()
         yield "patch ", mismatched(self.patches, self.material)
         law = None if self.springs is None else self.material.law
         yield "springs: ", law and f"of a material with law = '{law}' they are calibrated; leave one out"
         held = next((n for n, load in enumerate(self.loads, start=1) if load.hold), 0)
         alone = 'has no effect without [initial] shape = "static", which lets the load go at t = 0'
         yield f"load {held}.hold = true: ", alone if held and self.initial is None else None
+        yield from obstacles.conflicts(self)
         yield from corners.conflicts(self.actuators, self.supports, self.sheet)
+
+    def _unnatural(self) -> str:
+        """Return why a natural strain or a temperature cannot be, "" where it can."""
+        if not (given := self.natural_by):
+            return ""
+        if self.material.law is not None:
+            return f"{given}: not of rubber (law = '{self.material.law}'), whose strains it would multiply"
+        if self.natural is not None and self.natural.pretension is not None and not self.homogeneous:
+            return f"natural.pretension: beside {self.varied_by}: give strain"
+        if self.temperature is not None:
+            bare = [n for n, layer in enumerate(self.layers, start=1) if layer.expansion is None]
+            unlike = self.material.expansions or (0.0, 0.0)
+            if self.material.expansion is None and (bare or not self.layers):
+                return "temperature: needs expansion [1/K], of the material or of every layer"
+            if unlike[0] != unlike[1] and any(patch.angle is not None for patch in self.patches):
+                return "temperature: beside patch.angle expansion is one number"
+        return ""
 
     def replace(self, **values: Any) -> Scene:
         """Return a copy with other values for some keys, those of its sheet and material too.
@@ -208,7 +236,7 @@ class Scene(Frozen):
     @property
     def homogeneous(self) -> bool:
         """Whether the sheet is as thick and of the same material all over."""
-        return not (self.patches or self.sheet.taper_x or self.sheet.taper_y)
+        return not (any(p.own for p in self.patches) or self.sheet.taper_x or self.sheet.taper_y)
 
     @property
     def uniform(self) -> bool:
@@ -220,8 +248,16 @@ class Scene(Frozen):
         """The words by which it is not, "" where it is."""
         fibres = [FIBRES] if self.material.kind == "orthotropic" else []
         tapers = [f"sheet.{name}" for name in ("taper_x", "taper_y") if getattr(self.sheet, name) is not None]
-        drawn = [name for name, given in (("layer", self.layers), ("patch", self.patches)) if given]
+        own = any(patch.own for patch in self.patches)
+        drawn = [name for name, given in (("layer", self.layers), ("patch", own)) if given]
         return ", ".join([*fibres, *tapers, *drawn])
+
+    @property
+    def natural_by(self) -> str:
+        """The words by which it is not flat and free of stress at rest, "" where it is."""
+        given = [key for key in ("natural", "temperature") if getattr(self, key) is not None]
+        each = enumerate(self.patches, start=1)
+        return ", ".join([*given, *(f"patch {n}.natural" for n, one in each if one.natural is not None)])
 
     @property
     def pierced(self) -> bool:
@@ -249,8 +285,8 @@ class Scene(Frozen):
 
     @property
     def drawn_by(self) -> str:
-        """The words of both, by which the sheet is no plain one."""
-        return ", ".join(filter(None, [self.varied_by, self.shaped_by]))
+        """The words of these, by which the sheet is no plain one."""
+        return ", ".join(filter(None, [self.varied_by, self.shaped_by, self.natural_by]))
 
     def twisting_edges(self) -> frozenset[str]:
         """The edges along which nothing holds the director: free, hinged and held ones."""

@@ -19,6 +19,7 @@ from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NEWTONS, NUMBER,
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import summary
 from sheetbench.scenes.balance import Balance
+from sheetbench.scenes.contact import ContactState
 from sheetbench.scenes.quantities import PlanPoint
 
 if TYPE_CHECKING:
@@ -165,7 +166,8 @@ class Solution(Answer):
     asked, and why; remarks: what else there is to say, a clause each. stretch: the largest elongation of the
     mid-surface, None where a model does not tell. bar: plan points (n, 2) [m] → how far each component of
     the displacement (n, 3) [m] may be off, None where a model does not tell. points: plan points [m] of the
-    scene's probes by name, as far as a verb knows them.
+    scene's probes by name, as far as a verb knows them. contacts: what is known of the contact with each
+    obstacle, whose force on the sheet is among the reactions.
     """
 
     file_name = "solution"
@@ -191,6 +193,7 @@ class Solution(Answer):
     stretch: float | None = None
     bar: Callable[[np.ndarray], np.ndarray] | None = None
     points: dict[str, PlanPoint] = field(default_factory=dict)
+    contacts: dict[str, ContactState] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.status in _EQUILIBRIA and self.balance is not None and not self.balance.holds:
@@ -230,6 +233,7 @@ class Solution(Answer):
             "probes": dict(zip(points, moved, strict=True)),
             "reactions": self.reactions,
             "energies": self.energies,
+            "contacts": {name: contact.document() for name, contact in self.contacts.items()},
             "balance": self.balance.document() if self.balance is not None else None,
         }
 

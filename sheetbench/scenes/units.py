@@ -16,25 +16,26 @@ from typing import Any
 
 from sheetbench.errors import BadInput
 
-Dimension = tuple[int, int, int, int]  # powers of m, kg, s and rad
+Dimension = tuple[int, int, int, int, int]  # powers of m, kg, s, rad and K
 
 # exact, so that 1.2 g/cm³ is 1200 kg/m³ to the last digit
 UNITS: dict[str, tuple[Fraction, Dimension]] = {
-    "m": (Fraction(1), (1, 0, 0, 0)),
-    "g": (Fraction(1, 1000), (0, 1, 0, 0)),
-    "s": (Fraction(1), (0, 0, 1, 0)),
-    "N": (Fraction(1), (1, 1, -2, 0)),
-    "Pa": (Fraction(1), (-1, 1, -2, 0)),
-    "J": (Fraction(1), (2, 1, -2, 0)),
-    "Hz": (Fraction(1), (0, 0, -1, 0)),
-    "rad": (Fraction(1), (0, 0, 0, 1)),
-    "bar": (Fraction(100_000), (-1, 1, -2, 0)),
-    "deg": (Fraction(pi) / 180, (0, 0, 0, 1)),
-    "°": (Fraction(pi) / 180, (0, 0, 0, 1)),
-    "min": (Fraction(60), (0, 0, 1, 0)),
-    "in": (Fraction(254, 10_000), (1, 0, 0, 0)),
-    "%": (Fraction(1, 100), (0, 0, 0, 0)),
-    "1": (Fraction(1), (0, 0, 0, 0)),
+    "m": (Fraction(1), (1, 0, 0, 0, 0)),
+    "g": (Fraction(1, 1000), (0, 1, 0, 0, 0)),
+    "s": (Fraction(1), (0, 0, 1, 0, 0)),
+    "N": (Fraction(1), (1, 1, -2, 0, 0)),
+    "Pa": (Fraction(1), (-1, 1, -2, 0, 0)),
+    "J": (Fraction(1), (2, 1, -2, 0, 0)),
+    "Hz": (Fraction(1), (0, 0, -1, 0, 0)),
+    "rad": (Fraction(1), (0, 0, 0, 1, 0)),
+    "bar": (Fraction(100_000), (-1, 1, -2, 0, 0)),
+    "deg": (Fraction(pi) / 180, (0, 0, 0, 1, 0)),
+    "°": (Fraction(pi) / 180, (0, 0, 0, 1, 0)),
+    "min": (Fraction(60), (0, 0, 1, 0, 0)),
+    "in": (Fraction(254, 10_000), (1, 0, 0, 0, 0)),
+    "K": (Fraction(1), (0, 0, 0, 0, 1)),
+    "%": (Fraction(1, 100), (0, 0, 0, 0, 0)),
+    "1": (Fraction(1), (0, 0, 0, 0, 0)),
 }
 PREFIXED = {"m", "g", "s", "N", "Pa", "J", "Hz", "rad", "bar"}
 PREFIXES = {"G": 9, "M": 6, "k": 3, "d": -1, "c": -2, "m": -3, "µ": -6, "μ": -6, "u": -6}  # powers of ten
@@ -63,6 +64,9 @@ NAMES: dict[str, tuple[str, str]] = {  # by the SI unit: the quantity, and how o
     "1/s": ("rate", "0.5 1/s"),
     "Hz": ("frequency", "5 Hz"),
     "rad": ("angle", "2 deg"),
+    "K": ("temperature difference", "20 K"),
+    "K/m": ("temperature gradient", "5 K/mm"),
+    "1/K": ("expansion", "70e-6 1/K"),
     "": ("pure number", "0.45"),
 }
 LARGEST = Fraction(10) ** 300
@@ -132,7 +136,7 @@ def _bare(text: str) -> bool:
 @cache
 def _unit(text: str) -> tuple[Fraction, Dimension]:
     """Size in SI units and dimension of a unit. Raises BadInput where a part of it is none."""
-    size, dimension, sign = Fraction(1), [0, 0, 0, 0], 1
+    size, dimension, sign = Fraction(1), [0, 0, 0, 0, 0], 1
     for part in re.split(r"([*·⋅ /]+)", text):
         if not part.strip(" ·*⋅"):
             continue
@@ -150,8 +154,8 @@ def _unit(text: str) -> tuple[Fraction, Dimension]:
         sign = 1
     if sign < 0:
         raise BadInput(f"'{text}' is no unit: nothing stands after the last /")
-    m, kg, s, rad = dimension
-    return size, (m, kg, s, rad)
+    m, kg, s, rad, kelvin = dimension
+    return size, (m, kg, s, rad, kelvin)
 
 
 def _named(dimension: Dimension, unit: str) -> str:

@@ -12,6 +12,8 @@ from sheetbench.scenes.layers import Layer
 from sheetbench.scenes.loads import AnyLoad, AreaLoad, PointLoad, Pressure
 from sheetbench.scenes.masses import Mass, carried
 from sheetbench.scenes.material import CONSTANTS, Material
+from sheetbench.scenes.natural_words import natural_in_words
+from sheetbench.scenes.obstacles import AnyObstacle, Plane, flat_gap, obstacles_by_name
 from sheetbench.scenes.orthotropy import Ply
 from sheetbench.scenes.patches import Patch, mass_of
 from sheetbench.scenes.quantities import PlanPoint
@@ -54,6 +56,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         *((f"patch {n}", _patch(patch)) for n, patch in enumerate(scene.patches, start=1)),
         *((f"cutout {n}", cutout.shape.in_words()) for n, cutout in enumerate(scene.cutouts, start=1)),
         *((f"mass {n}", _payload(payload, sheet)) for n, payload in enumerate(scene.masses, start=1)),
+        *natural_in_words(scene),
         ("weight", _weight(scene, mass + carried(scene))),
     ]
     if scene.air is not None:
@@ -64,6 +67,9 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         where = name if shape is not None else f"edge {name}"
         sentences.append((where, f"{_support(support, sheet)}{inside}"))
     sentences += [(f"load {n}", _load(load, scene)) for n, load in enumerate(scene.loads, start=1)]
+    sentences += [
+        (name, _obstacle(one, flat_gap(scene, one))) for name, one in obstacles_by_name(scene).items()
+    ]
     sentences += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
     if scene.initial is not None:
         gone = ", ".join(str(n) for n, load in enumerate(scene.loads, start=1) if load.hold)
@@ -83,6 +89,20 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         )
     )
     return sentences
+
+
+def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
+    """Return what the sheet may touch, where it is and how far from the flat sheet."""
+    x, y, z = (_mm(coordinate) for coordinate in obstacle.position)
+    round_ = "" if isinstance(obstacle, Plane) else f" of radius {_mm(obstacle.radius)} mm"
+    along = getattr(obstacle, "normal", None) or getattr(obstacle, "axis", None)
+    turned = "" if along is None else f" {'facing' if isinstance(obstacle, Plane) else 'along'} "
+    turned += "" if along is None else f"({', '.join(f'{part:.3g}' for part in along)})"
+    more = ", moving" if obstacle.motion is not None else ""
+    more += f", friction {obstacle.friction:g} in motion" if obstacle.friction else ""
+    return (
+        f"{obstacle.kind}{round_} at ({x}, {y}, {z}) mm{turned}{more}; {1e3 * gap:.4g} mm from the flat sheet"
+    )
 
 
 def _outline(scene: Scene) -> str:
@@ -132,7 +152,8 @@ def _patch(patch: Patch) -> str:
         "density": lambda value: f"ρ = {value:g} kg/m³",
         "angle": lambda value: f"fibres at {degrees(value):.4g}°",
     }
-    return f"{patch.shape.in_words()}: {', '.join(words[name](value) for name, value in patch.own.items())}"
+    own = [words[name](value) for name, value in patch.own.items()]
+    return f"{patch.shape.in_words()}: {', '.join(own) or 'not flat at rest'}"
 
 
 def _constants(material: Material) -> str:

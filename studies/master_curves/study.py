@@ -1,5 +1,5 @@
 """Three problems whose answer depends on one number alone (`comparisons.scoring.curves`), by lattices and
-shells, and by the codes of `studies.trials`.
+shells, and by the codes of `studies.codes`.
 
 **Cantilever**: drop over reach H/W against Γ. Exact: the heavy elastica θ'' = −Γ (1 − s) cos θ,
 θ(0) = θ'(1) = 0, solved by collocation.
@@ -41,8 +41,8 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Scene, Solution
+from studies.codes.results import OURS, every_result
 from studies.master_curves.twist import tip
-from studies.trials.study import OURS, RESULTS, read_results
 
 LOADS = (0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0)
 CANTILEVERS: dict[str, dict[str, Any]] = {
@@ -194,16 +194,18 @@ def _solve(scene: Scene, model: str = "lumped", **settings: Any) -> Solution:
 
 
 def _tips() -> Iterator[Tip]:
-    for path in sorted(RESULTS.glob("*.json")):
-        found = read_results(path)
-        for row in found["rows"]:
-            if row["recipe"] == OURS and row["moved"] and (case := references("curves").get(row["scene"])):
-                yield Tip(case.name, found["title"], *way(case.scene, row["moved"][0]), row["error"])
+    for code in every_result():
+        for row in code.rows:
+            if row.recipe == OURS and row.moved and (case := references("curves").get(row.scene)):
+                u = np.array(row.moved[0])
+                yield Tip(case.name, code.title, *way(case.scene, u), row.error or 0.0)
 
 
 def _tip(scene: Scene, **settings: Any) -> tuple[float, float, float]:
-    """Along the strip, down and aside."""
-    return way(scene, _solve(scene, **settings).require_stable().displacement(scene.probe_points())[0])
+    """Along the strip, down and aside; nan without a stable equilibrium."""
+    solution = _solve(scene, **settings)
+    u = solution.displacement(scene.probe_points())[0]
+    return way(scene, u if solution.status == "converged" else np.full(3, np.nan))
 
 
 def measure(progress: Callable[[str], None]) -> MasterCurves:

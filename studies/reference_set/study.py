@@ -7,7 +7,7 @@ motion    the moving shell; the bar of a component of a probe is the most, over 
 modes     the shell as in statics, and the solid
 curves    the shell as in statics
 
-Where models stand on it is another study (`studies.leaderboard`); those rows stay as they are.
+Where models stand on it is another study (`studies.codes.models`); those rows stay as they are.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ import numpy as np
 
 import fem_reference
 import lumped
-from comparisons.comparison.comparison import error
 from comparisons.motion.comparison import LONGER
 from comparisons.motion.measures import largest
 from comparisons.runs.manifest import machine
 from comparisons.scoring.cases import FREQUENCIES, Case, cases
 from comparisons.scoring.reference import LICENCE, VERSION, document
+from comparisons.sweep.differences import error
 from fem_reference.uncertainty import coarser, estimate, mesh_size, solve_with_bar
 from sheetbench.answers.files import plain
 from sheetbench.scenes import History, Scene, Status

@@ -10,6 +10,7 @@ import numpy as np
 
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import NUMBER, PERCENT, Column, Table
+from studies.transfer.drawn import Drawn
 
 _ERROR, _MODE = PERCENT("z.2f"), NUMBER("d", "mode")
 _LIMITS = {
@@ -63,6 +64,7 @@ class Transfer(Answer):
     modal: list[dict[str, Any]] = field(default_factory=list)
     aspect: list[dict[str, Any]] = field(default_factory=list)
     left_out: list[dict[str, Any]] = field(default_factory=list)
+    drawn: list[dict[str, Any]] = field(default_factory=list)
     failed: list[str] = field(default_factory=list)
 
     def heading(self) -> tuple[str, str, str]:
@@ -81,6 +83,7 @@ class Transfer(Answer):
         made += map(self._modal, range(len(self.grids))) if self.modal else []
         made += [self._aspect()] if self.aspect else []
         made += [self._left_out()] if self.left_out else []
+        made += [self._drawn()] if self.drawn else []
         return made
 
     def _over_scenes(self) -> Table:
@@ -171,6 +174,10 @@ class Transfer(Answer):
         n = self.grids[0]
         caption = f"Fitted to the other scenes of four, tested on the one left out, {n} × {n} × 2"
         return Table.of(Line, lines, caption, "left-out", grouped=True)
+
+    def _drawn(self) -> Table:
+        rows = [Drawn.of(**row) for row in self.drawn]
+        return Table.of(Drawn, rows, "Drawn sheets: errors by masses along the shorter side", "drawn")
 
     def notes(self) -> tuple[str, ...]:
         return (

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import Annotated
 
+from comparisons.cli import console
 from comparisons.cli.options import CampaignOptions, Grading, Large, option
 from comparisons.cli.output import OutputOptions
 from comparisons.models.spec import items
@@ -12,6 +13,7 @@ from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.errors import BadInput, require_choice
 from studies.transfer.scenes import transfer_scenes
 from studies.transfer.study import METHODS, PARTS, transfer
+from studies.transfer.training import write_table
 
 
 def command(
@@ -30,9 +32,12 @@ def command(
     scenes: Annotated[str | None, option("Scenes of the study; all unless given.", "NAMES")] = None,
     part: Annotated[
         list[str] | None,
-        option("static, limits, modal, aspect or left-out; may be repeated. All unless given.", "NAME"),
+        option(
+            "static, limits, modal, aspect, left-out or drawn; may be repeated. All unless given.", "NAME"
+        ),
     ] = None,
     elements: Annotated[int, option("Elements of the shell along a side.", "N", min=1)] = 24,
+    train: Annotated[bool, option("Only train the calibration central, and write its table.", None)] = False,
     large: Large = False,
     *,
     campaign: CampaignOptions,
@@ -40,11 +45,14 @@ def command(
 ) -> None:
     """Measure every calibration on many scenes, statics and frequencies, as the grid is refined.
 
-    With --out an interrupted study is resumed.
+    On drawn sheets lattices stand beside the shell with its bar. With --out an interrupted study is resumed.
     """
     calibrations = _known("--methods", items(methods), (*CALIBRATIONS, AUTO))
     names, parts = _known("--scenes", items(scenes), transfer_scenes()), _known("--part", part, PARTS)
     sizes = _masses(grids)
+    if train:
+        console.tell(f"{write_table()}: written")
+        return
     with output.open() as out:
         with out.campaign(campaign) as run:
             result = transfer(

@@ -20,15 +20,16 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from comparisons.comparison.comparison import error
 from comparisons.models.resolve import resolve, resolve_each
 from comparisons.models.sizes import require_room
 from comparisons.models.spec import Elements, GradingLike, Lattice, lattices
 from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
+from comparisons.sweep.differences import error
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
 from studies.transfer.answer import Transfer
+from studies.transfer.drawn_scenes import drawn_sheets
 from studies.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
 from studies.transfer.tasks import FINE
 
@@ -40,7 +41,7 @@ OTHERS = (
 )
 METHODS = tuple(name for name in CALIBRATIONS if name not in OTHERS)
 FITTED = tuple(name for name in METHODS if CALIBRATIONS[name].fitted)
-PARTS = ("static", "limits", "modal", "aspect", "left-out")
+PARTS = ("static", "limits", "modal", "aspect", "left-out", "drawn")
 GRIDS = (9, 17, 33)
 MASSES = ("tributary", "gregory", "higher-order")
 LONG = ((9, 9), (9, 13), (9, 17), (9, 25), (25, 9))  # of `moduli` on the training scenes
@@ -197,6 +198,13 @@ class _Study:
                     "error": _error(u, self._reference(name)),
                     "misses": _misses(f, truth),
                 }
+
+    def drawn(self) -> Iterator[dict[str, Any]]:
+        for scene in drawn_sheets():
+            run = Run("studies.transfer.drawn:measure", {"scene": scene.document()}, f"{scene.name} drawn")
+            self.planned.setdefault(run.key, run)
+            if self.outcomes is not None and (done := self.outcomes[run.key]).status == "done":
+                yield {key: done.row[key] for key in ("scene", "errors", "bar")}
 
     def _method(self, name: str, method: str) -> str:
         """The calibration of a scene's lattices, "auto" as it has it."""

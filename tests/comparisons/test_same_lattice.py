@@ -10,13 +10,13 @@ from commands import run
 import lumped
 import sheetbench as sb
 from comparisons.advice.probing import Probing
-from comparisons.crosscheck import crosscheck
 from comparisons.live import server
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from comparisons.runs.campaign import function
-from comparisons.tradeoff import motion, statics, timing
+from comparisons.sweep import solved, task
+from comparisons.tradeoff import motion
 from sheetbench.scenes import SpringTable
 
 CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe", "build_problem")
@@ -58,11 +58,10 @@ def carried_out(runs, *_, **__):
 def caught(monkeypatch):
     for name in CONSUMERS:
         monkeypatch.setattr(lumped, name, used)
-    for module in (crosscheck, motion, statics):
-        monkeypatch.setattr(module, "carry_out", carried_out)
+    monkeypatch.setattr(solved, "carry_out", carried_out)
     monkeypatch.setattr(motion, "shortest_period", lambda *_: 1.0)
     monkeypatch.setattr(motion, "explicit_limit", lambda *_: 1.0)
-    for module in (solvers, timing):
+    for module in (solvers, task):
         monkeypatch.setattr(module, "warm", lambda _: None)
     monkeypatch.setattr(server, "run", lambda panel, *_: used(panel.scene, _of_panel(panel)))
 

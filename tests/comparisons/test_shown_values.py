@@ -1,8 +1,6 @@
 """What tables, a picture and lists of cells hold, where nothing else would notice another number."""
 
-import csv
 from inspect import signature
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,19 +15,13 @@ from comparisons.linearisation.answer import Linearisation
 from comparisons.models.spec import spec_of
 from comparisons.modes.spectra import spectra
 from comparisons.reproduction import figure, nearest
-from comparisons.runs.store import Finished
 from comparisons.stability import tiles as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure
-from comparisons.tradeoff import statics
-from comparisons.tradeoff.answer import Tradeoff
-from comparisons.tradeoff.motion_answer import DynamicTradeoff
+from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from lumped.calibration.tables import moduli
 from sheetbench import scenes
-from sheetbench.answers.figure_style import PLAIN, WIDTHS
-from studies.stability import STUDIES
-
-PUBLISHED = Path(__file__).parents[2] / "docs" / "stability"
+from sheetbench.answers.figure_style import PLAIN
 
 
 def shown(table):
@@ -65,20 +57,6 @@ def test_time_is_predicted_by_the_models_own_family():
     assert found == pytest.approx([0.1, 0.064, 0.1 * 4**probing.EXPONENT, probing.unknowns(plate) * 1e-5])
 
 
-@pytest.mark.parametrize(("name", "key"), [
-    ("slenderness", "slenderness"), ("slenderness", "load_number"), ("load", "size"),
-    ("damping", "damping_ratio"), ("mass", "ratio"), ("curved-edge", "turn"),
-])  # fmt: skip
-def test_quick_maps_reach_as_far_as_full_ones(name, key):
-    quick, full = ([cell[key] for cell in STUDIES[name].cells(full)] for full in (False, True))
-    assert (min(quick), max(quick)) == (min(full), max(full)) and set(quick) <= set(full)
-
-
-def test_maps_are_as_wide_as_both_columns_of_a_paper():
-    widths = [study.size[0] for study in STUDIES.values()]
-    assert widths == pytest.approx([WIDTHS["double"]] * len(widths), abs=0.05)
-
-
 def test_tiles_reach_half_way_to_their_neighbours():
     _, axis = subplots()
     cells = ({"x": x, "y": y} for x in (4.0, 1.0, 3.0) for y in (1.0, 100.0))
@@ -98,7 +76,7 @@ def test_a_tradeoffs_axis_holds_its_errors_and_the_bar_in_percent():
 
 
 def test_a_front_without_a_bar_has_every_row_that_errs_less_for_more_time():
-    rows = [SimpleNamespace(error=e, seconds_per_second=t) for e, t in ((0.2, 1.0), (0.1, 2.0), (0.1, 3.0))]
+    rows = [SimpleNamespace(error=e, cost=t) for e, t in ((0.2, 1.0), (0.1, 2.0), (0.1, 3.0))]
     for bar, front in ((None, [0, 1]), (0.5, [0])):
         found = SimpleNamespace(rows=rows, uncertainty=bar)
         assert DynamicTradeoff.front.fget(found) == front
@@ -145,43 +123,3 @@ def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer():
         np.testing.assert_allclose(moved.get_ydata(), [0.0, 1.0 + axis])
         np.testing.assert_allclose(rest.get_ydata(), 4.0 + axis)
     assert [panel.get_xlabel() for panel in panels] == ["", "", "time [s]"]
-
-
-def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used():
-    scene, weights, sizes = scenes.load("one-edge-clamped"), np.ones(2), [1.0, 2.0, 4.0]
-
-    def solved(error, status="converged"):
-        moved = [[0.0, 0.0, 1.0 + error]] * 2
-        row = {"probes": dict(zip("ab", moved, strict=True)), "field": moved, "settings": {"elements": 4}}
-        return Finished("key", status, row | {"load_factor": 1.0}, "", "", "", 0.0)
-
-    fine, middle, coarse = solved(0.01), solved(0.04), solved(0.16)
-    assert None not in statics._bars(scene, [fine, middle, solved(0.16, "diverged")], sizes, weights)
-    assert statics._bars(scene, [solved(0.01, "diverged"), middle, coarse], sizes, weights) == (None, None)
-
-
-@pytest.mark.parametrize(
-    "name", ["stiffness", "grid", "load", "damping", "mass", "slenderness", "curved-edge"]
-)
-def test_full_maps_have_the_published_cells(name):
-    """Every published row is a cell, with as many samples of it."""
-    with (PUBLISHED / f"{name}.csv").open(encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    cells = STUDIES[name].cells(True)
-    heads = {head: head.partition(" [")[0].replace(" ", "_") for head in rows[0]}
-    keys = {key for cell in cells for key in cell} & set(heads.values())
-    assert keys
-
-    def values(row):
-        return tuple(plain(row.get(key)) for key in sorted(keys))
-
-    published = [{key: row[head] for head, key in heads.items()} for row in rows]
-    assert sorted(map(values, cells)) == sorted(map(values, published))
-
-
-def plain(value):
-    """A value of a cell, or of a file, as the same text; nothing where there is none."""
-    try:
-        return f"{float(value):g}"
-    except (TypeError, ValueError):
-        return str(value or "")

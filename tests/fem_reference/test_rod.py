@@ -8,7 +8,6 @@ from rod_cases import CHAINS, STRIP, alone, chain, driven, shell
 import fem_reference
 import lumped
 from fem_reference.shell.statics import discretise
-from fem_reference.surface import rod
 from fem_reference.surface.actuator_forces import by_segment
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification import heavy_elastica
@@ -71,9 +70,7 @@ def test_a_sheet_with_a_rod_takes_few_more_factorisations_than_without(name):
 def test_one_curvature_a_joint_and_a_table():
     """Straight, then an arc: 16 segments from the start have 16 joints, the first of half a segment."""
     joints = (0.0,) * 8 + (2.0,) * 8
-    bounds, values = rod.pieces(alone(base="start", curvature=joints).actuators[0], 1.0)
-    assert len(values) == 16 and bounds[1] == pytest.approx(0.5 / 16)
-    bend = bounds[8]
+    bend = alone(base="start", curvature=joints).actuators[0].pieces()[8] / 16
     tip = shell(alone(base="start", curvature=joints), (1, 16)).displacement([[0.0, 1.0]])[0]
     angle = 2.0 * (1.0 - bend)
     expected = [0.0, bend + np.sin(angle) / 2.0 - 1.0, (1.0 - np.cos(angle)) / 2.0]
@@ -83,14 +80,6 @@ def test_one_curvature_a_joint_and_a_table():
     np.testing.assert_allclose(
         table.displacement([[0.0, 1.0]]), constant.displacement([[0.0, 1.0]]), atol=1e-9
     )
-
-
-@pytest.mark.parametrize(("base", "joints"), [("free", 5), ("start", 6), ("end", 6), ("middle", 6)])
-def test_pieces_cover_the_edge(base, joints):
-    values = tuple(float(i) for i in range(joints))
-    bounds, found = rod.pieces(chain(segments=6, base=base, curvature=values), 0.6)
-    assert len(found) == joints and len(bounds) == joints + 1
-    assert bounds[0] == 0.0 and bounds[-1] == 0.6 and np.all(np.diff(bounds) > 0.0)
 
 
 @pytest.mark.parametrize("face", ["top", "bottom"])

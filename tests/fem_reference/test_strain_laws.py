@@ -25,7 +25,7 @@ from fem_reference.verification.rows import EXACT
 from fem_reference.verification.strain_laws import LARGE, RUBBERS, STRAINS, WAYS, stress
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Status
+from sheetbench.scenes import Clamped, Hinged, Material, Pressure, Scene, Sheet, Status, Symmetric
 from sheetbench.scenes.material import WORDS
 
 PLAN = np.array([[0, 0], [2, 0.1], [2.1, 1.2], [-0.1, 1], [1, 0.05], [2.05, 0.65], [1, 1.1], [-0.05, 0.5]])
@@ -41,6 +41,11 @@ def slopes(function, at, step=1e-6):
     """∂f/∂x by central differences, the last axis that of x (…, n)."""
     moves = step * np.eye(at.shape[-1])
     return np.stack([(function(at + m) - function(at - m)) / (2.0 * step) for m in moves], axis=-1)
+
+
+MOONEY = Material.model_validate(
+    {"law": "mooney-rivlin", "c1": 80e3, "c2": 20e3, "poisson": 0.499, "density": 1070.0}
+)
 
 
 def test_every_model_has_the_laws_that_the_command_line_lists():
@@ -249,15 +254,26 @@ def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law, elem
 def test_a_square_blown_up_to_a_quarter_of_its_side_converges_as_its_mesh_is_refined(elements):
     """Along the clamps it turns by 45° within a thickness. Solid: 25.231 and 25.244 mm on 10 and 16 bricks;
     CalculiX 25.19 on 9 x 9 a quarter. 24 elements are divided evenly, for the sheet bends much."""
-    rubber = Material.model_validate(
-        {"law": "mooney-rivlin", "c1": 80e3, "c2": 20e3, "poisson": 0.499, "density": 1070.0}
-    )
     sheet = Sheet(length_x=0.1, length_y=0.1, thickness=0.003)
     edges = tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
-    scene = Scene(name="balloon", sheet=sheet, material=rubber, supports=edges, loads=(Pressure(value=9e3),))
+    scene = Scene(name="balloon", sheet=sheet, material=MOONEY, supports=edges, loads=(Pressure(value=9e3),))
     found = fem_reference.solve(scene, "shell", elements=elements)
     assert found.status is Status.CONVERGED
     assert found.displacement([[0.05, 0.05]])[0, 2] == pytest.approx(25.244e-3, rel=3e-3)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize(("kind", "apart"), [(Hinged, (0.0, 5e-4)), (Clamped, (6e-3, 1e-2))])
+def test_what_sets_an_inflated_shell_apart_from_the_solid_is_its_clamp(kind, apart):
+    """Free to turn at its edges, or held there with the mean over the thickness; a quarter of the square."""
+    sheet = Sheet(length_x=0.05, length_y=0.05, thickness=0.003)
+    edges = (kind(edge="x0"), kind(edge="y0"), Symmetric(edge="x1"), Symmetric(edge="y1"))
+    scene = Scene(name="quarter", sheet=sheet, material=MOONEY, supports=edges, loads=(Pressure(value=9e3),))
+    shell, solid = (
+        fem_reference.solve(scene, model, **options).displacement([[0.05, 0.05]])[0, 2]
+        for model, options in (("shell", {"elements": 4}), ("solid", {"elements": 4, "clamp": "mean"}))
+    )
+    assert apart[0] <= abs(shell / solid - 1.0) < apart[1]
 
 
 def test_gent_beyond_its_limit_is_told_with_the_limit():

@@ -15,7 +15,7 @@ from lumped.statics import faults
 from lumped.statics.solver import build_problem
 from sheetbench.runs.watch import Watch
 from sheetbench.scenes import EdgeLoad, Status
-from studies.stability.equilibria import sheet
+from studies.stability.scenes import sheet
 
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not
 

@@ -1,13 +1,15 @@
 """The reference set computed anew, on coarse meshes."""
 
 import json
+from zipfile import ZipFile
 
 import pytest
 
 from comparisons.scoring.cases import cases
 from comparisons.scoring.reference import document, references
-from studies.leaderboard import study as leaderboard
+from studies.codes import models as leaderboard
 from studies.reference_set import study as regenerate
+from studies.reference_set.archive import archive
 
 
 def test_one_command_makes_it(monkeypatch):
@@ -44,7 +46,7 @@ def test_rows_of_the_leaderboard_go_into_the_file(tmp_path, monkeypatch):
     kept = dict(list(references("statics").items())[:1])
     monkeypatch.setattr(leaderboard, "references", lambda suite: kept)
     said: list[str] = []
-    leaderboard.measure(["plate:elements=16", "kratos:elements=16"], said.append)
+    leaderboard.stand(["plate:elements=16", "kratos:elements=16"], said.append)
     after = json.loads(file.read_text())
     assert said[0] == "plate:elements=16" and len(said) == 2
     own = [("plate", name) for name in kept]
@@ -55,3 +57,11 @@ def test_rows_of_the_leaderboard_go_into_the_file(tmp_path, monkeypatch):
     others = [row for row in before["standing"] if (row["model"], row["case"]) not in own]
     assert sorted(map(str, others)) == sorted(map(str, (row for row in after["standing"] if row != new)))
     assert after["cases"] == before["cases"]
+
+
+def test_the_archive_of_the_reference_set_is_the_same_bytes_every_time(tmp_path):
+    first, second = (archive(tmp_path / name).read_bytes() for name in ("a.zip", "b.zip"))
+    assert first == second
+    with ZipFile(tmp_path / "a.zip") as opened:
+        names = {name.split("/")[1] for name in opened.namelist()}
+    assert {"README.md", "LICENCE.txt", "SHA256SUMS", "suite.json", "cases.csv", "values-modes.csv"} <= names

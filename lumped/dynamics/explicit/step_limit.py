@@ -67,13 +67,24 @@ def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
     """The limit at displacement u (size, 3) [m], at rest, where the air does not resist."""
     nothing = np.zeros_like(u)
     stiffness = system.matrix(u, nothing, time, 0.0, 0.0, 1.0)
-    frequency = math.sqrt(max(_largest(system, stiffness, u), 0.0))
+    touching = sum(item.stiffest(system.lattice_mass) for item in system.items)
+    frequency = math.sqrt(max(_largest(system, stiffness, u), 0.0) + touching)
     ratio = 0.0
-    if system.damping.present:
+    if system.resists:
         damping = system.matrix(u, nothing, time, 0.0, 1.0, 0.0)
         ratio = _largest(system, damping, u) / (2.0 * frequency) if damping.any() else 0.0
     exact = system.damping.proportional
     return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact)
+
+
+def soften_items(system: System) -> None:
+    """Give a system's items the stiffness that they have in motion, by the springs' highest frequency."""
+    if system.items:
+        rest = system.place(0.0)
+        springs = system.assembly.tangent(rest)
+        squared = _largest(system, springs, rest)
+        for item in system.items:
+            item.move_freely(system.lattice_mass, squared)
 
 
 def _largest(system: System, blocks: np.ndarray, u: np.ndarray) -> float:

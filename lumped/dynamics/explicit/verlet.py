@@ -27,7 +27,8 @@ class Verlet(Integrator):
         super().__init__(system, step)
         self._projection = Projection(system)
         chains = system.coupling is not None and system.coupling.bodies
-        one_by_one = chains or system.maxwell is not None or system.damping.drag.coefficient > 0.0
+        one_by_one = chains or system.maxwell is not None or system.natural is not None or bool(system.items)
+        one_by_one = one_by_one or system.damping.drag.coefficient > 0.0
         self._flat = None if one_by_one or system.shared_mass else FlatSystem(system)
         if self._flat is not None:
             self._flat.compile()
@@ -38,9 +39,8 @@ class Verlet(Integrator):
         return step_limit(system, u)
 
     def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
-        """Steps in one compiled call; one at a time where there are chains, branches, air or
-        bodies with moments of inertia. Raises
-        StepFailed."""
+        """Steps in one compiled call; one at a time where there are chains, branches, a natural state, air or
+        bodies with moments of inertia. Raises StepFailed."""
         if self._flat is None:
             return super().march(state, step, most)
         return self._flat.march(state, step, most)
@@ -64,14 +64,14 @@ class Verlet(Integrator):
         system.since(state, h)
         _, elastic = system.elastic(u, time)
         force = system.external(u, time) - elastic
-        damped = system.damping.present
+        damped = system.resists
         gradient = projection.jacobian(u) if projection.active else np.empty((0, 0))
         acting = force
         if damped:
             predicted = state.v + h * state.a
             if projection.active:  # dampers would see, and punish, what the constraints do not allow
                 predicted, _ = projection.tangential(predicted, gradient)
-            acting = force - system.damping_force(u, predicted)[1]
+            acting = force - system.damping_force(u, predicted, time)[1]
         acceleration = system.accelerate(acting)
         if not np.isfinite(acceleration).all():
             raise StepFailed("a number overflowed")
@@ -82,8 +82,8 @@ class Verlet(Integrator):
             force = system.external(u, time) - system.elastic(u, time)[1]
         taken = 0.0
         if damped:
-            power, resisting = system.damping_force(u, v)
-            before, _ = system.damping_force(state.u, state.v)
+            power, resisting = system.damping_force(u, v, time)
+            before, _ = system.damping_force(state.u, state.v, state.time)
             taken = 0.5 * h * (before + power)
             acceleration = system.accelerate(force - resisting)
         elif projection.active:

@@ -75,8 +75,9 @@ class CompiledNewton:
     def serves(system: System) -> bool:
         """Whether forces are all compiled, and factors lie in a band."""
         plain = system.coupling is None and system.maxwell is None and system.assembly.precision == "double"
+        plain = plain and system.natural is None
         still = system.problem.conservative and not system.problem.loads.follow
-        return plain and still and system.problem.system.band is not None
+        return plain and still and not system.items and system.problem.system.band is not None
 
     def factorise(
         self, u: np.ndarray, v: np.ndarray, time: float, mass_coefficient: float, damping_coefficient: float
@@ -101,11 +102,28 @@ class CompiledNewton:
         corrections: int,
     ) -> tuple[int, int]:
         """Correct u (n, 3) in place with the factors kept; how that ended, and after how many corrections."""
-        status, done, _ = iterate(
+        return iterate(
             u, *base, *by, external, tolerance, self._system.problem.size, stale, corrections,
             self.arrays, self.factors, self.workspace,
         )  # fmt: skip
-        return status, done
+
+
+@njit(cache=True)
+def add_forces_and_dampers(
+    arrays: Arrays, u: np.ndarray, v: np.ndarray, elastic: bool, force: np.ndarray
+) -> float:
+    """Add the forces (n, 3) [N] of dampers, of the masses' own damping and of the air at a displacement and
+    velocity (n, 3), and of springs if `elastic`; return the power [W] that the dampers take."""
+    power = add_drag(arrays.drag, u, v, force)
+    for i in range(len(arrays.rate)):
+        for q in range(3):
+            resisted = arrays.rate[i] * v[i, q]
+            force[i, q] += resisted
+            power += resisted * v[i, q]
+    damped = arrays.packing.damped
+    if elastic or damped:
+        power += add_forces(u, v, elastic, damped, arrays.packing, arrays.scratch, force)[1]
+    return power
 
 
 @njit(cache=True)
@@ -123,10 +141,9 @@ def iterate(
     arrays: Arrays,
     factors: np.ndarray,
     workspace: Workspace,
-) -> tuple[int, int, float]:
-    """Correct u in place; how that ended, after how many corrections, and the power [W] that the lattice's
-    dampers, the masses' own damping and the air took where the last one was found."""
-    last, n, power = np.inf, len(arrays.place), 0.0
+) -> tuple[int, int]:
+    """Correct u in place; how that ended, and after how many corrections."""
+    last, n = np.inf, len(arrays.place)
     force, velocity, right = workspace.force, workspace.velocity, workspace.right
     mass, free = arrays.mass, arrays.free
     moved, held, began = u.reshape(-1), base_u.reshape(-1), base_v.reshape(-1)
@@ -138,16 +155,7 @@ def iterate(
             for e in range(mass.pointers[row], mass.pointers[row + 1]):
                 inertia += mass.values[e] * (moved[mass.columns[e]] - held[mass.columns[e]])
             pull[row] = mass_coefficient * inertia - acting[row]
-        others = add_drag(arrays.drag, u, velocity, force)
-        for i in range(len(arrays.rate)):
-            for q in range(3):
-                resisted = arrays.rate[i] * velocity[i, q]
-                force[i, q] += resisted
-                others += resisted * velocity[i, q]
-        _, power = add_forces(
-            u, velocity, NUMBA_TRUE, arrays.packing.damped, arrays.packing, arrays.scratch, force
-        )
-        power += others
+        add_forces_and_dampers(arrays, u, velocity, NUMBA_TRUE, force)
         right[:] = 0.0
         for row in range(len(moved)):
             for e in range(free.pointers[row], free.pointers[row + 1]):
@@ -161,10 +169,10 @@ def iterate(
             moved[row] += change
             length = max(length, abs(change)) if np.isfinite(change) else np.inf
         if length < tolerance:
-            return CONVERGED, done, power
+            return CONVERGED, done
         if not length <= largest:
-            return LOST, done, power
+            return LOST, done
         if length > stale * last:
-            return STALE, done, power
+            return STALE, done
         last = length
-    return STALE, corrections, power
+    return STALE, corrections

@@ -2,8 +2,9 @@
 
 Every stage begins from the ones before it, is corrected with the factors kept, and leaves its velocity,
 acceleration and the power that its dampers take, in tables whose first row is the step's start. The power is
-that before the last correction, which is small beside the error that the step may have: no more force for it.
-The call comes back early where a stage needs other factors, which Python makes, and goes on there.
+that after the last correction: what that corrects is small in the displacement, but lies along stiff
+springs, whose dampers take τ k v² of it, always of one sign. The call comes back early where a stage needs
+other factors, which Python makes, and goes on there.
 """
 
 from __future__ import annotations
@@ -13,7 +14,14 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.implicit.compiled_newton import CONVERGED, Arrays, Workspace, iterate
+from lumped.dynamics.implicit.compiled_newton import (
+    CONVERGED,
+    Arrays,
+    Workspace,
+    add_forces_and_dampers,
+    iterate,
+)
+from lumped.springs.tiles import NUMBA_FALSE
 
 
 class Stages(NamedTuple):
@@ -69,7 +77,7 @@ def solve_stages(
             left = corrections
             _guess(i, step, stages, base_u, u)
         load = step.loads[min(i, len(step.loads) - 1)]
-        status, done, power = iterate(
+        status, done = iterate(
             stages.u[i], workspace.base_u, workspace.base_v, step.mass_coefficient, step.damping_coefficient,
             load, tolerance, largest, stale, left, arrays, factors, workspace,
         )  # fmt: skip
@@ -81,7 +89,9 @@ def solve_stages(
             change = u[row] - base_u[row]
             v[row] = base_v[row] + step.damping_coefficient * change
             a[row] = step.mass_coefficient * change
-        stages.power[i, 0] = power
+        stages.power[i, 0] = add_forces_and_dampers(
+            arrays, stages.u[i], stages.v[i], NUMBA_FALSE, workspace.force
+        )
     return CONVERGED, len(stages.u), 0, made
 
 

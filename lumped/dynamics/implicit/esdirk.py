@@ -41,9 +41,11 @@ from sheetbench.runs.schedule import require_error
 ERROR = 3e-5  # of a step
 FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
 LEAST = 1e-6  # of the sheet's side: no error is asked to be smaller beside it
+ENERGY = 10.0  # of a step that touches something, times its error relative to the largest: losses add up
 FIRST = 0.05  # first step over the time in which the first acceleration goes as far
 STEP_TOLERANCE = 1e-11  # last correction of a fixed step relative to the sheet's side
 SHARE = 0.3  # last correction of an adaptive step relative to the error it may have, or to the default one
+SHARE_WITH_DAMPERS = 0.1  # whose power is that of the square of what corrections leave, along stiff springs
 STALE = (
     1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
 )
@@ -104,6 +106,10 @@ class Esdirk(DenseIntegrator):
             error = h * float(np.abs(ERRORS @ stages.v.reshape(len(ERRORS), -1)).max())
             error = max(error, self._largest * self._error_of_branches(h))
             largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
+            if self.system.items:  # which are touched within steps
+                found = self._advance(state, stages, h)
+                gained = self.system.energy_gained(state, found.state, found.dissipated, found.work)
+                error = max(error, largest * gained * ENERGY)
             ratio = 0.9 * (self._error * largest / max(error, 1e-30)) ** (1.0 / 5.0)
             if ratio < 0.9 and h > shortest:
                 self.step = h * max(ratio, 0.2)
@@ -117,7 +123,8 @@ class Esdirk(DenseIntegrator):
     @property
     def _enough(self) -> float:
         """The last correction of an adaptive step's equations [m]."""
-        return SHARE * min(self._error, ERROR) * self._largest
+        share = SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE
+        return share * min(self._error, ERROR) * self._largest
 
     def _begin(self, state: State) -> None:
         """What the error is relative to before anything has moved, and the first step [s]: parts of how far
@@ -272,7 +279,7 @@ class Esdirk(DenseIntegrator):
         else:
             power[0] = self._power(start)
         end = self._stage(stages, -1)
-        if system.moving or system.working:
+        if system.moving or system.working or system.pushed:
             for i in range(1, len(power)):
                 power[i, 1] = self._put_in(self._stage(stages, i), before=True)
         self._step = stages, h
@@ -299,7 +306,8 @@ class Esdirk(DenseIntegrator):
         if system.working:
             force = system.external(stage.u, stage.time) - system.problem.loads.dead
             put_in += float(np.sum(force * stage.v))
-        return put_in
+            put_in += system.natural_power(stage.u, stage.time, before)
+        return put_in + (system.pushing(stage) if system.pushed else 0.0)
 
 
 @njit(cache=True)

@@ -92,8 +92,8 @@ class GeneralisedAlpha(Integrator):
         self._algorithm = algorithm
         after, relaxed = self.system.relaxed(state, after)
         if self._taken[0] is not state:
-            self._taken = state, self.system.damping_force(state.u, state.v)[0]
-        before, power = self._taken[1], self.system.damping_force(after.u, after.v)[0]
+            self._taken = state, self.system.damping_force(state.u, state.v, state.time)[0]
+        before, power = self._taken[1], self.system.damping_force(after.u, after.v, after.time)[0]
         self._taken = after, power
         return Advance(after, 0.5 * h * (before + power) + relaxed, self.system.work(state, after))
 

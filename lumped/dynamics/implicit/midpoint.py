@@ -54,14 +54,15 @@ class Midpoint(Integrator):
             gained = rate - state.v - jump  # what is prescribed has its work apart
             inertia: np.ndarray = (system.mass @ ((2.0 / h) * gained).ravel()).reshape(-1, 3)
             force = inertia + system.average_elastic(state, u, middle)
-            return force + system.damping_force(mean(u), rate)[1] - system.external(mean(u), middle)
+            return force + system.damping_force(mean(u), rate, middle)[1] - system.external(mean(u), middle)
 
         def halved(u: np.ndarray) -> np.ndarray:
             force = residual(u)
             return np.where(algebraic, 0.5 * force, force)  # as the constraints stand in the halved tangent
 
         def blocks(u: np.ndarray) -> np.ndarray:
-            return system.matrix(mean(u), velocity(u), middle, 2.0 / h**2, 1.0 / h, 0.5)
+            ends = state, u
+            return system.matrix(mean(u), velocity(u), middle, 2.0 / h**2, 1.0 / h, 0.5, ends)
 
         def weigh(correction: np.ndarray) -> np.ndarray:
             return np.where(algebraic, 0.5 * correction, correction)
@@ -75,7 +76,7 @@ class Midpoint(Integrator):
         v = 2.0 * rate - state.v
         if system.moving:
             v = v + system.place_rate(time) - system.place_rate(state.time) - 2.0 * jump
-        power, _ = system.damping_force(mean(u), rate)
+        power, _ = system.damping_force(mean(u), rate, middle)
         after, relaxed = system.relaxed(state, State(time, u, v, (v - state.v) / h))
         resisting = residual(u) if system.moving else u
         return Advance(after, h * power + relaxed, self._work(state, after, resisting, mean(u), moved))
@@ -92,6 +93,10 @@ class Midpoint(Integrator):
         if system.working:
             working = system.external(mean, middle) - system.problem.loads.dead
             done += float(np.sum(working * (after.u - before.u)))
+        if system.pushed:
+            done += system.pushed_between(before, after.u, middle)
+        done += system.natural_work(before.u, before.time, middle)
+        done += system.natural_work(after.u, middle, after.time)
         if system.coupling is not None:
             then, between, now = (system.drive(t) for t in (before.time, middle, after.time))
             done += system.coupling.command_work(before.u, then, between)

@@ -63,7 +63,7 @@ class Run:
         self._method.forget()
         checkpoint = self._kept.resume()
         if checkpoint is None:
-            self.reached = Reached(start)
+            self.reached = Reached(start, watch=Watch(largest=self._system.least_energy))
             samples = Samples.of(start)
             rows = self._sampling.rows(samples)
             watchdog.check_samples(self._system, samples, rows, self.reached.watch)

@@ -53,11 +53,15 @@ class Sampling:
             ("time", "", ()),
             *(("energy", name, ()) for name in ENERGIES),
             *(("probe", name, (3,)) for name in scene.probes),
-            *(("reaction", edge, (3,)) for edge in [*self._supports, *holders]),
+            *(
+                ("reaction", edge, (3,))
+                for edge in [*self._supports, *(item.name for item in system.items), *holders]
+            ),
             *(("actuator", name, wrench.shape) for name, wrench in actuators.items()),
         ]
         self._observed: Observed | None = None
-        plain = system.coupling is None and system.maxwell is None
+        plain = system.coupling is None and system.maxwell is None and system.natural is None
+        plain = plain and not system.items
         if plain and system.assembly.precision == "double":
             masses = system.assembly.pattern.size
             self._observed = Observed(
@@ -96,6 +100,8 @@ class Sampling:
         row[1:4] = list(energies.values())
         reactions, _ = system.problem.constraints.reactions(exerted)
         parts = [self._probes.of(u), *(reactions[edge] for edge in self._supports)]
+        state = samples.state(i)
+        parts.extend(item.exerted(u, system.drive(state.time), state.v).sum(axis=0) for item in system.items)
         if system.coupling is not None:
             parts.extend(system.coupling.reactions(exerted).values())
             parts.extend(system.coupling.wrenches(u, exerted).values())

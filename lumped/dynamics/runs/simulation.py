@@ -18,6 +18,7 @@ import numpy as np
 
 from lumped.assembly import Precision
 from lumped.calibration import Calibration, default
+from lumped.dynamics.explicit.step_limit import soften_items
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
 from lumped.dynamics.runs.initial import initial_state
@@ -35,6 +36,7 @@ from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.runs.columns import split
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import AnyScene, History, scene_of
+from sheetbench.scenes.contact import friction_notes
 from sheetbench.scenes.grading import as_settings
 from sheetbench.scenes.motion import let_go
 from sheetbench.scenes.quantities import require_positive
@@ -92,6 +94,7 @@ def simulate(
     calibration = calibration or default(scene)
     moving = let_go(scene)
     system = System(moving, build_problem(moving, calibration, weights, precision))
+    soften_items(system)
     integrator, why = resolve_integrator(integrator, system, options)
     start = initial_state(system, calibration, weights, scene)
     limit = INTEGRATORS[integrator].limit(system, start.u)
@@ -149,7 +152,7 @@ def simulate(
         integrator=integrator,
         settings=settings,
         status=status,
-        message=message,
+        message="; ".join(filter(None, [message, *friction_notes(scene)])),
         time=parts["time"][""],
         probes=parts.get("probe", {}),
         energies=parts["energy"],

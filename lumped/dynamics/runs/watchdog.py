@@ -29,6 +29,7 @@ def check_samples(
     if not system.assembly.any_strain:
         for time, u in zip(samples.time[:before].tolist(), samples.u[:before], strict=True):
             links = system.assembly.links
+            system.assembly.grow(time=time)
             stretch = links.largest_strain(links.elongations(u))
             watch.strained(time, stretch, bool(outside_model(system.scene, stretch)))
     if fault is not None:

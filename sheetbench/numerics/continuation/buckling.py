@@ -28,9 +28,11 @@ def buckling_modes(
     solver: Solver,
     surface: Callable[[State], np.ndarray],
     count: int,
+    still_within: float = 0.0,
 ) -> tuple[np.ndarray, list[State]]:
     """Return the lowest positive load factors (count,), rising, and the states that are their shapes, of any
-    scale. surface: displacement of points of the mid-surface (n, 3) [m] at a state.
+    scale. surface: displacement of points of the mid-surface (n, 3) [m] at a state; still_within: what it
+    moves at least where it moves at all [m].
 
     Raises BadInput where the loads bend the sheet at once or do not soften it, and for a count that there is
     not.
@@ -45,7 +47,7 @@ def buckling_modes(
                 step = factor.solve(structure.system(rest, forces, share)[1])
                 loaded = structure.advance(rest, forces, share, step)
                 moved = np.abs(surface(loaded))
-                if moved[:, 2].max() > BENDS * moved.max():
+                if moved[:, 2].max() > BENDS * max(moved.max(), still_within):
                     raise BadInput("buckling: the loads bend the sheet at once; those in its plane buckle it")
                 stressed = structure.with_stresses(rest, loaded)
                 tangent, _ = structure.system(stressed, structure.forces(stressed, share), share)

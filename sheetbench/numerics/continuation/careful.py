@@ -58,8 +58,9 @@ def continuous(
 ) -> tuple[Factor, float]:
     """The factors of the tangent at an equilibrium, and how far the next linear step may go. Raises
     StepFailed where it is on another branch than the one that the step set out from: far from where the
-    linear step led, or past a change of stability by more than a short step. negative: eigenvalues before;
-    found: the factors, where they are at hand."""
+    linear step led, or past a change of stability by more than a short step, of little load where
+    a natural strain is what loads it. negative: eigenvalues before; found: the factors, where they are at
+    hand."""
     limits, miss = path.limits, path.structure.length(first.state, state)
     if miss > max(min(limits.continuous * first.length, limits.miss), max(limits.idle, limits.tolerance)):
         raise StepFailed(Status.STEP_LIMIT, "the path folds", first.length)
@@ -67,7 +68,9 @@ def continuous(
         found = found or path.factored(path.tangent(state, first.target))
     except SingularMatrixError as error:
         raise StepFailed(Status.SINGULAR, str(error), first.length) from None
-    if negatives(found) > negative and first.length > limits.branching:
+    little = first.target - path.load_factor <= limits.branching_load or not path.structure.prestrained
+    short = first.length <= limits.branching and little
+    if negatives(found) > negative and not short:
         raise StepFailed(Status.STEP_LIMIT, "the path loses stability", first.length)
     longest = limits.growth * first.length
     if miss > 0.0:  # it grows with the square of the step

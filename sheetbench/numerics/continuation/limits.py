@@ -9,7 +9,7 @@ from 16 factorisations on looks at 49 (`tests/helpers/thirty_scenes.py`).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -39,8 +39,14 @@ class Limits:
     miss: float = 0.05  # and as a length
     safe: float = 0.8  # of what the last miss lets the next careful step go
     branching: float = 1e-3  # linear steps so short may cross a bifurcation
+    branching_load: float = 2.0**-11  # of what a natural strain loads, which may not move it until it buckles
     same_branch: float = 0.25  # of a start's displacement: beyond, an equilibrium may be on another branch
     snaps: int = 12  # of one path
     snap_step: float = 0.01  # in load factor, past the limit point
     factorisations: int = 400
     in_all: int = 1600
+
+    @property
+    def direct(self) -> Limits:
+        """Without a careful second run: of a path that leads to a start only."""
+        return replace(self, careful_after=self.in_all)

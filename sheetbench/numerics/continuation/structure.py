@@ -45,6 +45,11 @@ class Structure(Protocol[State, Forces]):
         """Constraints among the unknowns: negative eigenvalues of every tangent."""
         return 0
 
+    @property
+    def prestrained(self) -> bool:
+        """Whether a natural strain is among what loads it, which may stress it where it does not move."""
+        return False
+
     def rest(self) -> State:
         """The state that the path sets out from."""
 

@@ -109,18 +109,29 @@ def trace_path(
                     f"{here}{left}: this equilibrium, which large ones led to, may be on another branch"
                 )
             path.state, path.load_factor, path.factor, ended = reached, 1.0, None, None
-        path.fault = ended
-        path.status, note = ended or stability(path)
-        if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
-            try:
-                path.limit = path.factorisations + path.limits.factorisations
-                path.state, path.factor = settle(path, 1.0), None
-                path.notes.append("begun along the buckling mode of an unstable equilibrium")
-                path.status, note = stability(path)
-            except StepFailed as failure:
-                note = f"{note}; beside it {failure}"
-        path.notes.extend([note] if note else [])
+        conclude(path, ended, settle, buckled)
         return path
+
+
+def conclude(
+    path: Path[State, Forces],
+    ended: Fault | None,
+    settle: Settle[State, Forces] | None,
+    buckled: bool,
+) -> None:
+    """Give a path at its end its status, with what has ended it early, and lead one that ends at an unstable
+    equilibrium on to a stable one where it is to be `buckled`."""
+    path.fault = ended
+    path.status, note = ended or stability(path)
+    if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
+        try:
+            path.limit = path.factorisations + path.limits.factorisations
+            path.state, path.factor = settle(path, 1.0), None
+            path.notes.append("begun along the buckling mode of an unstable equilibrium")
+            path.status, note = stability(path)
+        except StepFailed as failure:
+            note = f"{note}; beside it {failure}"
+    path.notes.extend([note] if note else [])
 
 
 def _arrived(path: Path[State, Forces], inspect: Inspect[State, Forces], near: Start[State]) -> bool:

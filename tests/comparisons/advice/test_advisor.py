@@ -19,7 +19,7 @@ from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice, Spec, spec_of
-from comparisons.tradeoff.pareto import cheapest
+from comparisons.sweep.front import cheapest
 from fem_reference.pulled_strip import pulled
 from fem_reference.verification.strain_laws import stress
 from sheetbench import scenes

@@ -31,11 +31,11 @@ def test_an_installed_package_has_the_reproduction_and_names_the_way_to_the_othe
     tmp_path, monkeypatch, capsys
 ):
     monkeypatch.setattr(study, "CHECKOUT", tmp_path)
-    assert run("study", "coverage") == 2
+    assert run("study", "promises") == 2
     assert "choose from reproduction; others need a clone of the repository" in one_line(capsys)
     assert run("study") == 0
     listed = capsys.readouterr().out
-    assert "reproduction " in listed and "coverage" not in listed
+    assert "reproduction " in listed and "promises" not in listed
     assert run("study", "reproduction", "--part", "nearest", "--json") == 0
 
 

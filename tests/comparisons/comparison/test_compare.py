@@ -10,10 +10,10 @@ import pytest
 from comparisons.comparison import comparison as displacement
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
-from comparisons.comparison.differences import relative
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.context import running
 from comparisons.models.grading import choice_notes
+from comparisons.sweep.differences import relative
 from fem_reference.uncertainty import estimate
 from sheetbench import scenes
 from sheetbench.answers.files import to_json

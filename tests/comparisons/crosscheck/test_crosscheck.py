@@ -1,12 +1,10 @@
-"""Who is told apart from whom: judges with known errors, and the verb with them."""
+"""`sheetbench crosscheck` with external codes whose errors are known."""
 
 import json
 
-import numpy as np
 import pytest
 from commands import json_of, one_line, run
 
-from comparisons.crosscheck.convergence import Convergence, pair
 from comparisons.crosscheck.crosscheck import Crosscheck
 from sheetbench.scenes import load
 
@@ -77,55 +75,6 @@ def fakes(tmp_path, in_process):
     file = tmp_path / "fakes.py"
     file.write_text(FAKE, encoding="utf-8")
     return lambda *names: ("--judges", ",".join(f"{file}:{name}" for name in names))
-
-
-def standing(name, limit, error, meshes=(4, 6, 8)):
-    """A model whose every displacement is limit + error h² [m], its cells of size h = 1/n."""
-    rows = [
-        {
-            "status": "converged",
-            "load_factor": 1.0,
-            "settings": {"elements": [n, n]},
-            "size": 1.0 / n,
-            "probes": dict.fromkeys(SEED.probes, np.full(3, limit + error / n**2)),
-        }
-        for n in meshes
-    ]
-    return Convergence.of(SEED, name, None, rows, False)
-
-
-def test_a_standing_has_the_limit_and_a_bar_that_holds_it():
-    one = standing("one", -0.01, 0.002)
-    assert one.uncertainty is not None and one.meshes == "4, 6, 8"
-    np.testing.assert_allclose(one.uncertainty.extrapolated, -0.01, rtol=1e-9)
-    np.testing.assert_allclose(one.uncertainty.order, 2.0, atol=1e-6)
-    np.testing.assert_allclose(one.uncertainty.bar, 1.35 * 0.002 / 64, rtol=1e-6)
-
-
-def test_models_are_told_apart_by_more_than_both_bars_alone():
-    error = 0.002
-    bars = 2 * 1.35 * error / 64
-    here = standing("here", -0.01, error)
-    for share, apart in ((0.9, ()), (1.1, ("P1", "P2", "P3", "P4"))):
-        there = pair(here, standing("there", -0.01 - share * bars, error), list(SEED.probes))
-        assert there is not None and there.distinguishable_at == apart
-        assert there.difference == pytest.approx(share * bars / 0.01, rel=1e-6)
-        assert there.bars == pytest.approx(bars / 0.01, rel=1e-6)
-
-
-def test_rounding_tells_nothing_apart():
-    """Two answers that no mesh changes have no bar; what programs print ends somewhere."""
-    here = standing("here", -0.01, 0.0)
-    near, far = (standing("there", -0.01 * (1 + off), 0.0) for off in (4e-6, 4e-5))
-    told = [pair(here, there, list(SEED.probes)) for there in (near, far)]
-    assert [bool(one and one.distinguishable_at) for one in told] == [False, True]
-
-
-def test_one_mesh_has_no_bar_and_two_have_a_cautious_one():
-    one, two = standing("one", -0.01, 0.002, (8,)), standing("two", -0.01, 0.002, (6, 8))
-    assert one.uncertainty is None and pair(one, two, list(SEED.probes)) is None
-    assert two.uncertainty is not None
-    np.testing.assert_allclose(two.uncertainty.bar, 3.0 * 0.002 / 64, rtol=1e-6)
 
 
 def test_judges_side_by_side(fakes, capsys):

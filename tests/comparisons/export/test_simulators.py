@@ -16,7 +16,6 @@ from comparisons.external.mujoco import relax
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Hinged, PointLoad, Scene
-from studies.simulators.mujoco import displacement, loaded, put
 
 READER = runpy.run_path(str(Path(__file__).parents[3] / "examples" / "other-codes" / "read_lattice.py"))
 CORNER = scenes.load("two-edges-clamped").replace(
@@ -29,6 +28,29 @@ HINGED = Scene(
 
 def described(scene, grid=4, method="central"):
     return lumped.describe(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid, method=method))
+
+
+def loaded(mujoco, text):
+    """Model and data of an MJCF text, under its loads."""
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    if model.nkey:
+        mujoco.mj_resetDataKeyframe(model, data, 0)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+def put(model, data, displacement, rest):
+    """Masses where displacements (n, 3) [m] from their rest (n, 3) [m] say; held ones stand there already."""
+    for joint in range(model.njnt):
+        mass, axis = int(model.jnt_bodyid[joint]) - 1, int(np.argmax(model.jnt_axis[joint]))
+        data.qpos[joint] = rest[mass, axis] + displacement[mass, axis] - model.body_pos[mass + 1][axis]
+
+
+def displacement(data, rest):
+    """Displacements (n, 3) [m] of the masses."""
+    moved = data.site_xpos - rest
+    return moved
 
 
 LADEN = scenes.load("two-edges-clamped").replace(name="laden", masses=({"at": (0.17, 0.16), "mass": 0.05},))

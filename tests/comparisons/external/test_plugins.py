@@ -11,7 +11,8 @@ from commands import json_of, one_line, run
 from comparisons.external import plugins
 from comparisons.models import solve as solvers
 from comparisons.models.spec import parse
-from comparisons.tradeoff import timing
+from comparisons.sweep import task
+from comparisons.sweep.solved import Ask
 from sheetbench import face as models
 from sheetbench import scenes
 from sheetbench.errors import BadInput
@@ -122,7 +123,7 @@ def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_p
     scene, name = scenes.load("one-edge-clamped"), f"{file}:Strip"
 
     def key():
-        return timing.run(scene, parse(name)).key
+        return Ask(scene, parse(name)).task.key
 
     first = key()
     (tmp_path / "elsewhere.py").write_text("x = 2\n")
@@ -132,17 +133,17 @@ def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_p
     file.write_text(f"from constants import UNIT\n{example}\n")
     assert len({first, second, key()}) == 3
     with pytest.raises(RuntimeError, match="changed since this run was requested"):
-        timing.measure(scene.document(), name, {}, 0, plugins.digest("lumped"))
+        task.solve(scene.document(), name, {}, digest=plugins.digest("lumped"))
 
 
 def test_a_row_is_of_an_installed_plug_ins_version(installed, tmp_path):
     scene = scenes.load("one-edge-clamped")
-    first = timing.run(scene, parse("strip")).key
-    assert timing.run(scene, parse("strip")).key == first
+    first = Ask(scene, parse("strip")).task.key
+    assert Ask(scene, parse("strip")).task.key == first
     metadata = tmp_path / "outside-1.0.dist-info" / "METADATA"
     metadata.write_text(metadata.read_text().replace("Version: 1.0", "Version: 1.1"))
     plugins._found.cache_clear()
-    assert timing.run(scene, parse("strip")).key != first
+    assert Ask(scene, parse("strip")).task.key != first
 
 
 def test_mujoco_is_installed_as_a_plugin():

@@ -24,7 +24,7 @@ from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from comparisons.modes.spectra import spectra
 from sheetbench.scenes import Pressure, Status, load
-from studies.expected_errors.study import scenes
+from studies.promises.expected import stored
 
 SCENE = load("two-edges-clamped")
 
@@ -95,7 +95,7 @@ def test_compare_says_it_in_the_norm_of_its_error():
 def test_in_plane_loads_have_no_error_of_bending():
     """A strip pulled by 1 N/m is 0.2 % off and not the 4 to 15 % of a sheet that bends by this load; pulled
     by 120 N/m it is off by its law of strain, which no grid mends."""
-    weak, hard = (scenes()[name][1] for name in ("pull-weak", "pull-hard"))
+    weak, hard = (stored()[name]["scene"] for name in ("pull-weak", "pull-hard"))
     found = [_expected(scene) for scene in (weak, hard)]
     assert found[0] is not None and found[0] < 0.004 and found[1] is None
 
@@ -119,10 +119,10 @@ def test_calibrate_says_it_of_a_scene(capsys):
 
 def test_loads_in_its_plane_bend_no_flat_sheet():
     """They make no layer at the edges, and `--grading auto` leaves the grid even."""
-    pulled, hanging = (scenes()[name][1] for name in ("pull-hard", "hanging"))
+    pulled, hanging = (stored()[name]["scene"] for name in ("pull-hard", "hanging"))
     assert layers(pulled) == [] == layers(hanging)
     assert grading_of(pulled, (9, 9, 2), Lattice(calibration="consistent", grading="auto"))[0] == 0.0
-    both, weight = scenes()["pull-and-weight"][1], pulled.replace(gravity=SCENE.gravity)
+    both, weight = stored()["pull-and-weight"]["scene"], pulled.replace(gravity=SCENE.gravity)
     pressed = weight.replace(gravity=None, loads=(Pressure(value=3.0),))
     assert [len(layers(scene)) for scene in (both, weight, pressed)] == [1, 1, 1]
     assert layers(both) == layers(both.replace(loads=()))

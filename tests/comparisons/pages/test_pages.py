@@ -18,8 +18,8 @@ from comparisons.pages.page import page, pictures, question, whole_words
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
 from comparisons.runs.folder import Folder
-from comparisons.tradeoff.motion_answer import DynamicTradeoff
-from comparisons.tradeoff.motion_row import MotionRow
+from comparisons.tradeoff.answer import DynamicTradeoff
+from comparisons.tradeoff.row import MotionRow
 from sheetbench.answers.report import Report
 from sheetbench.answers.table import Column, Table, unit
 from sheetbench.scenes import load

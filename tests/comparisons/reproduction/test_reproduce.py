@@ -61,9 +61,7 @@ def test_the_tables_hold_what_was_published_and_what_we_answer(test_1):
         and "| P4 | published experiment | −1.91 | – | −20.09 |" in table.to_markdown()
     )
     assert {"test-1.vtu", "test-1-shell.vtu", "test-1-k550-lz17.vtu"} <= set(report.files())
-    assert any(
-        "with the published inputs" in one.finding.lower() for one in found.findings()
-    )
+    assert any("with the published inputs" in one.finding.lower() for one in found.findings())
 
 
 def test_a_published_lattice_without_an_answer_is_a_complaint_and_no_failure(test_1):

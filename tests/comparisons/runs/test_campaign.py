@@ -19,7 +19,6 @@ from comparisons.runs.campaign import TASKS, Progress, Run, campaign, carry_out,
 from comparisons.runs.store import FILE, Finished
 from sheetbench.errors import BadInput
 from sheetbench.sources import digest, source
-from studies.stability import STUDIES
 
 pytestmark = pytest.mark.smoke
 
@@ -67,7 +66,6 @@ def test_other_code_in_the_worker_is_a_failure_and_not_an_answer():
 
 def test_every_task_is_where_its_name_says():
     assert all(callable(function(name)) for name in TASKS)
-    assert all(callable(function(study.measure)) for study in STUDIES.values())
 
 
 def test_a_run_that_fails_is_a_row_with_its_status(store):

@@ -20,14 +20,14 @@ from comparisons.runs import load
 from comparisons.runs.campaign import campaign
 from comparisons.runs.peak_memory import with_peak_memory
 from comparisons.runs.store import FILE
-from comparisons.tradeoff import timing
-from comparisons.tradeoff.answer import Tradeoff
+from comparisons.sweep import task
+from comparisons.sweep.columns import field_points
+from comparisons.sweep.solved import Ask, Solved
+from comparisons.tradeoff import statics
+from comparisons.tradeoff.answer import Tradeoff, folded
 from comparisons.tradeoff.figure import compose, logarithmic
 from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff, explicit_limit
-from comparisons.tradeoff.motion_answer import folded
-from comparisons.tradeoff.motion_row import MotionRow
-from comparisons.tradeoff.pareto import front, grouped, order
-from comparisons.tradeoff.row import TradeoffRow
+from comparisons.tradeoff.row import MotionRow, TradeoffRow
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, parse_figure
 from sheetbench.answers.files import to_json
@@ -80,21 +80,6 @@ def finished(tmp_path_factory):
     return folder
 
 
-def test_front_holds_what_nothing_beats():
-    errors = [0.1, 0.05, 0.2, None, 0.01, float("nan"), 0.04]
-    seconds = [1.0, 2.0, 3.0, 0.1, 4.0, 0.1, 2.0]
-    assert front(errors, seconds) == [0, 6, 4]
-    assert front(errors, seconds, floor=0.04) == [0, 6]  # below the floor nothing can be distinguished
-    assert front([None], [1.0]) == []
-
-
-def test_order_is_the_slope_of_the_logarithms():
-    h = [0.1, 0.05, 0.025]
-    assert order(h, [3.0 * x**2 for x in h]) == pytest.approx(2.0)
-    assert order([0.1, 0.1], [1.0, 2.0]) is None
-    assert grouped(["b", "a", "b"]) == {"b": [0, 2], "a": [1]}
-
-
 def test_lists_of_sizes_become_rows_with_near_square_cells():
     scene = scenes.load("one-edge-clamped").replace(length_x=0.1, length_y=0.2, thickness=0.001)
     found = lattices(scene, ["5", "3x4x3"], ["consistent", "uniform"])
@@ -112,14 +97,14 @@ def test_lists_of_sizes_become_rows_with_near_square_cells():
 
 
 def test_a_measured_row_says_what_it_cost(scene):
-    asked = timing.run(scene, Lattice((9, 9, 2), "consistent"), repeats=3)
-    row = timing.measure(**asked.arguments)
+    asked = Ask(scene, Lattice((9, 9, 2), "consistent"), repeats=3)
+    row = task.solve(**asked.task.arguments)
     assert row["status"] == "converged" and row["unknowns"] == 384
-    samples = row["solve_seconds"]["samples"]
-    assert len(samples) >= 3 and row["solve_seconds"]["median"] == pytest.approx(np.median(samples))
-    assert row["peak_memory_bytes"] >= 0
-    assert {"python", "processor", "cpu_count"} <= set(row["machine"])
-    assert {"sheetbench", "numpy", "scipy"} <= set(row["versions"])
+    cost = row["cost"]
+    assert Solved(asked, "converged", row=row).seconds == pytest.approx(np.median(cost["samples"]))
+    assert len(cost["samples"]) >= 3 and cost["peak_memory_bytes"] >= 0
+    assert {"python", "processor", "cpu_count"} <= set(cost["machine"])
+    assert {"sheetbench", "numpy", "scipy"} <= set(cost["versions"])
     assert row["probes"]["P4"][2] == pytest.approx(-0.01346, rel=1e-2)
 
 
@@ -128,16 +113,23 @@ def test_memory_is_that_of_the_run(scene):
     assert memory == pytest.approx(64e6, rel=0.1)
 
 
-def test_field_points_integrate_over_the_sheet(scene):
-    points, weights = timing.field_points(scene)
-    assert weights.sum() == pytest.approx(1.0)
-    lx, ly = scene.sheet.lengths
-    assert weights @ (points[:, 0] ** 3 * points[:, 1]) == pytest.approx(lx**3 * ly / 8)
-    half = scene.replace(sheet=scene.sheet.replace(outline=[(0.0, 0.0), (lx, 0.0), (0.0, ly)]))
-    points, weights = timing.field_points(half)  # which had points where there is no sheet
-    assert weights.sum() == pytest.approx(1.0) and weights @ points == pytest.approx(
-        [lx / 3, ly / 3], rel=0.02
-    )
+@pytest.mark.parametrize(("finest", "known"), [("converged", True), ("diverged", False)])
+def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used(scene, monkeypatch, finest, known):
+    def solved(asks, *_, **__):
+        statuses = [finest, *["converged"] * (len(asks) - 1)]
+        moved = [[[0.0, 0.0, 1.0 + ask.spec.count**-2]] for ask in asks]
+        return [
+            Solved(ask, status, row={
+                "probes": {"P": u[0]}, "columns": {"field": u * len(field_points(scene)[1])},
+                "settings": ask.spec.settings, "load_factor": 1.0,
+            })
+            for ask, status, u in zip(asks, statuses, moved, strict=True)
+        ]  # fmt: skip
+
+    monkeypatch.setattr(statics, "sweep", solved)
+    found = statics.tradeoff(scene, [Elements("shell", 3)], None, reference=Elements("shell", 8))
+    assert [bar is not None for bar in (found.uncertainty, found.field_uncertainty)] == [known] * 2
+    assert (found.rows[0].error is not None) == (found.rows[0].field_error is not None) == known
 
 
 def test_killed_and_resumed_tradeoff_has_all_its_rows(finished):

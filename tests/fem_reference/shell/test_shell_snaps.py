@@ -24,7 +24,7 @@ from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.scenes import Chain, Curved, Hinged, Material, Scene, Sheet, Status
 from sheetbench.scenes.kinematics import Placed
-from studies.stability import equilibria
+from studies.stability import scenes as stability_scenes
 
 SIDE, WIDTH, THICKNESS, YOUNG = 1.0, 0.1, 0.002, 1e7
 SHORTER = 0.002  # shortening of the strip
@@ -200,8 +200,8 @@ def test_pushed_beside_its_middle_a_stable_path_snaps_at_its_limit_load(arch):
 
 def rod_scene(turn, load_number):
     """A sheet on a rod bent to a share of a circle, under its weight."""
-    rod = Curved(edge="x0", curvature=float(2.0 * np.pi * turn / equilibria.SIDE))
-    return equilibria.sheet(0.008, load_number, supports=(rod,))
+    rod = Curved(edge="x0", curvature=float(2.0 * np.pi * turn / stability_scenes.SIDE))
+    return stability_scenes.sheet(0.008, load_number, supports=(rod,))
 
 
 def chained():
@@ -219,7 +219,7 @@ def taped():
 
 
 def test_a_tape_spring_snaps_as_the_lattice_does(taped):
-    ours = lumped.solve(taped, equilibria.consistent(taped)((17, 17)))
+    ours = lumped.solve(taped, lumped.calibrate(taped.sheet, taped.material, (17, 17)))
     truth = shell.solve(taped, elements=6)
     assert truth.status is Status.CONVERGED and truth.load_factor == 1.0
     assert list(truth.snaps) == pytest.approx(list(ours.snaps), rel=0.05)
@@ -295,7 +295,7 @@ def test_tape_springs_snap_to_where_the_lattice_does(turn, load_number, snaps):
     truth = shell.solve(scene, elements=12)
     assert truth.status is Status.CONVERGED and truth.load_factor == 1.0
     assert list(truth.snaps) == pytest.approx(snaps, rel=0.05)
-    ours = lumped.solve(scene, equilibria.consistent(scene)((33, 33)))
+    ours = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, (33, 33)))
     points = scene.probe_points()
     assert error(ours.displacement(points), truth.displacement(points)) < 0.05
 
@@ -303,6 +303,6 @@ def test_tape_springs_snap_to_where_the_lattice_does(turn, load_number, snaps):
 @pytest.mark.slow
 @pytest.mark.parametrize("slenderness", [1e-4, 3e-4])
 def test_foils_reach_the_full_load_though_their_wrinkles_are_the_meshs(slenderness):
-    truth = shell.solve(equilibria.sheet(slenderness, 1e3, ("x0", "y0")), elements=12)
+    truth = shell.solve(stability_scenes.sheet(slenderness, 1e3, ("x0", "y0")), elements=12)
     assert truth.load_factor == 1.0 and truth.status in (Status.CONVERGED, Status.UNSTABLE)
     assert len(list(truth.snaps)) >= 1

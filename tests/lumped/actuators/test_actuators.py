@@ -299,14 +299,14 @@ def test_a_held_base_carries_sheet_and_chain_in_statics_and_at_the_end_of_a_run(
     assert history.reactions["x0 base"][-1] == pytest.approx([0.0, 0.0, weight], abs=0.01 * weight)
 
 
-def test_one_segment_held_at_its_middle_is_a_clamp():
-    only = [{"edge": "x1", "segments": 1, "base": "middle", "line_density": 0.02}]
+def test_one_stiff_segment_held_at_its_middle_is_a_clamp():
+    only = [{"edge": "x1", "segments": 1, "base": "middle", "line_density": 0.02, "bending_stiffness": 1e5}]
     held = scene("one-edge-clamped", only)
     both = scene("one-edge-clamped", supports=[{"edge": e, "kind": "clamped"} for e in ("x0", "x1")])
     chain, clamp = (lumped.solve(asked, springs(held)) for asked in (held, both))
     points = held.probe_points()
-    assert_allclose(chain.displacement(points), clamp.displacement(points), atol=1e-12)
+    assert_allclose(chain.displacement(points), clamp.displacement(points), atol=1e-8)
     own = [0.0, 0.0, 9.81 * 0.02 * 0.188]
-    assert_allclose(chain.reactions["x1 base"], clamp.reactions["x1"] + own, atol=1e-10)
+    assert_allclose(chain.reactions["x1 base"], clamp.reactions["x1"] + own, atol=1e-5)
     history = lumped.simulate(held, springs(held), 0.02, step=1e-3)
     assert history.status is scenes.Status.CONVERGED

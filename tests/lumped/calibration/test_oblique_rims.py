@@ -15,7 +15,7 @@ from lumped.calibration.edge_twist import layer_width
 from lumped.spring_constants import RIMS_OWN, Springs, of_edge_cells
 from sheetbench.scenes import Cells, Scene, SpringSet
 from sheetbench.scenes.grid import grid_of
-from studies.drawn.scenes import drawn
+from studies.transfer.drawn_scenes import drawn
 
 THICKNESS, ACROSS, ALONG = 1e-3, 16, 60  # of strips; their sides in cells
 RUBBER = {"young": 1e6, "poisson": 0.45, "density": 1e3}

@@ -173,7 +173,7 @@ def test_dampers_of_the_table_act_by_family_and_mass_damping_decays_exactly():
     table = DamperSet(axial=0.5, cross=0.2)
     equations, rest = system(scene(gravity=False).model_copy(update={"dampers": table}), n=3)
     v = 0.1 * np.random.default_rng(0).standard_normal(rest.u.shape)
-    power, force = equations.damping_force(rest.u, v)
+    power, force = equations.damping_force(rest.u, v, 0.0)
     expected = 0.0
     for family in equations.assembly.lattice.links:
         c = {"axial": 0.5, "cross": 0.2}.get(family.name, 0.0)

@@ -5,6 +5,7 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 import lumped
+from fem_reference.verification import settling_strip
 from sheetbench.scenes import Scene
 
 TIME = [round(0.005 * i, 3) for i in range(25)]
@@ -73,3 +74,15 @@ def test_a_support_that_speeds_up_pulls_its_own_masses_along():
     course = PchipInterpolator(TIME, RISEN)
     column = 0.075 * 0.004 * 1100.0 * 0.15 / (springs.grid[0] - 1)
     assert history.reactions["x0"][0, 2] == pytest.approx(5 / 12 * column * course(0.0, 2)[2], rel=1e-6)
+
+
+def test_dampers_of_a_fine_narrow_lattice_take_what_the_motion_loses():
+    """The settling strip's first half second, 33 × 3 × 2 masses. Along stiff springs the last correction of a
+    stage, small in the displacement, has a velocity whose power in the dampers is of one sign: with the power
+    before that correction the balance was off by 6 %, by 17 % after 1.5 s."""
+    strip = settling_strip.scene()
+    cell = strip.sheet.length_x / 32
+    narrow = strip.replace(sheet=strip.sheet.replace(length_y=2.0 * cell), probes={"tip": (0.18, cell)})
+    history = run(narrow, (33, 3), 0.5)
+    assert drift(history) < 0.002
+    assert history.energies["dissipated"][-1] > 0.3 * history.energies["kinetic"].max()

@@ -18,8 +18,6 @@ from pylatexenc.latexwalker import (
 
 from sheetbench.answers.latex import latex
 from sheetbench.answers.table import Column, Table
-from studies.stability import STUDIES
-from studies.stability.answer import table as study_table
 
 COMMANDS = r"""
 textbackslash textasciicircum textasciitilde textasciigrave dots frac times cdot pm ge le approx ne to infty
@@ -84,9 +82,3 @@ def test_signs_are_signs():
     assert latex("−1 × 10⁻³ – ρ g a/E ≥ ν") == r"$-$1 $\times$ 10$^-${}$^3$ -- $\rho$ g a/E $\ge$ $\nu$"
     assert latex("--lumped 9–17") == "-{}-lumped 9--17"
     assert latex("中") == "{[}U+4E2D{]}"
-
-
-@pytest.mark.parametrize("name", list(STUDIES))
-def test_headings_of_our_own_tables(name):
-    found = study_table(STUDIES[name], [])
-    assert len(rows(found.to_latex(), len(found.brief().columns))) == 1

@@ -89,6 +89,7 @@ def test_a_scene_s_document_is_the_scene():
         "cutout",
         "support",
         "actuator",
+        "obstacle",
         "probes",
         "load",
         "mass",

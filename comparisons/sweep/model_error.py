@@ -1,0 +1,127 @@
+"""The model error of a reference, on every mesh: bounds for thickness, law of strain and clamps.
+
+thickness   (1.2 + 1.3 ν²) (h/a)², a the shorter side, 1.2 = 1/κ: shear-deformable plates and shells differ
+            from the solid by terms of that order (Koiter, Proc. Kon. Ned. Ak. Wet. B73 (1970) 169–195), the
+            part with ν for the normal stress at clamps that no shell has. That order is derived, the 1.3 is
+            measured: on sheets with one, two and four clamps, ν −0.3 to 0.49, h/a 0.06 to 0.15, the solid
+            with clamp "mean" is 0.04 to 1.02 (h/a)² from the shell (12 elements, two layers), and CalculiX
+            in one of them 1.4 (h/a)². Clamps hold the mean over the thickness there: held on the mid-line
+            alone a face is dented by the shear force, the more the finer the mesh is, and no bar holds
+            that. Nothing for a solid
+strain law  1.7 times what Biot's and neo-Hooke's laws would move the probes by, to first order
+            (`fem_reference.shell.other_laws`; 0.6 to 1.64 times that is what ten of eleven sheets' moved by,
+            near folds too). Where that is not known, of a solid and of sheets that are not the same all over,
+            2.3 ε √m, ε the largest stretch, m the share of stretching in the energy: at one force
+            St Venant–Kirchhoff's and neo-Hooke's sheets differ by 2.3 ε of a stretch (1.5 and −0.77 of
+            `comparisons.comparison.strain_law`). Nothing where the user has chosen the law or the material
+            has one: then it is part of the scene
+clamp       0.75 |ν|/(1 − ν) h/a where an edge is clamped: a clamp holds the surface and its normal, and
+            leaves the thickness free to change (docs/theory.md, section 8). One that holds the whole face
+            stops the change of thickness that bending brings, within a zone of length h
+
+Shares of the largest displacement. The clamp's part is no error of the answer to the scene as it is worded,
+but what another clamp would change; so it stands beside the others and is not added to them. Against the
+solid with either clamp, and the shell with the three laws, the bounds hold on the scenes of
+`tests/comparisons/sweep/test_model_error.py`, h/a from 0.013 to 0.15.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sheetbench.scenes import Clamped, Curved, Scene, Solution, Status
+from sheetbench.scenes.summary import few
+
+MODELS = ("shell", "solid")
+SHEAR, NORMAL = 1.2, 1.3
+LAW, FIRST_ORDER = 2.3, 1.7
+CLAMP = 0.75
+
+
+@dataclass(frozen=True)
+class ModelError:
+    """Bounds, shares of the largest displacement; see the module. value: thickness and law of strain."""
+
+    thickness: float
+    strain_law: float
+    clamp: float
+
+    @property
+    def value(self) -> float:
+        """What the model leaves out of the scene as it is worded."""
+        return self.thickness + self.strain_law
+
+    def __str__(self) -> str:
+        parts = {"thickness": self.thickness, "law of strain": self.strain_law}
+        named = ", ".join(f"{name} {_percent(part)}" for name, part in parts.items() if part > 0.0)
+        sentences = [f"model error ± {_percent(self.value)} ({named})"] if named else []
+        if self.clamp > 0.0:
+            other = (
+                "of a clamp that holds the mean over the thickness; one that also prevents the change of "
+                "thickness would change it by up to"
+            )
+            sentences.append(f"{other} {_percent(self.clamp)}")
+        return "; ".join(sentences)
+
+    def as_dict(self) -> dict[str, float | dict[str, float]]:
+        """For JSON."""
+        parts = {"thickness": self.thickness, "strain_law": self.strain_law}
+        return {"model": self.value, "model_parts": parts, "clamp": self.clamp}
+
+
+def _percent(share: float) -> str:
+    return f"{few(100.0 * share)} %"
+
+
+def model_error(scene: Scene, answer: Solution, law_chosen: bool = False) -> ModelError | None:
+    """Return the bounds of a shell's or solid's answer; None where it is no stable equilibrium, and of the
+    plate, which leaves out large displacements altogether. law_chosen: whether its law of strain is the
+    user's."""
+    if answer.status is not Status.CONVERGED or answer.stretch is None or answer.model not in MODELS:
+        return None
+    slenderness, poisson = scene.sheet.thickness / min(scene.sheet.lengths), scene.material.poisson
+    clamped = any(isinstance(support, Clamped | Curved) for support in scene.supports)
+    stated = scene.material.law is not None and answer.settings.get("law") == scene.material.law
+    solid = answer.model == "solid"
+    return ModelError(
+        thickness=0.0 if solid else (SHEAR + NORMAL * poisson**2) * slenderness**2,
+        strain_law=0.0 if law_chosen or stated else _strain_law(scene, answer),
+        clamp=CLAMP * abs(poisson) / (1.0 - poisson) * slenderness if clamped else 0.0,
+    )
+
+
+def _strain_law(scene: Scene, answer: Solution) -> float:
+    from fem_reference.shell.other_laws import shift
+
+    stretch = answer.stretch or 0.0
+    if answer.model == "solid":
+        return LAW * stretch
+    if (moved := shift(scene, answer)) is not None:
+        return FIRST_ORDER * moved
+    membrane = answer.energies.get("membrane", 0.0) / (sum(answer.energies.values()) or 1.0)
+    return float(LAW * stretch * membrane**0.5)
+
+
+def left_for_grid(tolerance: float, model_error: float | None) -> float:
+    """Return what is left of a tolerance for the error of a grid or mesh and the reference's own bar, once
+    what the reference leaves out is taken off: all of it where that alone is above the tolerance, which then
+    is met against a converged reference only."""
+    taken = model_error or 0.0
+    return tolerance if taken >= tolerance else tolerance - taken
+
+
+def share_of_tolerance(tolerance: float, model_error: float | None, bar: float | None, reference: str) -> str:
+    """Return in a sentence what model error and bar of a reference take of a tolerance."""
+    allowed, known = _percent(tolerance), 0.0 if bar is None else bar
+    left = left_for_grid(tolerance, model_error) - known
+    if (model_error or 0.0) >= tolerance:
+        return (
+            f"Of {allowed} the {reference}'s model error would take {_percent(model_error or 0.0)}, more "
+            f"than all of it: within {allowed} of a converged {reference} only."
+        )
+    parts = [f"its mesh's bar {_percent(known)}"] if bar is not None else []
+    if model_error:
+        parts.insert(0, f"the {reference}'s model error takes {_percent(model_error)}")
+    if not parts:
+        return ""
+    return f"Of {allowed} {', '.join(parts)}: {_percent(max(left, 0.0))} are left for the grid."

@@ -1,1 +1,0 @@
-"""The advisor on scenes drawn at random."""

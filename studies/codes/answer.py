@@ -1,0 +1,172 @@
+"""The answer of the study: codes with numbers in use and with ours, the nearest at which cost, every row."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from statistics import geometric_mean
+from typing import Annotated, Any
+
+import matplotlib
+from matplotlib.figure import Figure
+
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.report import Picture
+from sheetbench.answers.table import NUMBER, PERCENT, SECONDS, Column, Table, number, percent
+from studies.codes.results import CASES, OURS, SCENES, CodeResults, Trial, every_result
+
+LEFT_OUT = (
+    "Not run, for want of a wheel: SOFA, ArcSim, Codim-IPC, ppf-contact-solver, OpenUSD's proposal; of "
+    "MATLAB's and Octave's ode15s the lattice would have to be written again in their language."
+)
+
+
+@dataclass(frozen=True)
+class Nearer:
+    """The best of the numbers in use beside ours, of a scene or the geometric mean of all that both
+    answer."""
+
+    code: Annotated[str, Column(prose=True)]
+    scene: str
+    in_use: Annotated[float, PERCENT(".1f", "best in use")]
+    ours: Annotated[float, PERCENT(".1f")]
+
+    @property
+    def nearer(self) -> Annotated[float, NUMBER(".1f", "times as near")]:
+        """How many times as near ours are."""
+        return self.in_use / self.ours
+
+
+@dataclass(frozen=True)
+class Front:
+    """A row than which none is both quicker and nearer."""
+
+    scene: str
+    code: Annotated[str, Column(prose=True)]
+    recipe: str
+    error: Annotated[float, PERCENT(".2g")]
+    seconds: Annotated[float, SECONDS(".3g", "time")]
+
+
+@dataclass(frozen=True)
+class SceneRow:
+    """A scene's error and time by recipe, in words."""
+
+    scene: str
+    recipes: dict[str, str]
+
+
+@dataclass(frozen=True, repr=False)
+class Codes(Answer):
+    """Every file of results."""
+
+    results: tuple[CodeResults, ...]
+
+    file_name = "codes"
+
+    def heading(self) -> tuple[str, str, str]:
+        return "Codes", "error and time of other people's codes and of our models, on the reference set", ""
+
+    def document(self) -> dict[str, Any]:
+        return {"nearer": [{**vars(one), "nearer": one.nearer} for one in self.nearer()]}
+
+    def nearer(self) -> list[Nearer]:
+        """Return the rows of codes that have numbers of both kinds."""
+        rows = []
+        for code in self.results:
+            both = code.in_use_and_ours()
+            rows += [Nearer(code.title, scene, *both[scene]) for scene in SCENES if scene in both]
+            if both:
+                means = map(geometric_mean, zip(*both.values(), strict=True))
+                rows.append(Nearer(code.title, f"mean of {len(both)} statics", *means))
+        return rows
+
+    def front(self, scene: str) -> list[Front]:
+        """Return the rows of a scene than which none is both quicker and nearer, the quickest first."""
+        kept: list[Front] = []
+        for title, row in sorted(self._answered(scene), key=lambda one: one[1].seconds or 0.0):
+            assert row.error is not None and row.seconds is not None
+            if not kept or row.error < kept[-1].error:
+                kept.append(Front(scene, title, row.recipe, row.error, row.seconds))
+        return kept
+
+    def _answered(self, scene: str) -> list[tuple[str, Trial]]:
+        pairs = [(code.title, row) for code in self.results for row in code.rows]
+        return [(title, row) for title, row in pairs if row.scene == scene and row.error is not None]
+
+    def tables(self) -> list[Table]:
+        fields = ("code", "scene", "in_use", "ours", "nearer")
+        front = [row for scene in SCENES for row in self.front(scene)]
+        return [
+            Table.of(Nearer, self.nearer(), "Numbers in use and ours", "nearer", fields=fields, grouped=True),
+            Table.of(Front, front, "The nearest at which cost", "front", grouped=True),
+            *map(_of_code, self.results),
+        ]
+
+    def printed(self) -> list[Table]:
+        return self.tables()[:2]
+
+    def notes(self) -> tuple[str, ...]:
+        about = (
+            "Error: the largest difference from the set's converged shell at the probes, of the largest "
+            "displacement; time: of a trial the processor's to rest, of our models and of programs in this "
+            "process the median solve. Meshes have 8 squares along the shorter side, of curves 4, unless "
+            f"others are named. Numbers of `calibrate SCENE --for CODE` are called {OURS}."
+        )
+        return about, LEFT_OUT
+
+    def figures(self) -> tuple[Picture, ...]:
+        return (Picture("codes", f"{__name__}:compose", (self,)),)
+
+
+def _of_code(code: CodeResults) -> Table:
+    """Return scenes down, recipes across, below each suite the geometric mean of the scenes answered."""
+    cells = {(row.scene, row.recipe): row for row in code.rows}
+    rows = []
+    for suite in ("statics", "curves"):
+        scenes = dict.fromkeys(row.scene for row in code.rows if CASES[row.scene].suite == suite)
+        rows += [SceneRow(s, {one: _cell(cells.get((s, one))) for one in code.recipes}) for s in scenes]
+        if len(scenes) > 1:
+            means = {one: _mean(code.errors(one, suite).values()) for one in code.recipes}
+            rows.append(SceneRow(f"geometric mean, {suite}", means))
+    about = f"{code.licence}; {code.date}, {code.machine}; `{code.command}`"
+    return Table.of(SceneRow, rows, code.title, code.code, text=about)
+
+
+def _cell(row: Trial | None) -> str:
+    if row is None:
+        return "not run"
+    spent = "" if row.seconds is None else f", {number(row.seconds, '.2g')} s"
+    return (row.status if row.error is None else percent(row.error, ".3g")) + spent
+
+
+def _mean(errors: Iterable[float | None]) -> str:
+    known = [error for error in errors if error is not None]
+    return f"{percent(geometric_mean(known), '.3g')} of {len(known)}" if known else "–"
+
+
+def codes() -> Codes:
+    """Return what the files of results say."""
+    return Codes(tuple(every_result()))
+
+
+def compose(found: Codes, style: FigureStyle = PLAIN) -> Figure:
+    """Return error against time of every recipe on both scenes: dots for ours, crosses for numbers in use,
+    lines for models and programs by their size."""
+    figure = Figure(figsize=(style.width, 3.6), layout="constrained")
+    axes, colours = figure.subplots(1, 2, sharey=True), matplotlib.colormaps["tab20"]
+    for axis, scene in zip(axes, SCENES, strict=True):
+        for number_, code in enumerate(found.results):
+            rows = [row for row in code.rows if row.scene == scene and row.error is not None]
+            ladder = not code.in_use_and_ours()
+            for ours in (True, False):
+                some = [row for row in rows if row.recipe.startswith(OURS) is ours]
+                at = [row.seconds for row in some], [100.0 * (row.error or 0.0) for row in some]
+                mark = "o" if ours else ".-" if ladder else "x"
+                label = code.title if axis is axes[0] and ours is not ladder else None
+                axis.plot(*at, mark, color=colours(number_), ms=4, lw=0.8, label=label)
+        axis.set(xscale="log", yscale="log", title=scene, xlabel="time to rest [s]")
+    axes[0].set_ylabel("error [%]   ● ours   × in use")
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=6.5)
+    return figure

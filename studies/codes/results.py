@@ -1,0 +1,112 @@
+"""Files of results, `results/codes/CODE.json`: what a code has answered of the reference set, and when.
+
+A row is a scene by a recipe (numbers and a mesh). Files come with pull requests too, so they are checked.
+"""
+
+from __future__ import annotations
+
+import json
+import platform
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.scoring.reference import references
+from sheetbench.answers.files import write_text
+from sheetbench.errors import BadInput
+from studies import pages
+
+RESULTS = pages.RESULTS / "codes"
+SCENES = ("two-edges-clamped", "one-edge-clamped")  # of the picture and the front
+CASES = references("statics") | references("curves")
+OURS = "ours"  # begins the names of recipes with our numbers
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A scene by a recipe; error and seconds are None where there is no answer; inputs: the checksum of the
+    files that the code was given; moved: displacements of the scene's probes [m]."""
+
+    scene: str
+    recipe: str
+    mesh: str
+    status: str
+    error: float | None
+    seconds: float | None
+    why: str = ""
+    inputs: str = ""
+    moved: list[list[float]] | None = None
+
+
+@dataclass(frozen=True)
+class CodeResults:
+    """A code and its rows."""
+
+    code: str
+    title: str
+    licence: str
+    date: str
+    machine: str
+    command: str
+    rows: tuple[Trial, ...]
+
+    @property
+    def recipes(self) -> list[str]:
+        """In the order of the rows."""
+        return list(dict.fromkeys(row.recipe for row in self.rows))
+
+    def errors(self, recipe: str, suite: str = "statics") -> dict[str, float | None]:
+        """Return a recipe's errors by the scenes of a suite."""
+        of = [row for row in self.rows if row.recipe == recipe and CASES[row.scene].suite == suite]
+        return {row.scene: row.error for row in of}
+
+    def in_use_and_ours(self) -> dict[str, tuple[float, float]]:
+        """Return by scenes that both answer the least error with numbers in use, and that with ours."""
+        others = [self.errors(one) for one in self.recipes if not one.startswith(OURS)]
+        found = {}
+        for scene, error in self.errors(OURS).items():
+            in_use = [known for one in others if (known := one.get(scene)) is not None]
+            if error is not None and in_use:
+                found[scene] = (min(in_use), error)
+        return found
+
+
+def write_results(code: str, title: str, licence: str, rows: Iterable[Trial]) -> Path:
+    """Write a code's file of results; where it is."""
+    machine = f"{platform.machine()}, Python {platform.python_version()}, one thread"
+    date = datetime.now(UTC).date().isoformat()
+    head = CodeResults(code, title, licence, date, machine, f"sheetbench study codes {code}=PYTHON", ())
+    text = json.dumps(asdict(replace(head, rows=())), indent=1, ensure_ascii=False).removesuffix("[]\n}")
+    lines = ",\n".join(f"  {json.dumps(asdict(row), ensure_ascii=False)}" for row in rows)
+    path = RESULTS / f"{code}.json"
+    write_text(path, f"{text}[\n{lines}\n ]\n}}\n")
+    return path
+
+
+def read_results(path: Path) -> CodeResults:
+    """Return a file's results. Raises BadInput that says what is wrong with it."""
+    try:
+        document: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        found = CodeResults(**{**document, "rows": tuple(Trial(**row) for row in document["rows"])})
+        datetime.fromisoformat(found.date)
+    except (OSError, ValueError, KeyError, TypeError) as wrong:
+        raise BadInput(f"{path}: no file of results: {wrong!r}") from None
+    texts = (value for key, value in vars(found).items() if key != "rows")
+    if not found.rows or not all(isinstance(text, str) and text for text in texts):
+        raise BadInput(f"{path}: texts and rows are not to be empty")
+    for row in found.rows:
+        numbers = [value for value in (row.error, row.seconds) if value is not None]
+        if row.scene not in CASES or not all(0.0 <= value < np.inf for value in numbers):
+            raise BadInput(f"{path}: {row.scene}, {row.recipe}: a scene of {', '.join(CASES)}, numbers ≥ 0")
+        if row.status == "converged" and len(numbers) < 2:
+            raise BadInput(f"{path}: {row.scene}, {row.recipe}: converged without an error or a time")
+    return found
+
+
+def every_result() -> list[CodeResults]:
+    """Return all files of results."""
+    return [read_results(path) for path in sorted(RESULTS.glob("*.json"))]

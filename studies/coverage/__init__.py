@@ -1,1 +1,0 @@
-"""Whether the references' error bars hold: scenes drawn at random, each bar against its error."""

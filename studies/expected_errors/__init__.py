@@ -1,1 +1,0 @@
-"""The expected error of a lattice's grid on a hundred scenes, beside the true one."""

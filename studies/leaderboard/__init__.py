@@ -1,1 +1,0 @@
-"""Where models stand on the reference set."""

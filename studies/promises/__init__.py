@@ -1,0 +1,1 @@
+"""Promised errors beside the errors that there are: bars, expected errors, advice."""

@@ -1,0 +1,144 @@
+"""The answer of the study: what was promised of an error beside what it is, and how often it was kept.
+
+bar              kept where the error of a component is within it; at least 95 % of components, and a
+                 median bar of no more than five errors
+expected error   kept where the true error is within a factor of two; at least 80 %, never three times it
+advice           kept where the error of the choice is within the tolerance; at least 95 %
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Annotated, Any
+
+import numpy as np
+
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.table import NUMBER, PERCENT, Column, Table
+from sheetbench.scenes.summary import few
+
+GOALS = {"bar": (0.95, 5.0, np.inf), "expected error": (0.8, np.inf, 3.0), "advice": (0.95, np.inf, np.inf)}
+
+
+@dataclass(frozen=True)
+class Promise:
+    """A promise about an error: by what, on what mesh or at which tolerance, where; promised and actual
+    error, shares of the largest displacement; cost: of an advised model over the cheapest that is within."""
+
+    promise: str
+    at: str
+    scene: str
+    where: str
+    promised: float | None
+    actual: float
+    cost: float | None = None
+
+    @property
+    def ratio(self) -> float:
+        """Actual over promised, nan without a promise."""
+        if self.promised is None:
+            return float("nan")
+        if self.promised:
+            return self.actual / self.promised
+        return np.inf if self.actual > 0.0 else 0.0
+
+    @property
+    def kept(self) -> bool:
+        """Whether it was kept."""
+        return 0.5 < self.ratio < 2.0 if self.promise == "expected error" else self.ratio <= 1.0
+
+
+@dataclass(frozen=True)
+class Share:
+    """How often a promise was kept."""
+
+    promise: str
+    at: str
+    scenes: Annotated[int, NUMBER("d")]
+    cases: Annotated[int, NUMBER("d")]
+    kept: Annotated[float, PERCENT(".1f")]
+    loose: Annotated[float, NUMBER(".3g", "median promised/actual")]
+    farthest: Annotated[float, NUMBER(".3g", "largest actual/promised")]
+    cost: Annotated[float | None, NUMBER(".2f", "median of time over the cheapest")]
+    met: Annotated[bool, Column("ok", words=("yes", "NO"))]
+
+
+@dataclass(frozen=True)
+class Miss:
+    """The worst of a scene's promises that were not kept."""
+
+    promise: str
+    at: str
+    scene: str
+    where: str
+    promised: Annotated[float | None, PERCENT(".2g")]
+    actual: Annotated[float, PERCENT(".2g")]
+
+
+@dataclass(frozen=True, repr=False)
+class Promises(Answer):
+    """rows: of every promise; skipped: scenes that were replaced, and why."""
+
+    rows: tuple[Promise, ...]
+    skipped: dict[str, str]
+
+    file_name = "promises"
+
+    def shares(self) -> list[Share]:
+        """Return a row per promise and where it was given: mesh, grid, tolerance."""
+        keys = dict.fromkeys((row.promise, row.at) for row in self.rows)
+        return [share([row for row in self.rows if (row.promise, row.at) == key]) for key in keys]
+
+    def _misses(self) -> list[Miss]:
+        worst: dict[tuple[str, str, str], Promise] = {}
+        for row in self.rows:
+            key = row.promise, row.at, row.scene
+            if not row.kept and row.ratio >= (worst[key].ratio if key in worst else 0.0):
+                worst[key] = row
+        return [Miss(r.promise, r.at, r.scene, r.where, r.promised, r.actual) for r in worst.values()]
+
+    @property
+    def succeeded(self) -> bool:
+        return all(row.met for row in self.shares())
+
+    def heading(self) -> tuple[str, str, str]:
+        return "Promises", "error bars, expected errors and advice beside the errors that there are", ""
+
+    def document(self) -> dict[str, Any]:
+        rows = [{**asdict(row), "kept": row.kept} for row in self.rows]
+        return {"shares": [asdict(row) for row in self.shares()], "skipped": self.skipped, "rows": rows}
+
+    def tables(self) -> tuple[Table, ...]:
+        shares = Table.of(Share, self.shares(), "Promises that were kept", "promises", grouped=True)
+        return shares, Table.of(Miss, self._misses(), "Scenes in which one was not", "misses", grouped=True)
+
+    def notes(self) -> list[str]:
+        kept = "kept: the error is within the bar or the tolerance, or a factor of two of the expected one."
+        replaced = f"Replaced, for a model did not converge on a mesh: {', '.join(self.skipped)}."
+        return [kept, *([replaced] if self.skipped else [])]
+
+    def complaints(self) -> list[str]:
+        return [
+            f"{row.promise}, {row.at}: {100.0 * row.kept:.1f} % kept, promised is {few(row.loose)} times the "
+            f"error, at most {few(row.farthest)} times too small"
+            for row in self.shares()
+            if not row.met
+        ]
+
+    def choices(self) -> dict[str, Any]:
+        return {"promises": list(dict.fromkeys(row.promise for row in self.rows))}
+
+
+def share(rows: Sequence[Promise]) -> Share:
+    """Return how often promises of one kind were kept, of those that were given."""
+    given = [row for row in rows if row.promised is not None]
+    kept = float(np.mean([row.kept for row in given])) if given else float("nan")
+    ratios = np.array([row.ratio for row in given])
+    loose = float(np.median(1.0 / ratios[ratios > 0.0])) if (ratios > 0.0).any() else float("nan")
+    farthest, costs = float(ratios.max(initial=0.0)), [row.cost for row in given if row.cost is not None]
+    least, loosest, most = next(goal for name, goal in GOALS.items() if rows[0].promise.startswith(name))
+    met = kept >= least and not loose > loosest and farthest < most
+    cost = float(np.median(costs)) if costs else None
+    scenes = len({row.scene for row in given})
+    return Share(rows[0].promise, rows[0].at, scenes, len(given), kept, loose, farthest, cost, met)

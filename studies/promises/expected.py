@@ -1,0 +1,86 @@
+"""The expected error of a lattice's grid on a hundred stored scenes, beside the true one.
+
+`results/promises.json` has every scene (some that an earlier rule by the layers' widths got wrong, the
+catalogue, the transfer study's and fifty drawn at random), and the displacements [m] of its probes: by the
+shell of 16 elements along the shorter side, and by the lattices of 5, 9 and 17 masses and the finer ones that
+the estimate takes. The estimates are computed from these by the rule of today.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from math import prod
+from typing import Any
+
+import numpy as np
+
+import lumped
+from comparisons.models.expected_error import estimate, finer_grid, largest_stretch, resolves
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, Lattice
+from comparisons.sweep.differences import error
+from sheetbench.answers.files import write_text
+from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes.grid import grid_of
+from studies.pages import RESULTS
+from studies.promises.answer import Promise
+
+STORED = RESULTS / "promises.json"
+GRIDS, ELEMENTS = (5, 9, 17), 16
+Row = dict[str, Any]
+
+
+def stored() -> dict[str, Row]:
+    """Return every stored scene's row by its name: group, scene, shell, lattices."""
+    rows: dict[str, Row] = json.loads(STORED.read_text(encoding="utf-8"))
+    return {name: {**row, "scene": Scene.model_validate(row["scene"])} for name, row in rows.items()}
+
+
+def solve_again(say: Callable[[str], None]) -> None:
+    """Solve every stored scene again, and store the answers."""
+    rows = []
+    for name, row in stored().items():
+        say(name)
+        scene = row["scene"]
+        grids = [grid_of(scene.sheet, n) for n in GRIDS]
+        wanted = sorted({*grids, *(finer_grid(grid) for grid in grids)})
+        shell = _answer(scene, solve(resolve(scene, Elements("shell", ELEMENTS))))
+        answers = {"shell": shell, "lattices": [lattice(scene, grid) for grid in wanted]}
+        rows.append({name: {"group": row["group"], "scene": scene.document(), **answers}})
+    write_text(STORED, "{\n" + ",\n".join(json.dumps(row)[1:-1] for row in rows) + "\n}\n")
+
+
+def lattice(scene: Scene, grid: tuple[int, int, int]) -> Row:
+    """Return a lattice's answer as it is stored."""
+    springs = resolve(scene, Lattice(grid, "consistent"), "springs").springs
+    solution = lumped.solve(scene, springs)
+    stretch = float(f"{largest_stretch(scene, solution, grid):.4g}")
+    return {"grid": list(grid), "snaps": len(solution.snaps), "stretch": stretch, **_answer(scene, solution)}
+
+
+def _answer(scene: Scene, solution: Solution) -> Row:
+    u = solution.displacement(scene.probe_points())
+    status = str(solution.status) if solution.comparable else "no equilibrium"
+    return {"status": status, "probes": [[float(f"{x:.7g}") for x in point] for point in u]}
+
+
+def expected_errors() -> Iterator[Promise]:
+    """Return a row for every grid of a scene on which there is a true error; promised: None without an
+    estimate."""
+    for name, row in stored().items():
+        by_grid = {tuple(one["grid"]): one for one in row["lattices"]}
+        for masses in GRIDS:
+            grid = grid_of(row["scene"].sheet, masses)
+            coarse, fine = by_grid[grid], by_grid[finer_grid(grid)]
+            if not row["shell"]["status"] == coarse["status"] == "converged":
+                continue
+            u, finer, truth = (np.array(one["probes"]) for one in (coarse, fine, row["shell"]))
+            promised = None
+            alike = fine["status"] == "converged" and fine["snaps"] == coarse["snaps"]
+            if alike and resolves(row["scene"], finer_grid(grid)):
+                ratio = prod(n - 1 for n in fine["grid"][:2]) / prod(n - 1 for n in grid[:2])
+                promised = estimate(u, finer, ratio, fine["stretch"])
+            if (actual := error(u, truth)) is not None:
+                yield Promise("expected error", f"{masses} masses", name, row["group"], promised, actual)

@@ -1,0 +1,164 @@
+"""Scenes drawn at random in the scene language, the same for the same seed.
+
+Shorter side a 0.05 to 0.5 m, the other up to 1.6 a, h/a 0.003 to 0.05, ν 0 to 0.49; E such that the load
+number q a³/D is 0.03 to 10, q the weight per area, as far as ρ g a/E ≤ 0.03. Fourteen arrangements of
+supports in turn, turned to any side of the sheet: one, two, three and four edges clamped, hinged or held,
+clamps tilted and bent, edges moved; seven kinds of load at random: the weight, upright or slanting, a
+pressure, forces at a point or along a free edge, moments. A third of the sheets or so are weightless. Probes
+are the scene's own four and two more anywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from sheetbench.scenes import EDGES, Material, Scene, Sheet
+
+SEED = 41
+GRAVITY = 9.81
+LARGEST_STRAIN = 0.03  # ρ g a/E
+ROUND = ("x0", "y0", "x1", "y1")  # the edges in turn, around the sheet
+ADDED = 2  # probes
+
+Edges = tuple[str, str, str, str]  # one, its neighbour, the one opposite, the other neighbour
+Part = dict[str, Any]
+
+
+def drawn_scenes(seed: int = SEED) -> Iterator[Scene]:
+    """Scenes without end."""
+    random = np.random.default_rng(seed)
+    number = 0
+    while True:
+        yield _scene(random, number)
+        number += 1
+
+
+def _sheet(random: np.random.Generator) -> tuple[Sheet, Material]:
+    short, ratio = _log(random, 0.05, 0.5), random.uniform(1.0, 1.6)
+    sides = (short, short * ratio) if random.random() < 0.5 else (short * ratio, short)
+    thickness, poisson = short * _log(random, 0.003, 0.05), random.uniform(0.0, 0.49)
+    density, load = random.uniform(900.0, 2000.0), _log(random, 0.03, 10.0)
+    young = 12.0 * (1.0 - poisson**2) * density * GRAVITY * short**3 / (load * thickness**2)
+    young = max(young, density * GRAVITY * max(sides) / LARGEST_STRAIN)
+    return Sheet(*sides, thickness), Material(young, poisson, density)
+
+
+def _scene(random: np.random.Generator, number: int) -> Scene:
+    sheet, material = _sheet(random)
+    sides, per_area = sheet.lengths, material.density * GRAVITY * sheet.thickness
+    first = int(random.integers(4))
+    edges: Any = tuple(ROUND[(first + i) % 4] for i in range(4))
+    holding = ARRANGEMENTS[number % len(ARRANGEMENTS)](random, edges, sides)
+    held = {part["edge"] for parts in holding.values() for part in parts}
+    free = [edge for edge in ROUND if edge not in held]
+    base = {
+        "name": f"drawn-{number}",
+        "sheet": sheet,
+        "material": material,
+        **holding,
+        **_loads(random, sides, per_area, free),
+    }
+    places = random.uniform(0.05, 0.95, (ADDED, 2)) * sides
+    more = {f"P{5 + i}": place.tolist() for i, place in enumerate(places)}
+    return Scene.model_validate({**base, "probes": {**Scene.model_validate(base).probes, **more}})
+
+
+def _log(random: np.random.Generator, low: float, high: float) -> float:
+    return float(np.exp(random.uniform(np.log(low), np.log(high))))
+
+
+def _either(random: np.random.Generator, low: float, high: float) -> float:
+    """Of either sign."""
+    return float(random.choice([-1.0, 1.0]) * random.uniform(low, high))
+
+
+def _supports(kind: str, edges: Sequence[str], **more: Any) -> list[Part]:
+    return [{"kind": kind, "edge": edge, **more} for edge in edges]
+
+
+def _along(clamped: Sequence[int], hinged: Sequence[int] = ()) -> Callable[..., Part]:
+    return lambda random, edges, sides: {
+        "support": [
+            *_supports("clamped", [edges[i] for i in clamped]),
+            *_supports("hinged", [edges[i] for i in hinged]),
+        ]
+    }
+
+
+def _tilted(random: np.random.Generator, edges: Edges, sides: tuple[float, float]) -> Part:
+    return {"support": _supports("clamped", edges[:1], tilt=_either(random, 0.05, 0.4))}
+
+
+def _tilted_both(random: np.random.Generator, edges: Edges, sides: tuple[float, float]) -> Part:
+    tilts = _either(random, 0.02, 0.15), _either(random, 0.02, 0.15)
+    both = zip((edges[0], edges[2]), tilts, strict=True)
+    return {"support": [part for edge, tilt in both for part in _supports("clamped", [edge], tilt=tilt)]}
+
+
+def _curved(random: np.random.Generator, edges: Edges, sides: tuple[float, float]) -> Part:
+    along = sides[EDGES[edges[0]].along_axis]
+    return {"support": _supports("curved", edges[:1], curvature=_either(random, 0.1, 0.75) / along)}
+
+
+def _on_a_rail(random: np.random.Generator, edges: Edges, sides: tuple[float, float]) -> Part:
+    rail = _supports("held", [edges[2]], components=["z"])
+    return {"support": [*_supports("clamped", edges[:1]), *rail]}
+
+
+def _moved(random: np.random.Generator, edges: Edges, sides: tuple[float, float]) -> Part:
+    """The edge opposite a clamp lifted, pulled outwards and turned about itself."""
+    moved = EDGES[edges[2]]
+    length = sides[moved.normal_axis]
+    pull = random.uniform(0.0, 0.005) * length * np.array(moved.outward)
+    turn = np.zeros(3)
+    turn[moved.along_axis] = _either(random, 0.02, 0.2)
+    shift = np.array([*pull[:2], _either(random, 0.01, 0.08) * length])
+    still = [0.0, 0.0, 0.0]
+    motion = {"time": [0.0, 1.0], "displacement": [still, shift.tolist()], "rotation": [still, turn.tolist()]}
+    return {
+        "support": _supports("clamped", edges[:1]),
+        "actuator": [{"kind": "motion", "edge": edges[2], **motion}],
+    }
+
+
+ARRANGEMENTS: tuple[Callable[..., Part], ...] = (
+    *(_along(range(n)) for n in (1, 2)),
+    _along((0, 2)),
+    *(_along(range(n)) for n in (3, 4)),
+    *(_along((), hinged) for hinged in (range(4), (0, 2))),
+    *(_along((0,), (n,)) for n in (2, 1)),
+    _on_a_rail, _tilted, _tilted_both, _curved, _moved,
+)  # fmt: skip
+
+
+def _loads(
+    random: np.random.Generator, sides: tuple[float, float], per_area: float, free: Sequence[str]
+) -> Part:
+    """The weight and loads of its size; per_area: weight [N/m²]; free: edges that nothing holds."""
+    slant, turn = random.uniform(0.1, 1.0), random.uniform(0.0, 2.0 * np.pi)
+    sideways = np.sin(slant) * np.array([np.cos(turn), np.sin(turn)])
+    upright = {"acceleration": [0.0, 0.0, -GRAVITY]}
+    slanting = {"acceleration": [*(GRAVITY * sideways).tolist(), -GRAVITY * float(np.cos(slant))]}
+    place = (random.uniform(0.2, 0.9, 2) * sides).tolist()
+    weight = per_area * sides[0] * sides[1]
+    point = {"kind": "point", "at": place, "force": [0.0, 0.0, _either(random, 0.1, 1.0) * weight]}
+    pressure = {"kind": "pressure", "value": _either(random, 0.2, 1.0) * per_area}
+    options: list[Part] = [
+        {"gravity": upright},
+        {"gravity": slanting},
+        {"gravity": upright, "load": [point]},
+        {"gravity": upright, "load": [pressure]},
+        {"load": [pressure]},
+        {"load": [point]},
+    ]
+    if free:
+        edge = free[int(random.integers(len(free)))]
+        length = sides[EDGES[edge].along_axis]
+        force = random.uniform(-0.5, 0.5, 3) * weight / length
+        moment = _either(random, 0.02, 0.1) * weight * sides[EDGES[edge].normal_axis] / length
+        along = {"kind": "edge", "edge": edge, "force_per_length": force.tolist()}
+        options.append({"load": [{**along, "moment_per_length": moment}]})
+    return options[int(random.integers(len(options)))]

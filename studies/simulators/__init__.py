@@ -1,1 +1,0 @@
-"""How near other simulators come with what we export for them."""

@@ -1,0 +1,225 @@
+"""The maps of the verb `stability` on the study's scenes, and three things that it does not vary.
+
+mass       neighbouring masses in a ratio r, like a chess board, their sum kept: the explicit limit falls like
+           1/√r as it is computed, the conserving midpoint rule at twenty times that limit keeps the energy
+stiffness  E and all loads times a factor: nothing but the units changes, nor may the answer
+family     one family of springs out of proportion: another sheet, but an answer or a status
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Unpack
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+
+import lumped
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, Lattice
+from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
+from comparisons.runs.store import Store
+from comparisons.stability import tiles
+from comparisons.stability.answer import Stability, limits, summary
+from comparisons.stability.extremes import scaled, stability
+from comparisons.stability.limit import energy, measured_limit, noise, start, system
+from comparisons.stability.rows import Row, broken, percent
+from comparisons.sweep.differences import error
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.report import Picture
+from sheetbench.answers.table import NUMBER, PERCENT, Column, Table
+from sheetbench.scenes import Scene, load
+from studies.stability.scenes import TURNS, bent, pressed, published
+
+PARTS = ("published", "pressed", "bent", "mass", "stiffness", "family")
+RATIOS, MASSES = (1.0, 1e2, 1e4, 1e6), (5, 9, 17)
+FACTORS = (1e-7, 1e-4, 1e-2, 1e2, 1e4, 1e6)
+FAMILIES = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
+CONTRASTS = (1e-6, 1e-4, 1e-2, 1e-1, 10.0, 1e2, 1e4, 1e6)
+STEPS, PER_LIMIT = 50, 20.0  # of the midpoint rule, its step over the explicit limit
+GRID, ELEMENTS = 9, 12
+
+
+def chess_masses(masses: int, ratio: float) -> Row:
+    """Return Verlet's limit, its distance from the measured one, and the energy that the midpoint rule loses;
+    a task."""
+    scene = load("one-edge-clamped").replace(gravity=None)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))
+
+    def chess(shares: np.ndarray) -> np.ndarray:
+        j, i, _ = np.unravel_index(np.arange(len(shares)), (masses, masses, 2))
+        uneven = shares * np.where((i + j) % 2, np.sqrt(ratio), 1.0 / np.sqrt(ratio))
+        changed: np.ndarray = uneven * shares.sum() / uneven.sum()
+        return changed
+
+    equations = system(scene, springs, mass=chess)
+    limit = lumped.step_limit(equations, np.zeros_like(equations.problem.loads.dead)).step
+    state = start(equations, noise(equations))
+    method, first = lumped.INTEGRATORS["midpoint"](equations, PER_LIMIT * limit), energy(equations, state)
+    for _ in range(STEPS):
+        state = method.advance(state, PER_LIMIT * limit).state
+    drift = energy(equations, state) / first - 1.0
+    off = abs(measured_limit(equations, limit) / limit - 1.0)
+    return {"status": "converged", "error": off, "limit": limit, "energy_drift": drift}
+
+
+def stiffer(factor: float, model: str) -> Row:
+    """Return how far E and all loads times a factor move a model's answer; a task."""
+    scene = load("two-edges-clamped")
+    other = scaled(scaled(scene, "young", factor), "load", factor)
+    spec = Lattice(GRID) if model == "lumped" else Elements(model, ELEMENTS)
+    return _compared(other, *(solve(resolve(one, spec)) for one in (other, scene)))
+
+
+def out_of_proportion(family: str, contrast: float) -> Row:
+    """Return the error of a lattice with one family of springs stiffer; a task."""
+    scene = load("one-edge-clamped")
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=GRID)
+    uneven = springs.springs.replace(**{family: contrast * getattr(springs.springs, family)})
+    ours = lumped.solve(scene, replace(springs, springs=uneven))
+    return _compared(scene, ours, solve(resolve(scene, Elements("shell", ELEMENTS))))
+
+
+def _compared(scene: Scene, ours: Any, truth: Any) -> Row:
+    points, both = scene.probe_points(), ours.comparable and truth.comparable
+    off = error(ours.displacement(points), truth.displacement(points)) if both else None
+    return {"status": str(ours.status), "message": ours.message, "error": off}
+
+
+TASKS: dict[str, tuple[Callable[..., Row], list[dict[str, Any]]]] = {
+    "mass": (chess_masses, [{"masses": n, "ratio": r} for n in MASSES for r in RATIOS]),
+    "stiffness": (
+        stiffer,
+        [{"factor": f, "model": m} for m in ("lumped", "plate", "shell") for f in FACTORS],
+    ),
+    "family": (out_of_proportion, [{"family": f, "contrast": c} for f in FAMILIES for c in CONTRASTS]),
+}
+
+
+def maps(
+    store: Store,
+    parts: Sequence[str] = PARTS,
+    turns: Sequence[float] = TURNS,
+    **how: Unpack[CampaignKeywords],
+) -> StabilityMaps:
+    """Return the maps of these parts, through a campaign's store."""
+    wanted: list[tuple[Scene, dict[str, Any]]] = (
+        [(scene, {}) for scene in published()] if "published" in parts else []
+    )
+    more = [pressed()] if "pressed" in parts else []
+    more += map(bent, turns) if "bent" in parts else []
+    wanted += [(scene, {"varied": ["load"], "lattice": Lattice(17)}) for scene in more]
+    made = tuple(stability(scene, store, **options, **how) for scene, options in wanted)
+    cells = [(name, task, cell) for name, (task, of) in TASKS.items() if name in parts for cell in of]
+    runs = [Run(f"{__name__}:{task.__name__}", cell, f"{name} {cell}") for name, task, cell in cells]
+    done = carry_out(runs, store, **how)
+    fixed = [{"status": one.status, "message": one.message, "seconds": one.seconds} for one in done]
+    rows = [
+        {"error": None, **end.row, "study": name, "cell": cell, **same}
+        for (name, _, cell), end, same in zip(cells, done, fixed, strict=True)
+    ]
+    return StabilityMaps(made, tuple(rows))
+
+
+@dataclass(frozen=True)
+class CellRow:
+    """A cell of what the verb does not vary, and how it ended."""
+
+    varied: str
+    what: str
+    at: Annotated[float, NUMBER("g")]
+    status: str
+    error: Annotated[float | None, PERCENT(".2g")]
+    energy_drift: Annotated[float | None, NUMBER(".1e")]
+
+
+@dataclass(frozen=True, repr=False)
+class StabilityMaps(Answer):
+    """maps: of scenes, by the verb; rows: of mass, stiffness and families."""
+
+    maps: tuple[Stability, ...]
+    rows: tuple[Row, ...]
+
+    file_name = "stability"
+
+    def heading(self) -> tuple[str, str, str]:
+        return "Where each model holds", "published scenes, a pressed strip, bent clamps, uneven lattices", ""
+
+    def document(self) -> dict[str, Any]:
+        return {"scenes": [one.document() for one in self.maps], "rows": list(self.rows)}
+
+    def tables(self) -> list[Table]:
+        made = []
+        for name, table in (("holds", summary), ("steps", limits)):
+            each = [(one.scene.name, table(one)) for one in self.maps]
+            rows = tuple((scene, *row) for scene, own in each for row in own.rows)
+            if rows:
+                columns = (Column("scene"), *each[0][1].columns)
+                made.append(Table(each[0][1].caption, columns, rows, name, grouped=True))
+        return [
+            *made,
+            Table.of(CellRow, self._cells(), "Uneven masses and springs, other units", "cells", grouped=True),
+        ]
+
+    def _cells(self) -> Iterator[CellRow]:
+        for row in self.rows:
+            what, at = sorted(row["cell"].items(), key=lambda one: one[0] in ("ratio", "factor", "contrast"))
+            drift = row.get("energy_drift")
+            yield CellRow(
+                row["study"],
+                f"{what[1]} {what[0]}" if what[0] == "masses" else what[1],
+                at[1],
+                row["status"],
+                row["error"],
+                drift,
+            )
+
+    def figures(self) -> list[Picture]:
+        each = [one for one in self.maps if len({row["study"] for row in one.rows}) > 1]
+        verb = "comparisons.stability.figure:compose"
+        drawn = [Picture(f"stability-{one.scene.name}", verb, (one,)) for one in each]
+        clamps = {t: one for one in self.maps for t in TURNS if one.scene.name == bent(t).name}
+        bends = [Picture("bent-clamps", f"{__name__}:of_clamps", (clamps,))] if clamps else []
+        return [*drawn, *bends]
+
+    def complaints(self) -> list[str]:
+        return [*(said for one in self.maps for said in one.complaints()), *broken(self.rows)]
+
+    @property
+    def succeeded(self) -> bool:
+        return not self.complaints()
+
+
+def of_clamps(clamps: dict[float, Stability], style: FigureStyle = PLAIN) -> Figure:
+    """Return the lattice's errors over the clamp's turn and the load number, with a tape spring's fold."""
+    rows = [
+        {**row, "cell": {"turn": turn, "load_number": 0.1 * row["cell"]["factor"]}}
+        for turn, one in clamps.items()
+        for row in one.rows
+        if row["cell"]["model"] == "lumped"
+    ]
+    ticks = np.array(list(clamps))
+
+    def root(turn: Any) -> Any:
+        """Return where a turn is drawn: small ones have room."""
+        return np.copysign(np.sqrt(np.abs(turn)), turn)
+
+    with matplotlib.rc_context(tiles.MAP_STYLE):
+        figure = Figure(figsize=(style.width, 3.6), layout="constrained")
+        axis = figure.subplots()
+        tiles.tiles(
+            axis, rows, lambda row: root(row["cell"]["turn"]), "load_number",
+            text=lambda row: percent(row["error"]), scale=("linear", "log"),
+        )  # fmt: skip
+        turns = np.linspace(-1.2, 1.2, 400)
+        fold = 2.0 * np.where(turns > 0.0, 0.52, 1.48) * 2.0 * np.pi * np.abs(turns)  # 1 ∓ ν
+        axis.plot(root(turns), np.maximum(fold, 1e-4), **tiles.THEORY)
+        axis.set_xticks(root(ticks), [f"{turn:g}" for turn in ticks])
+        axis.set(xlabel="turn of the clamp: κ a/2π", ylabel="load number ρ g h a³/D")
+        axis.set_title("Lattice 17×17×2 on a bent clamp: error [%]")
+        tiles.legend(figure, rows, tiles.theory("weight carries a tape spring's fold"))
+    return figure

@@ -1,1 +1,0 @@
-"""Other people's codes with the numbers people use and with ours."""

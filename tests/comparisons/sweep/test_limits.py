@@ -1,0 +1,67 @@
+"""A model's limit with its bar, and who is told apart from whom."""
+
+import numpy as np
+import pytest
+
+from comparisons.models.spec import Lattice
+from comparisons.sweep.limits import Limit, pair
+from comparisons.sweep.solved import Ask, Solved
+from sheetbench.scenes import load
+
+SEED = load("two-edges-clamped")
+
+
+def standing(name, limit, error, meshes=(4, 6, 8)):
+    """A model whose every displacement is limit + error h² [m], its cells of size h = 1/n of a side."""
+    rows = [
+        Solved(
+            Ask(SEED, Lattice(n + 1)),
+            "converged",
+            row={
+                "load_factor": 1.0,
+                "settings": {"grid": [n + 1, n + 1, 2]},
+                "probes": dict.fromkeys(SEED.probes, np.full(3, limit + error / n**2)),
+            },
+        )
+        for n in meshes
+    ]
+    return Limit.of(name, rows)
+
+
+@pytest.mark.parametrize(
+    ("meshes", "shown", "bar"),
+    [
+        ((8,), "9", None),
+        ((6, 8), "7, 9", 3.0),
+        ((4, 6, 8), "5, 7, 9", 1.35),
+        ((3, 4, 6, 8), "4, 5, 7, 9", 1.35),
+    ],
+)
+def test_a_limit_has_the_bar_of_its_three_finest_meshes(meshes, shown, bar):
+    """Two meshes have a cautious one, one has none."""
+    one = standing("one", -0.01, 0.002, meshes)
+    assert one.meshes == shown and one.finest is one.rows[-1] and (one.uncertainty is None) == (bar is None)
+    if one.uncertainty is not None:
+        np.testing.assert_allclose(one.uncertainty.extrapolated, -0.01, rtol=1e-9)
+        np.testing.assert_allclose(one.uncertainty.bar, bar * 0.002 / 64, rtol=1e-6)
+    else:
+        assert pair(one, standing("two", -0.01, 0.002)) is None
+
+
+@pytest.mark.parametrize("share", [0.9, 1.1])
+def test_models_are_told_apart_by_more_than_both_bars_alone(share):
+    error = 0.002
+    bars = 2 * 1.35 * error / 64
+    there = pair(standing("here", -0.01, error), standing("there", -0.01 - share * bars, error))
+    assert there is not None
+    assert there.distinguishable_at == (() if share < 1.0 else ("P1", "P2", "P3", "P4"))
+    assert there.difference == pytest.approx(share * bars / 0.01, rel=1e-6)
+    assert there.bars == pytest.approx(bars / 0.01, rel=1e-6)
+
+
+def test_rounding_tells_nothing_apart():
+    """Two answers that no mesh changes have no bar; what programs print ends somewhere."""
+    here = standing("here", -0.01, 0.0)
+    near, far = (standing("there", -0.01 * (1 + off), 0.0) for off in (4e-6, 4e-5))
+    differ = [pair(here, there) for there in (near, far)]
+    assert [bool(one and one.distinguishable_at) for one in differ] == [False, True]

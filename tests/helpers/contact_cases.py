@@ -1,0 +1,90 @@
+"""Scenes with obstacles and what is known of them: the heavy elastica that lies down, by shooting."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import fsolve
+
+from sheetbench.scenes import (
+    Clamped,
+    Cylinder,
+    EdgeLoad,
+    Gravity,
+    Material,
+    Plane,
+    Scene,
+    Sheet,
+    Sphere,
+    Symmetric,
+)
+
+GRAVITY, DENSITY, THICKNESS = 9.81, 1e3, 0.005
+WEIGHT = DENSITY * THICKNESS * 0.1 * GRAVITY  # N, of the strip
+CYLINDER_FORCE, CYLINDER_TIP = 1.458414, -0.36446  # N and m: elastica over a cylinder by shooting
+
+
+def laid_strip(drop: float, **more: object) -> Scene:
+    """A strip of B/w = 0.01 L³ that is clamped at a height above a plane and lies down on it."""
+    young = 0.12 * DENSITY * GRAVITY / THICKNESS**2
+    values = {"obstacles": (Plane(position=(0.0, 0.0, -drop - THICKNESS / 2)),)} | more
+    return Scene(
+        name="laid strip",
+        sheet=Sheet(length_x=1.0, length_y=0.1, thickness=THICKNESS),
+        material=Material(young=young, poisson=0.0, density=DENSITY),
+        gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
+        supports=(Clamped(edge="x0"),),
+        **values,
+    )
+
+
+def bent_over(at: float = 0.4, radius: float = 0.15 - THICKNESS / 2, height: float = -0.15) -> Scene:
+    """A weightless strip of B = 1 N m whose end is pulled down, 6 B/L², over a cylinder."""
+    return Scene(
+        name="bent over",
+        sheet=Sheet(length_x=1.0, length_y=0.1, thickness=THICKNESS),
+        material=Material(young=12.0 / THICKNESS**3, poisson=0.0, density=DENSITY),
+        supports=(Clamped(edge="x0"),),
+        loads=(EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, -6.0)),),
+        obstacles=(Cylinder(position=(at, 0.0, height), axis=(0.0, 1.0, 0.0), radius=radius),),
+    )
+
+
+def lying_quarter(**more: object) -> Scene:
+    """A quarter of a sheet that lies on a plane and rests on nothing else."""
+    held = (Symmetric(edge="x0"), Symmetric(edge="y0"))
+    values = {"obstacles": (Plane(position=(0.0, 0.0, -0.001)),), "supports": held} | more
+    return Scene(
+        name="lying",
+        sheet=Sheet(length_x=0.2, length_y=0.2, thickness=0.002),
+        material=Material(young=5e6, poisson=0.45, density=DENSITY),
+        gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
+        **values,
+    )
+
+
+def draped_quarter() -> Scene:
+    """A quarter of a square sheet over a ball."""
+    return Scene(
+        name="draped",
+        sheet=Sheet(length_x=0.1, length_y=0.1, thickness=0.001),
+        material=Material(young=8e6, poisson=0.3, density=DENSITY),
+        gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
+        supports=(Symmetric(edge="x0"), Symmetric(edge="y0")),
+        obstacles=(Sphere(position=(0.0, 0.0, -0.0505), radius=0.05),),
+    )
+
+
+def heavy_elastica(drop: float, per: float = 0.01) -> tuple[float, float, float]:
+    """Lift-off length [m], the clamp's share of the weight and its M/w [m²] of a strip of length 1 and of
+    B/w = `per` [m³] above a plane: B θ'' = −(V0 − w s) cos θ, with θ = θ' = y = 0 at the unknown lift-off."""
+    s0 = (72 * per * drop) ** 0.25
+
+    def ends(z: np.ndarray) -> np.ndarray:
+        def slope(s: float, y: np.ndarray) -> list[float]:
+            return [y[1], -(z[1] * s0 - s) * np.cos(y[0]) / per, -np.sin(y[0])]
+
+        return solve_ivp(slope, [0, z[2] * s0], [0, z[0] / s0, drop], rtol=1e-10, atol=1e-12).y[:, -1]
+
+    z = fsolve(lambda z: ends(z) * [1, s0, 1 / drop], [6 * drop / s0, 2 / 3, 1.0])
+    return z[2] * s0, z[1] * s0, per * z[0] / s0

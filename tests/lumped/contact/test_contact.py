@@ -1,0 +1,188 @@
+"""Contact of the lattice: derivatives, closed forms at rest, what is never walked through."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from contact_cases import (
+    CYLINDER_FORCE,
+    CYLINDER_TIP,
+    GRAVITY,
+    THICKNESS,
+    WEIGHT,
+    bent_over,
+    draped_quarter,
+    heavy_elastica,
+    laid_strip,
+    lying_quarter,
+)
+from scipy.optimize import fsolve
+
+import lumped
+from lumped.actuators import Drive
+from lumped.statics.solver import build_problem
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Cylinder, Motion, Plane, SceneError, Sphere, Status
+
+OBSTACLES = {
+    "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),
+    "sphere": Sphere(position=(0.5, 0.05, -0.3), radius=0.28),
+    "cylinder": Cylinder(position=(0.4, 0, -0.1), axis=(0.1, 1, 0.05), radius=0.09),
+    "rubbing": Cylinder(
+        position=(0.4, 0, -0.1), axis=(0.1, 1, 0.05), radius=0.09, friction=0.3, contact_damping=2.0
+    ),
+}
+
+
+def solve(scene, grid, **options):
+    return lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid), **options)
+
+
+@pytest.fixture(params=OBSTACLES)
+def item(request):
+    scene = laid_strip(0.1, obstacles=(OBSTACLES[request.param],))
+    problem = build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(11, 4, 2)))
+    rng = np.random.default_rng(1)
+    u = 0.01 * rng.normal(size=problem.loads.dead.shape) - [0.0, 0.0, 0.02]
+    return problem, problem.items[0], u, rng
+
+
+def applied(problem, blocks, step):
+    pattern = problem.assembly.pattern
+    return sp.csr_array(sp.bsr_array((blocks, pattern.indices, pattern.indptr))) @ step.ravel()
+
+
+def test_force_and_tangent_are_derivatives_of_the_energy(item):
+    problem, contact, u, rng = item
+    drive, step, h = Drive(), rng.normal(size=u.shape), 1e-7
+
+    def at(u):
+        force = np.zeros_like(u)
+        return contact.add_force(u, drive, force), force
+
+    assert contact.report(u, drive).points > 0
+    (high, up), (low, down), (_, force) = at(u + h * step), at(u - h * step), at(u)
+    assert (high - low) / (2 * h) == pytest.approx(float((force * step).sum()), rel=1e-7)
+    blocks = np.zeros((problem.assembly.pattern.blocks, 3, 3))
+    contact.add_tangent(u, drive, 1.0, blocks)
+    differences = (up - down).ravel() / (2 * h)
+    assert np.linalg.norm(applied(problem, blocks, step) - differences) < 1e-7 * np.linalg.norm(differences)
+
+
+def test_mean_force_does_the_energys_work_and_resistance_takes_power(item):
+    problem, contact, u, rng = item
+    still = Drive(1.0, 0.0)
+    end, mean = u + 0.01 * rng.normal(size=u.shape), np.zeros_like(u)
+    contact.add_average_force(u, end, (still, still), mean)
+    stored = [contact.add_force(at, still, np.zeros_like(u)) for at in (u, end)]
+    assert float((mean * (end - u)).sum()) == pytest.approx(stored[1] - stored[0], rel=1e-12)
+
+    blocks = np.zeros((problem.assembly.pattern.blocks, 3, 3))
+    contact.add_average_tangent(u, end, (still, still), blocks)
+    h, step = 1e-7, rng.normal(size=u.shape)
+
+    def secant(end):
+        force = np.zeros_like(u)
+        contact.add_average_force(u, end, (still, still), force)
+        return force
+
+    along = (secant(end + h * step) - secant(end - h * step)).ravel() / (2 * h)
+    assert np.linalg.norm(applied(problem, blocks, step) - along) < 0.2 * np.linalg.norm(
+        along
+    )  # its main part
+
+    v, force = 0.1 * rng.normal(size=u.shape), np.zeros_like(u)
+    power = contact.add_resistance(u, v, still, force)
+    assert power == pytest.approx(float((force * v).sum()), rel=1e-12)
+    assert power > 0.0 if contact.resists else not force.any()
+    blocks[:] = 0.0
+    contact.add_resistance_tangent(u, v, still, 1.0, blocks)
+    ends = [np.zeros_like(u), np.zeros_like(u)]
+    for sign, out in zip((1.0, -1.0), ends, strict=True):
+        contact.add_resistance(u, v + sign * h * step, still, out)
+    along = (ends[0] - ends[1]).ravel() / (2 * h)
+    assert np.linalg.norm(applied(problem, blocks, step) - along) <= 1e-6 * np.linalg.norm(along)
+
+
+# The lift-off is sampled to second order, with its phase in the cell; the clamp's moment is the small
+# difference of two that are 15 times as large
+@pytest.mark.parametrize(
+    ("drop", "masses", "within", "of_moment"),
+    [(0.05, 41, 1e-3, 3e-3), (0.2, 41, 1.3e-3, 4e-3), (0.05, 81, 5e-4, 1e-3), (0.2, 81, 5e-4, 1e-3)],
+)
+def test_strip_that_lies_down_against_the_heavy_elastica(drop, masses, within, of_moment):
+    lift_off, carried, moment = heavy_elastica(drop)
+    solution = solve(laid_strip(drop), (masses, 3, 2))
+    assert solution.status is Status.CONVERGED
+    free = solve(laid_strip(drop, obstacles=()), (masses, 3, 2))
+    assert solution.iterations <= 2 * free.iterations + 10
+    clamp, plane = solution.reactions["x0"][2] / WEIGHT, solution.reactions["obstacle 1"][2] / WEIGHT
+    assert clamp == pytest.approx(carried, rel=within)
+    assert clamp + plane == pytest.approx(1.0, abs=1e-9)
+    contact = solution.contacts["obstacle 1"]
+    assert contact.penetration < 1e-4
+    assert contact.undecided == 0
+    assert solution.energies["contact"] > 0.0
+    mesh, field = solution.mesh, solution.mesh.point_data
+    clamped = float(mesh.points[:, 2] @ field["reaction"][:, 0])
+    assert clamped / WEIGHT == pytest.approx(-moment, rel=of_moment)
+    assert moment == pytest.approx(np.sqrt(2 * 0.01 * drop), rel=1e-6)  # √(2 B w H), of any heavy elastica
+    # the plane's force R, at x, is a point force at s₁ and the weight of what lies: R x = R s₁ + w (L −
+    # s₁)²/2
+    pressed = field["contact_pressure"] * field["mass_share"]
+    place, force = float(pressed @ mesh.points[:, 0] / pressed.sum()), plane
+    s1 = fsolve(lambda s: force * (place - s) - 0.5 * (1.0 - s) ** 2, 0.5)[0]
+    assert s1 == pytest.approx(lift_off, rel=0.01)
+
+
+def test_sheet_that_lies_presses_evenly():
+    solution = solve(lying_quarter(), (9, 9, 2))
+    pressure = solution.mesh.point_data["contact_pressure"]
+    assert np.abs(pressure / (1e3 * 0.002 * GRAVITY) - 1.0).max() < 1e-8
+    assert solution.iterations <= 8
+
+
+def test_strip_over_a_cylinder_against_the_elastica():
+    solution = solve(bent_over(), (41, 3, 2))
+    assert solution.status is Status.CONVERGED
+    force = np.linalg.norm(solution.reactions["obstacle 1"])
+    assert force == pytest.approx(CYLINDER_FORCE, rel=5e-3)
+    assert solution.displacement([[1.0, 0.05]])[0, 2] == pytest.approx(CYLINDER_TIP, abs=1e-3)
+
+
+def test_thin_rod_is_not_walked_through_and_one_thinner_than_the_points_is_refused():
+    rod = bent_over(radius=THICKNESS, height=-1.5 * THICKNESS)
+    solution = solve(rod, (21, 3, 2))
+    assert solution.status is Status.CONVERGED
+    assert solution.reactions["obstacle 1"][2] > 1.0
+    thinner = bent_over(radius=THICKNESS / 4, height=-THICKNESS)
+    with pytest.raises(BadInput, match=r"obstacle 1.radius = 0.00125: too thin"):
+        solve(thinner, (21, 3, 2))
+
+
+def test_drape_over_a_ball_is_unstable_and_folds_one_way():
+    symmetric = solve(draped_quarter(), (9, 9, 2))
+    assert symmetric.status is Status.UNSTABLE
+    u = symmetric.displacement([[0.1, 0.0], [0.0, 0.1]])
+    assert u[0, 2] == pytest.approx(u[1, 2], rel=1e-6)
+    stable = solve(draped_quarter(), (9, 9, 2), branch="stable")
+    assert stable.status is Status.CONVERGED
+    u = np.sort(stable.displacement([[0.1, 0.0], [0.0, 0.1]])[:, 2])
+    assert u[0] < -0.06
+    assert u[1] > -0.005
+
+
+def test_moving_obstacle_ends_at_its_last_place():
+    press = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.05)))
+    lifted = laid_strip(0.1, obstacles=(Plane(position=(0.0, 0.0, -0.1 - THICKNESS / 2), motion=press),))
+    moved, placed = (solve(scene, (21, 3, 2)) for scene in (lifted, laid_strip(0.05)))
+    assert moved.reactions["x0"] == pytest.approx(placed.reactions["x0"], rel=1e-6, abs=1e-9)
+
+
+def test_what_statics_refuse():
+    sheet = laid_strip(0.05, obstacles=(Plane(position=(0.0, 0.0, -0.1), friction=0.3),))
+    with pytest.raises(SceneError, match=r"obstacle 1.friction = 0.3: at rest"):
+        solve(sheet, (5, 3, 2))
+    with pytest.raises(SceneError, match="a linear solve knows no contact"):
+        solve(laid_strip(0.05), (5, 3, 2), linear=True)
+    with pytest.raises(SceneError, match="nothing stops translation along x"):
+        solve(lying_quarter(supports=()), (5, 5, 2))

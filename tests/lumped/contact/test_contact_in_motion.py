@@ -1,0 +1,111 @@
+"""Sheets that fall on obstacles: energy, step limit, restitution, friction, obstacles that move."""
+
+import numpy as np
+import pytest
+from contact_cases import GRAVITY
+from scipy.optimize import brentq
+
+import lumped
+from sheetbench.scenes import Clamped, Gravity, Held, Material, Motion, Plane, Scene, Sheet, Status
+
+DROP = 0.03
+STRIP = Scene(
+    name="falling",
+    sheet=Sheet(length_x=0.2, length_y=0.05, thickness=0.002),
+    material=Material(young=5e6, poisson=0.3, density=1e3),
+    gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
+    supports=(Clamped(edge="x0"),),
+    obstacles=(Plane(position=(0.0, 0.0, -DROP - 0.001)),),
+)
+FALLEN = 1e3 * 0.002 * 0.01 * GRAVITY * DROP  # W H, J
+
+
+def run(scene, duration, integrator="auto", grid=(7, 3, 2), **options):
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=grid)
+    return lumped.simulate(scene, springs, duration, integrator=integrator, **options)
+
+
+def drift(history):
+    parts = history.energies
+    whole = parts["kinetic"] + parts["elastic"] + parts["potential"] + parts["dissipated"] - parts["work"]
+    return float(np.abs(whole - whole[0]).max()) / FALLEN
+
+
+# ten bounces in 0.6 s; the conserving steps keep energy to their iteration's tolerance, at any length
+@pytest.mark.parametrize(
+    ("integrator", "options", "within"),
+    [("auto", {}, 5e-3), ("midpoint", {"step": 1e-3}, 1e-8), ("esdirk", {}, 5e-3)],
+)
+def test_energy_of_a_strip_that_bounces(integrator, options, within):
+    history = run(STRIP, 0.6 if integrator == "auto" else 0.2, integrator, **options)
+    assert history.status is Status.CONVERGED
+    assert drift(history) < within
+    tip = history.probes["P4"][:, 2]
+    assert -1.3 * 0.002 < tip.min() + DROP < 0.1 * DROP  # a sample may miss the touch itself
+    assert history.reactions["obstacle 1"][:, 2].max() > 0.0
+
+
+def test_explicit_steps_are_hardly_shorter():
+    free, touching = (run(one, 0.01, "verlet") for one in (STRIP.replace(obstacles=()), STRIP))
+    ratio = free.settings["largest_step"] / touching.settings["largest_step"]
+    assert 1.0 <= ratio < np.sqrt(1.13) + 1e-6
+
+
+def block(obstacle, slope=0.0, **more):
+    """A stiff small sheet that nothing but an obstacle stops; gravity at a slope."""
+    return Scene(
+        name="block",
+        sheet=Sheet(length_x=0.02, length_y=0.02, thickness=0.002),
+        material=Material(young=5e6, poisson=0.3, density=1e3),
+        gravity=Gravity(acceleration=(GRAVITY * np.sin(slope), 0.0, -GRAVITY * np.cos(slope))),
+        obstacles=(obstacle,),
+        **more,
+    )
+
+
+def test_restitution_of_the_dashpot():
+    tau, drop = 0.5, 0.02
+    fall = block(Plane(position=(0.0, 0.0, -drop - 0.001), contact_damping=tau))
+    history = run(fall, 0.12, "verlet", grid=(3, 3, 2), every=1e-4)
+    height = history.probes["P1"][:, 2] + drop
+    speed = np.sqrt(2 * GRAVITY * drop)
+    first = int(np.argmax(height <= 0.0))
+    rebound = height[first:][: int(0.5 * first) * 2]
+    peak = rebound[int(np.argmax(rebound > 0.0)) :].max()
+
+    def closing(e):
+        before = speed / tau - np.log1p(tau * speed) / tau**2
+        return before + e * speed / tau + np.log1p(-tau * e * speed) / tau**2
+
+    restitution = brentq(closing, 1e-6, 1.0)
+    assert restitution == pytest.approx(1 - 2 * tau * speed / 3, abs=0.05)
+    # of a block that springs back as one; what its own vibration takes is a few per cent
+    assert np.sqrt(peak / drop) == pytest.approx(restitution, rel=0.05)
+    assert drift(history) * FALLEN < 5e-3 * 1e3 * 0.002 * 4e-4 * GRAVITY * drop
+
+
+def test_friction_slows_a_slide():
+    slope, friction, duration = 0.5, 0.3, 0.1
+    slide = block(Plane(position=(0.0, 0.0, -0.001), friction=friction), slope)
+    history = run(slide, duration, grid=(3, 3, 2))
+    gone = 0.5 * GRAVITY * (np.sin(slope) - friction * np.cos(slope)) * duration**2
+    assert history.probes["P1"][-1, 0] == pytest.approx(gone, rel=0.02)
+    assert "should stick creeps" in history.message
+    assert history.energies["dissipated"][-1] > 0.0
+
+
+@pytest.mark.parametrize("integrator", ["auto", "midpoint", "esdirk"])
+def test_a_press_does_its_work(integrator):
+    """A hanging strip that a plane lifts gains what the plane gives."""
+    lift = Motion(time=(0.0, 0.1), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.02)))
+    pressed = STRIP.replace(
+        gravity=None,
+        obstacles=(Plane(position=(0.0, 0.0, -0.002), motion=lift),),
+        supports=(Held(edge="x0", components=("x", "y", "z")),),
+    )
+    options = {"step": 5e-4} if integrator == "midpoint" else {}
+    history = run(pressed, 0.1, integrator, **options)
+    work = history.energies["work"][-1]
+    assert work > 0.0
+    gained = history.energies["kinetic"][-1] + history.energies["elastic"][-1]
+    assert gained == pytest.approx(work, rel=5e-3)

@@ -1,0 +1,86 @@
+"""Sheets whose natural curvature acts or changes in motion, and as an input of a linear system."""
+
+import numpy as np
+import pytest
+
+import lumped
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Clamped, FactorTable, Material, Patch, Scene, Sheet
+from sheetbench.scenes.natural import Natural
+
+RAMP = FactorTable(time=(0.0, 0.1), factor=(0.0, 1.0))
+MATERIAL = Material(young=1e6, poisson=0.3, density=1e3)
+BAND = {"rectangle": {"x": (0.05, 0.1), "y": (0.0, 0.1)}}
+
+
+def cantilever(natural=None, **more):
+    return Scene(
+        name="muscle", sheet=Sheet(length_x=0.2, length_y=0.1, thickness=0.002),
+        material=more.pop("material", MATERIAL), supports=(Clamped(edge="x0"),), natural=natural,
+        probes={"tip": [0.2, 0.05]}, **more,
+    )  # fmt: skip
+
+
+def springs(scene):
+    return lumped.calibrate(scene.sheet, scene.material, grid=(9, 5, 2))
+
+
+def run(scene, integrator, duration=0.2, **options):
+    found = lumped.simulate(scene, springs(scene), duration, integrator=integrator, **options)
+    assert found.succeeded, found.message
+    return found
+
+
+def test_every_integrator_follows_a_curvature_that_grows_and_accounts_for_its_work():
+    """Balance: exact for midpoint; the work of esdirk is of its own order."""
+    scene = cantilever(Natural(curvature=(5.0, 0.0, 0.0), history=RAMP))
+    close = run(scene, "esdirk")
+    for integrator, within, options in (
+        ("midpoint", 1e-9, {"step": 5e-4}),
+        ("verlet", 1e-3, {}),
+        ("generalised-alpha", 1e-3, {}),
+    ):
+        found = run(scene, integrator, every=0.02, **options)
+        assert np.abs(found.balance - found.balance[0]).max() < within * found.energies["work"].max()
+        at = np.interp(found.time, close.time, close.probes["tip"][:, 2])
+        assert np.abs(found.probes["tip"][:, 2] - at).max() < 0.02 * np.abs(at).max()
+    assert np.abs(close.balance).max() < 1e-3 * close.energies["work"].max()
+
+
+def test_a_damped_sheet_settles_in_its_natural_shape():
+    natural = Natural(curvature=(5.0, 0.0, 0.0))
+    scene = cantilever(natural, material=MATERIAL.replace(damping_rate=3.4))
+    found = run(scene, "esdirk", 8.0)
+    still = lumped.solve(scene, springs(scene)).displacement([[0.2, 0.05]])[0]
+    np.testing.assert_allclose(found.probes["tip"][-1], still, atol=1e-3 * np.abs(still).max())
+    from_there = run(scene.replace(initial={"shape": "static"}), "esdirk", 0.05)
+    assert np.abs(from_there.probes["tip"] - still).max() < 1e-6 * np.abs(still).max()
+
+
+def test_relaxation_goes_with_a_constant_natural_state_only():
+    relaxing = MATERIAL.replace(relaxation=({"share": 0.2, "time": 0.05},))
+    scene = cantilever(Natural(curvature=(5.0, 0.0, 0.0)), material=relaxing)
+    found = run(scene, "midpoint", 0.05, step=5e-4)
+    assert np.abs(found.balance - found.balance[0]).max() < 1e-9 * found.energies["elastic"].max()
+    with pytest.raises(BadInput, match="natural: with a history"):
+        run(scene.replace(natural=Natural(curvature=(5.0, 0.0, 0.0), history=RAMP)), "esdirk")
+
+
+def test_a_muscle_is_an_input_of_a_linear_system():
+    """At rest it moves what the difference of two equilibria does; so say the derivatives."""
+    scene = cantilever(patches=(Patch(shape=BAND, natural=Natural(curvature=(5.0, 0.0, 0.0))),))
+    linear = lumped.linearise(scene, springs(scene))
+    number = linear.inputs.index("patch1.natural.kxx")
+    ends = []
+    for k in (4.99, 5.01):
+        there = scene.replace(patches=(Patch(shape=BAND, natural=Natural(curvature=(k, 0.0, 0.0))),))
+        ends.append(lumped.solve(there, springs(scene)).displacement([[0.2, 0.05]])[0])
+    slope = (ends[1] - ends[0]) / 0.02
+    np.testing.assert_allclose(linear.jacobian[:, number], slope, rtol=1e-5, atol=1e-9)
+    told = lumped.sensitivity(scene, springs(scene), ["patch1.natural.kxx"])
+    np.testing.assert_allclose(told.derivatives["patch1.natural.kxx"][0], slope, rtol=1e-5, atol=1e-9)
+    assert lumped.linearise(cantilever(Natural())).inputs[-3:] == (
+        "natural.kxx",
+        "natural.kyy",
+        "natural.kxy",
+    )

@@ -1,0 +1,46 @@
+"""Kept results: every file makes a page, and what a run has written comes back as it was shown."""
+
+import pytest
+from commands import run
+
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import MILLIMETRES, Column, Table, Unit
+from studies import pages
+
+NAMES = sorted(path.stem for path in pages.RESULTS.glob("*.json") if path.stem != "promises")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_kept_result_makes_a_page(name):
+    report = pages.kept(name)
+    assert report.title and all(table.rows for table in report.tables)
+    assert report.to_markdown().count("\n| --- ") + report.to_markdown().count("\n| ---: ") >= len(
+        report.tables
+    )
+
+
+def test_what_is_kept_is_shown_as_it_was(tmp_path, monkeypatch):
+    monkeypatch.setattr(pages, "RESULTS", tmp_path)
+    columns = (
+        Column("what"),
+        MILLIMETRES(".2f", "u"),
+        Column("n", form="d"),
+        Column("of"),
+        Column("x", form="g"),
+    )
+    rows = (("a | [b]", 1.5e-3, 3, Unit("Pa", "MPa", 1e-6), 2e6), ("c", None, 4, Unit("m", "mm", 1e3), 0.1))
+    table = Table("A caption", columns, rows, "t", True, "Some text.")
+    report = Report("r", "Title", {}, "sub", tables=(table,), notes=("A note.",), complaints=("No.",))
+    pages.keep(report, made="today")
+    assert pages.kept("r").to_markdown() == report.to_markdown().replace("- No.", "today.\n\n- No.")
+
+
+def test_a_runs_folder_is_kept(tmp_path, monkeypatch):
+    monkeypatch.setattr(pages, "RESULTS", tmp_path)
+    assert run("study", "reproduction", "--part", "nearest", "--out", str(tmp_path / "run")) == 0
+    assert pages.keep_run(tmp_path / "run") == tmp_path / "reproduction.json"
+    page = (tmp_path / "run" / "reproduction.md").read_text(encoding="utf-8")
+    kept = pages.kept("reproduction").to_markdown()
+    assert [line for line in page.splitlines() if line.startswith("|")] == [
+        line for line in kept.splitlines() if line.startswith("|")
+    ]

@@ -3,19 +3,31 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from fem_reference.discrete.elements import DiscreteElements
-    from fem_reference.discrete.sheet import Discrete
+
+class Sheet(Protocol):
+    """What a shape needs of its sheet (`discrete.sheet`, `discrete.elements`), and items of it."""
+
+    element: Any
+
+    def frame(self, q: np.ndarray, at: float) -> Any: ...
+
+    def gather(self, q: np.ndarray) -> np.ndarray: ...
+
+    def on_surface(self, q: np.ndarray) -> np.ndarray: ...
+
+    def surface_change(self, change: np.ndarray) -> np.ndarray: ...
+
+    def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray: ...
 
 
 class Shape:
     """Coordinates q and rates v (N,), 0 where None, at a load factor or time [s] `at`."""
 
-    def __init__(self, sheet: Discrete, q: np.ndarray, at: float, v: np.ndarray | None = None):
+    def __init__(self, sheet: Sheet, q: np.ndarray, at: float, v: np.ndarray | None = None):
         self.sheet, self.q, self.at, self.v = sheet, q, at, v
 
     @cached_property
@@ -29,15 +41,11 @@ class Shape:
         return self.sheet.surface_change(np.zeros_like(self.q) if self.v is None else self.v)
 
     @cached_property
-    def frame(self) -> np.ndarray:
+    def frame(self) -> Any:
         """What Z, δq = Z x, is made of."""
         return self.sheet.frame(self.q, self.at)
 
-
-class ElementShape(Shape):
-    """That of a sheet of elements whose strains are quadratic in the coordinates."""
-
-    sheet: DiscreteElements
+    # of a sheet of elements whose strains are quadratic in the coordinates
 
     @cached_property
     def change(self) -> np.ndarray:
@@ -45,27 +53,27 @@ class ElementShape(Shape):
         return self.sheet.gather(self.q)
 
     @cached_property
-    def operator(self) -> np.ndarray:
+    def operator(self) -> Any:
         """What the elements' B is made of."""
         return self.sheet.element.operator(self.change)
 
     @cached_property
-    def strain(self) -> np.ndarray:
+    def strain(self) -> Any:
         """(m, k)."""
         return self.sheet.element.strain(self.change)
 
     @cached_property
-    def elastic(self) -> np.ndarray:
+    def elastic(self) -> Any:
         """Elastic stress (m, k)."""
         return self.sheet.element.stress(self.strain)
 
     @cached_property
-    def moduli(self) -> np.ndarray:
+    def moduli(self) -> Any:
         """Derivative (m, k, k) of the elastic stress by the strain."""
         return self.sheet.element.moduli(self.strain)
 
     @cached_property
-    def rate(self) -> np.ndarray:
+    def rate(self) -> Any:
         """Rate of the strain (m, k)."""
         if self.v is None:
             return np.zeros_like(self.strain)

@@ -80,6 +80,7 @@ class Discrete(ABC):
     norm: ClassVar[int]
     label: str
     settings: dict[str, Any]
+    element: Any = None
     conservative: bool
     any_strain: bool = False
     own: bool = False
@@ -176,6 +177,10 @@ class Discrete(ABC):
     @abstractmethod
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """u̇ (N,) with what is prescribed from a time on, tangential to the constraints."""
+
+    def gather(self, q: np.ndarray) -> np.ndarray:
+        """Changes of the elements' vectors (m, a, 3) of coordinates (N,)."""
+        raise NotImplementedError
 
     def frame(self, q: np.ndarray, at: float) -> Any:
         """What Z is made of, beside what is held."""

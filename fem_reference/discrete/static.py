@@ -18,7 +18,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.shape import ElementShape
+from fem_reference.discrete.shape import Shape
 from fem_reference.shell.element import weighed
 from sheetbench.numerics.continuation.structure import Creeping
 
@@ -41,7 +41,7 @@ class Forces:
     """At a state: its shape, stresses (k, s) of the rods, residual (N,), size of the forces that balance [N],
     and the step (N,) to what is prescribed."""
 
-    shape: ElementShape
+    shape: Shape
     on_rods: OnRods
     residual: np.ndarray
     size: float

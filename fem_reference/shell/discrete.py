@@ -22,7 +22,7 @@ from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.rods import components_of
-from fem_reference.discrete.shape import ElementShape
+from fem_reference.discrete.shape import Shape
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.validity import inverted, membrane_strain
@@ -146,7 +146,7 @@ class DiscreteShell(DiscreteElements):
         turns -= np.einsum("nc,nc->n", turns, directors)[:, None] * directors
         return rate.ravel()
 
-    def short(self, shape: ElementShape) -> np.ndarray:
+    def short(self, shape: Shape) -> np.ndarray:
         n, change = self.nodes, self.supports.change(*self.instant(shape.at))
         change -= shape.q[: 6 * n].reshape(2, n, 3)
         step = np.concatenate(
@@ -211,12 +211,12 @@ class DiscreteShell(DiscreteElements):
         turning = np.repeat(field >= 3, widths)
         return np.repeat(rows, widths) + within, starts, turning, node[field >= 3], field[field >= 3] - 3
 
-    def reduce(self, shape: ElementShape, force: np.ndarray) -> np.ndarray:
+    def reduce(self, shape: Shape, force: np.ndarray) -> np.ndarray:
         n = self.nodes
         couple = np.einsum("nc,nck->nk", force[3 * n :].reshape(-1, 3), shape.frame)
         return self._of_unknowns(force[: 3 * n], couple)
 
-    def expand(self, shape: ElementShape, step: np.ndarray) -> np.ndarray:
+    def expand(self, shape: Shape, step: np.ndarray) -> np.ndarray:
         every, n = np.zeros(3 * self.nodes + self.turns.size), self.nodes
         every[self._free] = step
         turned = np.einsum("nck,nk->nc", shape.frame, every[3 * n :].reshape(-1, 2))
@@ -263,7 +263,7 @@ class DiscreteShell(DiscreteElements):
         return np.flatnonzero(self.supports.position)
 
     def stiffness(
-        self, shape: ElementShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
+        self, shape: Shape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
         along = multiplier(self.directors(shape.q), residual[3 * self.nodes :].reshape(-1, 3))
         on_turns = self._of_unknowns(np.zeros(3 * self.nodes), np.repeat(along, 2))
@@ -280,17 +280,17 @@ class DiscreteShell(DiscreteElements):
         return data
 
     def constraining(
-        self, shape: ElementShape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
+        self, shape: Shape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
     ) -> np.ndarray:
         out = residual + self.scatter(self.element.forces(shape.operator, stress - shape.elastic))
         for body, own in zip(self.bodies, on_rods, strict=True):
             out += body.scatter(body.pull(shape.q, own - body.stress(shape)))
         return out
 
-    def fold(self, shape: ElementShape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
+    def fold(self, shape: Shape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
         return projected(tangent, shape.frame[self.plan.elements[on]])
 
-    def onto_rods(self, shape: ElementShape) -> np.ndarray:
+    def onto_rods(self, shape: Shape) -> np.ndarray:
         directors = self.rods.bound.sites[:, 3:] - self.nodes
         fixed = np.tile(np.eye(3), (len(directors), 1, 1))
         return block_diagonal([fixed] * 3 + [shape.frame[directors[:, i]] for i in range(6)])

@@ -7,9 +7,10 @@ OUT    ?= demo
 EDITABLE := --config-settings editable_mode=compat --editable
 FUZZ   ?=
 KILLS  ?=
+RELEASED ?= python3.11 python3.12 python3.13
 
 .PHONY: docs docs-scene help install demo wheel test check nightly kernels slow fuzz kills sizes catalogue verify tradeoff animations pictures \
-        notebooks bench mutants tests-of viewer wheel-check extras-check lint clean
+        notebooks bench mutants tests-of viewer wheel-check extras-check release-check lint clean
 help:
 	@echo "make demo      set up and compare both models on test 1 of the published study, Habibi et al. (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -19,7 +20,7 @@ help:
 	@echo "               (half an hour; goes on where it stopped; files in $(OUT)/fuzz/; others: FUZZ='--seed 2 --scenes 500')"
 	@echo "make kills     a hundred kills of campaigns, runs and trade-offs, and what stands there after (ten minutes; $(OUT)/kills/)"
 	@echo "make tests-of  the test files that run FILE=lumped/actuators/division.py, the nearest first"
-	@echo "make mutants   faults put into FILE=… that its nearest tests do not notice, of 20 (COUNT=…); docs/quality.md"
+	@echo "make mutants   faults put into FILE=… that its nearest tests do not notice, of 20 (COUNT=…); docs/development/robustness.md"
 	@echo "make sizes     files, lines and lines of code of the packages, words of the pages"
 	@echo "make catalogue the table of the catalogue's answers, tests/helpers/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
@@ -30,12 +31,13 @@ help:
 	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
 	@echo "make docs-scene  the sketch of a scene, docs/images/scene.svg"
 	@echo "make animations  the README's moving pictures, docs/images/settling.gif and actuated.gif (two minutes)"
-	@echo "make pictures  the still pictures of the README and of docs/motion.md, live.md and report.md (a minute; needs chromium)"
+	@echo "make pictures  the still pictures of the README and of the pages (a minute; needs chromium)"
 	@echo "make notebooks the notebooks of docs/notebooks anew, with what they print and draw"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
 	@echo "make wheel     a wheel for this Python with its kernels compiled (dist/)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
 	@echo "make extras-check  the wheel with each extra on its own, and with none, in environments that have nothing else"
+	@echo "make release-check  wheels with kernels for $(RELEASED), a pure wheel and the source distribution in dist/, each tried bare"
 	@echo "make install   set up only: $(BIN)/sheetbench"
 	@echo "make clean     remove the environment and the demo's files"
 
@@ -148,6 +150,9 @@ wheel-check: install
 
 wheel: install
 	@.ci/wheel $(BIN)/python dist
+
+release-check:
+	@.ci/release-check $(RELEASED)
 
 extras-check: install
 	@.ci/extras-check $(PYTHON)

@@ -48,10 +48,10 @@ def measure(masses: int, damping_time: float, precision: Precision) -> tuple[flo
             method.advance(state, STEP)
         return count
 
-    _, together = method.march(state, STEP, 10**6)
+    together = method.march(state, STEP, 10**6).steps
     found = [
         (
-            seconds(lambda: method.march(state, STEP, together)[1]),
+            seconds(lambda: method.march(state, STEP, together).steps),
             seconds(lambda: alone(max(1, together // 20))),
         )
         for _ in range(4)

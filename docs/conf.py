@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from plain_docstrings import as_restructured
 from study_pages import write_study_pages
 from verb_pages import write_verb_pages
+from version_page import write_version_page
 
 pyvista.BUILDING_GALLERY = pyvista.OFF_SCREEN = True
 logging.getLogger("skfem").setLevel(logging.WARNING)  # it tells of every basis
@@ -24,6 +25,7 @@ version = release = version_of("sheetbench")
 copyright = "the sheetbench developers, MIT licence"
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.viewcode", "sphinx_gallery.gen_gallery"]
+extensions += ["run_directive"]  # of this folder
 source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb", ".rst": "restructuredtext"}
 exclude_patterns = ["_build", "examples/*.ipynb"]  # of the gallery: downloads
 html_theme = "furo"
@@ -58,7 +60,8 @@ def _plain(app: Any, what: str, name: str, what_of: Any, options: Any, lines: li
 
 
 def setup(app: Any) -> None:
-    """The verbs' and studies' pages before the pages are read, and docstrings as they are written."""
+    """The verbs', studies' and versions' pages before the pages are read, docstrings as they are written."""
     app.connect("builder-inited", lambda built: write_verb_pages(Path(built.srcdir) / "verbs"))
     app.connect("builder-inited", lambda built: write_study_pages(Path(built.srcdir)))
+    app.connect("builder-inited", lambda built: write_version_page(Path(built.srcdir) / "versions.md"))
     app.connect("autodoc-process-docstring", _plain)

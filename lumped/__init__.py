@@ -25,7 +25,6 @@ from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
 
 if TYPE_CHECKING:
-    from lumped.dynamics import watchdog
     from lumped.dynamics.explicit.step_limit import StepLimit, step_limit, turn_limit
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
@@ -77,7 +76,6 @@ __all__ = [
     "step_limit",
     "turn_limit",
     "usual_masses",
-    "watchdog",
     "with_shares",
 ]
 

@@ -12,26 +12,19 @@ A function takes a scene, a name or a path, and is loaded when it is first used.
 from __future__ import annotations
 
 from importlib import import_module as _import_module
-from types import FunctionType as _Function
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 if _TYPE_CHECKING:
+    from collections.abc import Callable as _Callable
+    from typing import Any as _Any
+
     import sheetbench.scenes as scenes
-    from comparisons.advice.advisor import advise
-    from comparisons.cells.answer import homogenise
-    from comparisons.cells.cell import Cell
-    from comparisons.cells.meshes import cell_of as cell
-    from comparisons.check.check import check
+    from comparisons.codes.cell import Cell
+    from comparisons.codes.cell_meshes import cell_of as cell
     from comparisons.comparison.comparison import error
-    from comparisons.identification.identification import identify
     from comparisons.identification.measurements import Displacements
-    from comparisons.linearisation.linearisation import linearise
     from comparisons.models.spec import Elements, External, Lattice, LatticePair
-    from comparisons.modes.spectra import spectra as modes
-    from comparisons.reproduction.reproduction import reproduce
-    from comparisons.scoring.suite import suite
-    from comparisons.verification.answer import verify
-    from sheetbench.face import calibrate, compare, simulate, solve, tradeoff
+    from sheetbench.face import solve, study
     from sheetbench.scenes import (
         BadInput,
         Chain,
@@ -57,36 +50,51 @@ if _TYPE_CHECKING:
         catalogue,
         load,
     )  # fmt: skip
-    from sheetbench.verbs import crosscheck, export, report, schema, score, stability
 
+    calibrate: _Callable[..., _Any]
+    check: _Callable[..., _Any]
+    compare: _Callable[..., _Any]
+    crosscheck: _Callable[..., _Any]
+    identify: _Callable[..., _Any]
+    modes: _Callable[..., _Any]
+    new: _Callable[..., _Any]
+    report: _Callable[..., _Any]
+    score: _Callable[..., _Any]
+    simulate: _Callable[..., _Any]
+    stability: _Callable[..., _Any]
+    tradeoff: _Callable[..., _Any]
+    verify: _Callable[..., _Any]
+
+_VERBS = (
+    "new", "check", "compare", "simulate", "tradeoff", "stability", "crosscheck", "calibrate", "identify",
+    "modes", "score", "verify", "report",
+)  # fmt: skip
 _MODULES = {  # all else is of sheetbench.scenes
-    "comparisons.advice.advisor": "advise",
-    "comparisons.cells.answer": "homogenise",
-    "comparisons.cells.cell": "Cell",
-    "comparisons.cells.meshes": "cell",
-    "comparisons.check.check": "check",
+    "comparisons.codes.cell": "Cell",
+    "comparisons.codes.cell_meshes": "cell",
     "comparisons.comparison.comparison": "error",
-    "comparisons.identification.identification": "identify",
     "comparisons.identification.measurements": "Displacements",
-    "comparisons.linearisation.linearisation": "linearise",
     "comparisons.models.spec": "Elements External Lattice LatticePair",
-    "comparisons.modes.spectra": "modes",
-    "comparisons.reproduction.reproduction": "reproduce",
-    "comparisons.scoring.suite": "suite",
-    "comparisons.verification.answer": "verify",
-    "sheetbench.face": "calibrate compare simulate solve tradeoff",
-    "sheetbench.verbs": "crosscheck export report schema score stability",
+    "sheetbench.face": "solve study",
 }
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names.split()}
-_NAME_THERE = {"cell": "cell_of", "modes": "spectra"}
+_NAME_THERE = {"cell": "cell_of"}
+_REMOVED = {
+    "advise": "tradeoff(scene, tolerance=0.01)",
+    "homogenise": "calibrate(scene, cell=...)",
+    "linearise": "modes(scene, state_space=20).state_space",
+    "suite": "score()",
+    "schema": "check(schema=True)",
+    "reproduce": 'study("reproduction")',
+    "export": "calibrate(scene, export=folder)",
+}
 
 __all__ = [
     "BadInput", "Cell", "Chain", "Clamped", "Curved", "Displacements", "EdgeLoad", "EdgeMotion", "Elements",
     "External", "Gravity", "Held", "Hinged", "History", "Implausible", "Lattice", "LatticePair", "Mass",
     "Material", "PointLoad", "Pressure", "Scene", "SceneError", "Sheet", "Solution", "Status", "Symmetric",
-    "advise", "calibrate", "catalogue", "cell", "check", "compare", "crosscheck", "error", "export",
-    "homogenise", "identify", "linearise", "load", "modes", "report", "reproduce", "scenes", "schema",
-    "score", "simulate", "solve", "stability", "suite", "tradeoff", "verify",
+    "calibrate", "catalogue", "cell", "check", "compare", "crosscheck", "error", "identify", "load", "modes",
+    "new", "report", "scenes", "score", "simulate", "solve", "stability", "study", "tradeoff", "verify",
 ]  # fmt: skip
 
 
@@ -98,14 +106,14 @@ def __getattr__(name: str) -> object:
     if name == "scenes":
         return _import_module("sheetbench.scenes")
     if name not in __all__:
-        raise AttributeError(f"module 'sheetbench' has no attribute {name!r}")
-    module = _import_module(_MODULE_OF.get(name, "sheetbench.scenes"))
-    found = getattr(module, _NAME_THERE.get(name, name))
-    if isinstance(found, _Function) and name in _MODULE_OF:
-        from sheetbench.keywords import in_words
+        instead = f"; use sheetbench.{_REMOVED[name]}" if name in _REMOVED else ""
+        raise AttributeError(f"module 'sheetbench' has no attribute {name!r}{instead}")
+    if name in _VERBS:
+        from sheetbench.face import verb
 
-        return in_words(name, found)
-    return found
+        return verb(name)
+    module = _import_module(_MODULE_OF.get(name, "sheetbench.scenes"))
+    return getattr(module, _NAME_THERE.get(name, name))
 
 
 def __dir__() -> list[str]:

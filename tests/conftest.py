@@ -1,21 +1,16 @@
 """What tests of several files stand on: answers without a solver, a campaign's store."""
 
 import signal
-from pathlib import Path
 
 import fake_solutions
 import pytest
-from campaigns import FEW, Here
 from hypothesis import HealthCheck, settings
-from matplotlib.figure import Figure
 from matrix_options import scene_files
 from matrix_rows import check, tally
+from verbs import few_runs, run_here, undraw
 
 from comparisons.comparison import comparison as displacement
-from comparisons.report import offscreen
-from comparisons.runs import executors
-from comparisons.runs.campaign import campaign, carry_out
-from comparisons.stability import extremes
+from comparisons.runs.campaign import campaign
 from sheetbench.answers import style
 from sheetbench.scenes import Solution
 
@@ -58,12 +53,7 @@ def coarse_pictures(monkeypatch):
 @pytest.fixture
 def undrawn(monkeypatch):
     """Pictures are empty files, for tests of what else a run says and leaves."""
-
-    def touch(self, place, *_, **__):
-        Path(place).touch()
-
-    monkeypatch.setattr(Figure, "savefig", touch)
-    monkeypatch.setattr(offscreen, "why_not", lambda: "not drawn")
+    undraw(monkeypatch)
 
 
 @pytest.fixture
@@ -75,15 +65,13 @@ def store(tmp_path):
 @pytest.fixture
 def in_process(monkeypatch):
     """Campaigns run in this process: no worker has to start."""
-    monkeypatch.setattr(executors, "processes", Here)
-    monkeypatch.setitem(carry_out.__kwdefaults__, "pool", Here)
+    run_here(monkeypatch)
 
 
 @pytest.fixture
-def few(in_process, monkeypatch):
+def few(monkeypatch):
     """Campaigns run here, and maps have two runs along each axis."""
-    for name, values in FEW.items():
-        monkeypatch.setattr(extremes, name, values)
+    few_runs(monkeypatch)
 
 
 @pytest.fixture(scope="module")

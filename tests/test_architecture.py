@@ -24,8 +24,8 @@ GROUND += ("sheetbench.process", "sheetbench.runs", "sheetbench.heap", "sheetben
 ALLOWED = {
     "sheetbench/answers": {"sheetbench.answers", "sheetbench.errors", "sheetbench.files"},
     "sheetbench/runs": {
-        *("sheetbench.answers", "sheetbench.errors", "sheetbench.files", "sheetbench.runs"),
-        *("sheetbench.scenes", "sheetbench.sources"),
+        *("sheetbench.answers", "sheetbench.clock", "sheetbench.errors", "sheetbench.files"),
+        *("sheetbench.numerics", "sheetbench.runs", "sheetbench.scenes", "sheetbench.sources"),
     },
     "sheetbench/scenes": {
         *("sheetbench.answers", "sheetbench.errors", "sheetbench.process", "sheetbench.scenes"),
@@ -98,8 +98,7 @@ FLOORS = {  # of comparisons; CONTRIBUTING.md says what is in each room
     **dict.fromkeys(("models", "external", "report", "browser", "measured"), 0),
     "runs": 1,
     "sweep": 2,
-    **dict.fromkeys(("comparison", "check", "export", "identification", "linearisation"), 3),
-    **dict.fromkeys(("cells", "modes", "scoring", "verification"), 3),
+    **dict.fromkeys(("comparison", "check", "identification", "modes", "scoring", "verification"), 3),
     **dict.fromkeys(("advice", "calibration", "codes", "crosscheck", "motion", "tradeoff"), 4),
     **dict.fromkeys(("live", "reproduction", "stability", "pages"), 5),
     "cli": 6,
@@ -193,7 +192,7 @@ SLOW += ("ezc3d", "shapely", "xarray")
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
 DRAWS = ("figure", "style", "layout", "probes_figure", "motion_figure", "comparison_figure", "animation")
 DRAWS += ("offscreen", "locking", "vtk", "toml")
-AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "verbs", "__init__", "__main__")))
+AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "__init__", "__main__")))
 
 
 def test_imports_within_functions_are_for_a_quick_start_alone():

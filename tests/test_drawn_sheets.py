@@ -5,7 +5,7 @@ import pytest
 
 import fem_reference
 import lumped
-from comparisons.export.export import export
+from comparisons.codes.lattice import export
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve

@@ -12,7 +12,7 @@ PROGRAM = (sys.executable, "-m", "sheetbench")
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
-@pytest.mark.parametrize("asked", [("scenes",), ("scenes", "--json"), ("--help",), ("--version",)], ids=str)
+@pytest.mark.parametrize("asked", [("check",), ("check", "--json"), ("--help",), ("--version",)], ids=str)
 def test_an_output_that_cannot_be_written_is_said_in_a_line(asked):
     with open("/dev/full", "wb") as full:
         done = subprocess.run([*PROGRAM, *asked], stdout=full, stderr=subprocess.PIPE, text=True)
@@ -21,7 +21,7 @@ def test_an_output_that_cannot_be_written_is_said_in_a_line(asked):
 
 
 @pytest.mark.parametrize(
-    "asked", [("report",), ("suite", "--out"), ("check", "one-edge-clamped", "--out")], ids=str
+    "asked", [("report",), ("score", "--out"), ("check", "one-edge-clamped", "--out")], ids=str
 )
 def test_a_name_that_is_too_long_is_said_in_a_line(capsys, asked):
     assert run(*asked, 300 * "a") == 2
@@ -31,7 +31,7 @@ def test_a_name_that_is_too_long_is_said_in_a_line(capsys, asked):
 def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing():
     plain = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     usual, *odd = (
-        subprocess.run([*PROGRAM, "scenes"], env=plain | given, capture_output=True, text=True)
+        subprocess.run([*PROGRAM, "check"], env=plain | given, capture_output=True, text=True)
         for given in ({}, *({"COLUMNS": size, "LINES": size} for size in ("0", "²", "9" * 12)))
     )
     for one in odd:

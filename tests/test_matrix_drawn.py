@@ -51,8 +51,8 @@ VERBS = (
     "calibrate --grid 5 --export {export}",
     f"tradeoff --lumped 5 --plate 2 --shell 2 --solid= --elements 3 --repeats 1 {CAMPAIGN}",
     f"stability {SMALL} --vary slenderness {CAMPAIGN}",
-    "advise --tolerance 0.9",
-    "linearise --lumped 5 --modes 3",
+    "tradeoff --tolerance 0.9",
+    "modes --lumped 5 --state-space 3",
 )
 ROWS = pairwise([tuple((verb,) for verb in VERBS), *(tuple((kind,) for kind in kinds) for kinds in KINDS)])
 
@@ -70,7 +70,7 @@ def text(kinds):
 
 def refused(verb, kinds):
     """A linear system has no followers; the solid has no steps in its thickness, nor followers on a taper."""
-    if verb.startswith("linearise"):
+    if "--state-space" in verb:
         return "pressed" in kinds
     uneven = "thick" in kinds or ("taper" in kinds and {"pressed", "pulled"} & {*kinds})
     return "--reference solid" in verb and "laminate" not in kinds and bool(uneven)

@@ -19,10 +19,10 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         (("--calibration", "hyperelastic"), ("--k", "550")),
         (("--json",), ("--out", "{folder}")),
     ],
-    "calibrate --export {export}": [
-        (("--method", "neo-hookean"), ("--method", "central")),
+    "calibrate --out {folder}": [
+        (("--calibration", "neo-hookean"), ("--calibration", "central"), ()),
         (("two-edges-settling",), ("{pressed}",)),
-        (("--for", "mujoco"), ("--for", "sofa")),
+        tuple(("--for", code) for code in ("mujoco", "sofa", "numpy", "newton")),
         (("--grid", "3"), ("--grid", "3x4")),
     ],
     "report": [
@@ -41,7 +41,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         ((), ("--clamped", "x0,y1"), ("--clamped", "x0,x1,y0,y1"), ("--clamped", "")),
         ((), ("--density", "1.1g/cm3"), ("--overwrite",)),
     ],
-    "schema": [((), ("--markdown",)), ((), ("--quiet",))],
+    "check --schema": [((), ("--out", "{folder}")), ((), ("--quiet",))],
     "identify": [
         (("one-edge-clamped",), ("{pressed}",), ("{springs}",)),
         tuple(("--measured", f"{{{name}}}") for name in ("heights", "displacements", "empty")),
@@ -79,14 +79,14 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         ((), ("--calibration", "hyperelastic"), ("--k", "550"), ("--grading", "auto")),
         OUTPUTS[:3],
     ],
-    "homogenise": [
+    "calibrate --cell": [
         (("equilateral",), ("one-diagonal",), ("alternate-diagonals",)),
         (("one-edge-clamped",), ("{weightless}",)),
         ((), ("--hinge", "angle"), ("--hinge", "height")),
         ((), ("--spacing", "25mm"), ("--spacing", "0")),
         OUTPUTS[:3],
     ],
-    "advise --tolerance 0.9": [
+    "tradeoff --tolerance 0.9": [
         (("one-edge-clamped",), ("{pressed}",)),
         ((), ("--calibration", "uniform"), ("--k", "550"), ("--grading", "auto")),
         OUTPUTS[:3],
@@ -114,7 +114,7 @@ def places(places, tmp_path_factory):
     for verb in ("compare", "modes"):
         assert run(verb, "one-edge-clamped", *small, str(folder / verb)) == 0
     for suite in SUITES:
-        assert run("suite", "--suite", suite, "--out", str(folder / "suites" / suite)) == 0
+        assert run("score", "--suite", suite, "--out", str(folder / "suites" / suite)) == 0
         path = folder / "suites" / suite / f"answers-{suite}.csv"
         with path.open(newline="", encoding="utf-8") as file:
             rows = [[value or "0.001" for value in row] for row in csv.reader(file)]

@@ -11,7 +11,7 @@ from sheetbench.choices import CALIBRATIONS, INTEGRATORS, MASSES
 
 LITTLE = (("--json",), ("--out", "{folder}"), ())
 EVERY_SCENE = SCENES[1:]
-METHODS = tuple(("--method", name) for name in (*CALIBRATIONS, "auto"))
+METHODS = tuple(("--calibration", name) for name in (*CALIBRATIONS, "auto"))
 VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     "modes": [
         SPRINGS[::3],
@@ -27,10 +27,10 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         (("--grid", "3"), ("--grid", "3x4"), ("--grid", "3x3x3")),
         (("--count", "2"), ("--count", "12")),
     ],
-    "linearise": [
+    "modes --state-space": [
         SPRINGS[1::2],
         EVERY_SCENE,
-        (("--modes", "3"), ("--modes", "0"), ("--modes", "4", "--reduce", "balanced:2")),
+        (("3",), ("0",), ("4", "--reduce", "balanced:2")),
         ((), ("--about", "flat")),
         LITTLE,
         GRIDS[:3],
@@ -48,9 +48,9 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         (("two-edges-clamped",), ("curved-edge",), ("{springs}",), ("{weightless}",), ("--side", "0.1")),
         (("--grid", "3"), ("--grid", "3x4"), ("--grid", "3x3x3")),
         ((), ("--k", "550"), ("--layer-distance", "0.002"), ("--grading", "0.4"), ("--grading", "auto")),
-        (*OUTPUTS[1:3], ("--toml",), ("--export", "{export}", "--for", "mujoco")),
+        (*OUTPUTS[1:3], ("--toml",), ("--export", "{export}"), ("--out", "{folder}", "--for", "mujoco")),
     ],
-    "advise": [
+    "tradeoff": [
         (("one-edge-clamped",), ("{weightless}",)),
         (("--tolerance", "0.9"), ("--budget", "5ms")),
         (("--json",), ()),

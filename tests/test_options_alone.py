@@ -68,7 +68,7 @@ VALUES = {  # of options that all verbs with them take alike, then of verbs
     "--thickness": "0.004",
     "--density": "900",
     "--side": "0.1",
-    "--method": "central",
+    "--calibration": "central",
     "--for": "mujoco",
     "--unknown": "poisson",
     "--offset": "0.001",

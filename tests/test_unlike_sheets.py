@@ -50,7 +50,7 @@ def test_files_say_what_each_cell_is_made_of():
 @pytest.mark.parametrize(
     ("verb", "options", "who"),
     [
-        ("calibrate", ["--method", "uniform"], "calibration 'uniform'"),
+        ("calibrate", ["--calibration", "uniform"], "calibration 'uniform'"),
         ("compare", ["--calibration", "fit-static"], "calibration 'fit-static'"),
         ("compare", ["--law", "biot"], "the shell's law 'biot'"),
     ],

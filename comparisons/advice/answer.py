@@ -1,4 +1,4 @@
-"""What to solve, and why: the answer of `sheetbench advise`."""
+"""What to solve, and why: the answer of `sheetbench tradeoff --tolerance`."""
 
 from __future__ import annotations
 

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, fields
+from functools import cached_property, partial
 from typing import Any
 
 from comparisons.calibration import damping
 from comparisons.calibration.damping import ModeDamping
+from comparisons.codes.lattice import lattice_files
 from comparisons.models.expected_error import ExpectedError
 from lumped import Calibration
-from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table
@@ -21,39 +21,49 @@ from sheetbench.scenes.words import sheet_in_words
 
 
 @dataclass(frozen=True, repr=False)
-class SheetCalibration(Answer):
+class SheetCalibration(Calibration):
     """Springs for a scene's sheet; expected: the error of their grid in the scene, where it is known; modes:
-    the damping of the lowest ones."""
+    the damping of the lowest ones; code: another one that the lattice is written for."""
 
-    springs: Calibration
-    scene: Scene
+    scene: Scene | None = None
     expected: ExpectedError | None = None
     modes: tuple[ModeDamping, ...] = ()
+    code: str | None = None
 
-    file_name = Calibration.file_name
-    page_name = Calibration.page_name
+    @classmethod
+    def of(cls, springs: Calibration, scene: Scene, **more: Any) -> SheetCalibration:
+        """Return springs as those of a scene."""
+        return cls(**{one.name: getattr(springs, one.name) for one in fields(springs)}, scene=scene, **more)
+
+    @property
+    def subject(self) -> Scene:
+        """The scene that they are of."""
+        assert self.scene is not None
+        return self.scene
 
     def heading(self) -> tuple[str, str, str]:
-        return (*self.springs.heading()[:2], sheet_in_words(self.scene.sheet, self.scene.material))
+        return (*super().heading()[:2], sheet_in_words(self.subject.sheet, self.subject.material))
 
     def document(self) -> dict[str, Any]:
-        found = self.springs.document()
+        found = super().document()
         if self.expected is not None:
             found["expected_error"] = self.expected.as_dict()
-        return found | damping.document(self.scene.material, self.modes)
+        return found | damping.document(self.subject.material, self.modes)
 
     def tables(self) -> tuple[Table, ...]:
-        return (*self.springs.tables(), *damping.tables(self.scene.material, self.modes))
+        return (*super().tables(), *damping.tables(self.subject.material, self.modes))
 
     def notes(self) -> tuple[str, ...]:
         expected = () if self.expected is None else (f"in this scene: {self.expected}",)
-        return (*self.springs.notes(), *expected)
+        return (*super().notes(), *expected, *(self._for_code[1] if self.code else ()))
 
     def files(self) -> dict[str, Write]:
-        return {"springs.toml": partial(write_text, text=to_toml(self.springs))}
+        own = {"springs.toml": partial(write_text, text=to_toml(self))}
+        return {**own, **(self._for_code[0] if self.code else {})}
 
-    def choices(self) -> dict[str, Any]:
-        return dict(self.springs.choices())
+    @cached_property
+    def _for_code(self) -> tuple[dict[str, Write], list[str]]:
+        return lattice_files(self.subject, self, self.code)
 
 
 def to_toml(springs: Calibration) -> str:

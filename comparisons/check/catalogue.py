@@ -1,4 +1,4 @@
-"""The scenes that come with the package, as a list and as files to start from."""
+"""The scenes that come with the package, and the language of scenes as a JSON Schema."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from functools import partial
 from typing import Annotated, Any
 
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.files import write_text
+from sheetbench.answers.files import to_json, write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Column, Table
-from sheetbench.scenes import catalogue, load
+from sheetbench.scenes import Scene, catalogue, load
+from sheetbench.scenes.reference import markdown
+from sheetbench.scenes.schema import for_editors
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,7 @@ class Entry:
 
 
 class Catalogue(Answer):
-    """The list that `sheetbench scenes` shows; the scenes' own files go along into a folder."""
+    """The list that `sheetbench check` shows; the scenes' own files go along into a folder."""
 
     file_name = "scenes"
 
@@ -43,5 +45,35 @@ class Catalogue(Answer):
         return ("Run one with:  sheetbench compare NAME",)
 
     def files(self) -> dict[str, Write]:
-        texts = {name: path.read_text(encoding="utf-8") for name, path in catalogue().items()}
-        return {f"{name}.toml": partial(write_text, text=text) for name, text in texts.items()}
+        return {file: write for name in catalogue() for file, write in scene_file(name).items()}
+
+
+def scene_file(name: str) -> dict[str, Write]:
+    """Return the file of a scene of the catalogue, none of a name that is not there."""
+    path = catalogue().get(name)
+    if path is None:
+        return {}
+    return {f"{name}.toml": partial(write_text, text=path.read_text(encoding="utf-8"))}
+
+
+class Schema(Answer):
+    """The JSON Schema of a scene, for editors that complete and check TOML files, and a page of every key."""
+
+    file_name = "schema"
+
+    @property
+    def text(self) -> str:
+        """The schema as it is printed."""
+        return to_json(self.document())
+
+    def heading(self) -> tuple[str, str, str]:
+        return "Scenes as a JSON Schema", "", ""
+
+    def document(self) -> dict[str, Any]:
+        return dict(for_editors(Scene))
+
+    def tables(self) -> tuple[Table, ...]:
+        return ()
+
+    def files(self) -> dict[str, Write]:
+        return {"scene.md": partial(write_text, text=markdown())}

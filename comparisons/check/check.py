@@ -11,10 +11,11 @@ from functools import cached_property
 from typing import Annotated, Any
 from warnings import catch_warnings, simplefilter
 
+from comparisons.check.catalogue import scene_file
 from comparisons.models.grids import scene_grid
 from comparisons.models.method import RUBBER
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.report import Picture
+from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.table import Column, Table
 from sheetbench.choices import CALIBRATION, ELEMENTS
 from sheetbench.errors import Implausible
@@ -70,6 +71,9 @@ class Check(Answer):
 
     def figures(self) -> tuple[Picture, ...]:
         return (Picture("plan", "comparisons.check.figure:compose", (self.scene,)),)
+
+    def files(self) -> dict[str, Write]:
+        return scene_file(self.called)
 
     def notes(self) -> list[str]:
         solve = f"Solve it with:\nsheetbench compare {shlex.quote(self.called)}"

@@ -32,24 +32,18 @@ from comparisons.runs import interrupts
 VERBS = (
     "new",
     "check",
-    "scenes",
     "compare",
-    "calibrate",
-    "homogenise",
-    "identify",
     "simulate",
     "tradeoff",
-    "advise",
     "stability",
-    "verify",
     "crosscheck",
+    "calibrate",
+    "identify",
     "modes",
-    "schema",
-    "suite",
     "score",
-    "linearise",
-    "live",
+    "verify",
     "report",
+    "live",
     "study",
 )
 FAULT = 1
@@ -68,7 +62,7 @@ def verb_group(verbs: Sequence[str] = VERBS, boxes: bool = True) -> Any:
     """Return the command with these verbs; boxes: whether help pages have boxes."""
     app = typer.Typer(
         help="How good is your spring lattice? Lumped-mass models of soft sheets beside finite elements.",
-        epilog="SCENE is a name that 'sheetbench scenes' lists, or a path to a TOML file.",
+        epilog="SCENE is a name that 'sheetbench check' lists, or a path to a TOML file.",
         invoke_without_command=True,
         pretty_exceptions_enable=False,
         rich_markup_mode="rich" if boxes else None,

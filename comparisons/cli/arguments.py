@@ -20,23 +20,21 @@ from typing import Any
 
 FILE = "sheetbench-defaults.toml"
 REMOVED_VERBS = {
+    "scenes": "run 'sheetbench check'; with a name and --out DIR it copies a scene",
+    "schema": "run 'sheetbench check --schema'",
+    "advise": "run 'sheetbench tradeoff SCENE --tolerance 0.01'",
+    "homogenise": "run 'sheetbench calibrate SCENE --cell CELL'",
+    "linearise": "run 'sheetbench modes SCENE --state-space 20'",
+    "suite": "run 'sheetbench score'; with --out DIR it writes the set",
     "reproduce": "run 'sheetbench study reproduction'",
     "transfer": "run 'sheetbench study transfer' in a checkout",
-    "view": "write a folder with --out and run 'sheetbench report DIR --open': its page turns the sheets; in "
-    "Python, solution.to_pyvista().warp_by_vector().plot() opens a window",
+    "view": "write a folder with --out and run 'sheetbench report DIR --open'",
 }
 REMOVED_OPTIONS = {
-    ("compare", "--auto"): "'sheetbench advise SCENE' chooses a model and prints the command that solves it",
-    ("compare", "--tolerance"): "give it to 'sheetbench advise SCENE', which prints the command to run",
-    ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout; "
-    "'sheetbench stability SCENE --vary NAME' those of your sheet",
-    ("stability", "--full"): "'sheetbench study stability' has maps of extreme scenes, in a checkout",
-    (
-        "verify",
-        "--locking",
-    ): "'--case locking-plate --case locking-shell --case locking-solid' draws the picture",
-    ("verify", "--laws"): "'--case strain-laws' has the table",
-    ("verify", "--coverage"): "run 'sheetbench study promises --part bars' in a checkout",
+    ("calibrate", "--method"): "it is --calibration, as on every verb",
+    ("compare", "--auto"): "'sheetbench tradeoff SCENE --tolerance 0.01' chooses a model",
+    ("compare", "--tolerance"): "give it to 'sheetbench tradeoff SCENE'",
+    ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout",
 }
 
 
@@ -97,10 +95,14 @@ def _written(verb: str, key: str, value: Any, known: Collection[str]) -> Iterato
 
 
 def refuse_removed(arguments: Sequence[str]) -> None:
-    """Raise Refused for a verb or an option that is gone, with what replaces it."""
+    """Raise Refused for a verb or an option that is gone, with what replaces it, and for an option beside its
+    opposite."""
     verb, *others = arguments or [""]
     if verb in REMOVED_VERBS:
         raise Refused(f"{verb}: removed; {REMOVED_VERBS[verb]}")
     for option in (other.partition("=")[0] for other in others):
         if (verb, option) in REMOVED_OPTIONS:
             raise Refused(f"{verb} {option}: removed; {REMOVED_OPTIONS[verb, option]}")
+    for option in others:
+        if option.startswith("--no-") and _opposite(option) in others:
+            raise Refused(f"{_opposite(option)} and {option}: give one of them")

@@ -1,50 +1,71 @@
-"""`sheetbench calibrate`: spring constants from E, ν, density, thickness, sides and grid."""
+"""`sheetbench calibrate [SCENE]`: spring constants, and the numbers of other codes and of repeated cells."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from comparisons.cli.options import Export, Grading, Grid, K, Large, LayerDistance, SheetOptions, option
+from comparisons.cli.options import Export, Large, MethodOptions, SheetOptions, option
 from comparisons.cli.output import OutputOptions
-from sheetbench.choices import CALIBRATION, CALIBRATIONS
+from comparisons.cli.verb import no_effect
 
-DAMPING = ("--loss-factor", "--damping-ratio", "--log-decrement", "--quality", "--prony")
+SPRINGS = "calibration k layer_distance grading toml"
+DAMPING = "loss_factor damping_ratio log_decrement quality at band prony"
 
 
+@no_effect(
+    with_for_="export cell",
+    with_cell=f"{SPRINGS} {DAMPING} grid export",
+    without_cell="spacing hinge coefficient",
+)
 def command(
     scene: Annotated[
         str | None, typer.Argument(metavar="[SCENE]", help="Scene with the sheet and its material.")
     ] = None,
     *,
     sheet: SheetOptions,
-    grid: Grid = None,
-    grading: Grading = None,
-    calibration: Annotated[
-        str | None,
-        option(
-            "; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items())
-            + f"; auto: by the SCENE, as with --grading auto. Default: {CALIBRATION}.",
-            "NAME",
-            "--calibration",
-            "--method",
-        ),
-    ] = None,
-    k: K = None,
-    layer_distance: LayerDistance = None,
+    lattice: MethodOptions,
     toml: Annotated[bool, option("Print the \\[springs] table for a scene file.")] = False,
     export: Export = None,
-    simulators: Annotated[
-        list[str] | None,
+    for_: Annotated[
+        str | None,
         option(
-            "Parameters, mesh and scene for another code: newton, mujoco, pybullet, genesis, sofa, arcsim, "
-            "c-ipc, ppf, openusd; as files with --out. Together with --export: the lattice's springs for "
-            "mujoco or sofa, of a calibration without area springs (--calibration central).",
-            "NAME",
-            "--for",
+            "Numbers for another code, with --out its files too. mujoco, newton, pybullet, genesis: its own "
+            "sheet of triangles; sofa, and mujoco with --calibration: the lattice's springs; numpy, cpp, "
+            "matlab: the lattice and a program that reads it.",
+            "CODE",
         ),
+    ] = None,
+    cell: Annotated[
+        str | None,
+        option(
+            "What a repeated cell is as a sheet, its best coefficients, the error that no finer "
+            "mesh removes: one-diagonal, alternate-diagonals, equilateral, unstructured (triangles with "
+            "hinges), bricks, or a TOML file with periods, nodes and elements.",
+            "CELL",
+        ),
+    ] = None,
+    spacing: Annotated[
+        float | None,
+        option(
+            "With --cell: distance of nodes, in m or as 5mm. Default: an eighth of the shorter side.",
+            "LENGTH",
+            unit="m",
+        ),
+    ] = None,
+    hinge: Annotated[
+        str | None,
+        option(
+            "With --cell: energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height, w = 3 "
+            "length² over the area of both triangles. Default: length.",
+            "WEIGHT",
+        ),
+    ] = None,
+    coefficient: Annotated[
+        list[str] | None,
+        option("With --cell: use this in place of the one found. May be repeated.", "NAME=VALUE"),
     ] = None,
     loss_factor: Annotated[
         float | None, option("Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band.", "ETA")
@@ -74,8 +95,8 @@ def command(
     ] = None,
     large: Large = False,
     output: OutputOptions,
-) -> None:
-    """Find the spring constants of a lattice, and report which of the sheet's moduli they meet.
+) -> Any:
+    """Find spring constants for a sheet, or another code's numbers.
 
     Give a SCENE, or --young --poisson --thickness --side; with both, the options change the scene's values.
     The fitted methods train on the SCENE; without one, on the sheet under its own weight with one edge and
@@ -85,51 +106,55 @@ def command(
     from comparisons.calibration import damping
     from comparisons.calibration.answer import SheetCalibration, to_toml
     from comparisons.calibration.calibrate import calibrate, expected, subject
+    from comparisons.codes.cell_moduli import given_coefficients, homogenise
+    from comparisons.codes.files import WRITERS
+    from comparisons.codes.lattice import CODES
+    from comparisons.codes.setup import require_damper, setup, squares_of
     from comparisons.models.sizes import require_room
-    from comparisons.models.spec import Lattice
-    from sheetbench.errors import BadInput, require_effect
+    from sheetbench.errors import BadInput, require_choice, require_effect
 
     if toml and output.json:
         raise BadInput("--toml and --json: choose one")
-    if simulators and export is None:
-        if len(simulators) > 1:
-            raise BadInput("--for: one code at a time, but with --export")
-        springs_only = {
-            "--calibration": calibration,
-            "--k": k,
-            "--layer-distance": layer_distance,
-            "--grading": grading,
-            "--toml": toml or None,
-        }
-        if given := [name for name, value in springs_only.items() if value is not None]:
-            raise BadInput(f"{given[0]}: of the lattice's springs, which --for has with --export alone")
     damped = damping.keys(loss_factor, damping_ratio, log_decrement, quality, at, band, prony)
     if sheet.young is not None and "young" in damped:
         raise BadInput("--young and --prony: the measured moduli give the long-time one; leave --young out")
+    if cell is not None and scene is None:
+        raise BadInput("--cell: needs a SCENE, in which its error is found")
+    wanted, named = lattice.spec, scene is not None
     of = subject(scene, sheet.values | damped, "--")
     about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
-    if simulators and export is None:
-        from comparisons.cells.codes import CODES
-        from comparisons.cells.parameters import undamped
-        from comparisons.codes.setup import setup, squares_of
-
-        if damped and (code := CODES.get(simulators[0])) and (why := undamped(code, of.material)):
-            options = zip(DAMPING, (loss_factor, damping_ratio, log_decrement, quality, prony), strict=True)
-            require_effect(f"with --for {code.name}: {why}", dict(options))
-        found = setup(of, simulators[0], squares_of(grid), named=scene is not None)
-        with output.open(about=about, variant={"--for": simulators[0]}) as out:
-            out.show(found)
-        return
-    with output.open(about=about) as out:
-        if export is not None and not large:
-            require_room(of, Lattice(grid), "--grid")
-        lattice = Lattice(grid, calibration, k, layer_distance, grading)
-        springs = calibrate(of, lattice, scene is not None)
-        foretold = scene is not None and k is None and layer_distance is None
-        off = expected(of, springs) if foretold else None
-        swinging = damping.ratios(of, springs)
-        out.export(export, of, springs, simulators or ())
-        out.show(
-            SheetCalibration(springs, of, off, swinging),
-            instead=to_toml(springs) + damping.to_toml(of.material) if toml else None,
+    if cell is not None:
+        shape = cell if isinstance(cell, str) else cell.name
+        variant = {"--cell": shape, "--spacing": spacing, "--hinge": hinge}
+        with output.open(scene=of, variant=variant) as out:
+            known = given_coefficients(coefficient or ())
+            return out.show(homogenise(of, cell, spacing=spacing, hinge=hinge, coefficients=known))
+    if for_ is not None:
+        require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *CODES])))
+    if for_ is not None and for_ in WRITERS and not (for_ in CODES and wanted.calibration):
+        springs_only = {name: value for name, value in wanted.settings.items() if name != "grid"}
+        require_effect(
+            f"with --for {for_}",
+            {
+                **{f"--{name.replace('_', '-')}": value for name, value in springs_only.items()},
+                "--toml": toml,
+            },
         )
+        ways = (loss_factor, damping_ratio, log_decrement, quality, prony)
+        names = ("loss-factor", "damping-ratio", "log-decrement", "quality", "prony")
+        require_damper(for_, of.material, dict(zip((f"--{name}" for name in names), ways, strict=True)))
+        found = setup(of, for_, squares_of(wanted.grid), named=named)
+        with output.open(about=about, variant={"--for": for_}) as out:
+            return out.show(found)
+    with output.open(about=about, variant={"--for": for_} if for_ else None) as out:
+        if (export is not None or for_ is not None) and not large:
+            require_room(of, wanted, "--grid")
+        if for_ == "sofa" and wanted.calibration is None:  # it has springs between two points alone
+            wanted = wanted.but(calibration="central")
+        springs = calibrate(of, wanted, named)
+        foretold = named and wanted.k is None and wanted.layer_distance is None
+        off = expected(of, springs) if foretold else None
+        out.export(export, of, springs)
+        modes = damping.ratios(of, springs)
+        answer = SheetCalibration.of(springs, of, expected=off, modes=modes, code=for_)
+        return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

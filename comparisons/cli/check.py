@@ -1,20 +1,51 @@
-"""`sheetbench check SCENE`: what will be solved, in words, with warnings for plausible slips."""
+"""`sheetbench check [SCENE]`: what will be solved, in words; the catalogue; the language of scenes."""
 
 from __future__ import annotations
 
-from comparisons.cli.options import Scene
+from typing import Annotated, Any
+
+import typer
+
+from comparisons.cli.options import option
 from comparisons.cli.output import PictureOptions
+from comparisons.cli.verb import no_effect
 
 
-def command(scene: Scene, *, output: PictureOptions) -> None:
-    """Explain a scene in plain words and warn about likely mistakes."""
+@no_effect(with_schema="scene")
+def command(
+    scene: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[SCENE]", help="Catalogue name or path; without it, the catalogue is listed."
+        ),
+    ] = None,
+    *,
+    schema: Annotated[
+        bool,
+        option("Print the JSON Schema of a scene, for editors; --out writes it and a page of every key."),
+    ] = False,
+    output: PictureOptions,
+) -> Any:
+    """Say what will be solved and warn of slips; list the catalogue.
+
+    Without a SCENE the catalogue is listed. --out draws the scene and copies those of the catalogue, to start
+    from.
+    """
     from warnings import catch_warnings, simplefilter
 
+    from comparisons.check.catalogue import Catalogue, Schema
     from comparisons.check.check import check
-    from sheetbench.scenes import load
+    from sheetbench.scenes import scene_of
 
+    if schema:
+        with output.open(variant={"--schema": True}) as out:
+            found = Schema()
+            return out.show(found, instead=found.text)
+    if scene is None:
+        with output.open() as out:
+            return out.show(Catalogue())
     with catch_warnings():
         simplefilter("ignore")  # the report has them
-        loaded = load(scene)
+        loaded = scene_of(scene)
     with output.open(scene=loaded) as out:
-        out.show(check(loaded, called=scene))
+        return out.show(check(loaded, called=scene if isinstance(scene, str) else None))

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated
+from typing import Annotated, Any
 
 from comparisons.cli.options import Export, Large, LatticeOptions, Law, Models, Scene, Symmetry, option
 from comparisons.cli.output import PictureOptions
+from comparisons.cli.verb import no_effect
 from sheetbench.choices import BRANCHES, ELEMENTS, REFERENCE, REFERENCES, listed
 
 FRAMES = 100  # of a motion
 
 
+@no_effect(with_duration="symmetry branch export", without_duration="every animate")
 def command(
     scene: Scene,
     lattice: LatticeOptions,
     reference: Annotated[str, option(f"{listed(REFERENCES)}.", "MODEL")] = REFERENCE,
+    *,
     elements: Annotated[
         str | None,
         option(
@@ -28,10 +31,13 @@ def command(
     symmetry: Symmetry = False,
     model: Models = None,
     uncertainty: Annotated[
-        bool,
-        option("Solve the reference on coarser meshes too, for its error bar; plates and shells always are."),
-    ] = False,
-    no_uncertainty: Annotated[bool, option("Solve the reference once, without its error bar.")] = False,
+        bool | None,
+        option(
+            "Solve the reference on coarser meshes too, for its error bar. Default: of plates and shells.",
+            None,
+            "--uncertainty/--no-uncertainty",
+        ),
+    ] = None,
     branch: Annotated[
         str | None,
         option(
@@ -52,13 +58,13 @@ def command(
     ] = False,
     export: Export = None,
     large: Large = False,
-    *,
     output: PictureOptions,
-) -> None:
-    """Solve a scene with the lattice and with a reference, and show what differs and what it cost.
+) -> Any:
+    """Solve a scene with the lattice and a reference, side by side.
 
-    Where no calibration is named, uniform springs are shown alongside. With --duration and --out, runs are
-    written to the folder as they go, and the same command resumes them.
+    What differs is shown with the reference's error bar, and what it cost. Where no calibration is named,
+    uniform springs are shown alongside. With --duration and --out, runs are written to the folder as they go,
+    and the same command resumes them.
     """
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.context import running
@@ -66,22 +72,16 @@ def command(
     from comparisons.models.resolve import resolve
     from comparisons.report.vtk import write_mesh
     from sheetbench import scenes
-    from sheetbench.errors import BadInput, require_effect
 
-    if uncertainty and no_uncertainty:
-        raise BadInput("--uncertainty and --no-uncertainty: give one of them")
-    models = {"--reference": reference, **({"--model": " ".join(model)} if model else {})}
+    named = reference if isinstance(reference, str) else reference.label
+    models = {"--reference": named, **({"--model": " ".join(map(str, model))} if model else {})}
     if duration is not None:
         from comparisons.motion.comparison import compare_motion
 
-        statics = {"--symmetry": symmetry, "--branch": branch, "--export": export}
-        require_effect("with --duration", statics)
-        if animate:
-            output.require_pictures("--animate")
-        moving = scenes.load(scene)
+        moving = scenes.scene_of(scene)
         chosen = None if elements is None else parse_elements(elements)
         with output.open(scene=moving, variant={"--duration": duration, "--every": every, **models}) as out:
-            for name in ("lumped", reference, "difference") if output.out is not None else ():
+            for name in ("lumped", named, "difference") if output.out is not None else ():
                 out.reserve(f"{name}/")
             both = compare_motion(
                 moving,
@@ -90,22 +90,16 @@ def command(
                 reference,
                 elements=chosen,
                 law=law,
-                uncertainty=not no_uncertainty,
+                uncertainty=uncertainty is not False,
                 models=model or (),
                 every=every,
                 frames=FRAMES if output.out is not None else 0,
                 store=out.reserve("runs/"),
             )
-            out.show(replace(both, animate=animate))
-        return
-    if every is not None:
-        raise BadInput("--every: needs --duration, how long the sheet is to move")
-    if animate:
-        raise BadInput("--animate: needs --duration, how long the sheet is to move")
-    loaded = load_static(scene)
-    size = parse_elements(elements or str(ELEMENTS))
-    named = lattice.calibration is not None or lattice.k is not None
-    models |= {"--calibration": "named" if named else "open"}
+            return out.show(replace(both, animate=animate))
+    loaded, spec = load_static(scene), lattice.spec
+    size = None if elements is None else parse_elements(elements)
+    models |= {"--calibration": "open" if spec.calibration is None and spec.k is None else "named"}
     with output.open(scene=loaded, variant=models) as out:
 
         def keep(solution: scenes.Solution) -> None:
@@ -114,15 +108,15 @@ def command(
         with running(solved=keep):
             comparison = compare(
                 loaded,
-                lattice.spec,
+                spec,
                 reference,
                 elements=size,
                 law=law,
-                uncertainty=False if no_uncertainty else uncertainty or None,
+                uncertainty=uncertainty,
                 symmetry=symmetry,
                 branch=branch or "path",
                 models=model or (),
             )
         if export is not None:
-            out.export(export, loaded, resolve(loaded, lattice.spec).springs)
-        out.show(comparison)
+            out.export(export, loaded, resolve(loaded, spec).springs)
+        return out.show(comparison)

@@ -8,6 +8,7 @@ import typer
 
 from comparisons.cli.options import Calibration, CampaignOptions, Large, SpringOptions, option
 from comparisons.cli.output import PictureOptions
+from comparisons.cli.verb import no_effect
 from sheetbench.choices import REFERENCE, REFERENCES
 
 SIZES = {"lumped": "9,13,17", "plate": "8,12,16", "shell": "8,12,16", "solid": "6,8,12"}
@@ -17,15 +18,18 @@ MOVING = {"lumped": "9,17", "plate": "4,8", "shell": "4,8", "solid": "2,4", "mes
 def _sizes(what: str, name: str, *names: str) -> Any:
     """The option of a model's sizes."""
     usual = f"{SIZES[name]}; {MOVING[name]} with --duration"
-    return option(f"{what} along the shorter side, in rising order. Default: {usual}.", "N,N,N", *names)
+    text = f"{what} along the shorter side, in rising order. Default: {usual}."
+    return option(text, "N,N,N", *names, listed=True)
 
 
+@no_effect(with_duration="workers retry")
 def command(
     scenes: Annotated[
         list[str],
         typer.Argument(metavar="SCENES", help="Catalogue names or paths to TOML files; all: the catalogue."),
     ],
     lattice: SpringOptions,
+    *,
     grid: Annotated[str | None, _sizes("Masses of the lattice", "lumped", "--lumped", "--grid")] = None,
     calibration: Calibration = None,
     plate: Annotated[str | None, _sizes("Elements of the linear plate", "plate")] = None,
@@ -33,13 +37,18 @@ def command(
     solid: Annotated[str | None, _sizes("Elements of the nonlinear solid", "solid")] = None,
     judges: Annotated[
         str | None,
-        option("External codes, with commas, or FILE.py:OBJECT; default: all that are installed.", "NAMES"),
+        option(
+            "External codes, with commas, or FILE.py:OBJECT; default: all that are installed.",
+            "NAMES",
+            listed=True,
+        ),
     ] = None,
     meshes: Annotated[
         str | None,
         option(
             f"Elements of external codes. Default: each code's own; {MOVING['meshes']} with --duration.",
             "N,N,N",
+            listed=True,
         ),
     ] = None,
     duration: Annotated[
@@ -51,11 +60,10 @@ def command(
         ),
     ] = None,
     large: Large = False,
-    *,
     campaign: CampaignOptions,
     output: PictureOptions,
-) -> None:
-    """Compare models with external finite-element codes, each with its mesh convergence.
+) -> Any:
+    """Compare models and external codes, each with its convergence.
 
     An empty list leaves a model, or all external codes, out: --solid "". An interrupted run is resumed.
     """
@@ -65,7 +73,7 @@ def command(
     from comparisons.models.spec import Elements, Lattice, items
     from comparisons.motion.comparison import compare_motion
     from sheetbench.errors import BadInput, require_effect
-    from sheetbench.scenes import load
+    from sheetbench.scenes import scene_of
 
     codes = find_codes(None if judges is None else items(judges))
     usual = SIZES if duration is None else MOVING
@@ -80,17 +88,14 @@ def command(
         own, shell_spec = finest.pop(Lattice.NAME, None), finest.pop(REFERENCE, None)
         if len(scenes) > 1 or not isinstance(own, Lattice) or not isinstance(shell_spec, Elements):
             raise BadInput("--duration: one scene, a lattice, and a shell that others are measured against")
-        scene = load(*scenes)
-        of_campaign = {"--workers": campaign.workers, "--retry": campaign.retry}
-        require_effect("with --duration, where one model moves after another", of_campaign)
+        scene = scene_of(*scenes)
         with output.open(scene=scene, variant={"--duration": duration}) as out:
             others, kept = list(finest.values()), out.reserve("runs/")
-            out.show(
+            return out.show(
                 compare_motion(scene, duration, own, shell_spec, models=others, leave_out=True, store=kept)
             )
-        return
     chosen = load_scenes(scenes)
     with output.open(about={"scenes": [scene.document() for scene in chosen]}) as out:
         with out.campaign(campaign) as run:
             checked = crosscheck(chosen, **run, models=models, codes=codes)
-        out.show(checked)
+        return out.show(checked)

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from comparisons.cli.options import Large, LatticeOptions, Law, option
 from comparisons.cli.output import PictureOptions
+from comparisons.cli.verb import no_effect
 from sheetbench.choices import ELEMENTS
 
+OF_SCENE = "scene measured unknown model elements law offset refine lattice grid calibration k"
 
+
+@no_effect(with_tensile=f"{OF_SCENE} layer_distance grading", without_tensile="area up_to")
 def command(
     scene: Annotated[
         str | None,
         typer.Argument(metavar="[SCENE]", help="Catalogue name or path; not needed for --tensile."),
     ] = None,
-    *,
-    lattice: LatticeOptions,
     measured: Annotated[
         Path | None,
         option(
@@ -27,6 +29,19 @@ def command(
             "FILE",
         ),
     ] = None,
+    unknown: Annotated[
+        str | None,
+        option(
+            "young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other constants of "
+            "fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE, tilt_EDGE "
+            "(of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch, drag "
+            "(of the air); several with commas. Default: young.",
+            "NAMES",
+            listed=True,
+        ),
+    ] = None,
+    *,
+    lattice: LatticeOptions,
     tensile: Annotated[
         list[str] | None,
         option(
@@ -41,16 +56,6 @@ def command(
     area: Annotated[
         float | None,
         option("With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².", "M2", unit="m²"),
-    ] = None,
-    unknown: Annotated[
-        str | None,
-        option(
-            "young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other constants of "
-            "fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE, tilt_EDGE "
-            "(of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch, drag "
-            "(of the air); several with commas. Default: young.",
-            "NAMES",
-        ),
     ] = None,
     model: Annotated[str | None, option("lumped, shell or solid. Default: lumped.", "MODEL")] = None,
     elements: Annotated[
@@ -70,57 +75,50 @@ def command(
             unit="m",
         ),
     ] = None,
+    refine: Annotated[
+        bool,
+        option("Look at other cells or elements too, for their error.", None, "--refine/--no-refine"),
+    ] = True,
     large: Large = False,
     output: PictureOptions,
-) -> None:
-    """Fit material and support values to measurements of a sheet, with 95 % intervals.
+) -> Any:
+    """Fit material or support values to measurements of a sheet.
 
-    The search starts from the scene's own values, else from others. Without --lumped
-    the lattice is refined until the error of its grid is below the noise.
-    Lengths are in metres unless a column's header says otherwise (uz \\[mm]), in the scene's axes.
-    --tensile fits a rubber's law and its constants instead.
+    With 95 % intervals. The search starts at the scene's values; at others too if that fit is poor. Without
+    --lumped the lattice is refined until the error of its grid is below the noise. Lengths are in metres
+    unless a column's header says otherwise (uz \\[mm]), in the scene's axes. --tensile fits a rubber's law
+    and its constants instead.
     """
-    from sheetbench.errors import BadInput, require_effect
+    from sheetbench.errors import BadInput
 
-    of_scene: dict[str, object] = {
-        "SCENE": scene,
-        "--measured": measured,
-        "--unknown": unknown,
-        "--model": model,
-    }
-    of_scene |= {"--elements": elements, "--law": law, "--offset": offset, **lattice.given()}
     if tensile:
-        require_effect("with --tensile", of_scene)
         from comparisons.identification.tensile.tensile import identify_tensile
 
         curves = identify_tensile(tensile, area=area, up_to=up_to)
-        with output.open(about={"tensile": tensile}) as out:
-            out.show(curves)
-        return
+        with output.open(about={"tensile": list(map(str, tensile))}) as out:
+            return out.show(curves)
     if scene is None or measured is None:
         raise BadInput("identify: give a SCENE and --measured FILE, or --tensile FILE")
-    require_effect("without --tensile", {"--area": area, "--up-to": up_to})
     from comparisons.comparison.comparison import load_static
     from comparisons.identification.identification import identify
-    from comparisons.identification.measurements import read
     from comparisons.identification.prediction import NotReached
     from comparisons.models.grids import parse_elements
-    from comparisons.models.spec import Lattice, items
+    from comparisons.models.spec import Lattice
 
     loaded = load_static(scene)
-    data = read(measured, loaded)
     with output.open(scene=loaded) as out:
         try:
             fit = identify(
                 loaded,
-                data,
-                items(unknown or "young"),
+                measured,
+                unknown or "young",
                 lattice.spec,
                 model=model or Lattice.NAME,
                 elements=None if elements is None else parse_elements(elements),
                 law=law,
                 offset=offset or 0.0,
+                refine=refine,
             )
         except NotReached as error:
             out.stop(f"no answer with the scene's own values: {error}")
-        out.show(fit)
+        return out.show(fit)

@@ -12,6 +12,7 @@ ELEMENTS = 8
 def command(
     scene: Scene,
     lattice: LatticeOptions,
+    *,
     elements: Annotated[
         int, option("Elements of the shell along the shorter side to start with.", "N")
     ] = ELEMENTS,
@@ -20,7 +21,7 @@ def command(
         bool, option("Open the page in a browser, or only print its address.", None, "--browser/--no-browser")
     ] = True,
 ) -> None:
-    """Open a page with sliders for E, ν, h, load and grid, where lattice and shell are solved side by side.
+    """Open a page with sliders, where lattice and shell are solved.
 
     With --k it has a slider for k too.
 

@@ -1,18 +1,21 @@
-"""`sheetbench modes SCENE`: the natural frequencies of the lattice and of a reference."""
+"""`sheetbench modes SCENE`: natural frequencies, buckling, matrices for control."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from comparisons.cli.options import Elements, Large, LatticeOptions, Scene, option
 from comparisons.cli.output import PictureOptions
+from comparisons.cli.verb import no_effect
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
 
 
+@no_effect(with_state_space="count masses reference elements buckling", without_state_space="reduce")
 def command(
     scene: Scene,
     lattice: LatticeOptions,
-    count: Annotated[int, option("How many modes, lowest first.", "N")] = 10,
+    *,
+    count: Annotated[int | None, option("How many modes, lowest first. Default: 10.", "N")] = None,
     masses: Annotated[
         str | None,
         option(
@@ -22,42 +25,75 @@ def command(
         ),
     ] = None,
     reference: Annotated[
-        list[str] | None, option(f"{listed(REFERENCES)}; may be repeated. Default: {REFERENCE}.", "MODEL")
+        list[str] | None,
+        option(f"{listed(REFERENCES)}; may be repeated. Default: {REFERENCE}.", "MODEL"),
     ] = None,
     elements: Elements = str(ELEMENTS),
     about: Annotated[
-        str,
+        str | None,
         option(
-            "About the flat, stress-free sheet, or its equilibrium under its loads (lattice and shell).",
+            "About the flat, stress-free sheet, or its equilibrium under its loads (lattice and shell). "
+            "Default: flat; deformed with --state-space.",
             "flat|deformed",
         ),
-    ] = "flat",
+    ] = None,
     buckling: Annotated[
         bool, option("Also at how many times its loads the flat sheet buckles, with the shapes paired.")
     ] = False,
+    state_space: Annotated[
+        int | None,
+        option(
+            "The lattice's linear form instead, with so many modes, 0 for all: poles, static gains; --out "
+            "writes M, C, K and the state space for NumPy and MATLAB.",
+            "N",
+            min=0,
+        ),
+    ] = None,
+    reduce: Annotated[
+        str | None,
+        option(
+            "With --state-space: balanced:8 keeps the 8 most important states; balanced:0.01 as few as "
+            "keep the error of every response below that share of its static value.",
+            "HOW",
+        ),
+    ] = None,
     large: Large = False,
-    *,
     output: PictureOptions,
-) -> None:
-    """List the natural frequencies of lattice and reference, of the flat sheet or about its equilibrium."""
+) -> Any:
+    """List natural frequencies; buckling loads; control matrices.
+
+    Frequencies of lattice and reference, of the flat sheet or about its equilibrium. With --state-space the
+    lattice is made linear, for control: inputs are the loads, forces at the probes, commands of chains
+    and positions of held edges; outputs the probes' displacements.
+    """
     from comparisons.models.grids import parse_elements
+    from comparisons.modes.linear import linearise
     from comparisons.modes.spectra import spectra
     from sheetbench.errors import NoEquilibrium
-    from sheetbench.scenes import load
+    from sheetbench.scenes import scene_of
 
-    loaded = load(scene)
-    with output.open(scene=loaded) as out:
+    loaded = scene_of(scene)
+    with output.open(scene=loaded, variant={"--state-space": state_space is not None}) as out:
         try:
-            modes = spectra(
-                loaded,
-                lattice.spec,
-                count=count,
-                masses=masses,
-                reference=reference or REFERENCE,
-                elements=parse_elements(elements),
-                about=about,
-                buckling=buckling,
+            if state_space is not None:
+                size, around = state_space or None, about or "deformed"
+                return out.show(linearise(loaded, lattice.spec, modes=size, reduce=reduce, about=around))
+            return out.show(
+                spectra(
+                    loaded,
+                    lattice.spec,
+                    count=10 if count is None else count,
+                    masses=masses,
+                    reference=reference or REFERENCE,
+                    elements=parse_elements(elements or ELEMENTS),
+                    about=about or "flat",
+                    buckling=buckling,
+                )
             )
         except NoEquilibrium as error:
-            out.stop(f"no modes about the deformed sheet: {error}")
-        out.show(modes)
+            what = (
+                "modes about the deformed sheet"
+                if state_space is None
+                else "linear form about the equilibrium"
+            )
+            out.stop(f"no {what}: {error}; --about flat has them")

@@ -34,15 +34,16 @@ QUESTIONS = {
 def command(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The TOML file to write.")],
     sheet: SheetOptions,
+    *,
     clamped: Annotated[
-        str | None, option("x0, x1, y0, y1; several with commas. Default: x0.", "EDGES")
+        str | None, option("x0, x1, y0, y1; several with commas. Default: x0.", "EDGES", listed=True)
     ] = None,
     overwrite: Annotated[bool, option("Replace the file where there is one.")] = False,
-) -> None:
-    """Write a commented scene to start from: a sheet under its own weight, and what can be added.
+) -> Path | None:
+    """Write a commented scene to start from.
 
-    On a terminal, without options, it asks for each value. The JSON Schema is written beside the file, for
-    editors.
+    The scene is a sheet under its own weight, with what can be added as comments. On a terminal,
+    without options, it asks for each value. The JSON Schema is written beside the file, for editors.
     """
     from comparisons.cli import console
     from sheetbench.answers.files import to_json, write_text
@@ -68,11 +69,12 @@ def command(
     for slip in slips(Scene.model_validate(tomllib.loads(text))):
         warn(Implausible(f"{file}: {slip}"), stacklevel=2)
         if asking and not typer.confirm("Write it all the same?", default=True):
-            return
+            return None
     write_text(file, text)
     write_text(file.parent / SCHEMA, to_json(for_editors(Scene)))
     console.note(f"{file} written, and {SCHEMA} beside it for editors")
     console.note(f"Next:  sheetbench check {file}")
+    return file
 
 
 def _made(values: dict[str, float]) -> tuple[Sheet, Material]:

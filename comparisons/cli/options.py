@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from inspect import Parameter
-from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, get_type_hints
 
 import typer
 
@@ -22,13 +22,20 @@ if TYPE_CHECKING:
 
 
 def option(
-    help: str, metavar: str | None = None, *names: str, unit: str | None = None, **settings: Any
+    help: str,
+    metavar: str | None = None,
+    *names: str,
+    unit: str | None = None,
+    listed: bool = False,
+    **settings: Any,
 ) -> Any:
     """Return an option of typer's; names: where they do not follow from the parameter; unit: SI, of a number
-    that may have a unit of its own, as `--thickness "2 mm"`."""
+    that may have a unit of its own, as `--thickness "2 mm"`; listed: a text of several with commas."""
     if unit is not None:
         settings["parser"] = quantity_in(unit)
-    return typer.Option(*names, help=help, metavar=metavar, **settings)
+    made = typer.Option(*names, help=help, metavar=metavar, **settings)
+    made.unit, made.listed = unit, listed
+    return made
 
 
 def quantity_in(unit: str) -> Callable[[str], float]:
@@ -124,7 +131,9 @@ Models = Annotated[
 
 
 class Group:
-    """A dataclass whose fields with typer's annotations are options."""
+    """A dataclass whose fields with typer's annotations are options; no_effect: see `verb.no_effect`."""
+
+    no_effect: ClassVar[dict[str, str]] = {}
 
     @classmethod
     def parameters(cls) -> list[Parameter]:
@@ -138,24 +147,24 @@ class Group:
 
 
 class LatticeGroup(Group):
-    """Options by the names of a lattice's settings."""
+    """Options by the names of a lattice's settings; lattice: one that they change, in Python."""
+
+    lattice: Any
 
     @property
     def spec(self) -> Lattice:
         """The lattice that is requested."""
         from comparisons.models.spec import Lattice  # help does not wait for models
 
-        return Lattice(**vars(self))
-
-    def given(self) -> dict[str, Any]:
-        """Return the values by the options' names."""
-        return {"--lumped" if k == "grid" else f"--{k.replace('_', '-')}": v for k, v in vars(self).items()}
+        own = {name: value for name, value in vars(self).items() if name != "lattice" and value is not None}
+        return Lattice.given(self.lattice, own)
 
 
 @dataclass(frozen=True)
 class SpringOptions(LatticeGroup):
     """Settings that all lattices of a list have in common."""
 
+    lattice: Any = None
     k: K = None
     layer_distance: LayerDistance = None
     grading: Grading = None
@@ -165,11 +174,26 @@ class SpringOptions(LatticeGroup):
 class LatticeOptions(LatticeGroup):
     """The lattice of a verb."""
 
+    lattice: Any = None
     grid: Grid = None
     calibration: Calibration = None
     k: K = None
     layer_distance: LayerDistance = None
     grading: Grading = None
+
+
+@dataclass(frozen=True)
+class MethodOptions(LatticeOptions):
+    """The lattice that is calibrated, with a line about every calibration."""
+
+    calibration: Annotated[
+        str | None,
+        option(
+            "; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items())
+            + f"; auto: by the SCENE, as with --grading auto. Default: {CALIBRATION}.",
+            "NAME",
+        ),
+    ] = None
 
 
 @dataclass(frozen=True)
@@ -196,6 +220,7 @@ class SheetOptions(Group):
 class CampaignOptions(Group):
     """How a campaign's runs are carried out."""
 
+    no_effect: ClassVar[dict[str, str]] = {"without_out": "retry"}
     workers: Annotated[
         int | None, option("Processes for runs that are not timed; default: one per core.", "N", min=1)
     ] = None
@@ -208,6 +233,11 @@ class CampaignOptions(Group):
 class ClusterOptions(CampaignOptions):
     """The options of a campaign whose runs may go to a cluster."""
 
+    no_effect: ClassVar[dict[str, str]] = {
+        "without_out": "retry",
+        "without_scheduler": "wait",
+        "with_scheduler": "workers",
+    }
     scheduler: Annotated[str | None, option("A dask scheduler, as tcp://host:8786.", "ADDRESS")] = None
     wait: Annotated[bool, option("With --scheduler: wait where there is no worker, instead of stopping.")] = (
         False

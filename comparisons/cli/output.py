@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 import typer
 
@@ -29,13 +29,14 @@ if TYPE_CHECKING:
     from sheetbench.answers.report import Report, Write
     from sheetbench.scenes import Scene
 
+Shown = TypeVar("Shown", bound="Answer")
 NOT_CONVERGED = 3
 COMPILED = 5.0  # s, above which it is noted: loading takes less
 
 
-def command_line() -> list[str]:
+def command_line(verb: str, terminal: bool) -> list[str]:
     """Return the command as it was given, to be kept beside its results."""
-    return ["sheetbench", *sys.argv[1:]]
+    return ["sheetbench", *sys.argv[1:]] if terminal else ["sheetbench", verb, "in Python"]
 
 
 class Output:
@@ -55,6 +56,11 @@ class Output:
 
     def progress(self, what: Work | str) -> None:
         """Show on standard error what is being done."""
+        if not self._options.terminal:
+            from comparisons.models.context import context
+
+            context().progress(what)
+            return
         if self._progress is None:
             from comparisons.cli import console  # with rich: help must not wait for it
 
@@ -66,16 +72,13 @@ class Output:
         if self._folder is not None:
             self._folder.write(name, write)
 
-    def export(
-        self, folder: str | None, scene: Scene, springs: Calibration, simulators: Sequence[str] = ()
-    ) -> None:
+    def export(self, folder: str | Path | None, scene: Scene, springs: Calibration) -> None:
         """Write the lattice for other simulators if there is a folder, and note it."""
         if folder is not None:
-            from comparisons.export.export import export
+            from comparisons.codes.lattice import export
 
-            self._notes.append(
-                export(folder, scene, springs, command_line(), self._options.overwrite, simulators)
-            )
+            line = command_line(self._options.verb, self._options.terminal)
+            self._notes.append(export(folder, scene, springs, line, self._options.overwrite))
 
     def reserve(self, name: str) -> Path | None:
         """Return the path of a file, or of a folder if the name ends in "/", that a run fills by itself."""
@@ -85,17 +88,11 @@ class Output:
     def campaign(self, options: CampaignOptions) -> Iterator[dict[str, Any]]:
         """Yield the keywords of a campaign: its store, in the folder or passing, workers, pool, progress."""
         from comparisons.cli import console
+        from comparisons.models.context import context
         from comparisons.runs.campaign import campaign
         from comparisons.runs.executors import pool_of
         from comparisons.runs.store import FILE
-        from sheetbench.errors import require_effect
 
-        if options.scheduler is None:
-            require_effect("without --scheduler", {"--wait": options.wait})
-        else:
-            require_effect("with --scheduler, whose workers they are", {"--workers": options.workers})
-        if self._folder is None:
-            require_effect("without --out, which keeps what failed", {"--retry": options.retry})
         with ExitStack() as stack:
             if self._folder is None:
                 path = Path(stack.enter_context(TemporaryDirectory()))
@@ -104,29 +101,38 @@ class Output:
             yield {
                 "store": stack.enter_context(campaign(path)),
                 "pool": stack.enter_context(pool_of(options.scheduler, options.wait, console.warn)),
-                "progress": stack.enter_context(console.campaign_progress()),
+                "progress": stack.enter_context(console.campaign_progress())
+                if self._options.terminal
+                else context().progress,
                 "workers": options.workers or os.cpu_count() or 1,
                 "retry": options.retry,
             }
 
     def stop(self, complaint: str) -> None:
-        """End the command without an answer: the reason, also as the document's `stopped`, exit status 3."""
+        """End the command without an answer: the reason, also as the document's `stopped`, exit status 3;
+        in Python NoEquilibrium."""
         from comparisons.cli import console
+        from sheetbench.errors import NoEquilibrium
 
         self.close()
+        if not self._options.terminal:
+            raise NoEquilibrium(complaint)
         if self._options.json:
             document = {**self._about, "stopped": complaint, "warnings": [complaint, *messages.shown]}
             console.document(document)
         console.warn(complaint)
         raise typer.Exit(NOT_CONVERGED)
 
-    def show(self, answer: Answer, instead: str | None = None) -> None:
-        """Write the files, print the document, the tables or the text `instead` of them, and warn.
+    def show(self, answer: Shown, instead: str | None = None) -> Shown:
+        """Write the files, print the document, the tables or the text `instead` of them, and warn; return the
+        answer.
 
-        Exits with status 3 where the answer is incomplete.
+        Exits with status 3 where the answer is incomplete. In Python it writes the files alone.
         """
         from comparisons.cli import console
 
+        if not self._options.terminal and self._folder is None:
+            return answer
         report = answer.report()
         own = report.document.get("warnings", ())  # before those about the scene
         document = {**report.document, "warnings": [*own, *messages.shown]}
@@ -137,6 +143,8 @@ class Output:
         if self._folder is not None:
             missing = [f"No picture: {reason}" for reason in self._folder.report(report, self.progress)]
         self.close()
+        if not self._options.terminal:
+            return answer
         if instead is not None:
             print(instead, end="")
         elif self._options.json:
@@ -147,6 +155,7 @@ class Output:
             console.warn(warning)
         if not report.succeeded:
             raise typer.Exit(NOT_CONVERGED)
+        return answer
 
     def close(self) -> None:
         """End the spinner."""
@@ -176,9 +185,11 @@ class Output:
 
 @dataclass(frozen=True)
 class OutputOptions(Group):
-    """Where the answer of a verb goes: --json, --out and --overwrite."""
+    """Where the answer of a verb goes: --json, --out and --overwrite; terminal: not in Python."""
 
+    no_effect: ClassVar[dict[str, str]] = {"without_out": "overwrite"}
     verb: str
+    terminal: bool = True
     json: Json = False
     out: Annotated[str | None, option("Write files into this folder.", "DIR")] = None
     overwrite: Annotated[
@@ -186,13 +197,6 @@ class OutputOptions(Group):
     ] = False
     figure: str | None = None
     no_pictures: bool = False
-
-    def require_pictures(self, option: str) -> None:
-        """Raise BadInput for an option that needs pictures where none are drawn."""
-        from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
-
-        if self.out is None or self.no_pictures:
-            raise BadInput(f"{option}: needs --out, a folder to draw into, without --no-pictures")
 
     @contextmanager
     def open(
@@ -214,10 +218,9 @@ class OutputOptions(Group):
         from sheetbench.answers.figure_style import parse_figure
         from sheetbench.errors import NoEquilibrium
 
-        startup.end()
+        if self.terminal:
+            startup.end()
         style = parse_figure(self.figure)
-        if self.figure is not None:
-            self.require_pictures("--figure")
         with ExitStack() as stack:
             folder = None
             if scene is not None:
@@ -232,13 +235,14 @@ class OutputOptions(Group):
                 folder = Folder(
                     self.out,
                     self.verb,
-                    command_line(),
+                    command_line(self.verb, self.terminal),
                     about=about,
                     variant=variant,
                     overwrite=self.overwrite,
                 )
             out = stack.enter_context(closing(Output(self, about or {}, folder, style)))
-            stack.enter_context(running(progress=out.progress))
+            if self.terminal:
+                stack.enter_context(running(progress=out.progress))
             try:
                 yield out
             except NoEquilibrium as error:
@@ -249,6 +253,10 @@ class OutputOptions(Group):
 class PictureOptions(OutputOptions):
     """The output of a verb that draws pictures: --figure and --no-pictures besides."""
 
+    no_effect: ClassVar[dict[str, str]] = {
+        "without_out": "overwrite figure animate",
+        "with_no_pictures": "figure animate",
+    }
     figure: Annotated[
         str | None,
         option(

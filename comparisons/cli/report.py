@@ -12,23 +12,24 @@ from comparisons.cli.options import Json, option
 
 def command(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that verbs wrote to with --out.")],
+    *,
     out: Annotated[
-        Path | None, option("The page to write. Default: DIR/report.html.", "FILE", "--out")
+        Path | None, option("Folder of the page, report.html, or FILE.html. Default: DIR.", "DIR")
     ] = None,
-    show: Annotated[bool, option("Open the page in the browser.", None, "--open")] = False,
+    open_: Annotated[bool, option("Open the page in the browser.")] = False,
     json: Json = False,
-) -> None:
-    """Write one HTML file of the studies in a folder and those below it, to read in any browser.
+) -> Path:
+    """Write one HTML file of what a folder holds.
 
-    A study is what a verb wrote with --out, as its manifest says.
-
-    The page has sheets to turn, tables to sort, figures, notes and manifests, and needs no network.
+    The folder and those below it are read; a study is what a verb wrote with --out, as its manifest says. The
+    page has sheets to turn, tables to sort, figures, notes and manifests, and needs no network.
     """
     from webbrowser import open as browse
 
     from comparisons.cli import console
     from comparisons.pages.page import memory_of, page
     from comparisons.pages.studies import read
+    from sheetbench.answers.files import folder as made
     from sheetbench.answers.files import write_text
     from sheetbench.errors import BadInput
 
@@ -37,7 +38,10 @@ def command(
         trouble = f"'{folder}': no verb has written here with --out."
         raise BadInput(" ".join([trouble, *contents.troubles[:1]]))
     text = page(contents, folder.resolve().name)
-    target = folder / "report.html" if out is None else out
+    if out is None or out.suffix != ".html":
+        target = (folder if out is None else made(out)) / "report.html"
+    else:
+        target = out
     write_text(target, text)
     size = target.stat().st_size
     troubles = [*contents.troubles, *(trouble for study in contents.studies for trouble in study.troubles)]
@@ -50,7 +54,8 @@ def command(
     else:
         many = len(contents.studies)
         console.note(f"{many} {'study' if many == 1 else 'studies'} in {target}, {memory_of(size)}")
-    if show and not browse(target.resolve().as_uri()):
+    if open_ and not browse(target.resolve().as_uri()):
         console.warn("There is no browser here: open the page where there is one.")
     for trouble in troubles:
         console.warn(trouble)
+    return target

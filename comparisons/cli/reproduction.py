@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from comparisons.cli.options import Elements, option
 from comparisons.cli.output import PictureOptions
@@ -17,7 +17,7 @@ def command(
     elements: Elements = str(ELEMENTS),
     *,
     output: PictureOptions,
-) -> None:
+) -> Any:
     """Reproduce Habibi et al.'s study from its published inputs: errors, both tests, the settling run.
 
     With which sheets come nearest to the published tables, and what in them no sheet can have.
@@ -33,4 +33,4 @@ def command(
         reproduction = reproduce(parts, elements=parse_elements(elements), progress=out.progress)
         for name in reproduction.folders:
             out.reserve(name)
-        out.show(reproduction)
+        return out.show(reproduction)

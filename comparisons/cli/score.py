@@ -1,42 +1,54 @@
-"""`sheetbench score ANSWERS.csv`: somebody's answers against the reference set."""
+"""`sheetbench score [ANSWERS.csv]`: the reference set, and somebody's answers against it."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from comparisons.cli.options import option
 from comparisons.cli.output import PictureOptions
+from comparisons.cli.verb import no_effect
 
 
+@no_effect(without_answers="case")
 def command(
     answers: Annotated[
-        Path, typer.Argument(metavar="ANSWERS", help="CSV: case,probe[,time],ux,uy,uz[,seconds] in m, s.")
-    ],
+        Path | None,
+        typer.Argument(
+            metavar="[ANSWERS]",
+            help="CSV: case,probe[,time],ux,uy,uz[,seconds] in m, s; without it, the set is listed.",
+        ),
+    ] = None,
+    *,
     suite: Annotated[
         str | None,
         option(
-            "The suite answered: statics, motion, modes or curves. Default: by the file's header and cases.",
+            "The suite answered or listed: statics, motion, modes or curves. Default: by the header and "
+            "cases of ANSWERS; all are listed.",
             "NAME",
-            "--suite",
         ),
     ] = None,
     case: Annotated[list[str] | None, option("Only this case; may be repeated.", "NAME")] = None,
-    *,
     output: PictureOptions,
-) -> None:
-    """Score answers to the reference set: errors, what is wrong with them, the place beside other models.
+) -> Any:
+    """List the reference set, or score somebody's answers to it.
 
-    `sheetbench suite --out DIR` writes the scenes and a form to fill in; cases left empty are left out. Exit
-    status 3 where units, signs or probes are mistaken.
+    Without ANSWERS list the set: scenes with converged values, error bars, and why each is in it; --out
+    writes its scenes, its values as CSV and JSON (CC-BY-4.0), and a form to fill in, where cases left empty
+    are left out. Of ANSWERS: errors, likely mistakes (units, signs, swapped probes), rank. Exit status 3
+    where units, signs or probes are mistaken.
     """
     from comparisons.scoring.cases import SUITES
     from comparisons.scoring.score import score
+    from comparisons.scoring.suite import Suite
     from sheetbench.errors import require_choice
 
     if suite is not None:
         require_choice("--suite", suite, SUITES)
+    if answers is None:
+        with output.open(variant={"--suite": suite}) as out:
+            return out.show(Suite(suite))
     with output.open(variant={"--suite": suite, "--case": sorted(case) if case else None}) as out:
-        out.show(score(answers, suite, case or ()))
+        return out.show(score(answers, suite, case or ()))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from comparisons.cli.options import Export, Large, LatticeOptions, Scene, option
 from comparisons.cli.output import PictureOptions
@@ -14,8 +14,9 @@ FRAMES = 100
 
 def command(
     scene: Scene,
-    lattice: LatticeOptions,
     duration: Annotated[float, option("How long to simulate.", "S", unit="s")] = 1.0,
+    *,
+    lattice: LatticeOptions,
     step: Annotated[
         float | None,
         option("Largest time step. Default: from the stability limit or the error.", "S", unit="s"),
@@ -41,26 +42,27 @@ def command(
     animate: Annotated[bool, option("Also draw an animation (with --out).")] = False,
     export: Export = None,
     large: Large = False,
-    *,
     output: PictureOptions,
-) -> None:
-    """Simulate the lattice from rest. With --out the run streams to a folder; the same command resumes it."""
+) -> Any:
+    """Move the lattice from rest; with --out it streams and resumes.
+
+    Gravity and loads are on at t = 0. With --out the same command resumes a run.
+    """
     from comparisons.models.resolve import resolve
     from comparisons.models.solve import simulate
     from comparisons.motion.answer import Simulation
     from comparisons.motion.history import read_measured, require_within
     from comparisons.report.work import Pace, Work
-    from sheetbench import scenes
+    from sheetbench.scenes import scene_of
 
-    loaded = scenes.load(scene)
-    if animate:
-        output.require_pictures("--animate")
+    loaded = scene_of(scene)
     truth = {}
     if measured is not None:
         truth = read_measured(measured, list(loaded.probes))
         require_within(truth, duration, measured)
     model = resolve(loaded, lattice.spec, "motion")
-    run = {"--integrator": integrator, **lattice.given(), "--step": step, "--every": every, "--error": error}
+    run = {"--integrator": integrator, "--step": step, "--every": every, "--error": error}
+    run |= {f"--{name}": value for name, value in lattice.spec.settings.items()}
     chosen = {} if error is None else {"error": error}
     with output.open(scene=loaded, variant=run, alone=True) as out:
         pace = Pace(duration)
@@ -83,4 +85,4 @@ def command(
         )
         out.reserve("frames/")
         out.export(export, loaded, model.springs)
-        out.show(Simulation(history, loaded, truth, animate))
+        return out.show(Simulation(**vars(history), scene=loaded, measured=truth, animate=animate))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from comparisons.cli.options import ClusterOptions, Large, LatticeOptions, Scene, option
 from comparisons.cli.output import PictureOptions
@@ -12,6 +12,7 @@ from sheetbench.choices import REFERENCE, REFERENCES, listed
 def command(
     scene: Scene,
     lattice: LatticeOptions,
+    *,
     vary: Annotated[
         list[str] | None,
         option(
@@ -22,11 +23,10 @@ def command(
     reference: Annotated[str, option(f"What errors are against: {listed(REFERENCES)}.", "MODEL")] = REFERENCE,
     elements: Annotated[int, option("Elements of the references along the shorter side.", "N", min=1)] = 12,
     large: Large = False,
-    *,
     campaign: ClusterOptions,
     output: PictureOptions,
-) -> None:
-    """Map the extremes of a scene's sheet: where each model holds, degrades, refuses or fails.
+) -> Any:
+    """Map where each model holds, degrades, refuses or fails.
 
     Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit
     integrators the largest stable step is measured. With --out an interrupted run is resumed.
@@ -34,11 +34,11 @@ def command(
     from comparisons.stability.extremes import VARIED, stability
     from sheetbench.answers.figure_style import parse_figure
     from sheetbench.errors import BadInput
-    from sheetbench.scenes import load
+    from sheetbench.scenes import scene_of
 
     if parse_figure(output.figure).narrow:
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
-    loaded = load(scene)
+    loaded = scene_of(scene)
     with output.open(scene=loaded) as out:
         with out.campaign(campaign) as run:
             maps = stability(
@@ -49,4 +49,4 @@ def command(
                 reference=reference,
                 elements=elements,
             )
-        out.show(maps)
+        return out.show(maps)

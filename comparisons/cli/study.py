@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Annotated, Any
 
 import typer
@@ -28,29 +29,25 @@ def command(
     ] = None,
     no_pictures: NoPictures = False,
 ) -> None:
-    """Run a study of the models; without NAME, list those that are installed."""
+    """Run a study: reproduction, and in a checkout the laboratory's.
+
+    Without NAME the studies that are installed are listed.
+    """
     from comparisons.cli import console
     from sheetbench.answers.table import Column, Table
 
     studies = _studies()
-    if name in (None, *HELP):
+    if name in HELP:
         print(context.get_help())
+    if name in (None, *HELP):
         columns = (Column("study"), Column("about", prose=True))
         console.show(Table("Studies", columns, tuple(studies.items())))
         return
     from typer.main import get_command
 
     from comparisons.cli.verb import as_verb
-    from sheetbench.errors import BadInput, require_choice
 
-    if str(name) not in studies and not _in_checkout():
-        raise BadInput(
-            f"study {name}: choose from {', '.join(studies)}; others need a clone of the repository: run "
-            "'make install' there, then .venv/bin/sheetbench study NAME"
-        )
-    require_choice("study", str(name), studies)
-    own = f"{LABORATORY}.{str(name).replace('-', '_')}.command"
-    module = import_module(f"comparisons.cli.{name}" if name in INSTALLED else own)
+    module = module_of(str(name))
     markup = getattr(context.find_root().command, "rich_markup_mode", None)  # as wide as the terminal is
     app = typer.Typer(rich_markup_mode=markup, context_settings={"help_option_names": list(HELP)})
     app.command(name)(as_verb(str(name), module.command))
@@ -59,6 +56,21 @@ def command(
     status = main(args=given, prog_name=f"sheetbench study {name}", standalone_mode=False)
     if status:
         raise typer.Exit(status)
+
+
+def module_of(name: str) -> ModuleType:
+    """Return the module whose `command` is the study's. Raises BadInput for a study that is not here."""
+    from sheetbench.errors import BadInput, require_choice
+
+    studies = _studies()
+    if name not in studies and not _in_checkout():
+        raise BadInput(
+            f"study {name}: choose from {', '.join(studies)}; others need a clone of the repository: run "
+            "'make install' there, then .venv/bin/sheetbench study NAME"
+        )
+    require_choice("study", name, studies)
+    own = f"{LABORATORY}.{name.replace('-', '_')}.command"
+    return import_module(f"comparisons.cli.{name}" if name in INSTALLED else own)
 
 
 def _in_checkout() -> bool:

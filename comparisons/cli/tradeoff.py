@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any
 
 from comparisons.cli.options import ClusterOptions, Large, Models, Scene, SpringOptions, Symmetry, option
 from comparisons.cli.output import PictureOptions
+from comparisons.cli.verb import no_effect
 from comparisons.tradeoff.usual import GRIDS, MESHES, MOVING, PAIRS, REPEATS, SPRINGS
 from sheetbench.choices import CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
@@ -13,12 +15,38 @@ from sheetbench.choices import CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 def _elements(name: str, what: str) -> Any:
     """The option of a reference's meshes."""
     usual = f"default: {MESHES[name]}; {MOVING[name]} with --duration"
-    return option(f"Elements of the {what} along the shorter side, or NxM; {usual}.", "ELEMENTS")
+    text = f"Elements of the {what} along the shorter side, or NxM; {usual}."
+    return option(text, "ELEMENTS", listed=True)
 
 
+OF_ROWS = "lumped_pair model symmetry elements repeats duration integrator workers scheduler wait retry"
+
+
+@no_effect(
+    with_tolerance=OF_ROWS,
+    with_budget=OF_ROWS,
+    with_duration="symmetry lumped_pair repeats",
+    without_duration="integrator",
+)
 def command(
     scene: Scene,
     lattice: SpringOptions,
+    *,
+    tolerance: Annotated[
+        float | None,
+        option(
+            "Find the cheapest model with no larger error, as 0.01 or 1%, by the few solves that this takes. "
+            "0.01 with --budget alone. Empty lists leave models out.",
+            "FRACTION",
+            unit="",
+        ),
+    ] = None,
+    budget: Annotated[
+        float | None,
+        option(
+            "The most accurate model that is solved in this time, set-up not included.", "SECONDS", unit="s"
+        ),
+    ] = None,
     grid: Annotated[
         str | None,
         option(
@@ -27,6 +55,7 @@ def command(
             "GRIDS",
             "--lumped",
             "--grid",
+            listed=True,
         ),
     ] = None,
     lumped_pair: Annotated[
@@ -35,6 +64,7 @@ def command(
             "Pairs of grids, the coarser first, and one answer extrapolated from both, with its error "
             f"bar. Default: {PAIRS}, none where grids or other springs are listed.",
             "PAIRS",
+            listed=True,
         ),
     ] = None,
     calibration: Annotated[
@@ -43,6 +73,7 @@ def command(
             f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. Default: {SPRINGS}; "
             "with --duration that of `simulate`.",
             "NAMES",
+            listed=True,
         ),
     ] = None,
     plate: Annotated[str | None, _elements("plate", "linear plate")] = None,
@@ -73,19 +104,39 @@ def command(
     ] = None,
     integrator: Annotated[
         str | None,
-        option("With --duration: the integrators.", "NAMES", show_default=", ".join(sorted(INTEGRATORS))),
+        option(
+            "With --duration: the integrators.",
+            "NAMES",
+            listed=True,
+            show_default=", ".join(sorted(INTEGRATORS)),
+        ),
     ] = None,
     large: Large = False,
-    *,
     campaign: ClusterOptions,
     output: PictureOptions,
-) -> None:
-    """Measure what each model of a scene gets wrong and what it costs; an interrupted run can be resumed.
+) -> Any:
+    """Trade error against time over models, or choose the cheapest.
 
-    An empty list leaves a model out: --solid "".
+    What each model gets wrong and what it costs; run it again to resume. An empty list leaves a model out:
+    --solid "". With --tolerance or --budget it names one model and the command that solves it; exit status 3
+    where none meets the tolerance.
     """
     from comparisons.tradeoff.choices import trade
 
+    if tolerance is not None or budget is not None:
+        from comparisons.advice.advisor import advise
+        from comparisons.comparison.comparison import load_static
+        from sheetbench.errors import require_effect
+
+        lists = {"lumped": grid, "plate": plate, "shell": shell, "solid": solid}
+        require_effect(
+            "with --tolerance or --budget", {f"--{name}": of or None for name, of in lists.items()}
+        )
+        models = [name for name, of in lists.items() if of is None and name != "solid"]
+        loaded = load_static(scene)
+        with output.open(scene=loaded, variant={"--tolerance": True}) as out:
+            found = advise(loaded, tolerance, budget, lattice.spec, models=models, calibration=calibration)
+            return out.show(replace(found, called=scene) if isinstance(scene, str) else found)
     loaded, measure = trade(
         scene,
         lattice.spec,
@@ -103,5 +154,5 @@ def command(
     )
     with output.open(scene=loaded) as out:
         with out.campaign(campaign) as run:
-            found = measure(**run)
-        out.show(found)
+            traded = measure(**run)
+        return out.show(traded)

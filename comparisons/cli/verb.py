@@ -1,62 +1,142 @@
-"""A verb from its command: groups of options in place of one parameter, --quiet, what an interrupt leaves."""
+"""A verb from its function: the signature makes the command, and the function of `import sheetbench`.
+
+Options have the function's names and defaults, `--layer-distance` in the terminal and `layer_distance` in
+Python; a parameter of a group's type stands for the group's options. What an option does only with or without
+another is declared by `no_effect` and refused in one way for all.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import wraps
-from inspect import Parameter, isclass, signature
-from typing import Annotated, Any
+import re
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import nullcontext, redirect_stdout
+from functools import cache, wraps
+from inspect import Parameter, Signature, cleandoc, isclass, signature
+from io import StringIO
+from pathlib import Path
+from typing import Annotated, Any, get_args, get_origin
 
 import typer
 
 from comparisons.cli import interruption
-from comparisons.cli.options import CampaignOptions, Group, option
+from comparisons.cli.options import CampaignOptions, Group, LatticeGroup, option
 from comparisons.cli.output import OutputOptions
 
 Quiet = Annotated[
     bool, option("No progress and no notes on standard error; results, warnings and errors stay.")
 ]
 NoPicturesAnyway = Annotated[bool, typer.Option(hidden=True)]  # of verbs that draw none, for scripts
+TERMINAL = ("json",)  # options of the terminal alone
+OPTIONS = re.compile(r"(?:^|(?<=with )|(?<=without )|(?<=missing )|(?<=, ))--([a-z][a-z-]*)")  # in a refusal
+Command = Callable[..., Any]
 
 
-def as_verb(name: str, command: Callable[..., None]) -> Callable[..., None]:
+def no_effect(**rules: str) -> Callable[[Command], Command]:
+    """Declare options without effect: with_duration="symmetry branch", those that have none beside
+    --duration, without_duration="every", those that have none but with it."""
+
+    def declare(command: Command) -> Command:
+        command.no_effect = rules  # type: ignore[attr-defined]
+        return command
+
+    return declare
+
+
+def require_effects(rules: Mapping[str, str], given: Mapping[str, Any], shown: Callable[[str], str]) -> None:
+    """Raise BadInput for the first option that is given and has no effect with the others."""
+    from sheetbench.errors import require_effect  # with numpy and pydantic: help must not wait for them
+
+    for rule, names in rules.items():
+        how, _, other = rule.partition("_")
+        if (other in given) == (how == "with"):
+            require_effect(f"{how} {shown(other)}", {shown(name): name in given for name in names.split()})
+
+
+class _Declared:
+    """A command's parameters, those of its groups one by one."""
+
+    def __init__(self, command: Command) -> None:
+        self.own = signature(command, eval_str=True)
+        self.groups: dict[str, type[Group]] = {
+            name: one.annotation
+            for name, one in self.own.parameters.items()
+            if isclass(one.annotation) and issubclass(one.annotation, Group)
+        }
+        self.rules = dict(getattr(command, "no_effect", {}))
+        for kind in self.groups.values():
+            self.rules |= {
+                rule: f"{self.rules.get(rule, '')} {names}" for rule, names in kind.no_effect.items()
+            }
+
+    def each(self) -> Iterable[Parameter]:
+        for name, one in self.own.parameters.items():
+            yield from self.groups[name].parameters() if name in self.groups else [one]
+
+    def given(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the values that are not the parameters' defaults."""
+        usual = {one.name: one.default for one in self.each()}
+        return {
+            name: value
+            for name, value in values.items()
+            if name in usual
+            and not (value is None or value == [] or value == () or _same(value, usual[name]))
+        }
+
+    def grouped(self, values: dict[str, Any], **of_output: Any) -> dict[str, Any]:
+        """Return the values with those of each group in one."""
+        values = dict(values)
+        for group, kind in self.groups.items():
+            more = of_output if issubclass(kind, OutputOptions) else {}
+            if issubclass(kind, LatticeGroup):
+                more = {"lattice": values.pop(group, None)}
+            own = {one.name: values.pop(one.name) for one in kind.parameters() if one.name in values}
+            values[group] = kind(**more, **own)
+        return values
+
+
+def _same(value: Any, usual: Any) -> bool:
+    return type(value) is type(usual) and bool(value == usual)
+
+
+def _flag(name: str) -> str:
+    """Return a parameter's name as an option: an argument's in capitals, for_ as --for."""
+    return name if name.isupper() else f"--{name.strip('_').replace('_', '-')}"
+
+
+def as_verb(name: str, command: Command) -> Callable[..., None]:
     """Return the command as typer reads it, with the options of its groups and those of every verb.
 
     A flag is `--name` alone, unless it says more. An Impossible scene is refused with the name of its file.
     """
-    own = signature(command, eval_str=True)
-    groups: dict[str, type[Group]] = {}
-    parameters: list[Parameter] = []
-    for parameter in own.parameters.values():
-        if isclass(parameter.annotation) and issubclass(parameter.annotation, Group):
-            groups[parameter.name] = parameter.annotation
-            parameters += parameter.annotation.parameters()
-        else:
-            parameters.append(parameter.replace(kind=Parameter.KEYWORD_ONLY))
-    of_campaign = any(issubclass(kind, CampaignOptions) for kind in groups.values())
+    declared = _Declared(command)
+    parameters = [one.replace(kind=Parameter.KEYWORD_ONLY) for one in declared.each()]
     draws = any(parameter.name == "no_pictures" for parameter in parameters)
+    of_campaign = any(issubclass(kind, CampaignOptions) for kind in declared.groups.values())
     added = {"quiet": Quiet} if draws else {"no_pictures": NoPicturesAnyway, "quiet": Quiet}
     for flag, annotation in added.items():
         parameters.append(Parameter(flag, Parameter.KEYWORD_ONLY, default=False, annotation=annotation))
     for parameter in parameters:
-        _name_flag(parameter)
+        _name_option(parameter)
+    arguments = {one.name for one in parameters if _info(one.annotation, typer.models.ArgumentInfo)}
+
+    def shown(option: str) -> str:
+        return option.upper() if option in arguments else _flag(option)
 
     @wraps(command)
     def run(*, quiet: bool, **values: Any) -> None:
         resumed = of_campaign or values.get("duration") is not None
         interruption.promise(name, values.get("out"), resumed)
+        require_effects(declared.rules, declared.given(values), shown)
         plain = {} if draws else {"no_pictures": values.pop("no_pictures")}
-        for group, kind in groups.items():
-            verb = {"verb": name, **plain} if issubclass(kind, OutputOptions) else {}
-            values[group] = kind(**verb, **{one.name: values.pop(one.name) for one in kind.parameters()})
+        grouped = declared.grouped(values, verb=name, **plain)
         try:
             if not quiet:
-                command(**values)
+                command(**grouped)
                 return
             from comparisons.cli import console  # with rich: help must not wait for it
 
             with console.quietly():
-                command(**values)
+                command(**grouped)
         except ValueError as error:
             from sheetbench.errors import Impossible, SceneError
 
@@ -66,13 +146,128 @@ def as_verb(name: str, command: Callable[..., None]) -> Callable[..., None]:
 
     paragraphs = (command.__doc__ or "").split("\n\n")  # whose lines a help page breaks itself
     run.__doc__ = "\n\n".join(" ".join(one.split()) for one in paragraphs)
-    run.__signature__ = own.replace(parameters=parameters)  # type: ignore[attr-defined]
+    run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return run
 
 
-def _name_flag(parameter: Parameter) -> None:
-    """Name a flag without a name of its own, to which typer would add `--no-name`."""
-    for one in getattr(parameter.annotation, "__metadata__", ()):
-        if parameter.annotation.__origin__ is bool and one.default is ...:
-            one.param_decls = (f"--{parameter.name.replace('_', '-')}",)
+def _info(annotation: Any, kind: type = typer.models.ParameterInfo) -> Any:
+    """Return what typer knows of a parameter, None where that is nothing."""
+    return next((one for one in getattr(annotation, "__metadata__", ()) if isinstance(one, kind)), None)
+
+
+def _name_option(parameter: Parameter) -> None:
+    """Name a flag without a name of its own, to which typer would add `--no-name`, and an option whose
+    parameter ends in "_"."""
+    info = _info(parameter.annotation, typer.models.OptionInfo)
+    named = info is None or info.default is not ... or info.param_decls
+    if not named and (parameter.annotation.__origin__ is bool or parameter.name.endswith("_")):
+        info.param_decls = (_flag(parameter.name),)
+
+
+@cache
+def as_function(name: str, command: Command) -> Callable[..., Any]:
+    """Return the verb as a function of `import sheetbench`, which returns what the command shows.
+
+    It takes what the command takes: a Scene or a Lattice as well as their names, a list where the command's
+    option is repeated or has commas, a number as well as a quantity in words; `out` and what goes with it for
+    files; `progress`, called with what is being done. Raises BadInput in Python's names.
+    """
+    declared = _Declared(command)
+    positional: list[Parameter] = []
+    flat: list[Parameter] = []
+    for one in declared.own.parameters.values():
+        if one.name in TERMINAL:
+            continue
+        if one.name not in declared.groups:
+            (flat if one.kind is Parameter.KEYWORD_ONLY else positional).append(_plain(one))
+            continue
+        kind = declared.groups[one.name]
+        if issubclass(kind, LatticeGroup):
+            place = one.replace(default=None, annotation="Lattice | None")
+            (flat if one.kind is Parameter.KEYWORD_ONLY else positional).append(place)
+        flat += [_plain(inner) for inner in kind.parameters() if inner.name not in TERMINAL]
+    flat = [one.replace(kind=Parameter.KEYWORD_ONLY) for one in flat]
+    has_output = any(issubclass(kind, OutputOptions) for kind in declared.groups.values())
+    if has_output:
+        flat.append(
+            Parameter("progress", Parameter.KEYWORD_ONLY, default=None, annotation="Callable[[Any], None]")
+        )
+    own = Signature([*positional, *sorted(flat, key=lambda one: one.default is not Parameter.empty)])
+    converted = {one.name: _conversion(one) for one in declared.each()}
+
+    @wraps(command)
+    def run(*values: Any, **named: Any) -> Any:
+        from comparisons.cli.keywords import bound
+        from comparisons.models.context import running
+        from sheetbench.errors import BadInput
+
+        found = bound(name, own, values, named)
+        found = {key: converted.get(key, _as_it_is)(value) for key, value in found.items()}
+        held = {"progress": found.pop("progress", None), "large": found.get("large", False)}
+        try:
+            require_effects(declared.rules, declared.given(found), lambda option: option)
+            of_output = {"verb": name, "terminal": False} if has_output else {}
+            said = nullcontext() if has_output else redirect_stdout(StringIO())
+            with running(**{key: value for key, value in held.items() if value}), said:
+                return command(**declared.grouped(found, **of_output))
+        except BadInput as error:
+            error.args = (OPTIONS.sub(_in_python, str(error)),)
+            raise
+
+    run.__signature__ = own  # type: ignore[attr-defined]
+    run.__doc__ = "\n".join([cleandoc(command.__doc__ or ""), "", *_explained(declared)])
+    run.__annotations__ = {one.name: one.annotation for one in own.parameters.values()}
+    return run
+
+
+def _as_it_is(value: Any) -> Any:
+    return value
+
+
+def _in_python(option: re.Match[str]) -> str:
+    name = option[1].replace("-", "_")
+    return f"{name}_" if name in ("for", "open") else name
+
+
+def _plain(parameter: Parameter) -> Parameter:
+    """Return a parameter without what typer knows of it."""
+    annotation = parameter.annotation
+    if get_origin(annotation) is Annotated:
+        annotation = get_args(annotation)[0]
+    return parameter.replace(annotation=annotation)
+
+
+def _conversion(parameter: Parameter) -> Callable[[Any], Any]:
+    """Return what makes of an argument in Python what the terminal makes of an option's text."""
+    kind = str(_plain(parameter).annotation)
+    info = _info(parameter.annotation)
+    unit = getattr(info, "unit", None)
+
+    def convert(value: Any) -> Any:
+        if value is None:
+            return None
+        if unit is not None:
+            from sheetbench.scenes.units import amount
+
+            return amount(parameter.name, value, unit)
+        if getattr(info, "listed", False) and not isinstance(value, str):
+            each = value if isinstance(value, list | tuple) else [value]
+            return ",".join("x".join(map(str, n)) if isinstance(n, list | tuple) else str(n) for n in each)
+        if kind.startswith("list["):
+            each = value if isinstance(value, list | tuple) else [value]
+            return [str(one) if isinstance(one, Path) else one for one in each]
+        if "Path" in kind and isinstance(value, str):
+            return Path(value)
+        return value
+
+    return convert
+
+
+def _explained(declared: _Declared) -> Iterable[str]:
+    """Return a line for every parameter with a help text."""
+    for one in declared.each():
+        info = _info(one.annotation)
+        if info is not None and info.help and one.name not in TERMINAL:
+            text = " ".join(info.help.replace("\\[", "[").split())
+            yield f"{one.name}: {re.sub(r'--([a-z][a-z-]*)', _in_python, text)}"

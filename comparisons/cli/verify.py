@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from comparisons.cli.options import option
 from comparisons.cli.output import PictureOptions
@@ -14,14 +14,16 @@ def command(
     ] = None,
     *,
     output: PictureOptions,
-) -> None:
-    """Check the references against published values, one row each: exit status 3 unless all pass.
+) -> Any:
+    """Check the references against published values.
 
-    The sweeps locking-plate, locking-shell and locking-solid have a picture (with --out), strain-laws a table
-    of what the laws change.
+    One row each: exit status 3 unless all pass. The sweeps locking-plate, locking-shell and locking-solid
+    have a picture (with --out), strain-laws a table of what the laws change.
     """
     from comparisons.verification.answer import Verification
     from fem_reference.verification import run
 
     with output.open(variant={"--case": sorted(case) if case else None}) as out:
-        out.show(Verification(list(run(case, starting=lambda name: out.progress(f"verifying {name} …")))))
+        return out.show(
+            Verification(list(run(case, starting=lambda name: out.progress(f"verifying {name} …"))))
+        )

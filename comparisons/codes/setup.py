@@ -17,21 +17,31 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.cells.cell import Cell
-from comparisons.cells.codes import CODES, Code
-from comparisons.cells.coefficients import best_hinge, limit_error, nearest
-from comparisons.cells.homogenise import moduli_of
-from comparisons.cells.meshes import mesh as cell_of_triangles
-from comparisons.cells.parameters import Parameter, parameters_of, undamped
+from comparisons.codes.cell import Cell
+from comparisons.codes.cell_meshes import mesh as cell_of_triangles
+from comparisons.codes.coefficients import best_hinge, limit_error, nearest
 from comparisons.codes.files import OWN_MASSES, WRITERS, Problem
-from comparisons.codes.mesh import SheetMesh, refusal, sheet_mesh, with_layers
+from comparisons.codes.homogenise import moduli_of
+from comparisons.codes.parameters import Parameter, parameters_of, undamped
+from comparisons.codes.sheet_mesh import SheetMesh, refusal, sheet_mesh, with_layers
 from comparisons.codes.springs import hinged_springs, layered_springs, tetrahedral_cell, triangular_cell
+from comparisons.codes.table import CODES, Code
+from comparisons.models.grids import GridLike
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table, number
-from sheetbench.errors import BadInput, NoEquilibrium, require_choice
-from sheetbench.scenes import EDGES, AnyScene, Scene, SceneError, require_static, require_uniform, scene_of
+from sheetbench.errors import BadInput, NoEquilibrium, require_choice, require_effect
+from sheetbench.scenes import (
+    EDGES,
+    AnyScene,
+    Material,
+    Scene,
+    SceneError,
+    require_static,
+    require_uniform,
+    scene_of,
+)
 from sheetbench.scenes.patches import require_flat_at_rest
 from sheetbench.scenes.words import sheet_in_words
 
@@ -112,8 +122,8 @@ class CodeSetup(Answer):
 
     def notes(self) -> list[str]:
         chosen = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
-        notes = [f"Coefficients of hinges and springs: those that {chosen}."] if self.elastic else []
-        if self.elastic and self.limit_error is not None:
+        notes = [f"Coefficients of hinges and springs: those that {chosen}."]
+        if self.limit_error is not None:
             notes.append(
                 "Error of an infinitely fine mesh with them in this scene: "
                 f"{100 * self.limit_error:.1f} % of the largest displacement."
@@ -127,8 +137,7 @@ class CodeSetup(Answer):
             notes.append(f"The scene's damping is left out: {left}.")
         notes.append(f"Limits: {self.code.cannot}.")
         notes.append(f"Source: {self.code.source}.")
-        tested = "by running it" if self.code.runs else "by reading the files back; not run itself"
-        notes.append(f"{self.code.title} ({self.code.licence}): tested {tested}.")
+        notes.append(f"{self.code.title} ({self.code.licence}): tested by running it.")
         if why := self._refused():
             notes.append(f"No files: {why}.")
         elif coarse := self._too_coarse():
@@ -169,11 +178,6 @@ class CodeSetup(Answer):
             f"{1e3 * side:.3g} mm turn over at a shear of {borne:.2g} N/m, and held edges carry {load:.2g} "
             f"N/m on average; the sheet then hangs too low. Take --grid {enough} or more."
         )
-
-    @property
-    def elastic(self) -> bool:
-        """Whether the code's parameters are of a mesh, not of the sheet alone."""
-        return self.code.name != "openusd"
 
     def document(self) -> dict[str, Any]:
         return {
@@ -258,13 +262,19 @@ def setup(
     return CodeSetup(scene, row, cell, squares, found, off, best, dict(given or {}), named, missing)
 
 
-def squares_of(grid: str | None) -> int:
+def require_damper(code: str, material: Material, options: Mapping[str, object]) -> None:
+    """Raise BadInput where damping is asked for by these options, of which the code has nothing."""
+    if why := undamped(CODES[code], material):
+        require_effect(f"with --for {code}: {why}", options)
+
+
+def squares_of(grid: GridLike) -> int:
     """The squares of vertices requested as a grid is, 9 for 8 squares. Raises BadInput for another form."""
     if grid is None:
         return SQUARES
-    if not grid.isdigit():
+    if not str(grid).isdigit():
         raise BadInput(f"--grid {grid}: with --for, vertices along the shorter side, as 9")
-    return int(grid) - 1
+    return int(str(grid)) - 1
 
 
 def _at_rest(scene: Scene) -> bool:

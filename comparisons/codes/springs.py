@@ -12,10 +12,10 @@ from itertools import combinations
 import numpy as np
 from scipy.optimize import brentq
 
-from comparisons.cells.cell import Cell, Place
-from comparisons.cells.coefficients import TURNED, least_error, nearest
-from comparisons.cells.homogenise import Moduli, moduli_of
-from comparisons.cells.meshes import mesh
+from comparisons.codes.cell import Cell, Place
+from comparisons.codes.cell_meshes import mesh
+from comparisons.codes.coefficients import TURNED, least_error, nearest
+from comparisons.codes.homogenise import Moduli, moduli_of
 from fem_reference.surface.materials import section_of
 from sheetbench.scenes import Material, Scene
 

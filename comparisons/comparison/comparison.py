@@ -25,7 +25,7 @@ from comparisons.runs.load import average
 from comparisons.runs.load import warnings as doubts
 from comparisons.sweep.differences import error
 from sheetbench.choices import REFERENCE
-from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static
+from sheetbench.scenes import AnyScene, Scene, SceneError, Solution, Status, require_static, scene_of
 
 COMPANION = "lumped-uniform"
 
@@ -115,12 +115,14 @@ def compare(
     )
 
 
-def load_static(scene: str | Path) -> Scene:
-    """Return the scene of a catalogue name or file, refused by that name if its supports leave it free to
-    move."""
-    loaded = load(scene)
+def load_static(scene: AnyScene) -> Scene:
+    """Return the scene, that of a catalogue name or file refused by that name if its supports leave it free
+    to move."""
+    loaded = scene_of(scene)
     try:
         require_static(loaded)
     except SceneError as error:
+        if isinstance(scene, Scene):
+            raise
         raise SceneError(f"{scene}: {error}") from None
     return loaded

@@ -15,11 +15,14 @@ GridLike = int | Sequence[int] | str | None
 Elements = int | tuple[int, int]
 
 
-def parse_elements(text: str, option: str = "--elements") -> Elements:
-    """Return the elements of `N`, along the shorter side and near-square, or `NxM` along x and y.
+def parse_elements(text: Elements | str, option: str = "--elements") -> Elements:
+    """Return the elements of `N`, along the shorter side and near-square, or `NxM` along x and y, or as they
+    are where they are numbers.
 
     Raises BadInput naming the option.
     """
+    if not isinstance(text, str):
+        return text
     numbers = _numbers(text)
     if len(numbers) not in (1, 2):
         raise BadInput(

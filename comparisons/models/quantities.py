@@ -8,15 +8,21 @@ from pydantic import BaseModel, ValidationError
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes.refusals import in_one_line
-from sheetbench.scenes.units import quantity
+from sheetbench.scenes.units import amount, quantity
 
 Quantities = TypeVar("Quantities", bound=BaseModel)
 
 
-def sides(text: str | None) -> dict[str, float]:
-    """Sides along x and y [m] of `0.188` or `0.188x0.3`; none of no text."""
+def sides(text: Any) -> dict[str, float]:
+    """Sides along x and y [m] of `0.188` or `0.188x0.3`, or of one or two numbers; none of None."""
     if text is None:
         return {}
+    if not isinstance(text, str):
+        both = text if isinstance(text, list | tuple) else [text]
+        return {
+            f"length_{axis}": amount("--side", one, "m")
+            for axis, one in zip("xy", (both[0], both[-1]), strict=True)
+        }
     try:
         lengths = [quantity(part, "m") for part in text.replace("×", "x").replace("X", "x").split("x")]
     except BadInput as error:

@@ -11,73 +11,67 @@ from typing import Any
 from comparisons.models.grading import choice_notes
 from comparisons.motion.frames import write_frames
 from comparisons.motion.history import left_out
-from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Film, Picture, Write
 from sheetbench.answers.table import Table, quantity
 from sheetbench.scenes import History, Scene
 from sheetbench.scenes.measured_history import Measured
 
 
-@dataclass(frozen=True, repr=False)
-class Simulation(Answer):
+@dataclass(frozen=True, repr=False, eq=False)
+class Simulation(History):
     """A run of a scene; measured: histories by probe; animate: draw it moving."""
 
     file_name = "history"
-    history: History
-    scene: Scene
+    scene: Scene | None = None
     measured: Mapping[str, Measured] = field(default_factory=dict)
     animate: bool = False
 
+    @property
+    def subject(self) -> Scene:
+        """The scene that moves."""
+        assert self.scene is not None
+        return self.scene
+
     def heading(self) -> tuple[str, str, str]:
         """The scene, and how it was run."""
-        run = self.history
-        return self.scene.name, self.scene.title, f"{run.label}, {run.integrator}, {run.steps} steps"
+        scene = self.subject
+        return scene.name, scene.title, f"{self.label}, {self.integrator}, {self.steps} steps"
 
     def document(self) -> dict[str, Any]:
         """The history's, with its errors where it was measured."""
-        run = self.history
-        errors = {name: m.error(run.time, run.probes[name]) for name, m in self.measured.items()}
-        return {**run.document(), **({"measured_errors": errors} if errors else {})}
+        errors = {name: m.error(self.time, self.probes[name]) for name, m in self.measured.items()}
+        return {**super().document(), **({"measured_errors": errors} if errors else {})}
 
-    def tables(self) -> tuple[Table, ...]:
+    def tables(self, measured: Mapping[str, Measured] | None = None) -> tuple[Table, ...]:
         """The history's."""
-        return self.history.tables(self.measured)
+        return super().tables(self.measured if measured is None else measured)
 
-    def figures(self) -> list[Picture]:
+    def figures(self) -> tuple[Picture, ...]:
         """Probes over time, and the sheet moving."""
-        of = (self.history, self.scene.title or self.scene.name, self.measured)
+        of = (self, self.subject.title or self.subject.name, self.measured)
         pictures = [Picture("history", "sheetbench.scenes.history_figure:compose", of)]
         if self.animate:
             formats = ("gif", "mp4") if shutil.which("ffmpeg") else ("gif",)
             film = "comparisons.motion.animation:animate"
-            pictures.append(Film("animation", film, (self.scene, [self.history]), formats=formats))
-        return pictures
+            pictures.append(Film("animation", film, (self.subject, [self]), formats=formats))
+        return tuple(pictures)
 
     def files(self) -> dict[str, Write]:
         """All samples, and the sheet at some moments."""
-        return {**self.history.files(), "frames.pvd": partial(write_frames, history=self.history)}
+        return {**super().files(), "frames.pvd": partial(write_frames, history=self)}
 
     def result(self) -> str:
         """Return the largest displacement of a probe on the way, or why the run ended early."""
-        largest = {name: float(abs(u).max()) for name, u in self.history.probes.items() if len(u)}
+        largest = {name: float(abs(u).max()) for name, u in self.probes.items() if len(u)}
         if not largest or not self.succeeded:
             return super().result()
         probe = max(largest, key=lambda name: largest[name])
-        return f"{probe} moves by up to {quantity(largest[probe], 'm', '.4g')} in {self.history.time[-1]:g} s"
+        return f"{probe} moves by up to {quantity(largest[probe], 'm', '.4g')} in {self.time[-1]:g} s"
 
     def notes(self) -> list[str]:
         """What was chosen, and what the history says."""
-        return [*choice_notes(self.history.settings), *self.history.notes()]
+        return [*choice_notes(self.settings), *super().notes()]
 
     def complaints(self) -> list[str]:
         """Why the run did not reach its end, and what was measured outside it."""
-        return [*self.history.complaints(), *left_out(self.history, self.measured)]
-
-    def choices(self) -> Mapping[str, Any]:
-        """Integrator and settings."""
-        return self.history.choices()
-
-    @property
-    def succeeded(self) -> bool:
-        """Whether the run reached its end."""
-        return self.history.succeeded
+        return [*super().complaints(), *left_out(self, self.measured)]

@@ -25,7 +25,7 @@ say that they are the reference set {version} of sheetbench. The program has a l
 
 
 class Suite(Answer):
-    """The cases of the reference set, or those of one suite: what `sheetbench suite` shows."""
+    """The cases of the reference set, or those of one suite: what `sheetbench score` lists."""
 
     file_name = "suite"
     page_name = "cases"

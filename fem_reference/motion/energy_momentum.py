@@ -14,8 +14,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.motion.generalised_alpha import GeneralisedAlpha, StepFailed
+from fem_reference.motion.generalised_alpha import GeneralisedAlpha
 from fem_reference.motion.moving import Motion
+from sheetbench.numerics.time.method import StepFailed
 
 SOLVED = 1e-13  # last correction, relative to the displacement
 CORRECTIONS = 30
@@ -45,7 +46,6 @@ class EnergyMomentum(GeneralisedAlpha):
             if self._factor is None:
                 stiffness = model.tangent(middle, rate, half_way, found.exerted, 4.0 / h**2, 2.0 / h)
                 self._factor, self._taken = self._solver.factor(stiffness), h
-                self.factorisations += 1
             step = basis @ self._factor.solve_unrefined(-2.0 * (basis.T @ found.exerted))
             length = float(np.abs(model.displacement(step)).max())
             if not np.isfinite(length):

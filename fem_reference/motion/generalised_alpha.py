@@ -1,18 +1,7 @@
-"""Generalised-α with constraints, its step by the error: one integrator for every reference.
+"""Generalised-α of a reference (`sheetbench.numerics.time.rule`), its step by the error.
 
-    M a₁ + g(q₁, v₁, t₁) ⊥ Z(q₁)                             equilibrium at the step's end
-    (1 − αm) a'₁ + αm a'₀ = (1 − αf) a₁ + αf a₀              a': the algorithm's acceleration
-    q₁ = q₀ + h v₀ + h² ((½ − β) a'₀ + β a'₁),   v₁ = v₀ + h ((1 − γ) a'₀ + γ a'₁)
-
-    αm = (2ρ − 1)/(ρ + 1),  αf = ρ/(ρ + 1),  γ = ½ + αf − αm,  β = ¼ (γ + ½)²
-
-ρ is the spectral radius at high frequencies. Chung & Hulbert 1993 in the form of Arnold & Brüls 2007, second
-order with constraints too. a' is the acceleration at t + (αm − αf) h, which gives the local error of q,
-
-    h² (β + ½ (αm − αf) − 1/6) |a'₁ − a'₀|,
-
-and what becomes of a' where h changes: a + (a' − a) h/h_before. Where a history or a motion bends a step ends
-and the next begins with new accelerations; velocities that a motion changes at once pass their impulse on.
+Equilibrium at a step's end is M a₁ + g(q₁, v₁, t₁) ⊥ Z(q₁). Where a motion changes velocities at once a step
+ends, they pass their impulse on, and the next begins with new accelerations.
 
 Behind such a jump dampers slow the shortest waves faster than any step resolves: the rule would answer with
 swings of their strains that fall by ρ a step, and dampers would seem to take many times the energy there is.
@@ -24,12 +13,15 @@ longer lets them double. As Rannacher 1984 (Numer. Math. 43, 309–327) begins C
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fem_reference.motion.moving import Motion, Moving
 from sheetbench.numerics.direct import Factor, SingularMatrixError
+from sheetbench.numerics.time.controller import Controller
+from sheetbench.numerics.time.method import Advance, StepFailed
+from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted
 
 RADIUS = 0.8
 ERROR = 1e-5  # of a step, relative to the largest displacement so far
@@ -43,48 +35,35 @@ SMALLEST = 1e-9  # step, relative to the run
 EULER = 2  # steps behind a jump whose length does not double
 TAKEN = 1e-3  # of the kinetic energy, that the first of them may take
 
-REMEMBERED = (
-    "step", "_first", "_before", "_largest", "_local", "_euler", "factorisations", "rejected", "failed",
-)  # fmt: skip
+REMEMBERED = ("_before", "_largest", "_local", "_euler", "failed")
 
 
-class Rule(NamedTuple):
-    """Coefficients of a step: αm, αf, γ, β, and `old`, that of h² a'₀ in q₁; order: of q's local error."""
+class Sampled(NamedTuple):
+    """Motions at k moments (k,) [s], and the energies (k,) [J] dissipated and put in since a step began."""
 
-    am: float
-    af: float
-    gamma: float
-    beta: float
-    old: float
-    order: int
-
-
-BACKWARD_EULER = Rule(0.0, 0.0, 1.0, 1.0, 0.0, 2)
-
-
-def generalised(radius: float) -> Rule:
-    """Return generalised-α's coefficients of a spectral radius at high frequencies."""
-    am, af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
-    gamma = 0.5 + af - am
-    beta = 0.25 * (gamma + 0.5) ** 2
-    return Rule(am, af, gamma, beta, 0.5 - beta, 3)
-
-
-class StepFailed(ArithmeticError):
-    """A step that did not converge however short."""
+    time: np.ndarray
+    motions: list[Motion]
+    dissipated: np.ndarray
+    work: np.ndarray
 
 
 class GeneralisedAlpha:
     """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried.
 
-    late: the share of its end in the forces that a step balances.
+    late: the share of its end in the forces that a step balances. adapts, span, kinks: as
+    `sheetbench.numerics.time.method` has them; with chains, whose firm stiffnesses make much energy of the
+    small strains that a cubic between the ends of a step leaves, steps end at samples.
     """
+
+    state = Motion
 
     def __init__(self, model: Moving, step: float | None, error: float, first: float, radius: float = RADIUS):
         self._usual = generalised(radius)
         self.late = 1.0 - self._usual.af
-        self._model, self._fixed, self._error = model, step is not None, error
-        self.step = self._first = first if step is None else step
+        self._model, self.adapts, self._error = model, step is None, error
+        self._first = first if step is None else step
+        self._control = Controller(3, 2.0, (0.95, 1.25), self._first)
+        self.span, self.kinks = 1 if model.rods else None, model.kinks
         self._before, self._taken = 0.0, 0.0  # the last step, and the one that factors are of
         self._factor: Factor | None = None
         self._solver = model.solver()
@@ -93,7 +72,7 @@ class GeneralisedAlpha:
             1.0,
         )  # displacement [m], and the last step's error over that allowed
         self._euler = 0  # steps to come by backward Euler
-        self.factorisations = self.rejected = self.failed = 0
+        self.failed = 0
 
     @property
     def _rule(self) -> Rule:
@@ -104,14 +83,57 @@ class GeneralisedAlpha:
         self._factor = None
         self._solver.forget()
 
-    def memory(self) -> dict[str, float]:
-        """What a resumed run needs besides the motion."""
-        return {name: float(getattr(self, name)) for name in REMEMBERED}
+    def settings(self) -> dict[str, Any]:
+        """Return how many steps failed, if any."""
+        return {"failed_steps": self.failed} if self.failed else {}
 
-    def recall(self, memory: dict[str, float]) -> None:
+    def notes(self) -> str:
+        """Return a clause on steps that counted in spite of their error."""
+        return self._control.notes()
+
+    def memory(self) -> dict[str, Any]:
+        """Return what a resumed run needs besides the motion."""
+        return {**self._control.memory(), **{name: getattr(self, name) for name in REMEMBERED}}
+
+    def recall(self, memory: dict[str, Any]) -> None:
         """Take up what `memory` gave."""
+        self._control.recall(memory)
         for name in REMEMBERED:
             setattr(self, name, type(getattr(self, name))(memory[name]))
+
+    def start(self) -> Advance[Motion]:
+        """Return the motion at t = 0, with the work of what moves at once."""
+        q = self._model.start()
+        return self._begun(0.0, q, np.zeros_like(q))
+
+    def _begun(self, time: float, q: np.ndarray, v: np.ndarray) -> Advance[Motion]:
+        """The motion from a time on, with the work of what changes its velocity at once."""
+        motion, mass = self.begin(time, q, v), self._model.mass
+        work = 0.5 * float(motion.v @ (mass @ motion.v) - v @ (mass @ v))
+        return Advance(motion, 0.0, work)
+
+    def go(self, motion: Motion, at_most: float) -> Advance[Motion]:
+        """Return a step, begun anew where what is prescribed changes its velocity at once. Raises
+        StepFailed."""
+        model, work = self._model, 0.0
+        for kink in self.kinks[np.abs(self.kinks - motion.time) < 1e-9 * self.kinks].tolist():
+            if model.jumps(kink):
+                model.memory.since(motion.time, motion.memory)
+                begun = self._begun(kink, model.placed(motion.q, kink), motion.v)
+                motion, work = begun.state, begun.work
+        after = self.advance(motion, at_most)
+        self._step = motion, model.spent(motion, after, self.late), work
+        return Advance(after, float(self._step[1][0]), work + float(self._step[1][1]))
+
+    def at(self, times: np.ndarray, last: Advance[Motion]) -> Sampled:
+        """Return the motions at times (k,) [s] within the last step; energies since it began."""
+        end = last.state
+        if end.time == times[0]:
+            return Sampled(times, [end], np.array([last.dissipated]), np.array([last.work]))
+        start, spent, work = self._step
+        motions = [between(start, end, time) for time in times.tolist()]
+        share = np.array([(m.time - start.time) / (end.time - start.time) for m in motions])
+        return Sampled(times, motions, share * spent[0], work + share * spent[1])
 
     def begin(self, time: float, q: np.ndarray, v: np.ndarray) -> Motion:
         """The motion from a time on, its velocities as motions have them and with the accelerations of its
@@ -126,57 +148,51 @@ class GeneralisedAlpha:
         a = a - basis @ factor.solve(basis.T @ (model.mass @ a + forces))
         self._before, self._factor = 0.0, None
         self._euler = EULER if np.any(rate != v) else 0
-        if not self._fixed:
+        if self.adapts:
             fastest = float(np.abs(model.displacement(a)).max())
             allowed = self._error * self._largest
-            self.step = min(self._first, np.sqrt(2.0 * allowed / max(fastest, 1e-30)))
-        if not self._fixed and self._euler:
+            self._control.step = min(self._first, np.sqrt(2.0 * allowed / max(fastest, 1e-30)))
+        if self.adapts and self._euler:
             twice_kinetic = max(float(u @ (model.mass @ u)) for u in (v, rate))
             taken = float(a @ (model.mass @ a))  # h² times half of it
-            self.step = min(self.step, np.sqrt(TAKEN * twice_kinetic / max(taken, 1e-30)))
+            self._control.step = min(self._control.step, np.sqrt(TAKEN * twice_kinetic / max(taken, 1e-30)))
         remembered = model.memory.after(model.strains(q))
         return Motion(time, q, rate, a, a, model.mass @ a + forces, remembered)
 
     def advance(self, motion: Motion, at_most: float) -> Motion:
         """One step of at most so long [s]. Raises StepFailed."""
-        smallest = SMALLEST * max(motion.time, at_most)
-        while True:
-            count = np.ceil(at_most / self.step - 1e-9)
-            h = at_most / count if count < 4 else self.step
-            before = self._shifted(motion, h)
+        control, largest = self._control, self._largest
+        control.order = self._rule.order
+
+        def attempt(h: float) -> tuple[tuple[Motion, float], float, float]:
+            nonlocal largest
+            old = shifted(motion.a, motion.algorithm, h, self._before)
+            after = self._halving(motion, h)
+            largest = max(self._largest, float(np.abs(self._model.displacement(after.q)).max()))
+            error = self._local_error(after, old, h) / (self._error * largest)
+            return (after, error), error, 1.0
+
+        if self.adapts:
+            smallest = SMALLEST * max(motion.time, at_most)
+            (after, error), h = control.take(attempt, at_most, smallest, fewer=4)
+            self._before = h
+        else:
+            h = control.dividing(at_most, fewer=4)
             try:
-                after = self._halving(motion, h)
+                (after, error), *_ = attempt(h)
             except (StepFailed, SingularMatrixError) as failure:
-                if self._fixed or h < smallest:
-                    raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
-                self.step = 0.25 * h
-                continue
-            local = self._local_error(after, before, h)
-            shown = self._model.displacement(after.q)
-            largest = max(self._largest, float(np.abs(shown).max()))
-            error = local / (self._error * largest)
-            if not self._fixed and error > 1.0 and h > smallest:
-                self.step = h * max(0.2, 0.9 * error ** (-1.0 / self._rule.order))
-                self.rejected += 1
-                continue
-            if not self._fixed:
-                self._before = h
-            self._largest, self._local = largest, error
-            wanted = 0.9 * max(error, 1e-9) ** (-1.0 / self._rule.order)
-            if self._euler and (self._fixed or wanted < 2.0 or h > 0.5 * at_most):
-                self._euler -= 1
-                self._factor = self._factor if self._euler else None
-            if not self._fixed and (wanted < 0.95 or wanted > 1.25):
-                self.step = h * min(wanted, 2.0)
-            return after
+                raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
+        self._largest, self._local = largest, error
+        short = control.ratio(error, 1.0) < 2.0 or h > 0.5 * at_most
+        if self._euler and (short or not self.adapts):
+            self._euler -= 1
+            self._factor = self._factor if self._euler else None
+        return after
 
     def _local_error(self, after: Motion, before: np.ndarray, h: float) -> float:
         """Of the displacement [m] in a step; before: its a'₀."""
-        if self._euler:
-            return 0.5 * h * h * float(np.abs(self._model.displacement(after.a)).max())
-        am, af, _, beta, *_ = self._usual
-        jump = self._model.displacement(after.algorithm - before)
-        return h * h * abs(beta + 0.5 * (am - af) - 1.0 / 6.0) * float(np.abs(jump).max())
+        jump = after.a if self._euler else after.algorithm - before
+        return h * h * self._rule.error * float(np.abs(self._model.displacement(jump)).max())
 
     def _halving(self, motion: Motion, h: float, times: int = 0) -> Motion:
         """A step, in halves where it is fixed and fails. Raises StepFailed, SingularMatrixError."""
@@ -185,26 +201,21 @@ class GeneralisedAlpha:
         except (StepFailed, SingularMatrixError):
             self._factor = None
             self.failed += 1
-            if not self._fixed or times == HALVED:
+            if self.adapts or times == HALVED:
                 raise
             middle = self._halving(motion, 0.5 * h, times + 1)
             return self._halving(middle, 0.5 * h, times + 1)
-        if self._fixed:
+        if not self.adapts:
             self._before = h
         return after
-
-    def _shifted(self, motion: Motion, h: float) -> np.ndarray:
-        """The algorithm's acceleration as steps of this length have it."""
-        scale = h / self._before if self._before else 1.0
-        return motion.a + scale * (motion.algorithm - motion.a)
 
     def _advanced(self, motion: Motion, h: float) -> Motion:
         model, time = self._model, motion.time + h
         model.memory.since(motion.time, motion.memory)
-        am, af, gamma, beta, by_old, _ = self._rule
+        am, af, gamma, beta, by_old, *_ = rule = self._rule
         self.late = 1.0 - af
-        old = self._shifted(motion, h)
-        by_a, by_v = (1.0 - am) / ((1.0 - af) * beta * h * h), gamma / (beta * h)
+        old = shifted(motion.a, motion.algorithm, h, self._before)
+        by_a, by_v = rule.by_a(h), rule.by_v(h)
         start = motion.q + h * motion.v + h * h * by_old * old
 
         def at(q: np.ndarray) -> Motion:
@@ -224,7 +235,6 @@ class GeneralisedAlpha:
             if self._factor is None:
                 matrix = model.tangent(found.q, found.v, time, found.exerted, by_a, by_v)
                 self._factor, self._taken = self._solver.factor(matrix), h
-                self.factorisations += 1
             step = basis @ self._factor.solve_unrefined(-(basis.T @ found.exerted))
             length = float(np.abs(model.displacement(step)).max())
             if not np.isfinite(length):
@@ -241,3 +251,18 @@ class GeneralisedAlpha:
                 self._factor = None
             last = length
         raise StepFailed("the corrections do not shrink")
+
+
+def between(start: Motion, end: Motion, time: float) -> Motion:
+    """The motion within a step: coordinates cubic in time, all else linear."""
+    h = end.time - start.time
+    s = min((time - start.time) / h, 1.0)
+    if s == 1.0:
+        return end
+    cubic = (1.0 + 2.0 * s) * (1.0 - s) ** 2 * start.q + s * s * (3.0 - 2.0 * s) * end.q
+    cubic = cubic + h * s * (1.0 - s) * ((1.0 - s) * start.v - s * end.v)
+    v, a, algorithm, exerted = (
+        (1.0 - s) * getattr(start, name) + s * getattr(end, name)
+        for name in ("v", "a", "algorithm", "exerted")
+    )
+    return Motion(time, cubic, v, a, algorithm, exerted)

@@ -9,8 +9,6 @@ their error allows; samples lie within them, cubic in time between their ends.
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import ExitStack
-from dataclasses import asdict
 from inspect import signature
 from pathlib import Path
 from typing import Any
@@ -20,19 +18,17 @@ import numpy as np
 from fem_reference.defaults import with_defaults
 from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.generalised_alpha import ERROR, GeneralisedAlpha
-from fem_reference.motion.moving import Moving
+from fem_reference.motion.moving import Motion, Moving
+from fem_reference.motion.observer import ReferenceObserver
 from fem_reference.motion.plate import MovingPlate
-from fem_reference.motion.run import Run, Sampling
 from fem_reference.motion.shell import MovingShell
 from fem_reference.motion.solid import MovingSolid
 from fem_reference.vibration import modes
 from sheetbench.choices import REFERENCE, STRAIN_LAW, listed
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.runs.columns import split
+from sheetbench.runs.record import Recipe, record
 from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, require_error, sample_count
-from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import AnyScene, History, Scene, require_no_branches, scene_of
 from sheetbench.scenes.obstacles import require_no_obstacles
 from sheetbench.scenes.quantities import require_positive
@@ -102,67 +98,29 @@ def simulate(
         # energies are kept at the steps' ends
         step = schedule.every / float(np.ceil(schedule.every / longest - 1e-9))
     settings = {**moving.settings, "step": step or "adaptive", "error": error}
-    sampling, flat = Sampling(moving, requested), moving.displacement(np.zeros(moving.mass.shape[0]))
-    run_of = {
+    flat = moving.displacement(np.zeros(moving.mass.shape[0]))
+    key = {
         "scene": requested.document(),
         "model": model,
-        "integrator": integrator,
         "settings": settings,
         "every": every,
-        "frames": frames,
-        "columns": [[kind, name, list(shape)] for kind, name, shape in sampling.columns],
     }
-    with ExitStack() as open_store:
-        kept: FolderStore | MemoryStore = MemoryStore(sampling.width, len(flat))
-        if store is not None:
-            kept = open_store.enter_context(FolderStore(store, sampling.width, len(flat), run_of))
-            if kept.plan is not None:
-                schedule = Schedule(**kept.plan).longer(duration)
-            kept.begin(asdict(schedule))
-        method = INTEGRATORS[integrator](moving, step, error, 0.1 * schedule.every)
-        shown = schedule.shown(frames)
-        ready = now()
-        with one_blas_thread():
-            run = Run(
-                moving,
-                requested,
-                schedule,
-                method,
-                sampling,
-                kept,
-                set(shown),
-                progress or (lambda time: None),
-            )
-            status, message = run.finish()
-        done = now()
-        parts, whole = split(sampling.columns, kept.samples()), kept.frames()
-    settings |= {"every": schedule.every}
-    settings |= {"failed_steps": method.failed} if method.failed else {}
-    return History(
+    recipe: Recipe[Motion] = Recipe(
         label=moving.label,
         integrator=integrator,
         settings=settings,
-        status=status,
-        message=message,
-        time=parts["time"][""],
-        probes=parts.get("probe", {}),
-        energies=parts["energy"],
-        reactions=parts.get("reaction", {}),
-        actuators={},
-        steps=run.steps,
-        setup_seconds=ready - began,
-        solve_seconds=done - ready,
-        resumed_from=run.resumed_from,
-        extra={
-            "frames": whole,
-            "frame_times": schedule.every * np.array(shown)[: len(whole)],
-            "mesh": moving.mesh(flat),
-            "sample": moving.sample,
-            "axes": {},
-            "unknowns": moving.unknowns,
-            "factorisations": method.factorisations,
-        },
+        key=key,
+        duration=duration,
+        schedule=schedule,
+        method=lambda schedule: INTEGRATORS[integrator](moving, step, error, 0.1 * schedule.every),
+        observer=ReferenceObserver(moving, requested),
+        start=lambda method: method.start(),
+        rows=len(flat),
     )
+    history = record(recipe, frames, store, progress, began)
+    of_model = {"mesh": moving.mesh(flat), "sample": moving.sample, "unknowns": moving.unknowns}
+    history.extra.update(of_model | {"axes": {}})
+    return history
 
 
 def require_moving(scene: Scene, model: str) -> None:

@@ -3,7 +3,6 @@
 from lumped.dynamics.explicit.step_limit import StepLimit, step_limit, turn_limit
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator
-from lumped.dynamics.runs import watchdog
 from lumped.dynamics.runs.simulation import simulate
 from lumped.dynamics.system import State, System
 
@@ -18,5 +17,4 @@ __all__ = [
     "simulate",
     "step_limit",
     "turn_limit",
-    "watchdog",
 ]

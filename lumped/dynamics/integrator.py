@@ -1,32 +1,20 @@
-"""What every integrator offers."""
+"""What every integrator of a lattice offers."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.system import State, System
+from sheetbench.numerics.time.method import Advance, StepFailed
+
+__all__ = ["Advance", "Integrator", "Samples", "StepFailed"]
 
 STEPS_PER_PERIOD = 200  # by default
-
-
-class StepFailed(ArithmeticError):
-    """A time step found no solution; the text says why."""
-
-
-@dataclass(frozen=True)
-class Advance:
-    """A step taken, or a part of one: the new state, the energies that dampers took and that were put in
-    since it began [J]."""
-
-    state: State
-    dissipated: float
-    work: float
 
 
 class Samples(NamedTuple):
@@ -43,12 +31,12 @@ class Samples(NamedTuple):
 
     @classmethod
     def of(cls, state: State, dissipated: float = 0.0, work: float = 0.0) -> Samples:
-        """One state, with the energies until then."""
+        """Return one state, with the energies until then."""
         u, v, a = (np.ascontiguousarray(vector)[None] for vector in (state.u, state.v, state.a))
         return cls(np.array([state.time]), u, v, a, [state.memory], np.array([dissipated]), np.array([work]))
 
     def state(self, i: int) -> State:
-        """State i."""
+        """Return state i."""
         return State(float(self.time[i]), self.u[i], self.v[i], self.a[i], self.memory[i])
 
 
@@ -56,8 +44,8 @@ class Integrator(ABC):
     """Takes a system from one state to the next.
 
     step: [s]; order: declared, of the displacement; adaptive: whether it chooses its steps by their error,
-    unless it is made with `fixed`; explicit: whether its steps have a limit of stability; options: names of
-    what else the user may choose.
+    unless it is made `fixed`; explicit: whether its steps have a limit of stability; options: names of
+    what else the user may choose. adapts, span, kinks: as `sheetbench.numerics.time.method` has them.
     """
 
     name: ClassVar[str]
@@ -65,44 +53,70 @@ class Integrator(ABC):
     adaptive: ClassVar[bool] = False
     explicit: ClassVar[bool] = False
     options: ClassVar[tuple[str, ...]] = ()
+    state: ClassVar[type[State]] = State
 
-    def __init__(self, system: System, step: float):
-        self.system, self.step = system, step
+    def __init__(self, system: System, step: float, fixed: bool = True):
+        self.system, self.step, self.adapts = system, step, not fixed
+
+    @property
+    def span(self) -> int | None:
+        """One: steps end at samples."""
+        return 1
+
+    @property
+    def kinks(self) -> np.ndarray:
+        """Times [s] at which something changes its course; for steps of one length those farther from each
+        other than that, as a table with more samples than there are steps has no corner to step onto."""
+        kinks = self.system.kinks
+        gaps = np.diff(kinks, prepend=-np.inf, append=np.inf)
+        return kinks if self.adapts else kinks[np.minimum(gaps[:-1], gaps[1:])[: len(kinks)] > self.step]
 
     @classmethod
     def default_step(cls, period: Callable[[], float], limit: StepLimit | None) -> float:
-        """The step [s] where none is requested, an adaptive one's first: from the limit of stability where
-        there is one, else from the lowest period [s]; infinite where it finds its first step itself."""
+        """Return the step [s] where none is requested, an adaptive one's first: from the limit of stability
+        where there is one, else from the lowest period [s]; infinite where it finds its first step itself."""
         return limit.advised if limit is not None else period() / STEPS_PER_PERIOD
 
     @classmethod
     def limit(cls, system: System, u: np.ndarray) -> StepLimit | None:
-        """The limit of stability about a displacement (size, 3) [m], of explicit ones."""
+        """Return the limit of stability about a displacement (size, 3) [m], of explicit ones."""
         return None
 
     @abstractmethod
-    def advance(self, state: State, at_most: float) -> Advance:
-        """One step, no longer than `at_most` [s]. Raises StepFailed."""
+    def advance(self, state: State, at_most: float) -> Advance[State]:
+        """Return one step, of `at_most` [s], or one that adapts no longer. Raises StepFailed."""
 
-    def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
-        """Steps of the same length [s], at least one and `most` at most: where they lead, and how many, in
-        well under a second. Raises StepFailed for the first of them."""
-        return self.advance(state, step), 1
+    def go(self, state: State, at_most: float) -> Advance[State]:
+        """Return a step that adapts, or steps of one length as near as can be to the integrator's own."""
+        if self.adapts:
+            return self.advance(state, at_most)
+        left = max(int(np.ceil(at_most / self.step - 1e-6)), 1)
+        whole = abs(at_most / self.step - left) < 1e-6
+        return self.march(state, self.step if whole else at_most / left, left)
+
+    def march(self, state: State, step: float, most: int) -> Advance[State]:
+        """Return steps of the same length [s], at least one and `most` at most, in well under a second.
+        Raises StepFailed for the first of them."""
+        return self.advance(state, step)
+
+    def at(self, times: np.ndarray, last: Advance[State]) -> Samples:
+        """Return the last step's end."""
+        return Samples.of(last.state, last.dissipated, last.work)
+
+    def settings(self) -> dict[str, Any]:
+        """Return the length of its steps."""
+        return {"step": "adaptive" if self.adapts else self.step}
+
+    def notes(self) -> str:
+        """Return nothing: no step was taken in spite of its error."""
+        return ""
 
     def forget(self) -> None:  # noqa: B027  # most integrators keep nothing
-        """Drop what was kept only for speed, so that a resumed run goes on exactly as one never stopped."""
+        """Drop what was kept only for speed."""
 
     def memory(self) -> dict[str, Any]:
-        """What a resumed run needs besides the state."""
+        """Return what a resumed run needs besides the state."""
         return {}
 
     def recall(self, memory: dict[str, Any]) -> None:  # noqa: B027
         """Take up what `memory` gave."""
-
-
-class DenseIntegrator(Integrator):
-    """One that tells the states within its steps, which need not end at samples."""
-
-    @abstractmethod
-    def at(self, times: np.ndarray) -> Samples:
-        """The states at times (k,) [s] within the last step; energies since it began."""

@@ -30,8 +30,8 @@ def resolve_integrator(name: str, system: System, options: Collection[str] = ())
     """The integrator of a run, and why in a sentence where the name is "auto".
 
     Of those that adapt their steps `esdirk` takes a fifth of the time of `generalised-alpha` at like error
-    (docs/performance.md), and explicit ones take more, but for sheets that touch and leave an obstacle; it
-    has no chains. options: that it has to take.
+    (docs/development/performance.md), and explicit ones take more, but for sheets that touch and leave an
+    obstacle; it has no chains. options: that it has to take.
     Raises BadInput where the integrator does not take one.
     """
     chains = system.coupling is not None

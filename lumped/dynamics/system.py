@@ -10,6 +10,7 @@ M is diagonal on the lattice and constant throughout. Units: m, s, N, kg, J.
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -303,21 +304,27 @@ class System:
             item.add_resistance_tangent(u, v, self.drive(time), damping, blocks)
         return blocks
 
-    def since(self, state: State, ahead: float = 0.0) -> None:
-        """Begin a step of second order: forces are those `ahead` [s] of a state, as the branches have it."""
-        if self.maxwell is not None and state.memory is not None:
-            self.maxwell.since(state.memory, ahead)
+    def within(self, state: State, ahead: float = 0.0) -> System:
+        """Return the equations in a step of second order from a state, `ahead` [s] of it, as the branches
+        have it."""
+        if self.maxwell is None or state.memory is None:
+            return self
+        return self.with_branches(self.maxwell.step(state.memory, ahead))
+
+    def with_branches(self, maxwell: Maxwell) -> System:
+        """Return the equations with the branches in a step or stage."""
+        other = copy(self)
+        other.maxwell = maxwell
+        return other
 
     def relaxed(self, before: State, after: State) -> tuple[State, float]:
         """The state at the end of a step of second order with its memory, and the energy [J] that the
         branches took in it."""
         if self.maxwell is None or before.memory is None:
             return after, 0.0
-        self.since(before, after.time - before.time)
         self.assembly.grow(time=after.time)
-        after = replace(after, memory=self.maxwell.after(after.u))
-        assert after.memory is not None
-        return after, self.maxwell.dissipated(before.memory, after.memory)
+        memory = self.maxwell.step(before.memory, after.time - before.time).after(after.u)
+        return replace(after, memory=memory), self.maxwell.branches.dissipated(before.memory, memory)
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
         """Force on the free unknowns that have mass."""
@@ -371,10 +378,9 @@ class System:
     def balance(self, state: State) -> tuple[dict[str, float], np.ndarray]:
         """Kinetic, elastic and potential energy [J], of which only constant dead loads have the last; and
         M a + f_int + f_damp − f_ext, (size, 3): what supports and actuators exert on their masses."""
-        self.since(state)
-        elastic, _, force = self.internal(state.u, state.v, state.time)
+        elastic, _, force = self.within(state).internal(state.u, state.v, state.time)
         if self.maxwell is not None and state.memory is not None:
-            elastic += self.maxwell.stored(state.memory)
+            elastic += self.maxwell.branches.stored(state.memory)
         v = state.v.ravel()
         energies = {
             "kinetic": 0.5 * float(v @ (self.mass @ v)),

@@ -62,9 +62,9 @@ class Watch:
         self.largest = max(self.largest, float(np.abs(rows[:, 1:6]).max()))
         self.off = max(self.off, float(np.abs(balance - self.origin).max()))
 
-    def ending(self, outside: str) -> tuple[Status, str]:
-        """The status of a run that came to its end, and what there is to say; outside: a clause on the
-        strains that went farthest beyond the model."""
+    def ending(self, outside: str, steps: str = "") -> tuple[Status, str]:
+        """Return the status of a run that came to its end, and what there is to say; outside: a clause on the
+        strains that went farthest beyond the model; steps: one on the steps."""
         told = [f"from {number(self.since, '.4g')} s on {outside}"] if outside else []
         if self.largest > 0.0 and self.off > TOLD * self.largest:
             share = number(100.0 * self.off / self.largest, ".2g")
@@ -72,6 +72,7 @@ class Watch:
                 f"the energy balance is off by {share} % of the largest energy at some sample: energies are "
                 "good to no more; smaller steps (--error, --step) keep it better"
             )
+        told += [steps] if steps else []
         return Status.STRAIN_OUTSIDE_MODEL if outside else Status.CONVERGED, "; ".join(told)
 
     def memory(self) -> np.ndarray:

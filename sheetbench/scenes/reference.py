@@ -1,6 +1,6 @@
 """The reference page of the scene language, made of the schema: all keys, table by table.
 
-The documentation's build writes it as scene.md, `sheetbench schema --markdown` prints it.
+The documentation's build writes it as scene.md, `sheetbench check --schema --out DIR` too.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from sheetbench.scenes.schema import branches, json_schema, kind, resolved
 
 HEAD = """# Every key of a scene
 
-*Made from the types by `make docs-scene`; the same as a JSON Schema, for editors: `sheetbench schema`.*
+*Made from the types by `make docs-scene`; the same as a JSON Schema, for editors: `check --schema`.*
 
 A scene is a TOML file, or in Python `sheetbench.Scene(…)` with the same keys (the lists are `supports`,
 `loads` and `actuators` there). All quantities are in SI units: metres, newtons, pascals, kilograms, seconds,
 radians. `sheetbench new my-sheet.toml` writes one to start from, `sheetbench check my-sheet.toml` says in
-words what it means, `sheetbench scenes --out DIR` copies those that come with the program.
+words what it means, `sheetbench check --out DIR` copies those that come with the program.
 
 ![Axes, edges, and the sense of what has a sign](images/scene.svg)
 

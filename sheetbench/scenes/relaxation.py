@@ -9,6 +9,15 @@ with shares g_i of the instantaneous modulus E₀, as in the Prony series of Aba
 a_i = E_i/E∞. That η is constant, Σ a_i (x − η x²)/(1 + x²) = η, is linear in a_i: nonnegative least squares
 over the band, each equation over E' of the solution before, so that errors of η are relative. Times lie
 evenly on a logarithmic scale, two a decade and at least two, from just below 1/ω_high to just above 1/ω_low.
+
+In motion, beside X = (elastic stress s, strain e) at m places, every branch of stiffness a keeps R, adds the
+stress a R_s and stores ½ a R_s·R_e:
+
+    Ṙ + R/τ = Ẋ,    which in a step of length h is    R = w X + c,    w = (1 − β) τ/h,   β = exp(−h/τ),
+    c = β R₀ − w X₀,
+
+of second order, exact where X is linear in time. Source: Simo and Hughes, Computational Inelasticity (1998),
+10.3. What is remembered is a `memory` (1 + b, 2, m): X, then R of every branch.
 """
 
 from __future__ import annotations
@@ -38,6 +47,20 @@ class Relaxation(Frozen):
     is left in the end."""
     time: Annotated[Positive, Unit("s")]
     """Relaxation time τ: what the branch resists fades as exp(−t/τ)."""
+
+
+class BranchStep(NamedTuple):
+    """Branches within a step or stage: weights w (b,) and constants c (b, 2, m); gain: 1 + Σ a w, by which
+    the elastic stress counts; past: Σ a c_s (m,), the stress beside it."""
+
+    weight: np.ndarray
+    constant: np.ndarray
+    gain: float
+    past: np.ndarray
+
+    def after(self, x: np.ndarray) -> np.ndarray:
+        """Return the memory with X (2, m) at the end."""
+        return np.concatenate([x[None], self.weight[:, None, None] * x + self.constant])
 
 
 class Branches(NamedTuple):
@@ -73,6 +96,33 @@ class Branches(NamedTuple):
         rates[range(2, size), range(2, size)] = -1.0 / np.array(self.times)
         roots = np.linalg.eigvals(rates)
         return complex(roots[np.lexsort((roots.real, roots.imag))[-1]])
+
+    def begun(self, weight: np.ndarray, constant: np.ndarray) -> BranchStep:
+        """Return a step or stage of weights (b,) and constants (b, 2, m)."""
+        stiffness = np.array(self.stiffness)
+        gain, past = 1.0 + float(stiffness @ weight), np.tensordot(stiffness, constant[:, 0], 1)
+        return BranchStep(weight, constant, gain, past)
+
+    def step(self, memory: np.ndarray, ahead: float) -> BranchStep:
+        """Return the step from a memory to `ahead` [s] later."""
+        x = ahead / np.array(self.times)
+        weight = -np.expm1(-x) / x if ahead > 0.0 else np.ones_like(x)
+        return self.begun(weight, np.exp(-x)[:, None, None] * memory[1:] - weight[:, None, None] * memory[0])
+
+    def at_rest(self, x: np.ndarray) -> np.ndarray:
+        """Return the memory at X (2, m) where all has relaxed."""
+        return np.concatenate([x[None], np.zeros((len(self.times), *x.shape))])
+
+    def stored(self, memory: np.ndarray) -> float:
+        """Return the energy [J] in the branches' springs."""
+        return 0.5 * float(np.array(self.stiffness) @ (memory[1:, 0] * memory[1:, 1]).sum(axis=1))
+
+    def dissipated(self, before: np.ndarray, after: np.ndarray) -> float:
+        """Return the energy [J] that the branches take from one memory to the next: the work of their mean
+        stresses less what they store more."""
+        mean = 0.5 * np.tensordot(np.array(self.stiffness), before[1:, 0] + after[1:, 0], 1)
+        work = float(mean @ (after[0, 1] - before[0, 1]))
+        return work - self.stored(after) + self.stored(before)
 
     def modulus(self, time: np.ndarray) -> np.ndarray:
         """E(t)/E∞ at times [s] after a strain is imposed and held."""

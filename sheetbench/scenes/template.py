@@ -53,7 +53,7 @@ def template(
         *(_block("[[support]]", one, about=n == 0) for n, one in enumerate(given.get("support", ()))),
         *(_block("[[load]]", one, about=n == 0) for n, one in enumerate(given.get("load", ()))),
         '# What else there may be: take away the "# " of a block\'s lines.\n'
-        "# All keys: sheetbench schema --markdown\n",
+        "# All keys: sheetbench check --schema --out DIR, in scene.md\n",
     ]
     shown = {"[[support]]", *(["[[load]]"] if loads else [])}
     for heading, table in _offered(sheet, _free_edge(clamped)):

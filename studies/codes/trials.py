@@ -19,9 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.cells.codes import CODES
-from comparisons.codes.mesh import refusal
 from comparisons.codes.setup import CodeSetup, setup
+from comparisons.codes.sheet_mesh import refusal
+from comparisons.codes.table import CODES
 from comparisons.scoring.reference import Reference
 from comparisons.sweep.differences import error
 from sheetbench.errors import BadInput, require_choice

@@ -70,11 +70,11 @@ def _of_panel(panel):
     return resolve(panel.scene, panel.first().lattice).springs
 
 
-def verb(name, *others, renamed=None):
+def verb(name, *others):
     """The command line with the options of a lattice."""
 
     def ask(scene, folder, **options):
-        flags = {f"--{(renamed or {}).get(key, key).replace('_', '-')}": options[key] for key in options}
+        flags = {f"--{key.replace('_', '-')}": options[key] for key in options}
         more = [part.format(scene=scene, folder=folder) for part in others]
         run(name, *more, *(str(part) for pair in flags.items() for part in pair))
 
@@ -111,12 +111,9 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
     "compare": (verb("compare", "{scene}"), WORDS),
     "simulate": (verb("simulate", "{scene}", "--duration", "0.01"), WORDS),
     "modes": (verb("modes", "{scene}"), WORDS),
-    "linearise": (verb("linearise", "{scene}"), WORDS),
+    "state space": (verb("modes", "{scene}", "--state-space", "20"), WORDS),
     "identify": (verb("identify", "{scene}", *MEASURED), WORDS),
-    "calibrate": (
-        verb("calibrate", "{scene}", "--export", "{folder}/lattice", renamed={"calibration": "method"}),
-        WORDS,
-    ),
+    "calibrate": (verb("calibrate", "{scene}", "--export", "{folder}/lattice"), WORDS),
     "tradeoff of a motion": (verb("tradeoff", "{scene}", "--duration", "0.01"), WORDS),
     "tradeoff": (verb("tradeoff", "{scene}", "--shell", "", "--solid", "", "--plate", ""), WORDS),
     "crosscheck": (verb("crosscheck", "{scene}", "--grid", "9,13", "--shell", ""), WORDS - {"grid"}),
@@ -130,13 +127,15 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
     ),
     "sb.simulate": (python(lambda scene, _, **own: sb.simulate(scene, 0.01, **own)), WORDS),
     "sb.modes": (python(lambda scene, _, **own: sb.modes(scene, **own)), WORDS),
-    "sb.linearise": (python(lambda scene, _, **own: sb.linearise(scene, **own)), WORDS),
+    "sb.modes of a state space": (
+        python(lambda scene, _, **own: sb.modes(scene, state_space=20, **own)),
+        WORDS,
+    ),
     "sb.identify": (
         python(lambda scene, at, **own: sb.identify(scene, at / "measured.csv", "thickness", **own)),
         WORDS,
     ),
     "sb.calibrate": (python(lambda scene, _, **own: sb.calibrate(scene, **own)), WORDS),
-    "sb.export": (python(lambda scene, at, **own: sb.export(scene, at / "lattice", **own)), WORDS),
     "sb.tradeoff": (python(listed), WORDS),
 }
 ANEW = {"calibrate", "sb.calibrate", "identify", "sb.identify"}  # make the springs, whatever the scene has

@@ -11,9 +11,9 @@ import fem_reference
 import lumped
 from comparisons.advice import probing
 from comparisons.cli import modes
-from comparisons.linearisation.answer import Linearisation
 from comparisons.models.spec import spec_of
 from comparisons.modes.spectra import spectra
+from comparisons.modes.state_space import Linearisation
 from comparisons.reproduction import figure, nearest
 from comparisons.stability import tiles as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure

@@ -115,7 +115,7 @@ def test_a_long_thin_sheet_is_refused_with_what_fits(strip, monkeypatch):
     with pytest.raises(BadInput, match="take fewer along the longer side, --elements NxM"):
         sb.solve(strip, "shell", elements=4)
     with pytest.raises(BadInput, match=r"shell 8x37376: .*; advise has no coarser one"):
-        sb.advise(strip)
+        sb.tradeoff(strip, tolerance=0.01)
 
 
 def test_half_a_sheet_takes_half(monkeypatch):
@@ -141,7 +141,7 @@ def test_every_candidate_is_looked_at_before_the_first_run(tmp_path, monkeypatch
 MEASURED = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"
 VERBS = {
     "compare": (SCENE, "--lumped", "3", "--elements", "2", "--no-uncertainty"),
-    "calibrate": (SCENE, "--grid", "3", "--method", "fit-modal"),
+    "calibrate": (SCENE, "--grid", "3", "--calibration", "fit-modal"),
     "identify": (SCENE, "--measured", "MEASURED", "--lumped", "3"),
     "modes": (SCENE, "--lumped", "3", "--elements", "2", "--count", "2"),
     "simulate": (SCENE, "--lumped", "3", "--duration", "0.02"),
@@ -150,7 +150,7 @@ VERBS = {
     "tradeoff motions": (SCENE, "--duration", "0.004", "--lumped", "3", "--plate", "", "--shell", "2",
         "--solid", ""),
     "crosscheck motions": (SCENE, "--duration", "0.004", "--lumped", "3,4", "--shell", "1,2", "--judges", ""),
-    "advise": (SCENE,),
+    "tradeoff tolerance": (SCENE, "--tolerance", "0.01"),
     "stability": (SCENE, "--lumped", "3", "--elements", "2", "--vary", "grid"),
 }  # fmt: skip
 
@@ -224,7 +224,7 @@ def test_amounts_as_people_say_them():
 
 
 def test_an_export_too_large_for_the_memory_is_refused_before_its_first_array(tmp_path, capsys):
-    wanted = ("--grid", "100000", "--method", "uniform", "--export", str(tmp_path / "out"))
+    wanted = ("--grid", "100000", "--calibration", "uniform", "--export", str(tmp_path / "out"))
     assert run("calibrate", "two-edges-clamped", *wanted) == 2
     said = capsys.readouterr().err
     assert "lumped 100000x100000x2" in said and "--grid" in said and not (tmp_path / "out").exists()

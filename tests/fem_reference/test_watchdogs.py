@@ -8,11 +8,16 @@ import lumped
 from comparisons.stability.limit import start, system
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import rectangle
+from lumped.dynamics.implicit.esdirk import Esdirk
 from lumped.dynamics.integrator import Samples
-from lumped.dynamics.runs import watchdog
+from lumped.dynamics.runs.observer import LatticeObserver
 from lumped.dynamics.system import State
 from lumped.statics import faults
 from lumped.statics.solver import build_problem
+from sheetbench.runs.columns import width
+from sheetbench.runs.run import Run
+from sheetbench.runs.schedule import Schedule
+from sheetbench.runs.store import MemoryStore
 from sheetbench.runs.watch import Watch
 from sheetbench.scenes import EdgeLoad, Status
 from studies.stability.scenes import sheet
@@ -102,18 +107,26 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem):
     v = np.zeros_like(state.v)
     v[equations.assembly.lattice.columns()[2, 4, 0], 2] = 1.0
     moving = Samples.of(State(0.25, state.u, v, state.a))
-    row = np.array([[0.25, 1.0, 1.0, 0.0, 0.0, 0.0]])  # time, kinetic, elastic, potential, dissipated, work
-    assert watchdog.check_samples(equations, moving, row, Watch(1.9, lowest=1.9, largest=3.0)) == (1, None)
-    sound, fault = watchdog.check_samples(equations, moving, row, Watch(1.5, lowest=1.5, largest=3.0))
+    observer = LatticeObserver(equations)
+    row = np.zeros((1, width(observer.columns)))
+    row[0, :3] = 0.25, 1.0, 1.0  # time, kinetic, elastic
+
+    def checked(balance):
+        run = Run(Esdirk(equations, 1e-3), observer, Schedule(1, 1.0, 1), MemoryStore(6, 1), (), None)
+        run.watch = Watch(balance, lowest=balance, largest=3.0)
+        return run._sound(moving, row)
+
+    assert checked(1.9) == (1, None)
+    sound, fault = checked(1.5)
     assert sound == 0 and fault is not None and fault.status is Status.DIVERGED
     assert "0.25 s" in fault.message and "x = 0.188 m, y = 0.094 m" in fault.message
     row[0, 2] = np.inf
-    sound, fault = watchdog.check_samples(equations, moving, row, Watch(1.5, lowest=1.5, largest=3.0))
+    sound, fault = checked(1.5)
     assert sound == 0 and fault is not None and fault.status is Status.NON_FINITE
 
 
 def test_a_stagnating_integrator_stops(monkeypatch):
-    monkeypatch.setattr(watchdog, "MOST_STEPS", 3)
+    monkeypatch.setattr("sheetbench.runs.run.MOST_STEPS", 3)
     scene = sheet(0.016, 1.0)
     run = lumped.simulate(scene, calibrated(scene), 1.0, integrator="generalised-alpha", every=0.5)
     assert run.status is Status.STEP_LIMIT and "without reaching the next sample" in run.message

@@ -4,7 +4,7 @@ Usage: python tests/helpers/mutants.py FOLDER FILE [COUNT]   (COUNT faults at ra
 
 Faults are put into a clone of the last commit, one at a time. Each is tried on the nearest files of tests,
 the quickest first, as many as run within SECONDS together. NUMBA_DISABLE_JIT=1 before the command runs
-kernels as Python. docs/quality.md has what was found so.
+kernels as Python. docs/development/robustness.md has what was found so.
 """
 
 import os

@@ -37,8 +37,12 @@ class Terminal:
         self._bytes = b""
 
     @property
+    def raw(self) -> str:
+        return self._bytes.decode("utf-8", "replace")
+
+    @property
     def shown(self) -> str:
-        return CONTROL.sub("", self._bytes.decode("utf-8", "replace"))
+        return CONTROL.sub("", self.raw)
 
     def read(self) -> bool:
         """Wait for more to be shown; whether there was more. The limit only ends a test that hangs."""

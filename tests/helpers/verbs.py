@@ -1,44 +1,143 @@
-"""A small command line of every verb but `live`, and the files that some of them read."""
+"""A small command line of every verb but `live`, the files that some of them read, and one kept run of each.
 
+A kept run prints its JSON document and leaves its files; what a terminal shows of its answer is laid out
+again from the answer, at any width.
+"""
+
+import io
+import json
+from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
+from typing import Any
+
+import pytest
+from campaigns import FEW, Here
+from commands import run
+from matplotlib.figure import Figure
+from rich.console import Console
+
+from comparisons.cli import characters, console
+from comparisons.cli.output import Output, OutputOptions
+from comparisons.report import offscreen
+from comparisons.runs import executors
+from comparisons.runs.campaign import carry_out
+from comparisons.stability import extremes
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.figure_style import PLAIN
 
 MEASURED = "x,y,ux,uy,uz\n0.188,0.188,-0.0004,-0.0004,-0.0135\n0.094,0.094,0,0,-0.00245\n0.1,0.15,,,-0.0075\n"
 ANSWERS = "case,probe,ux,uy,uz\n" + "".join(f"thick,P{n},0,0,{-5e-4 * n}\n" for n in (1, 2, 3, 4))
-SEED, SETTLING = "two-edges-clamped", "two-edges-settling"
-SMALL = {
-    "new": ["new", "new.toml"],
-    "check": ["check", SEED],
-    "scenes": ["scenes"],
-    "compare": ["compare", SEED, "--lumped", "3", "--elements", "2"],
-    "calibrate": ["calibrate", SEED, "--grid", "3"],
-    "identify": ["identify", SEED, "--measured", "measured.csv", "--lumped", "3"],
-    "simulate": ["simulate", SETTLING, "--lumped", "3", "--duration", "0.02", "--every", "0.004"],
-    "tradeoff": [
-        *("tradeoff", SEED, "--lumped", "3", "--plate", "", "--shell", "2", "--solid", ""),
-        *("--elements", "4", "--repeats", "1", "--workers", "1", "--out", "tradeoff"),
-    ],
-    "crosscheck": [
-        *("crosscheck", SEED, "--lumped", "3,5", "--plate", "", "--shell", "2,3", "--solid", ""),
-        *("--judges", "", "--workers", "1", "--out", "crosscheck"),
-    ],
-    "advise": ["advise", "one-edge-clamped", "--tolerance", "0.2"],
-    "stability": [
-        *("stability", SEED, "--lumped", "3", "--elements", "2", "--vary", "slenderness"),
-        *("--vary", "time-step", "--workers", "1", "--out", "stability"),
-    ],
-    "verify": ["verify", "--case", "patch"],
-    "modes": ["modes", SEED, "--lumped", "3", "--elements", "2", "--count", "3"],
-    "schema": ["schema"],
-    "suite": ["suite", "--suite", "modes"],
-    "score": ["score", "answers.csv", "--case", "thick"],
-    "linearise": ["linearise", "one-edge-clamped", "--lumped", "3", "--modes", "3"],
-    "homogenise": ["homogenise", "equilateral", SEED],
-    "report": ["report", "stability"],
-    "study": ["study", "reproduction", "--part", "tables", "--elements", "2"],
+TENSILE = "stretch,force\n" + "".join(
+    f"{1 + 0.1 * n},{0.9 * (1 + 0.1 * n - (1 + 0.1 * n) ** -2)}\n" for n in range(16)
+)
+SEED, SETTLING, ONE = "two-edges-clamped", "two-edges-settling", "one-edge-clamped"
+SMALL = {  # the verb, or the verb and what of it
+    "new": "new new.toml --clamped x0",
+    "check": f"check {SEED}",
+    "check catalogue": "check",
+    "check schema": "check --schema",
+    "compare": f"compare {SEED} --lumped 3 --elements 2",
+    "compare motion": f"compare {SETTLING} --lumped 3 --elements 2 --duration 0.004 --no-uncertainty",
+    "simulate": f"simulate {SETTLING} --lumped 3 --duration 0.02 --every 0.004",
+    "tradeoff": f"tradeoff {SEED} --lumped 3 --plate= --shell 2 --solid= --elements 4 --repeats 1",
+    "tradeoff tolerance": f"tradeoff {ONE} --tolerance 0.2",
+    "stability": f"stability {SEED} --lumped 3 --elements 2 --vary slenderness --vary time-step --workers 1",
+    "crosscheck": f"crosscheck {SEED} --lumped 3,5 --plate= --shell 2,3 --solid= --judges= --workers 1",
+    "calibrate": f"calibrate {SEED} --grid 3",
+    "calibrate code": f"calibrate {ONE} --for newton",
+    "calibrate cell": f"calibrate {SEED} --cell equilateral",
+    "identify": f"identify {SEED} --measured measured.csv --lumped 3",
+    "identify tensile": "identify --tensile tensile.csv --area 20mm2",
+    "modes": f"modes {SEED} --lumped 3 --elements 2 --count 3",
+    "modes state-space": f"modes {ONE} --lumped 3 --state-space 3",
+    "score": "score answers.csv --case thick",
+    "score set": "score --suite modes",
+    "verify": "verify --case patch",
+    "report": "report stability",
+    "study": "study reproduction --part tables --elements 2",
 }
+WITHOUT_ANSWER = ("new", "report")  # they write a file alone
 
 
 def write_inputs(folder: Path) -> None:
     """Write what `identify` and `score` read."""
-    (folder / "measured.csv").write_text(MEASURED, encoding="utf-8")
-    (folder / "answers.csv").write_text(ANSWERS, encoding="utf-8")
+    for name, text in (("measured", MEASURED), ("answers", ANSWERS), ("tensile", TENSILE)):
+        (folder / f"{name}.csv").write_text(text, encoding="utf-8")
+
+
+def undraw(patch: pytest.MonkeyPatch) -> None:
+    """Make pictures empty files."""
+
+    def touch(self: Figure, place: Path | str, *_: Any, **__: Any) -> None:
+        Path(place).touch()
+
+    patch.setattr(Figure, "savefig", touch)
+    patch.setattr(offscreen, "why_not", lambda: "not drawn")
+
+
+def run_here(patch: pytest.MonkeyPatch) -> None:
+    """Run campaigns in this process: no worker has to start."""
+    patch.setattr(executors, "processes", Here)
+    patch.setitem(carry_out.__kwdefaults__, "pool", Here)
+
+
+def few_runs(patch: pytest.MonkeyPatch) -> None:
+    """Run campaigns here, and maps with two runs along each axis."""
+    run_here(patch)
+    for name, values in FEW.items():
+        patch.setattr(extremes, name, values)
+
+
+@dataclass
+class Kept:
+    """A run of a small command line with --json and --out: its exit status, what it printed, its folder and
+    its answer."""
+
+    status: int
+    printed: str
+    said: str
+    folder: Path
+    answer: Answer | None
+
+    @cached_property
+    def document(self) -> Any:
+        return json.loads(self.printed)
+
+    def shown(self, columns: int, encoding: str = "utf-8") -> str:
+        """What a terminal of so many columns shows of the answer."""
+        assert self.answer is not None
+        stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+        characters.adapt(stream)
+        with pytest.MonkeyPatch.context() as patch:
+            screen = Console(file=stream, force_terminal=True, width=columns, color_system=None)
+            patch.setattr(console, "out", screen)
+            Output(OutputOptions("any"), {}, None, PLAIN)._print(self.answer.report())
+        stream.flush()
+        return stream.buffer.getvalue().decode(encoding)  # type: ignore[attr-defined]
+
+
+def keep(name: str, base: Path) -> Kept:
+    """Run a small command line in a folder that has the inputs; its files go to the folder of its name."""
+    words, folder = SMALL[name].split(), base / name
+    answers: list[Answer] = []
+    show: Callable[..., Any] = Output.show
+
+    def shown(self: Output, answer: Answer, instead: str | None = None) -> Answer:
+        answers.append(answer)
+        return show(self, answer, instead)  # type: ignore[no-any-return]
+
+    plain = () if name in WITHOUT_ANSWER else ("--json", "--out", str(folder))
+    with (
+        pytest.MonkeyPatch.context() as patch,
+        redirect_stdout(io.StringIO()) as out,
+        redirect_stderr(io.StringIO()) as err,
+    ):
+        patch.chdir(base)
+        undraw(patch)
+        few_runs(patch)
+        patch.setattr(Output, "show", shown)
+        status = run(*words, *plain)
+    return Kept(status, out.getvalue(), err.getvalue(), folder, answers[0] if answers else None)

@@ -51,7 +51,7 @@ def test_a_stranger_s_code_has_its_table_and_its_place(tmp_path, monkeypatch):
 
 
 def test_stored_rows_have_the_published_numbers():
-    """Of docs/results.md's findings: in use and ours on the cantilever and test 1, the mean of all."""
+    """Of docs/codes.md's findings: in use and ours on the cantilever and test 1, the mean of all."""
     rows = {(one.code.split()[0], one.scene): one for one in codes().nearer()}
     mujoco = rows["MuJoCo", "one-edge-clamped"]
     assert (mujoco.in_use, mujoco.ours) == pytest.approx((0.316, 0.014), abs=1e-3)

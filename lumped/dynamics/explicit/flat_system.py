@@ -10,9 +10,9 @@ import numpy as np
 
 from lumped.dynamics.explicit.follower_loads import Followers
 from lumped.dynamics.explicit.steps import ExplicitArrays, Workspace, march
-from lumped.dynamics.integrator import Advance, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.springs.packing import pack, scratch
+from sheetbench.numerics.time.method import Advance, StepFailed
 
 CALL, PER_SPRING = 0.03, 1e-8  # s that a call takes, about, and a step of a spring
 LEAST = 8  # steps of a call: to lay a large lattice out for it and back takes as long as two of them
@@ -57,7 +57,7 @@ class FlatSystem:
             single,
         )
 
-    def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
+    def march(self, state: State, step: float, most: int) -> Advance[State]:
         """At most so many steps, as many as take some hundredths of a second, or `LEAST`; fewer before one
         that fails. Raises StepFailed where the first one fails."""
         count = min(most, self.at_once)
@@ -70,7 +70,7 @@ class FlatSystem:
             )
             if whole:
                 after = State(float(times[taken]), self.by_mass(u), self.by_mass(v), self.by_mass(a))
-                return Advance(after, dissipated, work), taken
+                return Advance(after, dissipated, work, taken)
             if taken == 0:
                 raise StepFailed("a number overflowed")
             count = taken

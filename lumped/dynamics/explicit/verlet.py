@@ -14,8 +14,9 @@ import numpy as np
 from lumped.dynamics.explicit.flat_system import FlatSystem
 from lumped.dynamics.explicit.projection import Projection
 from lumped.dynamics.explicit.step_limit import StepLimit, step_limit
-from lumped.dynamics.integrator import Advance, Integrator, StepFailed
+from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
+from sheetbench.numerics.time.method import Advance, StepFailed
 
 
 class Verlet(Integrator):
@@ -38,16 +39,16 @@ class Verlet(Integrator):
         """The springs' and the dampers' limit of stability."""
         return step_limit(system, u)
 
-    def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
-        """Steps in one compiled call; one at a time where there are chains, branches, a natural state, air or
-        bodies with moments of inertia. Raises StepFailed."""
+    def march(self, state: State, step: float, most: int) -> Advance[State]:
+        """Return steps in one compiled call; one at a time where there are chains, branches, a natural state,
+        air or bodies with moments of inertia. Raises StepFailed."""
         if self._flat is None:
             return super().march(state, step, most)
         return self._flat.march(state, step, most)
 
-    def advance(self, state: State, at_most: float) -> Advance:
+    def advance(self, state: State, at_most: float) -> Advance[State]:
         """One explicit step. Raises StepFailed when a number overflows or constraints find no solution."""
-        system, h, time = self.system, at_most, state.time + at_most
+        system, h, time = self.system.within(state, at_most), at_most, state.time + at_most
         moved = state.u + h * state.v + 0.5 * h * h * state.a
         if system.moving:
             held = system.place(time) - system.place(state.time) - h * system.place_rate(state.time)
@@ -61,7 +62,6 @@ class Verlet(Integrator):
             u = moved
         if system.moving:
             half = half + system.place_rate(time) - system.place_rate(state.time)
-        system.since(state, h)
         _, elastic = system.elastic(u, time)
         force = system.external(u, time) - elastic
         damped = system.resists

@@ -32,11 +32,13 @@ from numba import njit
 from lumped.dynamics.implicit.compiled_stages import Stages, Step
 from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
-from lumped.dynamics.integrator import Advance, DenseIntegrator, Samples, StepFailed
+from lumped.dynamics.integrator import Integrator, Samples
 from lumped.dynamics.system import State, System
 from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
-from sheetbench.runs.schedule import require_error
+from sheetbench.numerics.time.controller import Controller
+from sheetbench.numerics.time.method import Advance, StepFailed
+from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, require_error
 
 ERROR = 3e-5  # of a step
 FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
@@ -52,7 +54,7 @@ STALE = (
 KEEP_FACTORS_UP_TO = 12  # corrections of a step's stages up to which the next one keeps the factors: two each
 
 
-class Esdirk(DenseIntegrator):
+class Esdirk(Integrator):
     """ESDIRK5(4)7L[2]SA2; adaptive unless the step is `fixed`. error: of a step, relative to the largest
     displacement."""
 
@@ -62,8 +64,9 @@ class Esdirk(DenseIntegrator):
         if system.coupling is not None:
             raise BadInput("integrator = 'esdirk': does not take chains; choose another integrator")
         require_error(error)
-        super().__init__(system, step)
-        self._fixed, self._first, self._error = fixed, step, error
+        super().__init__(system, step, fixed)
+        self._control = Controller(5, 4.0, (1.0, 1.2), step)
+        self._first, self._error = step, error
         self._newton = Newton(system, STEP_TOLERANCE, STALE)
         self._largest = 0.0
         self._end: tuple[State | None, np.ndarray] = None, np.zeros(2)  # the last state, and its power
@@ -73,36 +76,44 @@ class Esdirk(DenseIntegrator):
         """Infinite: an adaptive run finds its first step where it begins."""
         return np.inf
 
+    @property
+    def span(self) -> int:
+        """Adaptive steps end at checkpoints."""
+        return SAMPLES_PER_CHECKPOINT if self.adapts else 1
+
     def forget(self) -> None:
         """Drop the factors."""
         self._newton.forget()
 
     def memory(self) -> dict[str, Any]:
-        """The step's control."""
-        return {"step": self.step, "first": self._first, "largest": self._largest}
+        """Return the step's control."""
+        return {**self._control.memory(), "first": self._first, "largest": self._largest}
 
     def recall(self, memory: dict[str, Any]) -> None:
         """Take up what `memory` gave."""
-        self.step, self._first, self._largest = (float(memory[k]) for k in ("step", "first", "largest"))
+        self._control.recall(memory)
+        self._first, self._largest = float(memory["first"]), float(memory["largest"])
 
-    def advance(self, state: State, at_most: float) -> Advance:
-        """One step; an adaptive one divides `at_most` evenly and is repeated until its error is small."""
-        if not self._fixed:
-            if self._largest == 0.0:
-                self._begin(state)
-            state, at_most = self._from_kink(state, at_most)
-        shortest = 1e-6 * min(self.step, at_most)
-        while True:
-            h = at_most if self._fixed else at_most / np.ceil(at_most / self.step - 1e-9)
+    def notes(self) -> str:
+        """Return a clause on steps that counted in spite of their error."""
+        return self._control.notes()
+
+    def advance(self, state: State, at_most: float) -> Advance[State]:
+        """Return one step; an adaptive one divides `at_most` evenly and is repeated until its error is small.
+        Raises StepFailed."""
+        if not self.adapts:
             try:
-                stages = self._stages(state, h, None if self._fixed else self._enough)
-            except (StepFailed, SingularMatrixError) as failure:
-                if self._fixed or h < shortest:
-                    raise StepFailed(str(failure)) from None
-                self.step = 0.25 * h
-                continue
-            if self._fixed:
-                break
+                return self._advance(state, self._stages(state, at_most, None), at_most)
+            except SingularMatrixError as failure:
+                raise StepFailed(str(failure)) from None
+        if self._largest == 0.0:
+            self._begin(state)
+        state, at_most = self._from_kink(state, at_most)
+        largest = self._largest
+
+        def attempt(h: float) -> tuple[Stages, float, float]:
+            nonlocal largest
+            stages = self._stages(state, h, self._enough)
             error = h * float(np.abs(ERRORS @ stages.v.reshape(len(ERRORS), -1)).max())
             error = max(error, self._largest * self._error_of_branches(h))
             largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
@@ -110,14 +121,11 @@ class Esdirk(DenseIntegrator):
                 found = self._advance(state, stages, h)
                 gained = self.system.energy_gained(state, found.state, found.dissipated, found.work)
                 error = max(error, largest * gained * ENERGY)
-            ratio = 0.9 * (self._error * largest / max(error, 1e-30)) ** (1.0 / 5.0)
-            if ratio < 0.9 and h > shortest:
-                self.step = h * max(ratio, 0.2)
-                continue
-            if ratio > 1.2 or ratio < 1.0:
-                self.step = h * min(max(ratio, 0.5), 4.0)
-            self._largest = largest
-            break
+            return stages, error, self._error * largest
+
+        shortest = 1e-6 * min(self._control.step, at_most)
+        stages, h = self._control.take(attempt, at_most, shortest)
+        self._largest = largest
         return self._advance(state, stages, h)
 
     @property
@@ -129,8 +137,8 @@ class Esdirk(DenseIntegrator):
     def _begin(self, state: State) -> None:
         """What the error is relative to before anything has moved, and the first step [s]: parts of how far
         the forces lead until all rests, were it linear, and of the time in which they get there."""
-        system, problem, still = self.system, self.system.problem, np.zeros_like(state.u)
-        system.since(state)
+        system, still = self.system.within(state), np.zeros_like(state.u)
+        problem = system.problem
         force = system.unbalanced(state.u, still, state.time)
         try:
             factor = problem.system.factor(system.matrix(state.u, still, state.time, 0.0, 0.0, 1.0))
@@ -140,7 +148,7 @@ class Esdirk(DenseIntegrator):
         goal = min(goal, problem.size)
         fastest = float(np.abs(system.accelerate(force)).max())
         if goal > 0.0:
-            self.step = self._first = min(self.step, FIRST * np.sqrt(goal / fastest))
+            self._control.step = self._first = min(self._control.step, FIRST * np.sqrt(goal / fastest))
         self._largest = max(FORETOLD * goal, LEAST * problem.size, float(np.abs(state.u).max()))
 
     def _from_kink(self, state: State, at_most: float) -> tuple[State, float]:
@@ -151,9 +159,8 @@ class Esdirk(DenseIntegrator):
         near = 1e-9 * at_most
         if np.any(np.abs(system.kinks - now) < near) and now > near:
             if system.jumps(now):  # and dampers with the velocity: the steps begin as at the start
-                self.step = min(self.step, self._first)
-            system.since(state)
-            force = system.unbalanced(state.u, state.v, now)
+                self._control.step = min(self._control.step, self._first)
+            force = system.within(state).unbalanced(state.u, state.v, now)
             state = replace(state, time=now, a=system.accelerate(force))
         ahead = system.kinks[system.kinks > now + near]
         return state, min([at_most, *(ahead[:1] - now)])
@@ -165,10 +172,10 @@ class Esdirk(DenseIntegrator):
         u[0], v[0], a[0] = state.u, state.v, state.a
         stages = Stages(times, u, v, a, np.zeros((len(times), 2)))
         self._memories = [state.memory] * len(times)
-        self._begin_stage(0, h)
         if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
-            middle = state.u + 0.5 * h * state.v
-            self._newton.renew(StepEquation(state.time + 0.5 * h, middle, state.v, by * by, by), middle)
+            middle, system = state.u + 0.5 * h * state.v, self._in_stage(0, h)
+            equation = StepEquation(system, state.time + 0.5 * h, middle, state.v, by * by, by)
+            self._newton.renew(equation, middle)
         step = Step(h, STAGES, GUESSES, by, by * by, *self._shifts(times, h), self._loads(times))
         if not self._newton.solve_stages(step, stages, tolerance):
             self._solve_one_by_one(step, stages, tolerance)
@@ -200,14 +207,14 @@ class Esdirk(DenseIntegrator):
             v = stages.v[0] + h * np.tensordot(STAGES[i, :i], stages.a[:i], 1)
             if len(step.shifts):
                 u, v = u + step.shifts[i], v + step.turns[i]
-            self._begin_stage(i, h)
-            equation = StepEquation(float(stages.time[i]), u + v / c1, v, c2, c1)
+            system = self._in_stage(i, h)
+            equation = StepEquation(system, float(stages.time[i]), u + v / c1, v, c2, c1)
             guess = equation.base_u + np.tensordot(GUESSES[i, :i], stages.a[:i], 1) / c1**2
             u = self._newton.solve_equation(equation, guess, tolerance)
             stages.u[i] = u
             stages.v[i], stages.a[i] = self._newton.state(equation, u)
-            if self.system.maxwell is not None:
-                self._memories[i] = self.system.maxwell.after(u)
+            if system.maxwell is not None:
+                self._memories[i] = system.maxwell.after(u)
             stages.power[i, 0] = self.system.power(self._stage(stages, i))
 
     def _stage(self, stages: Stages, i: int) -> State:
@@ -218,9 +225,17 @@ class Esdirk(DenseIntegrator):
         parts = zip(weights, self._memories, strict=False)
         return np.sum([weight * memory[1:] for weight, memory in parts if memory is not None], axis=0)
 
-    def _begin_stage(self, i: int, h: float) -> None:
-        if self.system.maxwell is not None and (start := self._memories[0]) is not None:
-            self.system.maxwell.stage(start, h * self._relaxed(STAGES[i, : max(i, 1)]), GAMMA * h)
+    def _in_stage(self, i: int, h: float) -> System:
+        """The equations of stage i."""
+        if self.system.maxwell is None:
+            return self.system
+        return self._relaxing(h * self._relaxed(STAGES[i, : max(i, 1)]), GAMMA * h)
+
+    def _relaxing(self, relaxed: np.ndarray, own: float) -> System:
+        """The equations with the branches as `Maxwell.stage` has them."""
+        if self.system.maxwell is None or (start := self._memories[0]) is None:
+            return self.system
+        return self.system.with_branches(self.system.maxwell.stage(start, relaxed, own))
 
     def _error_of_branches(self, h: float) -> float:
         """Error of what the branches' springs remember in a step, relative to the largest strain."""
@@ -232,29 +247,34 @@ class Esdirk(DenseIntegrator):
         missed = self._relaxed(h * ERRORS)[:, 1] / maxwell.times[:, None]
         return float(np.abs(missed).max()) / largest if largest else 0.0
 
-    def at(self, times: np.ndarray) -> Samples:
-        """The states at times (k,) [s] within the last step; energies since it began."""
+    def at(self, times: np.ndarray, last: Advance[State]) -> Samples:
+        """Return the states at times (k,) [s] within the last step; energies since it began."""
+        end = last.state
+        if end.time == times[0]:
+            return super().at(times, last)
         stages, h = self._step
         theta = (times - stages.time[0]) / h
         u, v, a = self._within(stages, h, theta)
         weights = h * (np.vander(theta, len(CUMULATIVE), increasing=True) @ CUMULATIVE)
         taken, put_in = (weights @ stages.power).T
-        system, maxwell, start = self.system, self.system.maxwell, self._memories[0]
+        system, start = self.system, self._memories[0]
         memories: list[np.ndarray | None] = [None] * len(times)
         began, c1 = float(stages.time[0]), 1.0 / (GAMMA * h)
         for i, time in enumerate(times.tolist()):
-            if maxwell is not None and start is not None:
-                maxwell.stage(start, self._relaxed(weights[i]), 0.0)
-            equation = StepEquation(time, u[i] - a[i] / c1**2, v[i] - a[i] / c1, c1**2, c1)
+            inside = self._relaxing(self._relaxed(weights[i]), 0.0)
+            equation = StepEquation(inside, time, u[i] - a[i] / c1**2, v[i] - a[i] / c1, c1**2, c1)
             with suppress(StepFailed, SingularMatrixError):  # the polynomial it is then
                 u[i] = self._newton.solve_equation(equation, u[i], self._enough)
                 a[i] = self._newton.state(equation, u[i])[1]
-            if maxwell is not None and start is not None:
-                memories[i] = memory = maxwell.after(u[i])
-                taken[i] -= maxwell.stored(memory) - maxwell.stored(start)
+            if inside.maxwell is not None and start is not None:
+                memories[i] = memory = inside.maxwell.after(u[i])
+                branches = inside.maxwell.branches
+                taken[i] -= branches.stored(memory) - branches.stored(start)
             if system.moving:
                 rate = system.place_rate(time, before=True)
                 put_in[i] += system.kinetic_of(rate) - system.kinetic_of(system.place_rate(began))
+        if end.time == times[-1]:
+            u[-1], v[-1], a[-1] = end.u, end.v, end.a
         return Samples(times, u, v, a, memories, taken, put_in)
 
     def _within(self, stages: Stages, h: float, theta: np.ndarray) -> np.ndarray:
@@ -272,7 +292,7 @@ class Esdirk(DenseIntegrator):
         found[1] += np.array([system.place_rate(time, before=True) for time in times])
         return found
 
-    def _advance(self, start: State, stages: Stages, h: float) -> Advance:
+    def _advance(self, start: State, stages: Stages, h: float) -> Advance[State]:
         system, power = self.system, stages.power
         if self._end[0] is start:
             power[0] = self._end[1]
@@ -285,7 +305,8 @@ class Esdirk(DenseIntegrator):
         self._step = stages, h
         taken, put_in = h * (STAGES[-1] @ power)
         if system.maxwell is not None and start.memory is not None and end.memory is not None:
-            taken -= system.maxwell.stored(end.memory) - system.maxwell.stored(start.memory)
+            branches = system.maxwell.branches
+            taken -= branches.stored(end.memory) - branches.stored(start.memory)
         if system.moving:
             rate = system.place_rate(end.time)
             end = replace(end, v=end.v + rate - system.place_rate(end.time, before=True))

@@ -14,8 +14,9 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.implicit.newton import Newton
-from lumped.dynamics.integrator import Advance, Integrator
+from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
+from sheetbench.numerics.time.method import Advance
 
 STEP_TOLERANCE = 1e-13  # last correction relative to the sheet's side
 
@@ -33,9 +34,9 @@ class Midpoint(Integrator):
         """Drop the factors."""
         self._newton.forget()
 
-    def advance(self, state: State, at_most: float) -> Advance:
+    def advance(self, state: State, at_most: float) -> Advance[State]:
         """One step. Raises StepFailed."""
-        system, h = self.system, at_most
+        system, h = self.system.within(state, at_most), at_most
         time, middle = state.time + h, state.time + 0.5 * h
         coupling = system.coupling
         algebraic = coupling.algebraic if coupling is not None else np.zeros((1, 1), dtype=bool)
@@ -67,7 +68,6 @@ class Midpoint(Integrator):
         def weigh(correction: np.ndarray) -> np.ndarray:
             return np.where(algebraic, 0.5 * correction, correction)
 
-        system.since(state, h)
         guess = state.u + moved
         free = state.v - system.place_rate(state.time) + 0.5 * h * state.a
         guess = guess + h * system.expand(system.contract(free))

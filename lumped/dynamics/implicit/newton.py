@@ -18,9 +18,9 @@ import numpy as np
 from lumped.dynamics.implicit import compiled_newton
 from lumped.dynamics.implicit.compiled_newton import CONVERGED, CompiledNewton
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
-from lumped.dynamics.integrator import StepFailed
 from lumped.dynamics.system import System
 from sheetbench.numerics.reduced import Factor
+from sheetbench.numerics.time.method import StepFailed
 
 CORRECTIONS = 20
 STALE = 0.2  # ratio of successive corrections above which the factors are made anew
@@ -31,8 +31,10 @@ UNSOLVED = "the time step's equations did not converge: use smaller steps"
 
 @dataclass(frozen=True)
 class StepEquation:
-    """The equation of a step or stage: time t [s], û and v̂ (size, 3), c₂ [1/s²], c₁ [1/s]."""
+    """The equation of a step or stage: time t [s], û and v̂ (size, 3), c₂ [1/s²], c₁ [1/s], of a system with
+    its branches there."""
 
+    system: System
     time: float
     base_u: np.ndarray
     base_v: np.ndarray
@@ -123,8 +125,8 @@ class Newton:
     def _residual(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
         """Inertia and internal less external forces (size, 3) [N]."""
         v, a = self.state(equation, u)
-        inertia: np.ndarray = (self._system.mass @ a.ravel()).reshape(-1, 3)
-        return inertia - self._system.unbalanced(u, v, equation.time)
+        inertia: np.ndarray = (equation.system.mass @ a.ravel()).reshape(-1, 3)
+        return inertia - equation.system.unbalanced(u, v, equation.time)
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
         """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be
@@ -148,7 +150,11 @@ class Newton:
                 raise StepFailed(UNSOLVED)
             base = compiled.workspace.base_u, compiled.workspace.base_v
             equation = StepEquation(
-                float(stages.time[first]), *base, step.mass_coefficient, step.damping_coefficient
+                self._system,
+                float(stages.time[first]),
+                *base,
+                step.mass_coefficient,
+                step.damping_coefficient,
             )
             if not self._factorise(compiled, equation, stages.u[first]):
                 return False
@@ -176,7 +182,7 @@ class Newton:
 
     def _blocks(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
         v, _ = self.state(equation, u)
-        return self._system.matrix(
+        return equation.system.matrix(
             u, v, equation.time, equation.mass_coefficient, equation.damping_coefficient, 1.0
         )
 

@@ -33,8 +33,7 @@ def initial_state(
     memory = None if system.maxwell is None else system.maxwell.at_rest(u)
     v = system.place_rate(0.0)
     v = v if system.moving else np.zeros_like(u)
-    system.since(State(0.0, u, v, v, memory))
-    a = system.accelerate(system.unbalanced(u, v, 0.0))
+    a = system.accelerate(system.within(State(0.0, u, v, v, memory)).unbalanced(u, v, 0.0))
     projection = Projection(system)
     if projection.active:
         a, multipliers = projection.tangential(a, projection.jacobian(u))

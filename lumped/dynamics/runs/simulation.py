@@ -9,8 +9,6 @@ distance.
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import ExitStack
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +20,8 @@ from lumped.dynamics.explicit.step_limit import soften_items
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
 from lumped.dynamics.runs.initial import initial_state
+from lumped.dynamics.runs.observer import LatticeObserver
 from lumped.dynamics.runs.plan import Plan, plan_run
-from lumped.dynamics.runs.run import Run
-from lumped.dynamics.runs.sampling import Sampling
 from lumped.dynamics.system import System
 from lumped.lattice import Weights
 from lumped.mid_surface import MidSurface
@@ -32,9 +29,9 @@ from lumped.statics.fields import field_mesh
 from lumped.statics.solver import build_problem
 from sheetbench.choices import INTEGRATOR
 from sheetbench.clock import now
-from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.runs.columns import split
-from sheetbench.runs.store import FolderStore, MemoryStore
+from sheetbench.numerics.time.method import Advance
+from sheetbench.runs.record import Recipe, record
+from sheetbench.runs.schedule import Schedule
 from sheetbench.scenes import AnyScene, History, scene_of
 from sheetbench.scenes.contact import friction_notes
 from sheetbench.scenes.grading import as_settings
@@ -99,7 +96,6 @@ def simulate(
     start = initial_state(system, calibration, weights, scene)
     limit = INTEGRATORS[integrator].limit(system, start.u)
     plan = plan_run(system, calibration, limit, duration, step, integrator, every)
-    sampling = Sampling(system)
     nx, ny, layers = calibration.grid
     settings: dict[str, Any] = {
         "grid": [nx, ny, layers],
@@ -113,68 +109,47 @@ def simulate(
     masses = system.assembly.lattice.mass_count
     axes = system.coupling.axes() if system.coupling is not None else {}
     drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])
-    requested = {
+    key = {
         "scene": scene.document(),
         "springs": calibration.document()["springs"],
-        "integrator": integrator,
         "step": step,
         "every": every,
         "settings": settings,
         "weights": weights,
-        "frames": frames,
-        "columns": [[kind, name, list(shape)] for kind, name, shape in sampling.columns],
         "axes": {edge: len(rows) for edge, (rows, _) in axes.items()},
     }
-    with ExitStack() as open_store:
-        kept: FolderStore | MemoryStore = MemoryStore(sampling.width, len(drawn))
-        if store is not None:
-            kept = open_store.enter_context(FolderStore(store, sampling.width, len(drawn), requested))
-            if kept.plan is not None:
-                plan = Plan(**kept.plan).longer(duration)
-            kept.begin(asdict(plan))
-        method = _method(system, plan, integrator, options)
-        shown = plan.shown(frames)
-        ready = now()
-        with one_blas_thread():
-            run = Run(system, method, plan, sampling, kept, set(shown), drawn, progress)
-            run.begin(start)
-            resumed_from = run.reached.state.time
-            status, message = run.finish()
-        done = now()
-        parts = split(sampling.columns, kept.samples())
-        whole = kept.frames()
-    settings["step"] = "adaptive" if plan.adapts else plan.every / plan.steps
-    settings["every"] = plan.every
-    settings |= {"largest_step": limit.step} if limit is not None else {}
-    settings |= {"integrator_reason": why} if why else {}
-    return History(
+    recipe = Recipe(
         label=f"lumped {calibration.title}",
         integrator=integrator,
         settings=settings,
-        status=status,
-        message="; ".join(filter(None, [message, *friction_notes(scene)])),
-        time=parts["time"][""],
-        probes=parts.get("probe", {}),
-        energies=parts["energy"],
-        reactions=parts.get("reaction", {}),
-        actuators=parts.get("actuator", {}),
-        steps=run.reached.steps,
-        setup_seconds=ready - began,
-        solve_seconds=done - ready,
-        resumed_from=resumed_from,
-        extra={
+        key=key,
+        duration=duration,
+        schedule=plan,
+        method=lambda plan: _method(system, plan, integrator, options),
+        observer=LatticeObserver(system, drawn),
+        start=lambda method: Advance(start, 0.0, 0.0),
+        rows=len(drawn),
+        notes=tuple(friction_notes(scene)),
+    )
+    history = record(recipe, frames, store, progress, began)
+    history.settings.update({"largest_step": limit.step} if limit is not None else {})
+    history.settings.update({"integrator_reason": why} if why else {})
+    whole = history.extra["frames"]
+    history.extra.update(
+        {
             "frames": whole[:, :masses],
             "axes": {
                 edge: (rest, whole[:, np.searchsorted(drawn, rows)]) for edge, (rows, rest) in axes.items()
             },
-            "frame_times": plan.every * np.array(shown),
             "sample": lambda u, plan: MidSurface(system.assembly.lattice, plan).of(u),
             "mesh": field_mesh(system.problem.assembly, start.u, np.zeros_like(start.u)),
-        },
+        }
     )
+    return history
 
 
-def _method(system: System, plan: Plan, integrator: str, options: dict[str, float]) -> Integrator:
+def _method(system: System, plan: Schedule, integrator: str, options: dict[str, Any]) -> Integrator:
+    assert isinstance(plan, Plan)
     kind = INTEGRATORS[integrator]
     extra: dict[str, Any] = {"fixed": not plan.adapts} if kind.adaptive else {}
     return kind(system, plan.every / plan.steps, **options, **extra)

@@ -184,14 +184,14 @@ def test_a_scene_with_actuators():
 
 
 def test_the_document_has_the_promised_keys(capsys):
-    document = json_of(capsys, "advise", "one-edge-clamped", "--tolerance", "0.02")
+    document = json_of(capsys, "tradeoff", "one-edge-clamped", "--tolerance", "0.02")
     assert set(document["choice"]) == {"model", "settings"}
     assert document["predicted"]["error"] <= 0.02 and document["predicted"]["solve_seconds"] > 0
     assert "bending" in document["needs"]
 
 
 def test_the_printed_command_solves_the_choice(capsys, monkeypatch):
-    advice = json_of(capsys, "advise", "curved-edge", "--tolerance", "0.02")
+    advice = json_of(capsys, "tradeoff", "curved-edge", "--tolerance", "0.02")
     solved: list[Spec] = []
 
     def recorded(model, name=""):

@@ -1,75 +1,254 @@
-"""What every verb with --out does with it: one document, a folder that tells of itself, and what is refused.
+"""What every verb does with --json, --out, a terminal of any width and Python, by one kept run of each.
 
-Its terminal: test_terminal.py; its options in pairs: tests/test_matrix*.py; --quiet: test_quiet.py.
+Its options in pairs: tests/test_matrix*.py; alone: tests/test_options_alone.py.
 """
 
+import inspect
 import json
+import math
+import re
+from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from commands import one_line, run
-from verbs import SMALL, write_inputs
+from verbs import SMALL, WITHOUT_ANSWER, few_runs, undraw, write_inputs
 
-from comparisons.cli.app import verb_group
+import sheetbench as sb
+from comparisons.cli import arguments, console
+from comparisons.cli.app import VERBS, verb_group
+from sheetbench.answers.files import to_json
 from sheetbench.answers.report import Picture
+from sheetbench.errors import BadInput
+from sheetbench.scenes import catalogue
 
-OUT = [  # the --out of `report` is a page
-    verb
-    for verb in SMALL
-    if verb != "report" and any("--out" in one.opts for one in verb_group().commands[verb].params)
-]
+ANSWERED = [name for name in SMALL if name not in WITHOUT_ANSWER]
+RESUMED = ("compare motion", "simulate", "tradeoff", "stability", "crosscheck")
 OTHER = {"two-edges-clamped": "one-edge-clamped", "one-edge-clamped": "two-edges-clamped"}
 OTHER |= {"two-edges-settling": "one-edge-clamped"}
-OF_NONE = {"calibrate", "crosscheck"}  # whose answer is of a sheet, or of several scenes
+OF_NONE = ("calibrate", "calibrate code", "crosscheck")  # whose answer is of a sheet, or of several scenes
 
 
-@pytest.fixture(autouse=True)
-def here(tmp_path, monkeypatch, undrawn, few):
+@pytest.fixture
+def here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    undraw(monkeypatch)
+    few_runs(monkeypatch)
     write_inputs(tmp_path)
 
 
-def asked(verb):
-    """Its command line without a folder."""
-    line = SMALL[verb]
-    return line[: line.index("--out")] if "--out" in line else line
+def test_every_verb_is_tried():
+    assert {name.split()[0] for name in SMALL} == set(VERBS) - {"live"}  # a server
 
 
-@pytest.mark.parametrize("verb", OUT)
-def test_its_folder_holds_the_printed_document_and_is_for_one_question(verb, tmp_path, capsys):
-    """Asked again it answers again, from what a campaign or a run has kept; asked of another scene it is
-    refused with the way out."""
-    folder = tmp_path / "out"
-    for _ in range(2):
-        assert run(*asked(verb), "--json", "--out", str(folder)) == 0
-        printed = capsys.readouterr()
-        document = json.loads(printed.out)
-        assert "Traceback" not in printed.err
-    record = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["runs"][verb]
-    assert record["finished"] and all((folder / name).exists() for name in record["files"])
-    kept = [path.read_text(encoding="utf-8") for path in folder.glob("*.json")]
-    assert document in [json.loads(text) for text in kept]
-    scene = next((word for word in asked(verb) if word in OTHER), None)
-    if scene is not None and verb not in OF_NONE:
-        before = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
-        again = [OTHER[scene] if word == scene else word for word in asked(verb)]
-        assert run(*again, "--out", str(folder)) == 2
-        assert "--overwrite" in one_line(capsys)
-        assert {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()} == before
+@pytest.mark.parametrize("name", SMALL)
+def test_it_ends_well_and_without_a_traceback(kept, name):
+    found = kept(name)
+    assert found.status == 0, found.said
+    assert "Traceback" not in found.printed + found.said
 
 
-@pytest.mark.parametrize("verb", OUT)
-def test_what_is_no_folder_is_refused(verb, capsys):
+@pytest.mark.parametrize("name", ANSWERED)
+def test_its_folder_holds_the_printed_document(kept, name):
+    found = kept(name)
+    (record,) = json.loads((found.folder / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
+    assert record["finished"] and all((found.folder / file).exists() for file in record["files"])
+    texts = [json.loads(path.read_text(encoding="utf-8")) for path in found.folder.glob("*.json")]
+    printed = found.document
+    assert any(text == printed or {**printed, "warnings": []} == text for text in texts)
+
+
+@pytest.mark.parametrize("name", RESUMED)
+def test_the_same_command_goes_on_from_what_it_kept(kept, name, here):
+    """With the same answer, and no solve of it again."""
+    before = kept(name)
+    assert run(*SMALL[name].split(), "--json", "--quiet", "--out", str(before.folder)) == 0
+
+
+@pytest.mark.parametrize("name", [name for name in ANSWERED if name not in OF_NONE])
+def test_a_folder_is_for_one_question(kept, name, here, capsys):
+    """Asked of another scene it is refused with the way out, and nothing there is another."""
+    words, folder = SMALL[name].split(), kept(name).folder
+    if OTHER.keys().isdisjoint(words):
+        return
+    before = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+    assert run(*(OTHER.get(word, word) for word in words), "--out", str(folder)) == 2
+    assert "--overwrite" in one_line(capsys)
+    assert {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()} == before
+
+
+@pytest.mark.parametrize("name", ANSWERED)
+def test_what_is_no_folder_is_refused(name, here, capsys):
     Path("taken").write_text("")
     for out, said in (("", "--out = ''"), ("taken", "taken")):
-        assert run(*asked(verb), "--out", out) == 2
+        assert run(*SMALL[name].split(), "--out", out) == 2
         assert said in one_line(capsys)
 
 
-@pytest.mark.parametrize("verb", OUT)
-def test_no_pictures_leaves_out_every_picture(verb, tmp_path, monkeypatch):
-    """Of verbs, too, whose pictures have no style of their own."""
+def test_no_pictures_leaves_out_every_picture(tmp_path, here, monkeypatch):
+    """Where the answer is written, for all verbs."""
     drawn = []
     monkeypatch.setattr(Picture, "write", lambda picture, folder: drawn.append(picture.name))
-    assert run(*asked(verb), "--quiet", "--no-pictures", "--out", str(tmp_path / "out")) == 0
-    assert drawn == []
+    for verb in ("check one-edge-clamped", "modes one-edge-clamped --grid 3 --elements 2 --count 2"):
+        folder = str(tmp_path / verb[:5])
+        assert run(*verb.split(), "--quiet", "--no-pictures", "--out", folder) == 0 and drawn == []
+        assert run(*verb.split(), "--quiet", "--out", folder) == 0 and drawn.pop()
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_can_be_quiet_and_without_pictures(verb, monkeypatch, capsys):
+    def quietly():
+        raise BadInput("it is asked to be quiet")
+
+    monkeypatch.setattr(console, "quietly", quietly)  # the verb itself does not begin
+    needed = []
+    for one in verb_group().commands[verb].params:
+        if one.required:
+            needed += [one.opts[0]] if one.param_type_name == "option" else []
+            needed.append("one-edge-clamped")
+    assert run(verb, *needed, "--no-pictures", "--quiet") == 2
+    assert one_line(capsys) == "sheetbench: it is asked to be quiet\n"
+
+
+@pytest.mark.parametrize("width", [50, 80, 160])
+@pytest.mark.parametrize("verb", VERBS)
+def test_a_help_page_cuts_nothing_off(monkeypatch, capsys, verb, width):
+    monkeypatch.setenv("COLUMNS", str(width))
+    monkeypatch.setattr("typer.rich_utils.MAX_WIDTH", width)  # as it reads the variable where it is imported
+    assert run(verb, "--help") == 0
+    page = capsys.readouterr().out
+    assert "--help" in page and "…" not in page.replace("N,N,…", "")
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_a_help_page_keeps_its_brackets(verb):
+    command = verb_group().commands[verb]
+    for text in (command.help, *(getattr(option, "help", None) for option in command.params)):
+        assert not re.search(r"(?<!\\)\[[a-z/@#]", text or "", re.IGNORECASE)  # it would be rich's markup
+
+
+def test_help_lists_fifteen_verbs_on_a_screen(monkeypatch, capsys):
+    """Of 40 lines and 80 columns, a line each."""
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setattr("typer.rich_utils.MAX_WIDTH", 80)
+    assert run("--help") == 0
+    page = capsys.readouterr().out.splitlines()
+    assert len(page) <= 40 and tuple(re.findall(r"^│ (\w+)  ", "\n".join(page), re.M)) == VERBS
+    assert len(VERBS) == 15
+
+
+@pytest.mark.parametrize("gone", [*arguments.REMOVED_VERBS, *arguments.REMOVED_OPTIONS], ids=str)
+def test_what_is_gone_is_refused_with_what_replaces_it(gone, capsys):
+    words = [gone, "two-edges-clamped"] if isinstance(gone, str) else gone
+    instead = (arguments.REMOVED_VERBS | arguments.REMOVED_OPTIONS)[gone]
+    assert gone not in VERBS and run(*words) == 2
+    named = gone if isinstance(gone, str) else " ".join(gone)
+    assert one_line(capsys) == f"sheetbench: {named}: removed; {instead}\n"
+    for verb in re.findall(r"'sheetbench (\w+)", instead):
+        assert verb in VERBS
+
+
+# ---- on a terminal
+WIDE = 400  # columns, where nothing has to give way
+FIGURES: dict[str, Callable[[Any], list[float]]] = {
+    "compare": lambda d: [u for one in d["solutions"] for u in one["probes"]["P4"]],
+    "calibrate": lambda d: [d["springs"]["axial"], d["springs"]["vertical"], d["layer_distance"]],
+    "identify": lambda d: [d["unknowns"]["young"]["value"], *d["unknowns"]["young"]["interval"]],
+    "tradeoff": lambda d: [row["error"] for row in d["rows"]],
+    "modes": lambda d: [f for one in d["solutions"] for f in one["frequencies_hz"]],
+    "verify": lambda d: [row["computed"] for row in d["rows"] if abs(row["computed"]) > 1e-3],
+    "tradeoff tolerance": lambda d: [d["predicted"]["error"]],
+}  # the main figures of a document
+SCALES = (1.0, 1e2, 1e3, 1e6, 1e-3, 1e-6)  # of shown units
+WAYS = {"50": (50, "utf-8"), "160": (160, "utf-8"), "80, ASCII": (80, "ascii")}
+
+
+def numbers(text):
+    """The numbers of a text as they are printed, but for powers and halves, which are one sign elsewhere."""
+    plain = text.replace("−", "-").replace("1/2", "½")
+    return re.findall(r"(?<!\^)-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", plain)
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", ANSWERED)
+def test_no_number_is_cut(kept, name, way):
+    whole, shown = (Counter(numbers(kept(name).shown(*one))) for one in ((WIDE, "utf-8"), WAYS[way]))
+    assert not whole - shown and not set(shown) - set(whole)
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", FIGURES)
+def test_the_main_figures_are_shown(kept, name, way):
+    printed = [(float(n), 0.51 * 10.0 ** _last_digit(n)) for n in numbers(kept(name).shown(*WAYS[way]))]
+    for figure in FIGURES[name](kept(name).document):
+        assert any(abs(scale * figure - n) <= digit for scale in SCALES for n, digit in printed), figure
+
+
+def _last_digit(number):
+    """The power of ten of a printed number's last digit."""
+    mantissa, _, exponent = number.partition("e")
+    return int(exponent or 0) - len(mantissa.partition(".")[2])
+
+
+@pytest.mark.parametrize("name", ["check", "tradeoff tolerance"])
+def test_a_command_to_copy_is_one_line(kept, name):
+    command = kept(name).shown(50).partition("Solve it with:")[2].strip()
+    assert command.startswith(f"sheetbench compare {SMALL[name].split()[1]}") and "\n" not in command
+
+
+# ---- in Python
+PYTHON = [name for name in ANSWERED if not name.startswith("study")]
+CLOCK = ("seconds", "memory", "timings", "busy", "load_average", "spread", "compile", "reason", "probing")
+CLOCK += ("started", "finished")
+
+
+def of_document(found, name=""):
+    """Every number and text of a document with the path to it, but those of the clock."""
+    if isinstance(found, dict):
+        for key, value in found.items():
+            if not any(word in key for word in CLOCK):
+                yield from of_document(value, f"{name}.{key}")
+    elif isinstance(found, list):
+        for i, value in enumerate(found):
+            yield from of_document(value, f"{name}.{i}")
+    elif not (isinstance(found, float) and math.isnan(found)):
+        yield name, found
+
+
+@pytest.mark.parametrize("name", PYTHON)
+def test_the_same_call_from_python_gives_the_same_answer(kept, name, here):
+    """The words of the command line, as the terminal reads them, are the function's arguments."""
+    verb, *words = SMALL[name].split()
+    command = verb_group().commands[verb]
+    asked = command.make_context(verb, list(words)).params
+    function = getattr(sb, verb)
+    taken = {key: value for key, value in asked.items() if key in inspect.signature(function).parameters}
+    answer = json.loads(to_json(function(**taken).document()))
+    there, here_ = dict(of_document(kept(name).document)), dict(of_document(answer))
+    if name == "tradeoff tolerance":  # which lattices are tried goes by their time
+        there, here_ = ({key: of[key] for key in (".scene", ".bar") if key in of} for of in (there, here_))
+    warned = {key for key in {*there, *here_} if key.startswith(".warnings")}
+    assert {k: v for k, v in there.items() if k not in warned} == {
+        k: v for k, v in here_.items() if k not in warned
+    }
+
+
+def test_an_option_has_one_name_and_one_default_in_command_and_function():
+    of_terminal = {"json", "quiet", "help", "progress", "lattice"}
+    for verb in set(VERBS) - {"live", "study"}:
+        known = inspect.signature(getattr(sb, verb)).parameters
+        options = {one.name: one for one in verb_group().commands[verb].params}
+        hidden = {name for name, one in options.items() if getattr(one, "hidden", False)}
+        assert set(known) - of_terminal == set(options) - of_terminal - hidden
+        for name in set(known) - of_terminal:
+            usual = known[name].default
+            assert usual is inspect.Parameter.empty or usual in (options[name].default, None, False), name
+
+
+def test_scenes_of_the_catalogue_are_copied(kept):
+    assert {row["name"] for row in kept("check catalogue").document["scenes"]} == set(catalogue())
+    copied = kept("check catalogue").folder / "one-edge-clamped.toml"
+    assert sb.load(copied) == sb.load("one-edge-clamped")
+    assert sb.load(kept("check").folder / "two-edges-clamped.toml") == sb.load("two-edges-clamped")

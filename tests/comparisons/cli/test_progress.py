@@ -148,7 +148,7 @@ def test_other_verbs_tell_too(tmp_path):
     sb.modes(SCENE, grid=3, elements=2, count=2, progress=told.append)
     assert [one.doing for one in told] == ["modes of lumped", "modes of shell"]
     told.clear()
-    sb.advise("one-edge-clamped", 0.2, progress=told.append)
+    sb.tradeoff("one-edge-clamped", tolerance=0.2, progress=told.append)
     wanted = {"solving shell, 4 × 4 elements", "solving lumped, 3 × 3 × 2 masses"}
     assert wanted <= {one.doing for one in told}
     told.clear()

@@ -1,35 +1,17 @@
-"""--quiet and --no-pictures: every verb takes them; quiet leaves results, warnings and errors."""
+"""--quiet leaves results, warnings and errors; that every verb takes it: test_every_verb.py."""
 
 import logging
 
 import pytest
-from commands import one_line, run
+from commands import run
 
 from comparisons.cli import console
 from comparisons.cli import lines as cli_lines
-from comparisons.cli.app import VERBS, verb_group
 from comparisons.cli.verb import as_verb
 from comparisons.report import work
 from comparisons.runs.campaign import Progress
-from sheetbench.errors import BadInput
 
 SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
-
-
-@pytest.mark.parametrize("verb", VERBS)
-def test_every_verb_can_be_quiet_and_without_pictures(verb, monkeypatch, capsys):
-    def quietly():
-        raise BadInput("it is asked to be quiet")
-
-    monkeypatch.setattr(console, "quietly", quietly)  # the verb itself does not begin
-    params = verb_group().commands[verb].params
-    needed = []
-    for one in params:
-        if one.required:
-            needed += [one.opts[0]] if one.param_type_name == "option" else []
-            needed.append("one-edge-clamped")
-    assert run(verb, *needed, "--no-pictures", "--quiet") == 2
-    assert one_line(capsys) == "sheetbench: it is asked to be quiet\n"
 
 
 @pytest.fixture

@@ -18,4 +18,7 @@ def test_the_list_of_verbs_is_whole_in_a_narrow_terminal(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "60")
     assert run("--help") == 0
     words = " ".join(capsys.readouterr().out.split())
-    assert "..." not in words.replace("[ARGS]...", "") and "show what differs and what it cost." in words
+    assert (
+        "..." not in words.replace("[ARGS]...", "")
+        and "Solve a scene with the lattice and a reference, side by side." in words
+    )

@@ -4,8 +4,7 @@ from pathlib import Path
 
 from commands import one_line, run
 
-from comparisons.cli import arguments, study
-from comparisons.cli.app import VERBS
+from comparisons.cli import study
 from studies import STUDIES
 
 ROOT = Path(__file__).parents[3]
@@ -37,13 +36,3 @@ def test_an_installed_package_has_the_reproduction_and_names_the_way_to_the_othe
     listed = capsys.readouterr().out
     assert "reproduction " in listed and "promises" not in listed
     assert run("study", "reproduction", "--part", "nearest", "--json") == 0
-
-
-def test_what_is_gone_is_refused_with_what_replaces_it(capsys):
-    for verb, instead in arguments.REMOVED_VERBS.items():
-        assert verb not in VERBS
-        assert run(verb, "two-edges-clamped") == 2
-        assert one_line(capsys) == f"sheetbench: {verb}: removed; {instead}\n"
-    for (verb, option), instead in arguments.REMOVED_OPTIONS.items():
-        assert run(verb, option) == 2
-        assert one_line(capsys) == f"sheetbench: {verb} {option}: removed; {instead}\n"

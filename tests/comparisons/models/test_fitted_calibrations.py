@@ -28,7 +28,7 @@ def test_a_fit_is_computed_once():
 def test_calibrate_trains_on_the_scene_it_is_given(capsys):
     found = []
     for scene in ("two-edges-clamped", "one-edge-clamped"):
-        found.append(json_of(capsys, "calibrate", scene, "--method", "fit-static", "--grid", "5"))
+        found.append(json_of(capsys, "calibrate", scene, "--calibration", "fit-static", "--grid", "5"))
     assert found[0]["springs"] != found[1]["springs"]
     assert found[0]["fit"]["residual"] < 0.01
     assert set(found[0]["fit"]["half_widths"]) <= set(found[0]["springs"])
@@ -36,7 +36,7 @@ def test_calibrate_trains_on_the_scene_it_is_given(capsys):
 
 def test_calibrate_shows_what_the_data_tell(capsys):
     sheet = ("--young", "54.5e6", "--poisson", "0.48", "--thickness", "0.003", "--side", "0.188")
-    assert run("calibrate", *sheet, "--method", "fit-static", "--grid", "5") == 0
+    assert run("calibrate", *sheet, "--calibration", "fit-static", "--grid", "5") == 0
     printed = capsys.readouterr().out
     assert "What the data tell of each spring" in printed and "do not see" in printed
 

@@ -106,7 +106,7 @@ def test_a_scene_file_brings_its_grading(text, tmp_path, capsys):
     path, grading = tmp_path / "own.toml", parse_grading(text)
     load("one-edge-clamped").save(path)
     springs = ("--grid", "5", "--grading", text)
-    assert run("calibrate", str(path), *springs, "--method", "consistent", "--toml") == 0
+    assert run("calibrate", str(path), *springs, "--calibration", "consistent", "--toml") == 0
     with path.open("a") as file:
         file.write(capsys.readouterr().out)
     scene = load(path)

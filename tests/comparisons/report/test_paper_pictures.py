@@ -15,9 +15,9 @@ from comparisons.comparison import figure as comparing
 from comparisons.comparison import probes_figure
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
-from comparisons.linearisation import figure as responding
-from comparisons.linearisation.linearisation import linearise
 from comparisons.modes import figure as swinging
+from comparisons.modes import state_figure as responding
+from comparisons.modes.linear import linearise
 from comparisons.modes.spectra import spectra
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff

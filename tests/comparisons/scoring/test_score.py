@@ -149,7 +149,7 @@ def test_a_run_of_ours_is_scored_from_its_history(case, grid, tmp_path, capsys):
     """The lattice, 2 % off with so many masses a side; samples between the reference's are passed over."""
     known = references()[case]
     assert known.time is not None and known.duration is not None
-    assert run("suite", "--suite", "motion", "--out", str(tmp_path / "set")) == 0
+    assert run("score", "--suite", "motion", "--out", str(tmp_path / "set")) == 0
     springs = ["--lumped", grid, "--duration", str(known.duration), "--every", str(known.time[1] / 2)]
     out = ["--no-pictures", "--out", str(tmp_path / "run")]
     assert run("simulate", str(tmp_path / "set" / f"{case}.toml"), *springs, *out) == 0

@@ -66,7 +66,7 @@ def test_a_coarser_shell_finds_the_values(name):
 
 
 def test_the_verb_lists_and_exports_it(tmp_path, capsys):
-    assert json_of(capsys, "suite", "--out", str(tmp_path))["cases"] == json.loads(FILE.read_text())["cases"]
+    assert json_of(capsys, "score", "--out", str(tmp_path))["cases"] == json.loads(FILE.read_text())["cases"]
     assert scenes.load(str(tmp_path / "thick.toml")) == references()["thick"].scene
     assert "CC-BY-4.0" in (tmp_path / "LICENCE.txt").read_text()
     with (tmp_path / "values-statics.csv").open() as file:

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import fem_reference
-from fem_reference.motion.generalised_alpha import GeneralisedAlpha, StepFailed
+from fem_reference.motion.generalised_alpha import GeneralisedAlpha
+from sheetbench.numerics.time.method import StepFailed
 from sheetbench.scenes import Air, BadInput, Status, load
 from sheetbench.scenes.tables import FactorTable
 

@@ -27,7 +27,7 @@ BROKEN = (
     *(".".join("a" * 600) + " = 1", "[a]\n[a]\n", "\ufeff", '"\\ud800"', "#\r", "1979-05-27T07:32:00Z"),
 )
 OPTIONS = {  # verb → its options, without one that names what is run
-    "calibrate": "--grid --layer-distance --k --young --poisson --thickness --side --method",
+    "calibrate": "--grid --layer-distance --k --young --poisson --thickness --side --calibration",
     "check": "",
     "compare": "--lumped --elements --calibration --k --layer-distance --reference --model",
     "simulate": "--lumped --duration --step --every --integrator --calibration",

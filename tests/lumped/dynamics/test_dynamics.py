@@ -77,8 +77,8 @@ def grows(equations, rest, h, steps=400):
     method, state = INTEGRATORS["verlet"](equations, h), start
     try:
         while steps:
-            advance, taken = method.march(state, h, steps)
-            state, steps = advance.state, steps - taken
+            advance = method.march(state, h, steps)
+            state, steps = advance.state, steps - advance.steps
     except StepFailed:
         return True
     return largest(state.v) > 1e2 * largest(v)

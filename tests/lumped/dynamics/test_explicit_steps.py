@@ -58,7 +58,7 @@ def test_a_call_takes_several_steps_of_the_largest_lattice(monkeypatch):
     """To lay it out for a call and back takes as long as two."""
     monkeypatch.setattr(flat_system, "PER_SPRING", 1.0)
     system, state = start_of(CASES["dampers"])
-    _, taken = INTEGRATORS["verlet"](system, 1e-7).march(state, 1e-7, 100)
+    taken = INTEGRATORS["verlet"](system, 1e-7).march(state, 1e-7, 100).steps
     assert taken == flat_system.LEAST
 
 
@@ -68,7 +68,8 @@ def test_compiled_steps_are_the_steps_one_by_one(name, precision):
     system, state = start_of(CASES[name], precision)
     step = 0.8 * step_limit(system, state.u).step
     method = INTEGRATORS["verlet"](system, step)
-    compiled, taken = method.march(state, step, STEPS)
+    compiled = method.march(state, step, STEPS)
+    taken = compiled.steps
     dissipated = work = 0.0
     for _ in range(STEPS):
         advance = method.advance(state, step)
@@ -93,7 +94,7 @@ def test_dampers_ask_for_shapes_that_were_kept_or_find_them_anew(monkeypatch):
         monkeypatch.setattr(packing, "CACHE_LIMIT", most)
         system, _ = start_of(CASES["both damped"])
         assert system.packing.keeping == keeping
-        ends.append(INTEGRATORS["verlet"](system, step).march(state, step, STEPS)[0])
+        ends.append(INTEGRATORS["verlet"](system, step).march(state, step, STEPS))
     kept, found = ends
     assert np.abs(kept.state.v - found.state.v).max() < 1e-12 * np.abs(kept.state.v).max()
     assert kept.dissipated == pytest.approx(found.dissipated, rel=1e-12)

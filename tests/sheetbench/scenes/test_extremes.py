@@ -23,7 +23,7 @@ OPTIONS = [
     *((CALIBRATE, option) for option in ("--young", "--side", "--thickness", "--density", "--poisson")),
     *((SIMULATE, option) for option in ("--step", "--duration", "--every")),
     (("tradeoff", SEED), "--duration"),
-    (("advise", SEED), "--tolerance"),
+    (("tradeoff", SEED), "--tolerance"),
 ]
 
 

@@ -1,0 +1,201 @@
+"""What a cell is as a sheet: coefficients, moduli beside the sheet's, the error that stays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from comparisons.codes.cell import Cell
+from comparisons.codes.cell_meshes import cell_on
+from comparisons.codes.coefficients import best_hinge, limit_error, nearest
+from comparisons.codes.homogenise import Moduli, moduli_of
+from comparisons.codes.parameters import Parameter, parameters
+from fem_reference.surface.materials import section_of
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.table import Column, Table, number
+from sheetbench.errors import BadInput, NoEquilibrium, require_effect
+from sheetbench.scenes import AnyScene, Scene, require_plain, scene_of
+from sheetbench.scenes.words import sheet_in_words
+
+UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
+MISSED = 0.01  # of the sheet's modulus 11
+
+
+@dataclass(frozen=True)
+class Coefficient:
+    """A coefficient of the cell's elements [SI]; nearest: the one whose moduli come nearest to the sheet's,
+    where that is another."""
+
+    coefficient: str
+    unit: str
+    value: Annotated[float, Column("value", form="#.6g")]
+    nearest: Annotated[float | None, Column("nearest to the moduli", form="#.6g")] = None
+
+
+@dataclass(frozen=True)
+class Modulus:
+    """A modulus of the sheet and of the cell, and their difference over the sheet's 11 of the same kind."""
+
+    modulus: str
+    unit: str
+    sheet: Annotated[float, Column("sheet", form="#.6g")]
+    cell: Annotated[float, Column("cell", form="#.6g")]
+    miss: Annotated[float, Column("off by", "", "%", 100.0, "z.2f")]
+
+
+@dataclass(frozen=True, repr=False)
+class CellModuli(Answer):
+    """A cell's coefficients for a scene's sheet, the moduli they give, and the error of fine meshes there.
+
+    Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
+    nearest to the sheet's, and the error that they leave, where that is another. limit_error is None where it
+    cannot be told; missing: why.
+    """
+
+    cell: Cell
+    scene: Scene
+    coefficients: dict[str, float]
+    moduli: Moduli
+    limit_error: float | None
+    nearest: tuple[dict[str, float], float] | None = None
+    missing: str = ""
+
+    file_name = "cell"
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the error in the scene is known."""
+        return not self.missing
+
+    @property
+    def rows(self) -> list[Modulus]:
+        """The moduli of the sheet and of the cell."""
+        own = section_of(self.scene.material, self.scene.sheet.thickness)
+        target = Moduli(own.membrane, 0.0 * own.membrane, own.bending, own.shear).named()
+        scales = {"A": target["A11"], "D": target["D11"], "S": target["Sx"]}
+        return [
+            Modulus(name, UNITS[name[0]], target[name], got, (got - target[name]) / scales[name[0]])
+            for name, got in self.moduli.named().items()
+        ]
+
+    def heading(self) -> tuple[str, str, str]:
+        size = f"nodes {1e3 * (self.cell.area / len(self.cell.nodes)) ** 0.5:.4g} mm apart"
+        sheet = sheet_in_words(self.scene.sheet, self.scene.material)
+        return f"cell {self.cell.name}", size, " ".join(filter(None, (f"{sheet}.", self._verdict())))
+
+    def _verdict(self) -> str:
+        """How far off the finest mesh is in the scene, in a sentence."""
+        if self.limit_error is None:
+            return ""
+        text = f"In {self.scene.name} even an infinitely fine mesh is {100 * self.limit_error:.1f} % off"
+        if self.nearest is None:
+            return f"{text}."
+        return (
+            f"{text} with the coefficients below, {100 * self.nearest[1]:.1f} % with those nearest to the "
+            "sheet's moduli."
+        )
+
+    def tables(self) -> tuple[Table, ...]:
+        units = self.cell.units()
+        others = {} if self.nearest is None else self.nearest[0]
+        coefficients = [
+            Coefficient(name, units[name], value, others.get(name))
+            for name, value in self.coefficients.items()
+        ]
+        codes = parameters(self.cell.hinge, self.coefficients, self.scene) if self.cell.triangles else []
+        caption = "Parameters of codes with such cells"
+        fields = ("coefficient", "unit", "value", *(("nearest",) if others else ()))
+        return (
+            Table.of(Coefficient, coefficients, "Coefficients", "coefficients", fields=fields),
+            *([Table.of(Parameter, codes, caption, "codes", grouped=True)] if codes else []),
+            Table.of(Modulus, self.rows, "Moduli of the sheet and of the cell", "moduli"),
+        )
+
+    def result(self) -> str:
+        return self._verdict() or super().result()
+
+    def notes(self) -> list[str]:
+        missed = [
+            f"{row.modulus} by {number(100 * row.miss, '+.0f')} %"
+            for row in self.rows
+            if abs(row.miss) > MISSED
+        ]
+        notes = ["off by: difference over the sheet's A11, D11 or S."]
+        if missed:
+            notes.append(f"These coefficients miss {', '.join(missed)}.")
+        if self.limit_error is not None:
+            notes.append(
+                "Errors in the scene: of the largest displacement, by a shell with the cell's moduli beside "
+                "one with the sheet's."
+            )
+        return notes
+
+    def complaints(self) -> list[str]:
+        return [f"no error in {self.scene.name} is known: {self.missing}"] if self.missing else []
+
+    def document(self) -> dict[str, Any]:
+        nearest = self.nearest and dict(zip(("coefficients", "limit_error"), self.nearest, strict=True))
+        return {
+            "cell": self.cell.name,
+            "area": self.cell.area,
+            "coefficients": self.coefficients,
+            "units": self.cell.units(),
+            "moduli": [
+                {"name": r.modulus, "asked": r.sheet, "got": r.cell, "miss": r.miss} for r in self.rows
+            ],
+            "limit_error": self.limit_error,
+            "nearest": nearest,
+            "message": self.missing,
+        }
+
+
+def homogenise(
+    scene: AnyScene,
+    cell: Cell | str,
+    *,
+    spacing: float | None = None,
+    hinge: str | None = None,
+    coefficients: Mapping[str, float] | None = None,
+) -> CellModuli:
+    """Return a cell's coefficients for a scene's sheet, and what they give: those nearest to its moduli, and
+    of hinges the one that is best in the scene.
+
+    cell: a name or a file, whose nodes are `spacing` [m] apart, an eighth of the shorter side unless given,
+    with the energy of a `hinge`; or a `Cell`. coefficients: taken in place of those found. Where the scene's
+    sheet has no stable equilibrium the answer has no error and says so. Raises BadInput for a coefficient
+    that the cell does not have, a scene without an answer at rest, and spacing and hinge of a cell that has
+    its own.
+    """
+    scene, given = scene_of(scene), dict(coefficients or {})
+    require_plain(scene, "--cell")
+    if isinstance(cell, str):
+        cell = cell_on(scene.sheet, cell, spacing, hinge)
+    else:
+        require_effect("on a Cell, which has its own", {"spacing": spacing, "hinge": hinge})
+    if unknown := set(given) - set(cell.units()):
+        raise BadInput(f"coefficient {', '.join(sorted(unknown))}: {cell.name} has {', '.join(cell.units())}")
+    chosen = nearest(cell, scene.material, scene.sheet.thickness) | given
+    try:
+        off, others = limit_error(scene, moduli_of(cell, chosen)), None
+        if not given and (best := best_hinge(scene, cell, chosen)):
+            others, chosen = (chosen, off), chosen | {"hinge": best[0]}
+            off = limit_error(scene, moduli_of(cell, chosen))
+    except NoEquilibrium as error:
+        return CellModuli(cell, scene, chosen, moduli_of(cell, chosen), None, missing=str(error))
+    return CellModuli(cell, scene, chosen, moduli_of(cell, chosen), off, others)
+
+
+def given_coefficients(entries: Sequence[Mapping[str, float] | str]) -> dict[str, float]:
+    """Return coefficients by name from NAME=VALUE texts or mappings. Raises BadInput for what is neither."""
+    given: dict[str, float] = {}
+    for entry in entries:
+        if not isinstance(entry, str):
+            given |= entry
+            continue
+        name, _, value = entry.partition("=")
+        try:
+            given[name] = float(value)
+        except ValueError:
+            raise BadInput(f"--coefficient {entry}: NAME=VALUE, the value a number") from None
+    return given

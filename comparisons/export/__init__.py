@@ -1,1 +1,0 @@
-"""A lattice in files for other programs, with values to check theirs by."""

@@ -1,1 +1,0 @@
-"""A lattice about its equilibrium as matrices, for control."""

@@ -1,0 +1,210 @@
+"""A scene's lattice, linear about its equilibrium: matrices, state space of the lowest modes or of the most
+important states, their files: the answer of `sheetbench modes --state-space`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+
+from comparisons.report.array_files import write_mat, write_npz
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, Unit
+from sheetbench.scenes import Scene
+
+if TYPE_CHECKING:
+    from lumped import Balanced, Linear, StateSpace
+
+UNITS = {"fx": "N", "fy": "N", "fz": "N", "curvature": "1/m", "x": "m", "y": "m", "z": "m"}
+ROUNDING = 1e-6  # of what an input moves most
+EXPLANATION = (
+    "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
+    "load or gravity",
+    "--out DIR writes M, C, K, F, F_rate, G, H and ss_A to ss_D to linear.npz and linear.mat",
+)
+
+
+@dataclass(frozen=True)
+class PoleRow:
+    """A pair of poles."""
+
+    frequency: Annotated[float, HERTZ(".5g")]
+    damping_ratio: Annotated[float, PERCENT("z.3g")]
+    real: Annotated[float, Unit("1/s", "1/s")("z.5g")]
+    imaginary: Annotated[float, Unit("rad/s", "rad/s")(".5g")]
+
+
+@dataclass(frozen=True)
+class InputRow:
+    """What an input moves the probes by at rest, by output or by its column."""
+
+    input: str
+    unit: str
+    moved: Annotated[Mapping[Any, float], MILLIMETRES("z.4g")]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Linearisation(Answer):
+    """matrices: of all unknowns; modal: state space of the modes requested; balanced: what it was reduced to,
+    if it was; label: of the lattice."""
+
+    file_name = "linear"
+    scene: Scene
+    label: str
+    about: str
+    matrices: Linear
+    modal: StateSpace
+    balanced: Balanced | None = None
+
+    @property
+    def space(self) -> StateSpace:
+        """The state space that is shown and written."""
+        return self.modal if self.balanced is None else self.balanced.space
+
+    @cached_property
+    def damping_ratios(self) -> np.ndarray:
+        """−Re s/|s| of the poles above the real axis, or on it."""
+        upper = self.upper
+        return -upper.real / np.abs(upper)
+
+    @property
+    def upper(self) -> np.ndarray:
+        """The poles of each pair above the real axis, and those on it [rad/s]."""
+        poles = self.space.poles
+        found: np.ndarray = poles[poles.imag >= 0.0]
+        return found
+
+    def document(self) -> dict[str, Any]:
+        lattice = {"model": "lumped", "label": self.label, "frequencies_hz": self.modal.frequencies}
+        return {
+            "scene": self.scene.document(),
+            "about": self.about,
+            "solutions": [lattice],
+            "state_space": self.form(),
+        }
+
+    def form(self) -> dict[str, Any]:
+        """Return poles, inputs, outputs and static gains, and what a reduction promises."""
+        poles, matrices = self.space.poles, self.matrices
+        return {
+            "label": self.label,
+            "unknowns": matrices.mass.shape[0],
+            "poles": np.column_stack([poles.real, poles.imag]),
+            "frequencies_hz": self.space.frequencies,
+            "inputs": list(matrices.inputs),
+            "outputs": list(matrices.outputs),
+            "jacobian": matrices.jacobian,
+            **self._reduction,
+        }
+
+    @property
+    def _reduction(self) -> dict[str, Any]:
+        """Describe the balanced truncation, where there is one."""
+        if self.balanced is None:
+            return {}
+        return {"hankel": self.balanced.hankel, "bound": self.balanced.bound, "scale": self.balanced.scale}
+
+    def arrays(self) -> dict[str, Any]:
+        """Return what `linear.mat` and `linear.npz` hold; matrices of all unknowns are sparse."""
+        matrices, space = self.matrices, self.space
+        return {
+            "M": matrices.mass,
+            "C": matrices.damping,
+            "K": matrices.stiffness,
+            "F": matrices.force,
+            "F_rate": matrices.force_rate,
+            "G": matrices.output,
+            "H": matrices.direct,
+            "jacobian": matrices.jacobian,
+            "ss_A": space.a,
+            "ss_B": space.b,
+            "ss_C": space.c,
+            "ss_D": space.d,
+            "frequencies_hz": space.frequencies,
+            "inputs": np.array(matrices.inputs),
+            "outputs": np.array(matrices.outputs),
+            **self._reduction,
+        }
+
+    def heading(self) -> tuple[str, str, str]:
+        """Return the scene, and how large the system is."""
+        about = "flat sheet" if self.about == "flat" else "equilibrium"
+        inputs, outputs = len(self.matrices.inputs), len(self.matrices.outputs)
+        lead = (
+            f"{self.label}, about the {about}: {self.matrices.mass.shape[0]} unknowns, a state space of "
+            f"{len(self.space.a)} states, {inputs} inputs, {outputs} outputs"
+        )
+        return self.scene.name, self.scene.title, lead
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return the poles, and what every input moves the probes by at rest."""
+        inputs = zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True)
+        rows = (InputRow(n, unit_of(n), dict(zip(self.matrices.outputs, u, strict=True))) for n, u in inputs)
+        return self._poles(), Table.of(InputRow, rows, "Static displacement per unit of input", "jacobian")
+
+    def printed(self) -> tuple[Table, ...]:
+        """Return the poles, and heights alone."""
+        return self._poles(), self._heights()
+
+    def _poles(self) -> Table:
+        """Return a row per pair of poles: the slowest first."""
+        pairs = zip(self.upper, self.damping_ratios, strict=True)
+        rows = [PoleRow(abs(p) / (2.0 * np.pi), ratio, p.real, p.imag) for p, ratio in pairs]
+        undamped = not any(self.damping_ratios)
+        caption = "Poles (undamped)" if undamped else "Poles"
+        details = ("damping_ratio", "real") if undamped else ()
+        return Table.of(PoleRow, rows, caption, "poles", details=details)
+
+    def _heights(self) -> Table:
+        """Along z alone, of loads, commands and moved edges, these per millimetre; rounding as 0."""
+        rows = []
+        for name, column in zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True):
+            unit = unit_of(name)
+            scale, shown = (1e-3, "mm") if unit == "m" else (1.0, unit)
+            values = scale * np.where(np.abs(column) > ROUNDING * np.abs(column).max(), column, 0.0)
+            if unit != "N":
+                moved = zip(self.matrices.outputs, values, strict=True)
+                heights = {MILLIMETRES("z.3g", at): u for at, u in moved if at.endswith(" uz")}
+                rows.append(InputRow(name, shown, heights))
+        return Table.of(InputRow, rows, "Static uz per unit of input")
+
+    def figures(self) -> tuple[Picture, ...]:
+        return (Picture("responses", "comparisons.modes.state_figure:compose", (self,)),)
+
+    def files(self) -> dict[str, Write]:
+        """Return the matrices; in MATLAB and Octave ss(ss_A, ss_B, ss_C, ss_D)."""
+        values = self.arrays()
+        return {
+            "linear.npz": partial(write_npz, values=values),
+            "linear.mat": partial(write_mat, values=values),
+        }
+
+    def choices(self) -> dict[str, Any]:
+        return {"label": self.label, "about": self.about, "states": len(self.space.a)}
+
+    def result(self) -> str:
+        """Return the lowest pole."""
+        lowest = int(np.argmin(np.abs(self.upper)))
+        frequency, ratio = abs(self.upper[lowest]) / (2.0 * np.pi), 100.0 * self.damping_ratios[lowest]
+        return f"lowest of {len(self.space.a)} states: {frequency:.4g} Hz, damping ratio {ratio:.3g} %"
+
+    def notes(self) -> tuple[str, ...]:
+        """Return what a balanced truncation promises, and what the numbers mean."""
+        if self.balanced is None:
+            return EXPLANATION
+        return (
+            f"balanced: {self.balanced.order} of {len(self.modal.a)} states; the error of every "
+            f"response is below {self.balanced.bound:.2g} of its static value at all frequencies, and 0 at "
+            "frequency 0",
+            *EXPLANATION,
+        )
+
+
+def unit_of(name: str) -> str:
+    """Return the unit of an input by the last word of its name; of a load and gravity "factor", of what the
+    scene has."""
+    return UNITS.get(name.split()[-1], "factor")

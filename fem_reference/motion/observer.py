@@ -1,0 +1,72 @@
+"""What a run says of its samples: energies, probes and reactions as rows of numbers; strains, and elements
+that turn inside out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from fem_reference.motion.generalised_alpha import Sampled
+from fem_reference.motion.moving import Moving
+from sheetbench.numerics.continuation.path import Fault
+from sheetbench.runs.columns import Part
+from sheetbench.scenes import Scene, Status
+from sheetbench.scenes.history import ENERGIES
+
+
+class ReferenceObserver:
+    """The observer (`sheetbench.runs.run`) of a reference."""
+
+    least_energy = 0.0
+
+    def __init__(self, model: Moving, scene: Scene):
+        self._model, self._points = model, scene.probe_points()
+        self._reactions = list(model.reactions(np.zeros(model.mass.shape[0])))
+        self.columns: list[Part] = [
+            ("time", "", ()),
+            *(("energy", name, ()) for name in ENERGIES),
+            *(("probe", name, (3,)) for name in scene.probes),
+            *(("reaction", name, (3,)) for name in self._reactions),
+        ]
+
+    def rows(self, samples: Sampled) -> np.ndarray:
+        """Return the numbers of samples, (k, width)."""
+        model, rows = self._model, []
+        for motion in samples.motions:
+            energies = model.energies(motion.q, motion.v, motion.time)
+            probes = model.sample(model.displacement(motion.q), self._points)
+            reactions = model.reactions(motion.exerted)
+            forces = (reactions[name] for name in self._reactions)
+            rows.append(np.concatenate([[0.0, *energies, 0.0, 0.0], probes.ravel(), *forces]))
+        found = np.array(rows)
+        found[:, 0], found[:, 4], found[:, 5] = samples.time, samples.dissipated, samples.work
+        return found
+
+    def broken(self, samples: Sampled, count: int) -> tuple[int, Fault | None]:
+        """Return how many of the first samples have no element inside out, and a word on the next."""
+        for i, motion in enumerate(samples.motions[:count]):
+            if inverted := self._model.inside_out(motion.q):
+                return i, Fault(Status.INVERTED, inverted)
+        return count, None
+
+    def stretches(self, samples: Sampled, count: int) -> Iterator[float]:
+        """Yield how far the sheet is strained in the first samples."""
+        for motion in samples.motions[:count]:
+            yield self._model.stretch(motion.q)
+
+    def beyond(self, stretch: float) -> str:
+        """Return a clause where the law of strain does not hold that far, else ""."""
+        return self._model.beyond(stretch)
+
+    def fastest(self, samples: Sampled, i: int) -> str:
+        """Return the fastest node's place when deformed."""
+        motion, model = samples.motions[i], self._model
+        speed = np.abs(model.displacement(motion.v)).max(axis=1)
+        node = int(np.argmax(np.where(np.isfinite(speed), speed, np.inf)))
+        x, y, _ = model.mesh(np.zeros((model.nodes, 3))).points[node]
+        return f"x = {x:.4g} m, y = {y:.4g} m"
+
+    def frame(self, samples: Sampled, i: int) -> np.ndarray:
+        """Return the displacement (n, 3) [m] of the nodes."""
+        return self._model.displacement(samples.motions[i].q)

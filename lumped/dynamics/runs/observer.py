@@ -1,0 +1,168 @@
+"""What a run says of its samples: energies, probes, reactions, actuator forces, as rows of numbers; strains,
+states that mean nothing, and where the sheet is fastest.
+
+All rows of a step in one compiled call, for systems without chains and branches in double precision; call
+by call for the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from lumped.dynamics.drag import Drag, add_drag
+from lumped.dynamics.integrator import Samples
+from lumped.dynamics.system import System
+from lumped.mid_surface import MidSurface
+from lumped.springs.all_forces import add_forces
+from lumped.springs.packing import Packing, Scratch
+from lumped.springs.tiles import NUMBA_TRUE
+from lumped.statics.faults import broken, fastest
+from lumped.statics.structure import STRETCH
+from sheetbench.numerics.continuation.path import Fault
+from sheetbench.numerics.maps import Rows, csr_arrays, product
+from sheetbench.runs.columns import Part, width
+from sheetbench.scenes import outside_model
+from sheetbench.scenes.history import ENERGIES
+
+
+class Observed(NamedTuple):
+    """Springs and dampers; M; mass-proportional damping (n,) [kg/s]; the air's drag; loads with a potential
+    (n, 3) [N]; what takes a displacement to the probes', (3 p, 3 n), and forces on masses to those of each
+    support, (3 s, 3 n)."""
+
+    packing: Packing
+    scratch: Scratch
+    mass: Rows
+    rate: np.ndarray
+    drag: Drag
+    dead: np.ndarray
+    probes: Rows
+    supports: Rows
+
+
+class LatticeObserver:
+    """The observer (`sheetbench.runs.run`) of a system. drawn: rows of the displacement that make a frame."""
+
+    def __init__(self, system: System, drawn: np.ndarray | None = None):
+        self.least_energy = system.least_energy
+        self._system, self._drawn = system, slice(None) if drawn is None else drawn
+        scene, lattice = system.scene, system.assembly.lattice
+        self._probes = MidSurface(lattice, scene.probe_points())
+        self._supports = list(system.problem.constraints.holders)
+        nothing = np.zeros((system.assembly.pattern.size, 3))
+        actuators = system.coupling.wrenches(nothing, nothing) if system.coupling is not None else {}
+        holders = system.coupling.reactions(nothing) if system.coupling is not None else {}
+        self.columns: list[Part] = [
+            ("time", "", ()),
+            *(("energy", name, ()) for name in ENERGIES),
+            *(("probe", name, (3,)) for name in scene.probes),
+            *(
+                ("reaction", edge, (3,))
+                for edge in [*self._supports, *(item.name for item in system.items), *holders]
+            ),
+            *(("actuator", name, wrench.shape) for name, wrench in actuators.items()),
+        ]
+        self._observed: Observed | None = None
+        plain = system.coupling is None and system.maxwell is None and system.natural is None
+        plain = plain and not system.items
+        if plain and system.assembly.precision == "double":
+            masses = system.assembly.pattern.size
+            self._observed = Observed(
+                system.packing,
+                system.scratch,
+                csr_arrays(system.mass),
+                system.damping.rate,
+                system.damping.drag,
+                system.problem.loads.dead,
+                csr_arrays(self._probes.matrix(masses)),
+                system.problem.constraints.summed,
+            )
+
+    def broken(self, samples: Samples, count: int) -> tuple[int, Fault | None]:
+        """Return how many of the first samples mean something: `lumped.statics.faults`."""
+        return broken(self._system.assembly, samples.u[:count])
+
+    def stretches(self, samples: Samples, count: int) -> Iterator[float]:
+        """Yield the largest strain of a link in each of the first samples."""
+        assembly = self._system.assembly
+        for time, u in zip(samples.time[:count].tolist(), samples.u[:count], strict=True):
+            assembly.grow(time=time)
+            links = assembly.links
+            yield 0.0 if assembly.any_strain else links.largest_strain(links.elongations(u))
+
+    def beyond(self, stretch: float) -> str:
+        """Return a clause where the law of strain does not hold that far, else ""."""
+        system = self._system
+        return "" if system.assembly.any_strain else outside_model(system.scene, stretch, STRETCH)
+
+    def fastest(self, samples: Samples, i: int) -> str:
+        """Return the fastest mass's place."""
+        return fastest(self._system.assembly.lattice, samples.v[i])
+
+    def frame(self, samples: Samples, i: int) -> np.ndarray:
+        """Return the drawn rows of a displacement."""
+        return samples.u[i][self._drawn]
+
+    def rows(self, samples: Samples) -> np.ndarray:
+        """Return the numbers of samples, (k, width)."""
+        system, rows = self._system, np.empty((len(samples.time), width(self.columns)))
+        rows[:, 0], rows[:, 4], rows[:, 5] = samples.time, samples.dissipated, samples.work
+        if system.motions:  # integrators have the accelerations beside what is prescribed
+            placed = np.array([system.place_acceleration(time) for time in samples.time.tolist()])
+            samples = samples._replace(a=samples.a + placed)
+        if self._observed is None:
+            for i, row in enumerate(rows):
+                self._fill(row, samples, i)
+            return rows
+        loads = self._observed.dead[None]
+        if system.working:
+            loads = np.array([system.external(*at) for at in zip(samples.u, samples.time, strict=True)])
+        observe(samples.u, samples.v, samples.a, loads, self._observed, rows)
+        return rows
+
+    def _fill(self, row: np.ndarray, samples: Samples, i: int) -> None:
+        """Fill the row of sample i but for what it knows."""
+        system, u = self._system, samples.u[i]
+        energies, exerted = system.balance(samples.state(i))
+        row[1:4] = list(energies.values())
+        reactions, _ = system.problem.constraints.reactions(exerted)
+        parts = [self._probes.of(u), *(reactions[edge] for edge in self._supports)]
+        state = samples.state(i)
+        parts.extend(item.exerted(u, system.drive(state.time), state.v).sum(axis=0) for item in system.items)
+        if system.coupling is not None:
+            parts.extend(system.coupling.reactions(exerted).values())
+            parts.extend(system.coupling.wrenches(u, exerted).values())
+        row[6:] = np.concatenate([part.ravel() for part in parts])
+
+
+@njit(cache=True)
+def observe(
+    u: np.ndarray, v: np.ndarray, a: np.ndarray, loads: np.ndarray, observed: Observed, rows: np.ndarray
+) -> None:
+    """Fill the rows of states (k, n, 3) under loads (k, n, 3), or (1, n, 3) if they stay the same [N]: the
+    kinetic, elastic and potential energy [J], the probes' displacements [m], the supports' forces [N]."""
+    mass, dead, damped = observed.mass, observed.dead.ravel(), observed.packing.damped
+    first, last = 6, 5 + len(observed.probes.pointers)
+    for k in range(len(u)):
+        exerted = np.zeros_like(u[k])
+        elastic, _ = add_forces(u[k], v[k], NUMBA_TRUE, damped, observed.packing, observed.scratch, exerted)
+        add_drag(observed.drag, u[k], v[k], exerted)
+        for i in range(len(observed.rate)):
+            for q in range(3):
+                exerted[i, q] += observed.rate[i] * v[k, i, q]
+        forces, speed, gained = exerted.ravel(), v[k].ravel(), a[k].ravel()
+        place, acting = u[k].ravel(), loads[min(k, len(loads) - 1)].ravel()
+        kinetic = potential = 0.0
+        for row in range(len(forces)):
+            forces[row] -= acting[row]
+            potential -= dead[row] * place[row]
+            for e in range(mass.pointers[row], mass.pointers[row + 1]):
+                forces[row] += mass.values[e] * gained[mass.columns[e]]
+                kinetic += 0.5 * speed[row] * mass.values[e] * speed[mass.columns[e]]
+        rows[k, 1], rows[k, 2], rows[k, 3] = kinetic, elastic, potential
+        rows[k, first:last] = product(observed.probes, place)
+        rows[k, last:] = product(observed.supports, forces)

@@ -1,0 +1,1 @@
+"""Motion step after step: what an integrator gives a runner, and how long its steps are."""

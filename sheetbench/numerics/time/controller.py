@@ -1,0 +1,94 @@
+"""The length of steps by their error, for every integrator that adapts them.
+
+A step of length h with an error ε of the order h^p, where ε₀ is allowed, is followed by one of
+
+    h min(max(r, ½), growth),    r = 0.9 (ε₀/ε)^(1/p),
+
+unless r lies within a band about 1 in which lengths, and with them factors, stay. It is repeated with
+h max(r, 1/5) where ε > ε₀, and with h/4 where it finds no solution. At the shortest length it counts in
+spite of its error, and the run says so. Source: Hairer and Wanner (1996), IV.8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+import numpy as np
+
+from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.numerics.time.method import StepFailed
+
+SAFETY = 0.9
+
+T = TypeVar("T")
+Tried = tuple[T, float, float]  # a step, its error and what is allowed
+
+
+@dataclass
+class Controller:
+    """order: p; growth: the longest step after one, over that; band: of r, in which lengths stay; step: the
+    next to be tried [s]; floored: steps that counted in spite of their error; rejected: those repeated."""
+
+    order: int
+    growth: float
+    band: tuple[float, float]
+    step: float
+    floored: int = 0
+    rejected: int = 0
+
+    def dividing(self, at_most: float, fewer: float = np.inf) -> float:
+        """Return a step no longer than the one to be tried that divides a time [s] evenly; that one itself
+        where these are not `fewer` steps."""
+        count = np.ceil(at_most / self.step - 1e-9)
+        return float(at_most / count) if count < fewer else self.step
+
+    def ratio(self, error: float, allowed: float) -> float:
+        """Return r."""
+        return float(SAFETY * (allowed / max(error, 1e-30)) ** (1.0 / self.order))
+
+    def accepts(self, error: float, allowed: float, h: float, shortest: float) -> bool:
+        """Return whether a step of length h [s] counts; the next one's length follows. shortest [s]: a step
+        no longer always counts."""
+        ratio = self.ratio(error, allowed)
+        if error > allowed and h > shortest:
+            self.step = h * max(ratio, 0.2)
+            return False
+        self.floored += error > allowed
+        if not self.band[0] <= ratio <= self.band[1]:
+            self.step = h * min(max(ratio, 0.5), self.growth)
+        return True
+
+    def take(
+        self, attempt: Callable[[float], Tried[T]], at_most: float, shortest: float, fewer: float = np.inf
+    ) -> tuple[T, float]:
+        """Return the first step of at most so long [s] that counts, and its length [s]. attempt: a step of a
+        length, its error and what is allowed. Raises StepFailed where the shortest one finds no solution."""
+        while True:
+            h = self.dividing(at_most, fewer)
+            try:
+                found, error, allowed = attempt(h)
+            except (StepFailed, SingularMatrixError) as failure:
+                if h < shortest:
+                    raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
+                self.step = 0.25 * h
+                continue
+            if self.accepts(error, allowed, h, shortest):
+                return found, h
+            self.rejected += 1
+
+    def memory(self) -> dict[str, Any]:
+        """Return what a resumed run needs."""
+        return {"step": self.step, "floored": self.floored, "rejected": self.rejected}
+
+    def recall(self, memory: dict[str, Any]) -> None:
+        """Take up what `memory` gave."""
+        self.step = float(memory["step"])
+        self.floored, self.rejected = int(memory["floored"]), int(memory["rejected"])
+
+    def notes(self) -> str:
+        """Return a clause on steps that counted in spite of their error."""
+        if not self.floored:
+            return ""
+        return f"{self.floored} steps of the shortest length have a larger error than asked for"

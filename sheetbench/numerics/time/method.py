@@ -1,0 +1,87 @@
+"""An integrator as a runner sees it: states one after the other, and those within the last step.
+
+A state is an immutable object with its `time` [s], whose other fields are arrays or None.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, TypeVar
+
+import numpy as np
+
+
+class Moment(Protocol):
+    """A state of motion."""
+
+    @property
+    def time(self) -> float: ...
+
+
+AnyState = TypeVar("AnyState", bound=Moment)
+
+
+class StepFailed(ArithmeticError):
+    """A time step found no solution; the text says why."""
+
+
+@dataclass(frozen=True)
+class Advance(Generic[AnyState]):
+    """A step taken, or several of one length: the new state, the energies [J] that were dissipated and put in
+    meanwhile, and how many steps."""
+
+    state: AnyState
+    dissipated: float
+    work: float
+    steps: int = 1
+
+
+class Samples(Protocol):
+    """States at k moments, as a method gives and an observer takes them: times (k,) [s], energies (k,) [J]
+    dissipated and put in."""
+
+    @property
+    def time(self) -> np.ndarray: ...
+    @property
+    def dissipated(self) -> np.ndarray: ...
+    @property
+    def work(self) -> np.ndarray: ...
+
+
+class Method(Protocol[AnyState]):
+    """An integrator of a model's motion.
+
+    state: the class of its states; adapts: whether it chooses its steps by their error; span: samples after
+    which a step has to end, one if it knows no states within steps, None if none has to; kinks: times [s]
+    at which a step has to end, sorted.
+    """
+
+    @property
+    def state(self) -> type[AnyState]: ...
+    @property
+    def adapts(self) -> bool: ...
+    @property
+    def span(self) -> int | None: ...
+    @property
+    def kinks(self) -> np.ndarray: ...
+
+    def go(self, state: AnyState, at_most: float) -> Advance[AnyState]:
+        """Return a step, or several of one length, no longer than `at_most` [s]. Raises StepFailed."""
+
+    def at(self, times: np.ndarray, last: Advance[AnyState]) -> Samples:
+        """Return the states at times (k,) [s] within the last step; energies since that began."""
+
+    def settings(self) -> dict[str, Any]:
+        """Return what a history says of its steps: `step` [s] or "adaptive", and others by name."""
+
+    def notes(self) -> str:
+        """Return what there is to say of the steps taken, "" for nothing."""
+
+    def memory(self) -> dict[str, Any]:
+        """Return what a resumed run needs besides the state."""
+
+    def recall(self, memory: dict[str, Any]) -> None:
+        """Take up what `memory` gave."""
+
+    def forget(self) -> None:
+        """Drop what was kept only for speed, so that a resumed run goes on exactly as one never stopped."""

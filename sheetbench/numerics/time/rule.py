@@ -1,0 +1,63 @@
+"""Generalised-α: coefficients and error of a step, for whoever solves its equation.
+
+    M a₁ + f(u₁, v₁, t₁) = 0                               equilibrium at the step's end, constraints included
+    (1 − αm) a'₁ + αm a'₀ = (1 − αf) a₁ + αf a₀            a': the algorithm's acceleration
+    u₁ = u₀ + h v₀ + h² ((½ − β) a'₀ + β a'₁),   v₁ = v₀ + h ((1 − γ) a'₀ + γ a'₁)
+
+    αm = (2ρ − 1)/(ρ + 1),  αf = ρ/(ρ + 1),  γ = ½ + αf − αm,  β = ¼ (γ + ½)²
+
+ρ is the spectral radius at high frequencies. a' is the acceleration at t + (αm − αf) h, which gives the local
+error of u, h² (β + ½ (αm − αf) − 1/6) |a'₁ − a'₀|, and what becomes of a' where the length changes:
+a + (a' − a) h/h_before. Source: Chung and Hulbert (1993) in the form of Arnold and Brüls (2007), of second
+order with constraints too.
+
+Backward Euler, u₁ = u₀ + h v₁ and v₁ = v₀ + h a₁, is of the same form; its local error is ½ h² |a₁|.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sheetbench.errors import BadInput
+
+
+class Rule(NamedTuple):
+    """Coefficients of a step: αm, αf, γ, β, and `old`, that of h² a'₀ in u₁; order: of u's local error;
+    error: that over h² |a'₁ − a'₀|, of backward Euler over h² |a₁|."""
+
+    am: float
+    af: float
+    gamma: float
+    beta: float
+    old: float
+    order: int
+    error: float
+
+    def by_a(self, h: float) -> float:
+        """Return da₁/du₁ [1/s²] in a step of h [s]."""
+        return (1.0 - self.am) / ((1.0 - self.af) * self.beta * h * h)
+
+    def by_v(self, h: float) -> float:
+        """Return dv₁/du₁ [1/s]."""
+        return self.gamma / (self.beta * h)
+
+
+BACKWARD_EULER = Rule(0.0, 0.0, 1.0, 1.0, 0.0, 2, 0.5)
+
+
+def generalised(radius: float) -> Rule:
+    """Return generalised-α's coefficients for a spectral radius at high frequencies. Raises BadInput for one
+    that is none."""
+    if not 0.0 <= radius <= 1.0:
+        raise BadInput(f"radius = {radius:g}: the spectral radius at high frequencies lies in [0, 1]")
+    am, af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
+    gamma = 0.5 + af - am
+    beta = 0.25 * (gamma + 0.5) ** 2
+    return Rule(am, af, gamma, beta, 0.5 - beta, 3, abs(beta + 0.5 * (am - af) - 1.0 / 6.0))
+
+
+def shifted(a: np.ndarray, algorithm: np.ndarray, h: float, before: float) -> np.ndarray:
+    """Return a' as steps of h [s] have it, of a and of that of steps of `before` [s], 0 for none."""
+    return a + (h / before if before else 1.0) * (algorithm - a)

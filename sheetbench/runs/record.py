@@ -1,0 +1,89 @@
+"""A motion as a `History`: what runs, where its samples go, and what is told of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, Generic
+
+import numpy as np
+
+from sheetbench.clock import now
+from sheetbench.numerics.threads import one_blas_thread
+from sheetbench.numerics.time.method import Advance, AnyState, Method
+from sheetbench.runs.columns import split, width
+from sheetbench.runs.run import Observer, Run
+from sheetbench.runs.schedule import Schedule
+from sheetbench.runs.store import FolderStore, MemoryStore
+from sheetbench.scenes import History
+
+
+@dataclass(frozen=True)
+class Recipe(Generic[AnyState]):
+    """A motion to be run. schedule: of a run that begins, to `duration` [s]; key: JSON-able, on what its
+    numbers depend; rows: of a frame; notes: more to be told; start: of the method, the state
+    to begin in, with the work of what moves at once."""
+
+    label: str
+    integrator: str
+    settings: dict[str, Any]
+    key: dict[str, Any]
+    duration: float
+    schedule: Schedule
+    method: Callable[[Schedule], Method[AnyState]]
+    observer: Observer
+    start: Callable[[Any], Advance[AnyState]]
+    rows: int
+    notes: tuple[str, ...] = ()
+
+
+def record(
+    recipe: Recipe[AnyState],
+    frames: int,
+    store: Path | None,
+    progress: Callable[[float], None] | None,
+    began: float,
+) -> History:
+    """Run a motion, in memory or in a folder, from where that has come. frames: how many to keep, in `extra`
+    with their times; began: when its set-up did [s].
+
+    Raises BadInput for a folder that holds another run, or one of other code, that another process writes to
+    or that cannot be written, and for damaged files.
+    """
+    columns, schedule = recipe.observer.columns, recipe.schedule
+    described = [[kind, name, list(shape)] for kind, name, shape in columns]
+    with ExitStack() as open_store:
+        kept: FolderStore | MemoryStore = MemoryStore(width(columns), recipe.rows)
+        if store is not None:
+            key = {**recipe.key, "integrator": recipe.integrator, "frames": frames, "columns": described}
+            kept = open_store.enter_context(FolderStore(store, width(columns), recipe.rows, key))
+            if kept.plan is not None:
+                schedule = type(schedule)(**kept.plan).longer(recipe.duration)
+            kept.begin(asdict(schedule))
+        shown = schedule.shown(frames)
+        method = recipe.method(schedule)
+        run = Run(method, recipe.observer, schedule, kept, shown, progress)
+        ready = now()
+        with one_blas_thread():
+            status, message = run.finish(lambda: recipe.start(method))
+        done = now()
+        parts, whole = split(columns, kept.samples()), kept.frames()
+    return History(
+        label=recipe.label,
+        integrator=recipe.integrator,
+        settings={**recipe.settings, **method.settings(), "every": schedule.every},
+        status=status,
+        message="; ".join(filter(None, [message, *recipe.notes])),
+        time=parts["time"][""],
+        probes=parts.get("probe", {}),
+        energies=parts["energy"],
+        reactions=parts.get("reaction", {}),
+        actuators=parts.get("actuator", {}),
+        steps=run.steps,
+        setup_seconds=ready - began,
+        solve_seconds=done - ready,
+        resumed_from=run.resumed_from,
+        extra={"frames": whole, "frame_times": schedule.every * np.array(shown)[: len(whole)]},
+    )

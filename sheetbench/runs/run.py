@@ -1,0 +1,184 @@
+"""A run of a motion from its start, or from its last checkpoint, to its end, of any method and model.
+
+Samples, frames and checkpoints go to a store as they come. A checkpoint is the end of a step; what methods
+keep only for speed is forgotten there, so that a run that is taken up goes on to the last bit as one that
+never stopped. Every sample is looked at: numbers that overflow, elements that turn inside out and energy
+from nowhere end the run with the time, the place and what to change.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import Any, Generic, Protocol
+
+import numpy as np
+
+from sheetbench.numerics.continuation.path import Fault
+from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.numerics.time.method import Advance, AnyState, Method, StepFailed
+from sheetbench.runs.columns import Part
+from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, Schedule
+from sheetbench.runs.store import FolderStore, MemoryStore
+from sheetbench.runs.watch import GROWN, Watch
+from sheetbench.scenes import Status
+
+MOST_STEPS = 100_000  # of a method that adapts them, between two samples
+
+
+class Observer(Protocol):
+    """What a model says of samples, as its method gives them. columns: what a row of numbers holds: the time,
+    kinetic, elastic, potential and dissipated energy, work, then the rest; least_energy: [J] below
+    which all is rounding."""
+
+    columns: list[Part]
+    least_energy: float
+
+    def rows(self, samples: Any) -> np.ndarray:
+        """Return the numbers of samples, (k, width)."""
+
+    def broken(self, samples: Any, count: int) -> tuple[int, Fault | None]:
+        """Return how many of the first `count` samples mean something, and why the next does not."""
+
+    def stretches(self, samples: Any, count: int) -> Iterable[float]:
+        """Return how far the sheet is strained at the first `count` samples, as `beyond` takes it."""
+
+    def beyond(self, stretch: float) -> str:
+        """Return a clause where the model does not hold that far, else ""."""
+
+    def fastest(self, samples: Any, i: int) -> str:
+        """Return where the sheet is fastest at sample i, in words."""
+
+    def frame(self, samples: Any, i: int) -> np.ndarray:
+        """Return the whole displacement (n, 3) [m] of sample i."""
+
+
+class Run(Generic[AnyState]):
+    """A run under way. shown: samples at which to keep a frame; progress: called with the time reached [s].
+    samples: taken, the start's too; spent: energies [J] dissipated and put in."""
+
+    def __init__(
+        self,
+        method: Method[AnyState],
+        observer: Observer,
+        schedule: Schedule,
+        kept: FolderStore | MemoryStore,
+        shown: Iterable[int],
+        progress: Callable[[float], None] | None,
+    ):
+        self._method, self._observer, self._schedule = method, observer, schedule
+        self._kept, self._shown, self._progress = kept, set(shown), progress or (lambda time: None)
+        self.samples = self.steps = 0
+        self.resumed_from, self.spent, self.watch = 0.0, np.zeros(2), Watch(largest=observer.least_energy)
+
+    def finish(self, start: Callable[[], Advance[AnyState]]) -> tuple[Status, str]:
+        """Go on to the end, or to a fault, from the last checkpoint or the start: how it ended. start: the
+        state to begin in, with the work of what moves at once."""
+        self._method.forget()
+        state, since = self._resumed() or self._sampled(start()), 0
+        while self.samples <= self._schedule.samples:
+            try:
+                last = self._method.go(state, self._goal(state.time) - state.time)
+            except (StepFailed, SingularMatrixError) as failure:
+                return Status.DIVERGED, f"at {state.time:.6g} s: {failure}"
+            self.steps += last.steps
+            since += last.steps
+            if self._method.adapts and since >= MOST_STEPS:
+                text = f"at {last.state.time:.6g} s: {since} steps without reaching the next sample"
+                return Status.STEP_LIMIT, f"{text}: add damping or fix the step"
+            before, (last, fault) = self.samples, self._passed(last)
+            if fault is not None:
+                return fault.status, fault.message
+            state = last.state
+            if self.samples > before:
+                since = 0
+                if (self.samples - 1) // SAMPLES_PER_CHECKPOINT > (before - 1) // SAMPLES_PER_CHECKPOINT:
+                    self._checkpoint(state)
+            self._progress(state.time)
+        return self.watch.ending(self._observer.beyond(self.watch.stretch), self._method.notes())
+
+    def _goal(self, time: float) -> float:
+        """Where the next step ends at most [s]."""
+        every, goal, span = self._schedule.every, self._schedule.samples, self._method.span
+        if span is not None:
+            goal = min(((self.samples - 1) // span + 1) * span, goal)
+        kinks = self._method.kinks
+        return float(min([goal * every, *kinks[kinks > time + 1e-9 * every][:1]]))
+
+    def _passed(self, last: Advance[AnyState]) -> tuple[Advance[AnyState], Fault | None]:
+        """Take the samples that a step passed; the step, its end at a sample's very time, and a fault."""
+        every, fault = self._schedule.every, None
+        number = int(last.state.time / every + 1e-9)
+        if number >= self.samples:
+            if self._method.span is not None and abs(last.state.time - number * every) < 1e-9 * every:
+                last = replace(last, state=replace(last.state, time=number * every))  # type: ignore[type-var]
+            samples = self._method.at(every * np.arange(self.samples, number + 1), last)
+            fault = self._take(samples)
+        self.spent = self.spent + np.array([last.dissipated, last.work])
+        return last, fault
+
+    def _sampled(self, start: Advance[AnyState]) -> AnyState:
+        """The start, sampled."""
+        self._passed(start)
+        return start.state
+
+    def _take(self, samples: Any) -> Fault | None:
+        """Keep samples up to the first that means nothing, and why it does not; energies: since the step
+        began."""
+        rows = self._observer.rows(samples)
+        rows[:, 4:6] += self.spent
+        count, fault = self._sound(samples, rows)
+        shown = fault is not None and fault.status is not Status.NON_FINITE
+        self._kept.sample(rows[: count + shown])
+        for i in range(count):
+            if self.samples + i in self._shown:
+                self._kept.frame(self._observer.frame(samples, i))
+        self.samples += count
+        return fault
+
+    def _sound(self, samples: Any, rows: np.ndarray) -> tuple[int, Fault | None]:
+        """How many samples are sound before the first that is not, and what is wrong with that one."""
+        grown, observer = self.watch.grown(rows), self._observer
+        sound = int(np.argmin(np.append(grown <= GROWN, False)))
+        count, fault = observer.broken(samples, sound + bool(np.isfinite(grown[sound : sound + 1]).any()))
+        if fault is None:
+            count = sound
+        self.watch.take(rows[:count])
+        for time, stretch in zip(rows[:count, 0].tolist(), observer.stretches(samples, count), strict=True):
+            self.watch.strained(time, stretch, bool(observer.beyond(stretch)))
+        if count == len(rows):
+            return count, None
+        when = f"at {rows[count, 0]:.6g} s"
+        if fault is not None:
+            return count, Fault(fault.status, f"{when} {fault.message}")
+        where = observer.fastest(samples, count)
+        if np.isfinite(grown[count]):
+            share = f"by {100.0 * grown[count]:.3g} % of the largest, fastest at {where}: use smaller steps"
+            return count, Fault(Status.DIVERGED, f"{when} the energy has grown from nothing, {share}")
+        text = f"{when} a number overflowed, first at {where}: use smaller steps"
+        return count, Fault(Status.NON_FINITE, text)
+
+    def _checkpoint(self, state: AnyState) -> None:
+        self._method.forget()
+        content = {f"state_{name}": value for name, value in vars(state).items()}
+        content |= {f"method_{name}": value for name, value in self._method.memory().items()}
+        content |= {"taken": self.samples, "steps": self.steps, "spent": self.spent}
+        content = {name: value for name, value in content.items() if value is not None}
+        self._kept.checkpoint(content | {"watch": self.watch.memory()})
+
+    def _resumed(self) -> AnyState | None:
+        """The state of the last checkpoint, if there is one, and with it what the run had come to."""
+        checkpoint = self._kept.resume()
+        if checkpoint is None:
+            return None
+
+        def named(kind: str) -> dict[str, Any]:
+            return {k.removeprefix(kind): v for k, v in checkpoint.items() if k.startswith(kind)}
+
+        self.samples, self.steps = int(checkpoint["taken"]), int(checkpoint["steps"])
+        self.spent, self.watch = checkpoint["spent"], Watch.recall(checkpoint["watch"])
+        self._method.recall(named("method_"))
+        fields = named("state_")
+        self.resumed_from = float(fields.pop("time"))
+        self._progress(self.resumed_from)
+        return self._method.state(self.resumed_from, **fields)  # type: ignore[call-arg]

@@ -1,0 +1,20 @@
+"""One run of every verb's small command, which all tests judge that would run it again."""
+
+import pytest
+from verbs import keep, write_inputs
+
+
+@pytest.fixture(scope="session")
+def kept(tmp_path_factory):
+    """Return a name's kept run, made where it is first wanted."""
+    base, found = tmp_path_factory.mktemp("verbs"), {}
+    write_inputs(base)
+
+    def kept(name):
+        if name not in found:
+            if name == "report":
+                kept("stability")  # the folder that it reads
+            found[name] = keep(name, base)
+        return found[name]
+
+    return kept

@@ -1,0 +1,200 @@
+"""A lattice for control: poles, step responses, what commands do at rest, and the files with them."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cases import CLAMP, RUBBER, SHEET, with_material
+from commands import run
+from scipy.io import loadmat
+
+import lumped
+from comparisons.modes import state_figure as figure
+from comparisons.modes.linear import linearise
+from sheetbench import scenes
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
+from sheetbench.scenes.parameters import parameter, put
+from sheetbench.scenes.supports import Motion
+
+TAU, RATE = 2e-3, 0.5  # s, 1/s
+DAMPED = with_material(scenes.load("two-edges-clamped"), damping_time=TAU, damping_rate=RATE)
+
+
+def springs_of(scene, grid=4):
+    return lumped.calibrate(scene.sheet, scene.material, grid=grid)
+
+
+@pytest.fixture(scope="module")
+def flat():
+    return lumped.linearise(DAMPED, springs_of(DAMPED), "flat")
+
+
+def test_poles_are_those_of_the_modes_with_their_damping(flat):
+    omega = 2.0 * np.pi * lumped.modes(DAMPED, springs_of(DAMPED), 10, "gregory").frequencies
+    drag = TAU * omega**2 + RATE
+    wanted = -drag / 2.0 + 1j * np.sqrt(omega**2 - drag**2 / 4.0 + 0j)
+    for modes in (None, 12):
+        poles = flat.state_space(modes).poles
+        nearest = [poles[np.argmin(np.abs(poles - pole))] for pole in wanted]
+        np.testing.assert_allclose(nearest, wanted, rtol=1e-8)
+        assert len(poles) == 2 * (flat.mass.shape[0] if modes is None else modes)
+
+
+def test_a_step_answers_as_the_simulation_does_in_the_small(flat):
+    small = DAMPED.replace(gravity=Gravity(acceleration=(0.0, 0.0, -9.81e-5)))
+    history = lumped.simulate(small, springs_of(small), 0.15, every=0.003, step=2e-4, integrator="midpoint")
+    found = 1e-5 * flat.state_space(None).after_step(history.time, flat.inputs.index("gravity"))
+    for number, name in enumerate(small.probes):
+        u = history.probes[name]
+        assert np.abs(found[:, 3 * number : 3 * number + 3] - u).max() < 1e-3 * np.abs(u).max()
+
+
+def test_a_moved_edge_answers_as_the_simulation_does(flat):
+    """A ramp of 1e-6 m of the edge, as steps of its rate: the dampers of the edge's cells take part."""
+    rise = Motion(time=(0.0, 0.02), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 1e-6)))
+    scene = Scene(
+        name="shaken",
+        sheet=SHEET,
+        material=DAMPED.material,
+        support=(Clamped(edge="x0", motion=rise),),
+        probes={"P": (0.188, 0.188)},
+    )
+    springs = springs_of(scene, 3)
+    history = lumped.simulate(scene, springs, 0.1, every=0.001, step=1e-4, integrator="midpoint")
+    linear = lumped.linearise(scene, springs, "flat")
+    steps = linear.state_space(None).after_step(history.time, linear.inputs.index("x0 z"))[:, 2]
+    # the ramp is the mean of steps at all moments of it
+    fine = np.linspace(0.0, 0.02, 201)
+    shifted = [np.interp(history.time - at, history.time, steps, left=0.0) for at in fine]
+    weights = np.full(len(fine), 1.0 / 200.0)
+    weights[[0, -1]] *= 0.5
+    found = 1e-6 * weights @ np.array(shifted)
+    u = history.probes["P"][:, 2]
+    assert np.abs(found - u).max() < 5e-3 * np.abs(u).max()  # linear between samples a millisecond apart
+
+
+@pytest.mark.parametrize("edge", ["x1", "x0"])
+def test_jacobians_are_slopes_of_statics(edge):
+    chain = Chain(
+        edge="x1", segments=4, bending_stiffness=0.2, line_density=0.05, radius=1.5e-3, curvature=3.0
+    )
+    name = "one-edge-clamped" if edge == "x1" else "curved-edge"
+    scene = scenes.load(name).replace(actuators=(chain,) if edge == "x1" else ())
+    springs = springs_of(scene)
+    linear = lumped.linearise(scene, springs)
+    found = linear.jacobian[:, linear.inputs.index(f"{edge} curvature")]
+    value = parameter(scene, f"curvature_{edge}").value
+    points, slopes = scene.probe_points(), []
+    for step in (0.02, 0.01):  # 1/m
+        ends = [
+            lumped.solve(put(scene, f"curvature_{edge}", value + side * step), springs).displacement(points)
+            for side in (1.0, -1.0)
+        ]
+        slopes.append((ends[0] - ends[1]).ravel() / (2.0 * step))
+    known = (4.0 * slopes[1] - slopes[0]) / 3.0
+    np.testing.assert_allclose(found, known, atol=1e-6 * np.abs(known).max())
+
+
+def test_inputs_at_rest_are_what_statics_do(flat):
+    loaded = lumped.linearise(DAMPED, springs_of(DAMPED))
+    more, less = (
+        lumped.solve(DAMPED.replace(gravity=Gravity(acceleration=(0.0, 0.0, -9.81 * by))), springs_of(DAMPED))
+        for by in (1.0005, 0.9995)
+    )
+    points = DAMPED.probe_points()
+    slope = (more.displacement(points) - less.displacement(points)).ravel() / 1e-3
+    column = loaded.jacobian[:, loaded.inputs.index("gravity")]
+    np.testing.assert_allclose(column, slope, atol=1e-5 * np.abs(slope).max())
+    # reciprocity; a sheet on one clamp goes where that goes
+    at = [loaded.inputs.index(f"{name} f{axis}") for name in DAMPED.probes for axis in "xyz"]
+    forced = loaded.jacobian[:, at]
+    np.testing.assert_allclose(forced, forced.T, atol=1e-9 * np.abs(forced).max())
+    alone = DAMPED.replace(supports=(CLAMP,), gravity=None)
+    linear = lumped.linearise(alone, springs_of(alone))
+    moved = linear.jacobian[:, linear.inputs.index("x0 z")].reshape(-1, 3)
+    np.testing.assert_allclose(moved, np.tile([0.0, 0.0, 1.0], (len(moved), 1)), atol=1e-7)
+
+
+def test_few_modes_answer_slow_inputs_exactly_and_others_nearly(flat):
+    few, whole = flat.state_space(6), flat.state_space(None)
+    np.testing.assert_allclose(few.response(np.array([0.0]))[0].real, flat.jacobian, atol=1e-9)
+    column, low = flat.inputs.index("gravity"), np.geomspace(0.1, few.frequencies[2], 20)
+    a, b = few.response(low)[:, :, column], whole.response(low)[:, :, column]
+    assert np.abs(a - b).max() < 0.02 * np.abs(b).max()
+
+
+def test_a_chain_moves_as_its_constraints_allow():
+    scene = scenes.load("actuated-edge")
+    linear = lumped.linearise(scene, springs_of(scene))
+    assert np.linalg.eigvalsh(linear.mass.toarray()).min() > 0.0
+    space = linear.state_space(8)
+    assert space.poles.real.max() < 0.0 and space.frequencies[0] > 1.0
+    assert "x1 curvature" in linear.inputs
+
+
+def test_what_has_no_linear_form_is_refused():
+    blown = Scene(name="b", sheet=SHEET, material=RUBBER, support=(CLAMP,), load=(Pressure(value=1.0),))
+    with pytest.raises(BadInput, match="unsymmetric tangents"):
+        lumped.linearise(blown, springs_of(blown))
+    with pytest.raises(BadInput, match="nothing stops"):
+        free = Scene(name="f", sheet=SHEET, material=RUBBER, support=(Hinged(edge="x0"),))
+        lumped.linearise(free, springs_of(free))
+    with pytest.raises(BadInput, match="flat sheet has no actuators"):
+        scene = scenes.load("actuated-edge")
+        lumped.linearise(scene, springs_of(scene), "flat")
+
+
+def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
+    asked = ["one-edge-clamped", "--lumped", "4", "--state-space", "5", "--out", str(tmp_path), "--json"]
+    assert run("modes", *asked) == 0
+    document = json.loads(capsys.readouterr().out)["state_space"]
+    assert len(document["poles"]) == 10 and document["unknowns"] == 72
+    arrays, other = dict(np.load(tmp_path / "linear.npz")), loadmat(tmp_path / "linear.mat")
+    assert other["K"].shape == (72, 72) and other["ss_A"].shape == (10, 10)
+    assert [str(cell[0]) for cell in other["inputs"].ravel()] == document["inputs"]
+    np.testing.assert_array_equal(arrays["ss_D"], other["ss_D"])
+    assert (tmp_path / "responses.png").stat().st_size > 10_000
+
+
+def test_a_lattice_without_an_equilibrium_ends_with_3(capsys):
+    springs = ("--k", "550", "--layer-distance", "0.004", "--grid", "3x3x3")
+    assert run("modes", "curved-edge-down", "--state-space", "20", *springs) == 3
+    said = capsys.readouterr().err
+    assert "no linear form about the equilibrium" in said and "Traceback" not in said
+
+
+def test_the_response_drawn_is_of_the_probe_that_moves_most_and_units_have_names():
+    """Of probes near the clamp, at the free corner and in the middle, that at the corner; of two alike the
+    last. Undamped poles have no columns of zeros on a terminal, and edges are moved by millimetres."""
+    strip = scenes.load("one-edge-clamped")
+    lx, ly = strip.sheet.lengths
+    strip = strip.replace(probes={"far": (0.0, ly), "near": (0.0, 0.0), "middle": (lx / 2.0, ly / 2.0)})
+    strip = strip.replace(supports=[Clamped(edge="x1")])
+    found = linearise(strip, grid=4, modes=3)
+    assert figure.moved_most(found) == "near"
+    drawn = figure.compose(found)
+    title, legend = drawn.axes[0].get_title(loc="left"), drawn.axes[0].get_legend()
+    assert title.endswith("near along z, the probe that moves most at rest")
+    assert legend is not None and "gravity [factor]" in [text.get_text() for text in legend.get_texts()]
+    table = found.printed()[1]
+    rows = {row[0]: row[1:] for row in table.rows}
+    assert rows["x1 z"] == ("mm", *[pytest.approx(1e-3)] * 3)
+    assert rows["x1 x"][1:] == (0.0, 0.0, 0.0) and rows["gravity"][0] == "factor"
+    assert [c.name for c in found.tables()[0].columns if not c.detail] == ["frequency", "imaginary"]
+    damped = linearise(with_material(strip, damping_rate=RATE), grid=4, modes=3)
+    assert not any(column.detail for column in damped.tables()[0].columns)
+
+
+def test_few_modes_need_no_dense_matrices(flat, monkeypatch):
+    """By Lanczos on the factors of K they are those of dense matrices; what is unstable is refused alike."""
+    dense = flat.state_space(6)
+    monkeypatch.setattr("sheetbench.numerics.eigenmodes.DENSE", 0)
+    monkeypatch.setattr("scipy.linalg.eigh", lambda *given, **named: pytest.fail("dense"))
+    sparse = flat.state_space(6)
+    np.testing.assert_allclose(sparse.frequencies, dense.frequencies, rtol=1e-9)
+    at_rest = [one.d - one.c @ np.linalg.solve(one.a, one.b) for one in (sparse, dense)]
+    np.testing.assert_allclose(*at_rest, atol=1e-8 * np.abs(flat.jacobian).max())
+    with pytest.raises(BadInput, match="not stable"):
+        replace(flat, stiffness=-flat.stiffness).state_space(6)

@@ -9,8 +9,8 @@ from matrix_options import scene_files
 from matrix_rows import check, tally
 from verbs import few_runs, run_here, undraw
 
-from comparisons.comparison import comparison as displacement
 from comparisons.runs.campaign import campaign
+from comparisons.sweep import here as table
 from sheetbench.answers import style
 from sheetbench.scenes import Solution
 
@@ -39,7 +39,7 @@ def quick(monkeypatch):
         size = -0.01 if model == "lumped" else -0.0101
         return answers.get(model) or fake_solutions.solution(asked.scene, name or model, size)
 
-    monkeypatch.setattr(displacement, "solve", answer)
+    monkeypatch.setattr(table, "solve", answer)
     return answers
 
 

@@ -1,7 +1,7 @@
 """The cheapest model that is accurate enough for a scene, or the most accurate one in a given time.
 
 Scales (`comparisons.models.scales`) decide what may be left out; a few quick solves
-(`comparisons.advice.probing`) decide the rest. A model is adequate if its distance from the reference, the
+(`comparisons.advice.trials`) decide the rest. A model is adequate if its distance from the reference, the
 reference's error bar and what the reference leaves out on every mesh (`comparisons.sweep.model_error`)
 are together within the tolerance; where the bar leaves that open the reference is refined. Where the last
 alone is above the tolerance, the choice meets it against a converged shell only, and the advice says so.
@@ -18,8 +18,8 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import Unpack
 
-from comparisons.advice.answer import Advice, Tried
-from comparisons.advice.probing import Probing, Trial
+from comparisons.advice.answer import Advice, TrialRow
+from comparisons.advice.trials import TrialSolves
 from comparisons.comparison import strain_law
 from comparisons.models.context import in_context
 from comparisons.models.keywords import SpringKeywords
@@ -27,6 +27,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, items
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
+from comparisons.sweep.here import SolvedHere
 from comparisons.sweep.model_error import left_for_grid
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
@@ -69,27 +70,27 @@ def advise(
     tolerance, budget = _limits(tolerance, budget)
     asked = Lattice.given(lattice, keywords)
     asked = asked if calibration is None else asked.but(calibration=calibration)
-    probing = Probing(scene, asked, items(models) if isinstance(models, str) else models)
+    trials = TrialSolves(scene, asked, items(models) if isinstance(models, str) else models)
     for _ in range(3):
-        probing.refine()
-    while not probing.reference.usable and probing.refine():
+        trials.refine()
+    while not trials.reference.stable and trials.refine():
         pass
-    if not probing.reference.usable:
-        failed = probing.reference.solution
+    if not trials.reference.stable:
+        failed = trials.reference.answer
         reason = f"the shell finds no stable equilibrium: {failed.status}: {failed.message}"
-        return _advice(probing, tolerance, budget, None, reason)
-    linear = not scene.actuators and probing.scales.span_load_number <= LINEAR_LOAD_NUMBER
-    candidates = probing.candidates(linear)
+        return _advice(trials, tolerance, budget, None, reason)
+    linear = not scene.actuators and trials.scales.span_load_number <= LINEAR_LOAD_NUMBER
+    candidates = trials.candidates(linear)
     for candidate in candidates[:3]:
-        probing.trial(candidate)
+        trials.row(candidate)
     if linear:  # each family's rate
-        probing.trial(probing.lattice(4, linear=True))
-        probing.trial(probing.elements("plate", 4))
-    model = probing.model_error.value if probing.model_error else 0.0
+        trials.row(trials.lattice(4, linear=True))
+        trials.row(trials.elements("plate", 4))
+    model = trials.model_error.value if trials.model_error else 0.0
     chosen, message = None, ""
     if tolerance is not None:
         beyond = model >= tolerance
-        chosen = _cheapest(probing, candidates, left_for_grid(tolerance, model))
+        chosen = _cheapest(trials, candidates, left_for_grid(tolerance, model))
         if chosen is None:
             message = (
                 f"no model here is within {100 * tolerance:g} % for certain; this is the most accurate one"
@@ -97,15 +98,15 @@ def advise(
         elif beyond:
             message = f"within {100 * tolerance:g} % of a converged shell, whose own model error is larger"
     if budget is not None and (chosen is None or chosen.seconds > budget):
-        chosen = _most_accurate(probing, candidates, budget)
+        chosen = _most_accurate(trials, candidates, budget)
         message = f"no model solves this in {budget:g} s" if chosen is None else ""
         if tolerance is not None and chosen is not None:
             message = (
                 f"{100 * tolerance:g} % takes longer than {budget:g} s; this is the most accurate in time"
             )
     elif chosen is None:
-        chosen = _nearest(probing, candidates)
-    return _advice(probing, tolerance, budget, chosen, message)
+        chosen = _nearest(trials, candidates)
+    return _advice(trials, tolerance, budget, chosen, message)
 
 
 def _limits(tolerance: float | str | None, budget: float | str | None) -> tuple[float | None, float | None]:
@@ -122,134 +123,139 @@ def _limits(tolerance: float | str | None, budget: float | str | None) -> tuple[
     return share, seconds
 
 
-def _cheapest(probing: Probing, candidates: list[Spec], tolerance: float) -> Trial | None:
+def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> SolvedHere | None:
     """Return the quickest candidate that is certainly within the tolerance."""
-    found: Trial | None = None
+    found: SolvedHere | None = None
     left = list(candidates)
     while left:
-        left.sort(key=probing.predicted_seconds)
+        left.sort(key=trials.predicted_seconds)
         candidate = left.pop(0)
-        if found is not None and probing.predicted_seconds(candidate) > 1.3 * found.seconds:
+        if found is not None and trials.predicted_seconds(candidate) > 1.3 * found.seconds:
             return found
-        trial = probing.trial(candidate)
-        if _adequate(probing, trial, tolerance) and (found is None or trial.seconds < found.seconds):
+        trial = trials.row(candidate)
+        if _adequate(trials, trial, tolerance) and (found is None or trial.seconds < found.seconds):
             found = trial
     return found
 
 
-def _adequate(probing: Probing, trial: Trial, tolerance: float) -> bool:
+def _adequate(trials: TrialSolves, trial: SolvedHere, tolerance: float) -> bool:
     """Return whether a trial is within the tolerance; the reference is refined until that is certain."""
     while True:
-        error, bar = probing.error(trial), probing.uncertainty
+        error, bar = trials.error(trial), trials.uncertainty
         if error + bar <= tolerance:
             return True
-        if error - bar > tolerance or bar <= STEEP * tolerance or not trial.usable:
+        if error - bar > tolerance or bar <= STEEP * tolerance or not trial.stable:
             return False
-        if not probing.refine():
+        if not trials.refine():
             return False
 
 
-def _most_accurate(probing: Probing, candidates: list[Spec], budget: float) -> Trial | None:
+def _most_accurate(trials: TrialSolves, candidates: list[Spec], budget: float) -> SolvedHere | None:
     """Return the candidate of least error among those that take no longer than the budget [s]."""
-    found: Trial | None = None
+    found: SolvedHere | None = None
     for candidate in candidates:
-        if probing.predicted_seconds(candidate) > 1.5 * budget:
+        if trials.predicted_seconds(candidate) > 1.5 * budget:
             continue
-        trial = probing.trial(candidate)
-        better = found is None or probing.error(trial) < probing.error(found)
-        if trial.usable and trial.seconds <= budget and better:
+        trial = trials.row(candidate)
+        better = found is None or trials.error(trial) < trials.error(found)
+        if trial.stable and trial.seconds <= budget and better:
             found = trial
     return found
 
 
-def _nearest(probing: Probing, candidates: list[Spec]) -> Trial | None:
+def _nearest(trials: TrialSolves, candidates: list[Spec]) -> SolvedHere | None:
     """Return the trial of least error: the reference, but where that is no candidate."""
-    if probing.models is None or REFERENCE in probing.models:
-        return probing.reference
-    tried = [probing.trials[one] for one in candidates if one in probing.trials]
-    return min((one for one in tried if one.usable), key=probing.error, default=None)
+    if trials.models is None or REFERENCE in trials.models:
+        return trials.reference
+    tried = [trials.rows[one] for one in candidates if one in trials.rows]
+    return min((one for one in tried if one.stable), key=trials.error, default=None)
 
 
 def _advice(
-    probing: Probing, tolerance: float | None, budget: float | None, chosen: Trial | None, message: str
+    trials: TrialSolves,
+    tolerance: float | None,
+    budget: float | None,
+    chosen: SolvedHere | None,
+    message: str,
 ) -> Advice:
-    needs, left_out = _effects(probing, chosen, tolerance or 0.01)
-    added = probing.uncertainty + (probing.model_error.value if probing.model_error else 0.0)
+    needs, left_out = _effects(trials, chosen, tolerance or 0.01)
+    rows = list(trials.rows.values())
+    added = trials.uncertainty + (trials.model_error.value if trials.model_error else 0.0)
     tried = tuple(
-        Tried(
-            trial.candidate,
-            str(trial.solution.status),
-            probing.error(trial) if trial.usable else None,
-            probing.error(trial) + added if trial.usable and isfinite(added) else None,
+        TrialRow(
+            trial.ask.spec,
+            trial.status,
+            trials.error(trial) if trial.stable else None,
+            trials.error(trial) + added if trial.stable and isfinite(added) else None,
             trial.seconds,
             trial is chosen,
         )
-        for trial in probing.trials.values()
+        for trial in rows
     )
     return Advice(
-        scene=probing.scene,
+        scene=trials.scene,
         tolerance=tolerance,
         budget=budget,
-        choice=chosen.candidate if chosen is not None else None,
-        error=probing.error(chosen) if chosen is not None else None,
-        bar=probing.uncertainty,
+        choice=chosen.ask.spec if chosen is not None else None,
+        error=trials.error(chosen) if chosen is not None else None,
+        bar=trials.uncertainty,
         seconds=chosen.seconds if chosen is not None else None,
         needs=needs,
         left_out=left_out,
-        scales=probing.scales,
-        probing_seconds=probing.seconds,
+        scales=trials.scales,
+        probing_seconds=trials.seconds,
         tried=tried,
         message=message,
-        grading=_grading(probing, chosen),
-        calibration=_calibration(probing, chosen),
-        limit=_limit(probing, chosen),
-        model=probing.model_error,
-        warnings=tuple(load.warnings(probing.loads, probing.samples)),
+        grading=_grading(trials, chosen),
+        calibration=_calibration(trials, chosen),
+        limit=_limit(trials, chosen),
+        model=trials.model_error,
+        warnings=tuple(load.warnings([row.load_average for row in rows], [row.samples for row in rows])),
     )
 
 
-def _grading(probing: Probing, chosen: Trial | None) -> str:
+def _grading(trials: TrialSolves, chosen: SolvedHere | None) -> str:
     """Return what was made of graded lattices: of the choice, or of the usual grid where that is no
     lattice."""
-    if probing.grading is None:
+    if trials.grading is None:
         return ""
-    lattice = chosen.candidate if chosen is not None else None
+    lattice = chosen.ask.spec if chosen is not None else None
     if not isinstance(lattice, Lattice):
-        lattice = probing.lattice(MASSES - 1)
-    value, why = probing.grading_of(lattice)
+        lattice = trials.lattice(MASSES - 1)
+    value, why = trials.grading_of(lattice)
     masses = " × ".join(lattice.size.split("×")[:2])
     taken = "taken" if lattice.grading else "not taken"
     text = f"grading {value:g} {taken}" if value else "no grading"
     return f"{text}, {masses} masses" + (f": {why}" if why else "")
 
 
-def _calibration(probing: Probing, chosen: Trial | None) -> str:
+def _calibration(trials: TrialSolves, chosen: SolvedHere | None) -> str:
     """Return what was made of the springs that were requested."""
-    if not (probing.springs or probing.because):
+    if not (trials.springs or trials.because):
         return ""
-    settings = {} if chosen is None else chosen.candidate.settings
-    taken = settings.items() >= {"calibration": probing.method, **probing.springs}.items()
-    text = f"calibration {probing.method} {'taken' if taken else 'not taken'}"
-    return f"{text}: {probing.because}" if probing.because else text
+    settings = {} if chosen is None else chosen.ask.spec.settings
+    taken = settings.items() >= {"calibration": trials.method, **trials.springs}.items()
+    text = f"calibration {trials.method} {'taken' if taken else 'not taken'}"
+    return f"{text}: {trials.because}" if trials.because else text
 
 
-def _limit(probing: Probing, chosen: Trial | None) -> str:
+def _limit(trials: TrialSolves, chosen: SolvedHere | None) -> str:
     """From which stretch on the lattice chosen, or else the usual one, is no rubber, if this sheet is."""
-    lattice = chosen.candidate if chosen is not None else None
+    lattice = chosen.ask.spec if chosen is not None else None
     if not isinstance(lattice, Lattice):
-        lattice = probing.lattice(MASSES - 1).but(**probing.springs)
+        lattice = trials.lattice(MASSES - 1).but(**trials.springs)
     return strain_law.limit(
-        resolve(probing.scene, lattice, "springs"), probing.reference.solution.stretch or 0.0
+        resolve(trials.scene, lattice, "springs"), trials.reference.answer.stretch or 0.0
     )
 
 
 def _effects(
-    probing: Probing, chosen: Trial | None, tolerance: float
+    trials: TrialSolves, chosen: SolvedHere | None, tolerance: float
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return what the scene needs of a model, and what is left out of the chosen one."""
     needs, left_out = ["bending"], ["dynamics: the question is static"]
     small = NEGLIGIBLE * tolerance
-    energies = probing.reference.solution.energies
+    energies = trials.reference.answer.energies
     total = sum(energies.values()) or 1.0
     for name, part in (("transverse shear", "shear"), ("membrane stiffening", "membrane")):
         share = energies.get(part, 0.0) / total
@@ -257,17 +263,17 @@ def _effects(
             needs.append(name)
         else:
             left_out.append(f"{name}: {100 * share:.1g} % of the energy")
-    linear = probing.trial(probing.elements("plate", 4))
-    off = probing.error(linear)
+    linear = trials.row(trials.elements("plate", 4))
+    off = trials.error(linear)
     if off > tolerance:
         needs.append("large displacements")
     elif chosen is not None and (
-        getattr(chosen.candidate, "linear", False) or chosen.candidate.model == "plate"
+        getattr(chosen.ask.spec, "linear", False) or chosen.ask.spec.model == "plate"
     ):
         left_out.append(f"nonlinearity: the linear answer is {100 * off:.1g} % off")
-    if probing.scene.actuators:
+    if trials.scene.actuators:
         needs.append("actuators")
-    if chosen is not None and probing.planes:
-        part = "a quarter" if len(probing.planes) == 2 else "half"
+    if chosen is not None and trials.planes:
+        part = "a quarter" if len(trials.planes) == 2 else "half"
         left_out.append(f"all but {part} of the sheet: the scene is symmetric")
     return tuple(needs), tuple(left_out)

@@ -19,7 +19,7 @@ from sheetbench.scenes.summary import few
 
 
 @dataclass(frozen=True)
-class Tried:
+class TrialRow:
     """A quick solve: its error is the distance from the finest one, None where it has no answer; total: with
     the finest one's bar and model error, what a tolerance is held against."""
 
@@ -69,7 +69,7 @@ class Advice(Answer):
     left_out: tuple[str, ...]
     scales: Scales
     probing_seconds: float
-    tried: tuple[Tried, ...] = field(repr=False)
+    tried: tuple[TrialRow, ...] = field(repr=False)
     message: str = ""
     grading: str = ""
     calibration: str = ""
@@ -135,7 +135,7 @@ class Advice(Answer):
         if self.tolerance is not None and isfinite(self.bar):
             model = self.model.value if self.model else None
             text = share_of_tolerance(self.tolerance, model, self.bar, "shell")
-        return (Table.of(Tried, rows, caption, "tried", fields=fields, details=details, text=text),)
+        return (Table.of(TrialRow, rows, caption, "tried", fields=fields, details=details, text=text),)
 
     def notes(self) -> list[str]:
         """Return the advice and its reasons, a sentence a line, and the command that solves the choice."""

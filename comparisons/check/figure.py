@@ -10,19 +10,20 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import PathPatch
+from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.path import Path
 
 from comparisons.report.arrows import load_arrows
 from comparisons.report.plan import edge_ends, held_lines
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, plain
-from sheetbench.scenes import EdgeLoad, Scene, holds_director
+from sheetbench.scenes import Cylinder, EdgeLoad, Scene, Sphere, holds_director
+from sheetbench.scenes.obstacles import AnyObstacle
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.supports import named, place
 
 SHEET, PATCHES, LOAD, HELD = "#e8ebee", "YlOrBr", "#1b6ca8", "#8a939c"
-PAYLOAD = "#4a3f6b"
+PAYLOAD, OBSTACLE = "#4a3f6b", "#d8d2c4"
 LONGEST = 0.14  # of the longer side, an arrow
 
 
@@ -60,6 +61,8 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
             _part(axis, scene, payload.where, f"mass {number}", drawn_as)
         elif payload.at is not None:
             axis.plot(*1e3 * np.array(payload.at), "s", markersize=7, color=PAYLOAD)
+    for obstacle in scene.obstacles:
+        _obstacle(axis, scene, obstacle)
     _arrows(axis, scene, 1e3 * LONGEST * lengths.max())
     for name, at in scene.probes.items():
         axis.plot(1e3 * at[0], 1e3 * at[1], "o", markersize=3, markerfacecolor="white", markeredgecolor=DARK)
@@ -69,6 +72,20 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
         axis.set_title(plain(scene.title or scene.name, longest=60), fontsize=8)
     axis.margins(0.06)
     return figure
+
+
+def _obstacle(axis: Axes, scene: Scene, obstacle: AnyObstacle) -> None:
+    """A sphere's or a cylinder's shadow on the plan, dashed; a plane has none."""
+    x, y, _ = (1e3 * coordinate for coordinate in obstacle.position)
+    style: dict[str, Any] = {"edgecolor": DARK, "facecolor": OBSTACLE, "alpha": 0.5, "linestyle": "--"}
+    if isinstance(obstacle, Sphere):
+        axis.add_patch(Circle((x, y), 1e3 * obstacle.radius, **style))
+    elif isinstance(obstacle, Cylinder) and np.hypot(*obstacle.direction[:2]) > 0.0:
+        along = obstacle.direction[:2] / np.hypot(*obstacle.direction[:2])
+        across = 1e3 * obstacle.radius * np.array([-along[1], along[0]])
+        end = 1e3 * max(scene.sheet.lengths) * along
+        corners = [(x, y) + side * across + way * end for side, way in ((1, -1), (1, 1), (-1, 1), (-1, -1))]
+        axis.add_patch(Polygon(corners, **style))
 
 
 def _arrows(axis: Axes, scene: Scene, longest: float) -> None:

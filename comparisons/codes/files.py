@@ -83,6 +83,7 @@ def genesis(of: Problem) -> dict[str, str]:
 
 
 OWN_MASSES = ("newton", "mujoco", "genesis")  # those whose files give each vertex a mass of its own
+OBSTACLES = ("newton", "mujoco")  # those whose files have them
 WRITERS: Mapping[str, Callable[[Problem], dict[str, str]]] = {
     "newton": lambda of: python_files("newton", of),
     "mujoco": mujoco,

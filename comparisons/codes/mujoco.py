@@ -17,7 +17,7 @@ Source: MuJoCo's XML reference, `tendon/spatial`, `tendon/fixed`, `equality/tend
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 AXES = np.eye(3, dtype=int)
 RIGID = 0.9999  # d of MuJoCo's constraints, the nearest to 1 that it takes
 SMALL = 1e-9  # kg m²: what does not turn needs an inertia all the same
+FAR = 50.0  # radii: half the length of a cylinder that touches the sheet
 FLEX_STEP = 0.002  # s, of implicit steps
 
 
@@ -67,12 +68,13 @@ def sheet_mjcf(mesh: SheetMesh, keys: Mapping[str, float]) -> str:
         for n, (place, mass) in enumerate(zip(mesh.vertices, mesh.masses.tolist(), strict=True))
     )
     damping = f' damping="{keys["damping"]!r}"' if "damping" in keys else ""
+    radius = mesh.offset if mesh.obstacles else 1e-4
     flex = (
-        f'<deformable><flex name="sheet" dim="2" radius="0.0001" body="'
+        f'<deformable><flex name="sheet" dim="2" radius="{radius!r}" body="'
         f'{" ".join(f"mass{n}" for n in range(len(held)))}" element="{words(mesh.triangles.ravel())}">'
         f'<elasticity young="{keys["young"]!r}" poisson="{keys["poisson"]!r}" '
         f'thickness="{keys["thickness"]!r}" elastic2d="both"{damping}/>'
-        '<contact selfcollide="none"/></flex></deformable>'
+        '<contact selfcollide="none" condim="1"/></flex></deformable>'
     )
     loaded = {
         f"mass{n}{'xyz'[axis]}": mesh.forces[n, axis]
@@ -80,7 +82,8 @@ def sheet_mjcf(mesh: SheetMesh, keys: Mapping[str, float]) -> str:
         if not held[n]
     }
     options = f'timestep="{FLEX_STEP}" integrator="discrete"'
-    return _model("sheet", options, mesh.gravity, bodies, [flex], loaded)
+    geoms = [_geom(one) for one in mesh.obstacles]
+    return _model("sheet", options, mesh.gravity, [*geoms, *bodies], [flex], loaded, bool(geoms))
 
 
 def _model(
@@ -90,11 +93,13 @@ def _model(
     bodies: Iterable[str],
     inner: Iterable[str],
     loaded: Mapping[str, float],
+    touching: bool = False,
 ) -> str:
-    """Return the text of a model; inner: what stands beside its bodies; loaded: motors' forces by joint."""
+    """Return the text of a model; inner: what stands beside its bodies; loaded: motors' forces by joint;
+    touching: whether there is contact."""
     parts = [
         f'<mujoco model="{name}">\n<option {options} gravity="{words(gravity)}">'
-        '<flag contact="disable"/></option>\n<worldbody>',
+        f'<flag contact="{"enable" if touching else "disable"}"/></option>\n<worldbody>',
         *bodies,
         "</worldbody>",
         *inner,
@@ -157,3 +162,16 @@ def _equalities(lattice: Description, step: float) -> Iterator[str]:
                 f'solref="{2.0 * step!r} 1" solimp="{RIGID} {RIGID} 0.001 0.5 2"/>'
             )
         yield "</equality>"
+
+
+def _geom(obstacle: Mapping[str, Any]) -> str:
+    """An obstacle as MuJoCo has it, its axis along z; a cylinder is FAR times as long as it is thick."""
+    along, radius = obstacle.get("normal", obstacle.get("axis")), obstacle.get("radius", 0.0)
+    size = {"plane": "0 0 1", "sphere": f"{radius!r}", "cylinder": f"{radius!r} {FAR * radius!r}"}
+    turned = "" if along is None else f' zaxis="{words(along)}"'
+    condim = 3 if obstacle["friction"] else 1
+    kind, at, friction = obstacle["kind"], words(obstacle["position"]), obstacle["friction"]
+    return (
+        f'<geom type="{kind}" size="{size[kind]}" pos="{at}"{turned} condim="{condim}" '
+        f'friction="{friction!r} 0 0"/>'
+    )

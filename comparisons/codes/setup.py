@@ -20,7 +20,7 @@ import numpy as np
 from comparisons.codes.cell import Cell
 from comparisons.codes.cell_meshes import mesh as cell_of_triangles
 from comparisons.codes.coefficients import best_hinge, limit_error, nearest
-from comparisons.codes.files import OWN_MASSES, WRITERS, Problem
+from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem
 from comparisons.codes.homogenise import moduli_of
 from comparisons.codes.parameters import Parameter, parameters_of, undamped
 from comparisons.codes.sheet_mesh import SheetMesh, refusal, sheet_mesh, with_layers
@@ -151,8 +151,8 @@ class CodeSetup(Answer):
         """Why the code gets no files, "" where it does."""
         if self.scene.masses and self.code.name not in OWN_MASSES:
             return f"mass: {self.code.title} has one density, no vertex a mass of its own"
-        if self.scene.obstacles:
-            return "obstacle: it is not handed over"
+        if self.scene.obstacles and self.code.name not in OBSTACLES:
+            return f"obstacle: {self.code.title} is not given it, {' and '.join(OBSTACLES)} are"
         return refusal(self.scene)
 
     def _too_coarse(self) -> str:

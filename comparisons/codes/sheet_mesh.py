@@ -26,7 +26,8 @@ ONE, ALTERNATE = "one-diagonal", "alternate-diagonals"
 @dataclass(frozen=True)
 class SheetMesh:
     """Vertices (n, 3) [m], triangles (m, 3), which vertices are held, masses (n,) [kg], dead forces besides
-    weight (n, 3) [N], gravity (3,) [m/s²]; for each probe vertices around it and their shares."""
+    weight (n, 3) [N], gravity (3,) [m/s²]; for each probe vertices around it and their shares; obstacles as
+    plain data at their last places, and half the thickness [m], which the sheet keeps off them."""
 
     vertices: np.ndarray
     triangles: np.ndarray
@@ -35,6 +36,8 @@ class SheetMesh:
     forces: np.ndarray
     gravity: np.ndarray
     probes: dict[str, tuple[list[int], list[float]]]
+    obstacles: tuple[dict[str, Any], ...] = ()
+    offset: float = 0.0
 
     @cached_property
     def hinges(self) -> np.ndarray:
@@ -59,6 +62,7 @@ class SheetMesh:
             "hinges": self.hinges.tolist(),
             "edges": self.edges.tolist(),
             "probes": {n: {"vertices": v, "shares": s} for n, (v, s) in self.probes.items()},
+            **({"obstacles": list(self.obstacles), "offset": self.offset} if self.obstacles else {}),
         }
 
 
@@ -119,6 +123,14 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
         forces,
         np.zeros(3) if scene.gravity is None else np.array(scene.gravity.last_acceleration),
         points,
+        tuple(
+            {
+                **one.model_dump(mode="json", exclude={"motion", "contact_damping"}),
+                "position": (np.array(one.position) + one.displacement(1.0)).tolist(),
+            }
+            for one in scene.obstacles
+        ),
+        0.5 * scene.sheet.thickness,
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -17,15 +18,15 @@ from comparisons.models.expected_error import expected_error
 from comparisons.models.grids import Elements as Count
 from comparisons.models.keywords import StaticKeywords
 from comparisons.models.resolve import Resolved, resolve
-from comparisons.models.sizes import has_room
-from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
 from comparisons.report.work import Progress, silent
 from comparisons.runs.load import average
 from comparisons.runs.load import warnings as doubts
-from comparisons.sweep.differences import error
+from comparisons.sweep.differences import error as error  # where others take it from
+from comparisons.sweep.here import here, with_room
+from fem_reference.uncertainty import coarser
 from sheetbench.choices import REFERENCE
-from sheetbench.scenes import AnyScene, Scene, SceneError, Solution, Status, require_static, scene_of
+from sheetbench.scenes import AnyScene, Scene, SceneError, Status, require_static, scene_of
 
 COMPANION = "lumped-uniform"
 
@@ -80,34 +81,29 @@ def compare(
     for other in models:
         beside = resolve(scene, parse(other) if isinstance(other, str) else other)
         named[unlike(shown_name(beside.spec.model), named)] = beside
-    solutions = []
+    rows = []
     for name, model in named.items():
-        solutions.append(solve(model, name))
-        context().solved(solutions[-1])
+        rows.append(here(model, name))
+        context().solved(rows[-1].answer)
+    solutions = [row.answer for row in rows]
     laws = disagreement = ""
     several = begun = other_branch = False
     one_branch = branches.joined(first, against, *solutions[:2])
     if one_branch is not None:
         several, begun = True, one_branch[1] is not solutions[1]
         solutions[0], solutions[1], disagreement = one_branch
-
-    def on_other_grid(other: Lattice) -> Solution | None:
-        return solve(resolve(scene, other), "lumped on a finer grid") if has_room(scene, other) else None
-
-    expected = expected_error(scene, first.spec, solutions[0], on_other_grid)
+    finer = partial(with_room, scene)
+    expected = expected_error(scene, first.spec, solutions[0], finer)
     bar = None
     alone = begun or solutions[1].status is Status.UNSTABLE  # coarser meshes may be on another branch
     wanted = against.spec.kind in CHEAP if uncertainty is None else uncertainty
     if wanted and solutions[1].comparable and not alone:
-
-        def coarser(n: Count) -> Solution:
-            return solve(resolve(scene, against.spec.but(count=n)))
-
-        bar = error_bar(scene, solutions[1], against.spec.elements, coarser)
+        meshes = [against.spec.but(count=n) for n in coarser(against.spec.elements)[1:]]
+        bar = error_bar([rows[1], *map(here, (resolve(scene, mesh) for mesh in meshes))])
     answers, within = tuple(solutions), None if bar is None else bar.error
     laws = strain_law_note(first, answers, within)
     if not disagreement:
-        disagreement, other_branch = far_apart_note(first, answers, error, within, on_other_grid)
+        disagreement, other_branch = far_apart_note(first, answers, within, finer)
     known, busy = several or other_branch, tuple(doubts([average()]))
     law_chosen = against.spec.law is not None
     return Comparison(
@@ -121,8 +117,8 @@ def load_static(scene: AnyScene) -> Scene:
     loaded = scene_of(scene)
     try:
         require_static(loaded)
-    except SceneError as error:
+    except SceneError as free:
         if isinstance(scene, Scene):
             raise
-        raise SceneError(f"{scene}: {error}") from None
+        raise SceneError(f"{scene}: {free}") from None
     return loaded

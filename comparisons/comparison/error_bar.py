@@ -6,15 +6,16 @@ less than its bar is not distinguishable from it. The time that takes is reporte
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.models.grids import Elements
-from comparisons.models.spec import counted
-from sheetbench.scenes import Scene, Solution
+from comparisons.models.grids import Elements as Count
+from comparisons.models.spec import Elements, counted
+from comparisons.sweep.limits import limit
+from comparisons.sweep.solved import Solved
 from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class ErrorBar:
 
     uncertainty: Uncertainty
     names: tuple[str, ...]
-    elements: tuple[Elements, ...]
+    elements: tuple[Count, ...]
     solve_seconds: float
 
     @property
@@ -80,20 +81,12 @@ class ErrorBar:
         }
 
 
-def error_bar(
-    scene: Scene, finest: Solution, elements: Elements, solve: Callable[[Elements], Solution]
-) -> ErrorBar | None:
-    """Return the bar of a reference's solution on `elements`; `solve` answers on other numbers of elements.
-
-    None where fewer than two meshes have an answer.
-    """
-    from fem_reference.uncertainty import coarser, mesh_size, of_solutions
-
-    meshes = coarser(elements)
-    solutions = [finest, *(solve(n) for n in meshes[1:])]
-    sizes = [mesh_size(scene, n) for n in meshes]
-    found = of_solutions(scene, solutions, sizes, scene.probe_points())
+def error_bar(rows: Sequence[Solved]) -> ErrorBar | None:
+    """Return the bar of a reference's rows, the finest mesh first; None where fewer than two can be used."""
+    found = limit(rows)
     if found is None:
         return None
-    used = tuple(meshes[sizes.index(size)] for size in found.sizes)
-    return ErrorBar(found, tuple(scene.probes), used, sum(s.solve_seconds for s in solutions[1:]))
+    specs = {row.size: row.ask.spec for row in reversed(rows)}  # the first of one size
+    used = tuple(spec.elements for n in found.sizes if isinstance(spec := specs[n], Elements))
+    seconds = sum(sum(row.samples) for row in rows[1:])
+    return ErrorBar(found, tuple(rows[0].ask.scene.probes), used, seconds)

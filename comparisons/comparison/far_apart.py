@@ -13,12 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
-
 from comparisons.models.expected_error import converges
 from comparisons.models.layers import layers
 from comparisons.models.resolve import Resolved
 from comparisons.models.spec import Lattice, counted
+from comparisons.sweep.differences import error
 from sheetbench.choices import listed
 from sheetbench.scenes import Solution, Status
 from sheetbench.scenes.summary import few
@@ -34,15 +33,14 @@ UNKNOWN = 0.5  # bar of the reference that tells nothing any more
 def far_apart_note(
     lattice: Resolved[Lattice],
     solutions: tuple[Solution, ...],
-    error: Callable[[np.ndarray, np.ndarray], float | None],
     bar: float | None,
     solve: Callable[[Lattice], Solution | None],
 ) -> tuple[str, bool]:
     """Return a sentence where lattice and reference, the first two of the solutions, are FAR apart, else
     nothing; and whether they are known to lie on different branches, so that an error would measure neither.
 
-    error: of displacements against others; bar: of the reference, None where it is not known; solve: answers
-    other grids, None where that takes too much memory.
+    bar: of the reference, None where it is not known; solve: answers other grids, None where that takes too
+    much memory.
     """
     first, reference = solutions[:2]
     if not first.status is reference.status is Status.CONVERGED:

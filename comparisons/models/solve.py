@@ -15,11 +15,12 @@ from typing import Any, Literal
 from comparisons.external import plugins
 from comparisons.models.context import context
 from comparisons.models.pair import extrapolated
-from comparisons.models.resolve import OURS, Resolved, resolve
+from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import mesh
-from comparisons.models.spec import Elements, Lattice, LatticePair, spec_of
+from comparisons.models.spec import Elements, Lattice, LatticePair
 from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.report.work import Work
+from sheetbench.choices import REFERENCES
 from sheetbench.clock import now
 from sheetbench.scenes import FieldMesh, History, Iteration, Scene, Solution, load
 from sheetbench.scenes.grading import mirrored
@@ -27,6 +28,7 @@ from sheetbench.scenes.patches import composition_at
 from sheetbench.scenes.region import share_of
 
 Watch = Callable[[Iteration], None]  # called once an iteration
+COARSE = (Lattice((3, 3, 2)), LatticePair((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
 
 def solve(model: Resolved[Any], name: str = "") -> Solution:
@@ -140,8 +142,8 @@ def simulate(model: Resolved[Any], duration: float, **settings: Any) -> History:
 @cache
 def warm(model: str) -> None:
     """Import and compile what a model needs, once in a process: solve a coarse sheet, load a plug-in."""
-    if model not in OURS:
-        plugins.plugin(model)
-        return
-    coarse = {"grid": (3, 3, 2)} if model.startswith("lumped") else {"elements": 2}
-    _solve(resolve(load("one-edge-clamped"), spec_of(model, coarse)), None)
+    for coarse in COARSE:
+        if coarse.model == model:
+            _solve(resolve(load("one-edge-clamped"), coarse), None)
+            return
+    plugins.plugin(model)

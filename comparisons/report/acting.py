@@ -1,5 +1,5 @@
 """What acts on a sheet, on the stage of its picture: chains and moved edges in red, loads as blue arrows,
-payloads at points as dark balls.
+payloads at points as dark balls, obstacles pale.
 
 An arrow starts where its force acts and points along it (`comparisons.report.arrows`). A turned arrow is an
 edge's moment.
@@ -38,6 +38,8 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
     plan, arrows = load_arrows(scene, partial(_normals, stage, solution))
     if len(plan):
         seen.append(_arrows(stage, stage.deformed(solution, plan), arrows))
+    for obstacle in scene.obstacles:
+        seen.append(stage.obstacle(obstacle))
     bodies = np.array([payload.at for payload in scene.masses if payload.at is not None]).reshape(-1, 2)
     if len(bodies):
         stage.payloads(stage.deformed(solution, bodies))

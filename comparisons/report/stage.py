@@ -14,12 +14,13 @@ import pyvista
 
 from comparisons.report.plan import eye_heading, held_lines, plan_lines, plan_mesh, rims
 from sheetbench.answers.style import DARK, GREY
-from sheetbench.scenes import FieldMesh, Scene, Solution, holds_director
+from sheetbench.scenes import Cylinder, FieldMesh, Plane, Scene, Solution, holds_director
+from sheetbench.scenes.obstacles import AnyObstacle
 
 REFERENCE_PIXELS = 1800  # across an image, in which the widths of lines below are pixels
 MARGIN = 0.04  # as a share of the image's width
 ELEVATION = 27.0  # degrees above the plane
-PALE, OUTLINE, ROD = "#c9ced4", "#a9afb6", "#c8553d"
+PALE, OUTLINE, ROD, OBSTACLE = "#c9ced4", "#a9afb6", "#c8553d", "#d8d2c4"
 
 
 class Stage:
@@ -57,6 +58,22 @@ class Stage:
         ball = pyvista.Sphere(radius=0.018 * self.size)
         balls = pyvista.PolyData(points).glyph(geom=ball, scale=False, orient=False)
         self.plotter.add_mesh(balls, color=DARK, smooth_shading=True, specular=0.3)
+
+    def obstacle(self, obstacle: AnyObstacle) -> np.ndarray:
+        """The part of an obstacle that is near the sheet, at its last place; corners (n, 3) [m] of it."""
+        at, along = np.array(obstacle.position) + obstacle.displacement(1.0), obstacle.direction
+        middle = np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0])
+        if isinstance(obstacle, Plane):
+            foot = middle - ((middle - at) @ along) * along
+            body = pyvista.Plane(foot, along, 1.3 * self.size, 1.3 * self.size)
+        elif isinstance(obstacle, Cylinder):
+            foot = at + ((middle - at) @ along) * along
+            body = pyvista.Cylinder(foot, along, obstacle.radius, 1.2 * self.size, 80)
+        else:
+            body = pyvista.Sphere(obstacle.radius, at, theta_resolution=60, phi_resolution=60)
+        self.plotter.add_mesh(body, color=OBSTACLE, opacity=0.55, smooth_shading=True, split_sharp_edges=True)
+        x0, x1, y0, y1, z0, z1 = body.bounds
+        return np.array([[x, y, z] for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])
 
     def chain(self, points: np.ndarray) -> None:
         """The axis of a chain through the ends of its segments (p, 3), with a ball at each."""

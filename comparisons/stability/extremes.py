@@ -3,6 +3,7 @@
 load         the weight and all loads, times a factor
 slenderness  the thickness, times a factor
 young        Young's modulus, times a factor
+obstacle     the distance of obstacles from the flat sheet, times a factor
 grid         the cells of the lattice, the elements of the references, along the shorter side
 damping      the damping time, such that the lowest mode has a share of critical damping: how runs of every
              integrator end, and the largest stable step of the explicit ones
@@ -38,6 +39,7 @@ from sheetbench.choices import INTEGRATORS, REFERENCE
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.layers import Layer
+from sheetbench.scenes.obstacles import farther
 from sheetbench.scenes.orthotropy import MODULI
 from sheetbench.scenes.parameters import put
 from sheetbench.scenes.patches import Patch
@@ -48,6 +50,7 @@ FACTORS = {
     "load": (0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0),
     "slenderness": (0.03, 0.1, 0.3, 1.0, 3.0, 10.0),
     "young": (0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0),
+    "obstacle": (0.1, 0.3, 1.0, 2.0, 3.0),
 }
 CELLS = {"lumped": (2, 4, 8, 16, 32), "references": (2, 4, 8)}  # along the shorter side
 DAMPING = (0.0, 0.01, 0.1, 1.0, 10.0, 100.0)  # of the lowest mode's critical one
@@ -109,6 +112,8 @@ def _tags(study: str, **cell: Any) -> dict[str, Any]:
 def _scaled(scene: Scene, name: str, models: Mapping[str, Spec], truth: Spec) -> Iterator[Cell]:
     if name == "load" and scene.gravity is None and not scene.loads:
         return
+    if name == "obstacle" and not scene.obstacles:
+        return
     for factor in FACTORS[name]:
         label, refusal, there = f"{name} × {factor:g}", "", scene
         try:
@@ -166,8 +171,8 @@ def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
 
 
 def scaled(scene: Scene, name: str, factor: float) -> Scene:
-    """Return the scene with its load, thickness or moduli times a factor, those of patches and layers too.
-    Raises BadInput where it cannot be."""
+    """Return the scene with its load, thickness, moduli or distance from obstacles times a factor, those of
+    patches and layers too. Raises BadInput where it cannot be."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # extremes are implausible
         if name == "young":
@@ -179,6 +184,8 @@ def scaled(scene: Scene, name: str, factor: float) -> Scene:
                 for patch in scene.patches
             ]
             return put(scene, "thickness", factor * scene.sheet.thickness).replace(patches=tuple(patches))
+        if name == "obstacle":
+            return scene.replace(obstacles=tuple(farther(scene, one, factor) for one in scene.obstacles))
         acting = {"loads": tuple(_times(load, factor) for load in scene.loads)}
         return scene.replace(gravity=scene.gravity and _times(scene.gravity, factor), **acting)
 

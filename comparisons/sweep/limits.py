@@ -14,15 +14,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
 from comparisons.sweep.solved import Solved
-from fem_reference.edge_layer import missed_by
-from fem_reference.uncertainty import ASSUMED_ORDER, OWN_ORDER, Uncertainty, estimate
 from sheetbench.answers.table import PERCENT, Column
 from sheetbench.scenes import Scene, Status
+
+if TYPE_CHECKING:
+    from fem_reference.uncertainty import Uncertainty
 
 DIGITS = 1e-5  # of the largest displacement
 
@@ -33,6 +34,9 @@ def limit(rows: Iterable[Solved], of: str = "probes") -> Uncertainty | None:
     of: what the bar is of, "probes" or a column. Quadratic elements miss some of the layer along edges; of
     others an order of 2 at most counts; in motion the layer counts for nothing.
     """
+    from fem_reference.edge_layer import missed_by
+    from fem_reference.uncertainty import ASSUMED_ORDER, OWN_ORDER, estimate
+
     usable = sorted((row for row in rows if row.usable), key=lambda row: row.size)[:3]
     sizes = [row.size for row in usable]
     if len(set(sizes)) < 2:

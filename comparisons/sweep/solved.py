@@ -135,6 +135,11 @@ class Solved:
         return median(self.samples) if self.samples else None
 
     @property
+    def load_average(self) -> float | None:
+        """What else the machine had to do."""
+        return self.row.get("cost", {}).get("load_average")
+
+    @property
     def history(self) -> History | None:
         """The motion, None where it did not reach its end."""
         if not self.usable:

@@ -29,11 +29,12 @@ from fem_reference.motion.rods import MovingRods, at_rest
 from fem_reference.shell.element import Element, weighed
 from fem_reference.solid.element import Bricks
 from fem_reference.surface.loads import Follower
-from sheetbench.errors import NoEquilibrium
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
 from sheetbench.scenes.motion import NO_START, at_start, kinks, let_go, starts_flat
+from sheetbench.scenes.natural_state import sources_of
 from sheetbench.scenes.supports import held_axes, named
 
 ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
@@ -85,6 +86,10 @@ class Moving(ABC):
     def __init__(self, scene: Scene):
         self.memory = Memory(scene.material.branches)
         supports = tuple(support.model_copy(update={"motion": None}) for support in scene.supports)
+        if self.memory and any(one.of.history is not None for one in sources_of(scene)):
+            raise BadInput(
+                f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
+            )
         self.still = at_rest(scene.replace(loads=(), gravity=None, supports=supports))
         self._scene = scene
         self.kinks = np.array(kinks(scene))
@@ -222,6 +227,15 @@ class Moving(ABC):
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         """Δeᵀ D Δe' [J] of the strains of a step (N,) from q and of another one."""
 
+    def grow(self, time: float) -> None:
+        """Set the sheet's natural state to that at a time, where it has one."""
+        return None
+
+    @property
+    def grows(self) -> bool:
+        """Whether the natural state changes over time."""
+        return False
+
     @abstractmethod
     def on_surface(self, v: np.ndarray) -> np.ndarray:
         """Velocities (m, 9, 3) of the mid-surface at the nodes of the plan's elements, of rates (N,)."""
@@ -249,11 +263,13 @@ class Moving(ABC):
     def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """g (N,): internal and viscous less external forces."""
         self.memory.now = time
+        self.grow(time)
         return self._loaded(self.internal(q, v) + self.rods.forces(q, v, time), q, v, time)
 
     def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
         """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
         q, v = 0.5 * (start + end), (end - start) / h
+        self.grow(time)
         on_rods = self.rods.mean_forces(start, end, h, time)
         return self._loaded(self.mean_internal(start, end, h) + on_rods, q, v, time)
 
@@ -268,6 +284,7 @@ class Moving(ABC):
     def energies(self, q: np.ndarray, v: np.ndarray, time: float) -> Energies:
         """Energies of a state."""
         self.memory.now = time
+        self.grow(time)
         potential = -sum(float(force @ q) for force, factor in self.dead if factor is None)
         elastic = self.elastic(q) + self.rods.energy(q, time)
         stored = self.memory.stored(self.strains(q)) if self.memory else 0.0
@@ -284,11 +301,15 @@ class Moving(ABC):
         damped -= sum(float(self.following(middle, load) @ step) for load, _ in self.drag(step / h))
         self.memory.since(start.time, start.memory)
         self.memory.now = end.time
+        self.grow(end.time)
         relaxed = self.memory.dissipated(self.strains(end.q)) if self.memory else 0.0
         exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
         work = float(self.of_supports(exerted) @ step)
         for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
             work += 0.5 * (self.rods.energy(q, end.time) - self.rods.energy(q, start.time))
+        for sign, time in ((1.0, end.time), (-1.0, start.time)) if self.grows else ():
+            self.grow(time)
+            work += 0.5 * sign * (self.elastic(start.q) + self.elastic(end.q))
         for force, factor in self.dead:
             if factor is not None:
                 work += factor_at(factor, half_way) * float(force @ step)
@@ -301,6 +322,13 @@ class MovingElements(Moving):
     """A reference whose elements' strains are quadratic in the coordinates."""
 
     element: Element | Bricks
+
+    def grow(self, time: float) -> None:
+        self.element.grow(time=time)
+
+    @property
+    def grows(self) -> bool:
+        return self.element.grows
 
     @abstractmethod
     def gather(self, q: np.ndarray) -> np.ndarray:

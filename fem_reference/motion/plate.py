@@ -53,6 +53,8 @@ class MovingPlate(Moving):
         self.mass = _widened(plate.mass_matrix(scene, self._plate), size)
         self.carry(MovingRods(scene, bound, lambda _: rods.unknowns, size, linear=True))
         self._stiffness = _widened(plate.stiffness_matrix(scene, self._plate), size)
+        self._natural = plate.natural_of(scene, self._plate)
+        self.grow(0.0)
         self._free = np.flatnonzero(~self._held)
         self.unknowns = len(self._free)
         self._basis = identity(size, format="csc")[:, self._free]
@@ -60,6 +62,16 @@ class MovingPlate(Moving):
 
     def equilibrium(self, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
         return plate.equilibrium(scene, self._plate)
+
+    def grow(self, time: float) -> None:
+        state = self._natural.state
+        factors = None if state is None else state.factors(time)
+        self._pull = self._natural.force(self._held.size, factors)
+        self._stored = self._natural.stored(factors)
+
+    @property
+    def grows(self) -> bool:
+        return self._natural.moves
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         return np.where(self._held, self._values + self._shift(time, rate=False), q)
@@ -111,7 +123,7 @@ class MovingPlate(Moving):
     def internal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         elastic = self._stiffness @ q
         added = self.memory.added(elastic) if self.memory else 0.0
-        return np.asarray(elastic + added + self.tau * (self._stiffness @ v))
+        return np.asarray(elastic + added + self.tau * (self._stiffness @ v) - self._pull)
 
     def strains(self, q: np.ndarray) -> Strained:
         return q, self._stiffness @ q
@@ -125,7 +137,7 @@ class MovingPlate(Moving):
         return self.displacement(v)[self._plate.elements.nodes]
 
     def elastic(self, q: np.ndarray) -> float:
-        return 0.5 * self.stiffness_of(q, q, q)
+        return 0.5 * self.stiffness_of(q, q, q) - float(self._pull @ q) + self._stored
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         return float(step @ (self._stiffness @ other))

@@ -132,6 +132,7 @@ class MovingShell(MovingElements):
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
     ) -> csr_matrix:
         self.memory.now, change = time, self.gather(q)
+        self.grow(time)
         vectors, (strain, rate) = self.element.reference + change, self.strained(change, v)
         moduli = (1.0 + by_v * self.tau + self.memory.gain) * self.element.moduli(strain)
         frames = self._frames(q)

@@ -118,6 +118,7 @@ class MovingSolid(MovingElements):
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
     ) -> csr_matrix:
         self.memory.now, change = time, self.gather(q)
+        self.grow(time)
         strain, rate = self.strained(change, v)
         moduli = (1.0 + by_v * self.tau + self.memory.gain) * self.element.moduli(strain)
         bricks = tangent(self.element.gradient(change), moduli, self.stress(strain, rate))

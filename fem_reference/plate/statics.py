@@ -30,6 +30,7 @@ from skfem import Basis, ElementQuad2, MeshQuad
 
 from fem_reference.plate.balance import Solved, balance
 from fem_reference.plate.element import TILT_X, PlateElements, W
+from fem_reference.plate.natural import NaturalPlate
 from fem_reference.plate.rods import PlateRods
 from fem_reference.plate.validity import judge
 from fem_reference.surface import carried, loads, rod
@@ -136,7 +137,7 @@ def _solved(
     """own: whether the mesh has an outline of its own, in place of the scene's sheet."""
     begin = now()
     plate = Plate.on(mesh)
-    posed = _pose(scene, plate, hard_edges)
+    posed = _pose(scene, plate, hard_edges, section)
     rods, supports = posed.rods, posed.supports
     ready = now()
     solved, status, notes = _solve(scene, plate, posed, section)
@@ -193,7 +194,9 @@ def equilibrium(scene: Scene, plate: Plate) -> tuple[np.ndarray, Status, Sequenc
     return solved.u, status, notes
 
 
-def _pose(scene: Scene, plate: Plate, hard_edges: tuple[str, ...] = ()) -> _Posed:
+def _pose(
+    scene: Scene, plate: Plate, hard_edges: tuple[str, ...] = (), section: Section | None = None
+) -> _Posed:
     along = rod.of_scene(scene, plate.plan)
     rods = PlateRods.on(on_surface(along, len(plate.nodes)), len(plate.nodes))
     supports, held, fields = constrain(scene, plate, hard_edges, along)
@@ -201,6 +204,7 @@ def _pose(scene: Scene, plate: Plate, hard_edges: tuple[str, ...] = ()) -> _Pose
     u = np.concatenate([fields.ravel(), np.zeros(len(rods.held))])
     force = rods.force(u.size)
     force[: fields.size] += nodal_forces(scene, plate).ravel()
+    force += natural_of(scene, plate, section).force(force.size)
     return _Posed(supports, rods, force, u, free)
 
 
@@ -217,8 +221,15 @@ def _solve(
             status, notes = Status.SINGULAR, (str(error),)
     if status is Status.CONVERGED:
         of_plate = section or section_at(scene, plate.plan.corners)
-        status, notes = judge(scene, plate.elements, of_plate, u, stiffness, free)
+        natural = natural_of(scene, plate, section).strains()[0]
+        status, notes = judge(scene, plate.elements, of_plate, u, stiffness, free, natural)
     return Solved(stiffness, force, u, free), status, notes
+
+
+def natural_of(scene: Scene, plate: Plate, section: Section | None = None) -> NaturalPlate:
+    """Return what makes a scene's plate other than flat at rest."""
+    corners = plate.plan.corners
+    return NaturalPlate(scene, plate.elements, corners, section or section_at(scene, corners))
 
 
 def section_stiffness(scene: Scene, plate: Plate, section: Section | None = None) -> dict[str, np.ndarray]:
@@ -255,10 +266,11 @@ def mass_matrix(scene: Scene, plate: Plate) -> csr_matrix:
 def energies(scene: Scene, plate: Plate, u: np.ndarray, section: Section | None = None) -> dict[str, float]:
     """Membrane, bending and shear energy [J] of the unknowns u (5 n,)."""
     sections, areas = section_stiffness(scene, plate, section), plate.elements.areas
+    own = dict(zip(PARTS, natural_of(scene, plate, section).strains(), strict=False))
     nodal = u[plate.elements.unknowns]
     out = {}
     for part, operator in plate.strains().items():
-        strain = (operator @ nodal[:, None, :, None])[..., 0]
+        strain = (operator @ nodal[:, None, :, None])[..., 0] - own.get(part, 0.0)
         force = (sections[part] @ strain[..., None])[..., 0]
         out[part] = 0.5 * float(np.einsum("mq,mqi,mqi", areas, strain, force))
     return out

@@ -21,6 +21,7 @@ from fem_reference.shell.coarse_start import Shape
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
+from fem_reference.shell.natural import NaturalElement
 from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
@@ -45,6 +46,7 @@ from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Solution, Status, require_uniform
+from sheetbench.scenes.patches import require_flat_at_rest
 from sheetbench.scenes.rigid_motions import require_static
 
 LIMITS = Limits()
@@ -166,6 +168,7 @@ def trace_on(scene: Scene, structure: ShellStructure) -> tuple[State, Status, li
     """The equilibrium of a structure under the full load, how the path to it ended and the notes."""
     solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
     path = trace_path(structure, solver, inspector(scene, structure, False), relax)
+    structure.element.grow(path.load_factor)
     return path.state, *judge(scene, structure, path, membrane_strain(structure, path.state))
 
 
@@ -181,6 +184,7 @@ def _solution(
     """The answer of a run; spent: those before it, the last first; own: whether the mesh has an outline of
     its own."""
     structure, path, mesh, on = run.structure, run.path, run.mesh, run.structure.element_nodes
+    structure.element.grow(path.load_factor)
     stretched = membrane_strain(structure, path.state)
     status, notes = judge(scene, structure, path, stretched)
     displacement, turn = path.state.change
@@ -238,7 +242,8 @@ def _elements(nodes: np.ndarray, scene: Scene, section: Section | None, law: str
     material, thickness = scene.material, scene.sheet.thickness
     require_law(law, LAWS, material)
     if law == STRAIN_LAW:
-        return Element.build(nodes, section or section_at(scene, nodes))
+        return NaturalElement.of(nodes, section or section_at(scene, nodes), scene)
+    require_flat_at_rest(scene, f"the shell's law '{law}'")
     require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
     if section is not None:
         raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")

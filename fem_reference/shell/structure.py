@@ -114,8 +114,12 @@ class ShellStructure(Creeping[State, Forces]):
         out[self.element_nodes] = self.element.reference[:, :9]
         return out
 
+    @property
+    def prestrained(self) -> bool:
+        return self.element.prestrain is not None
+
     def rest(self) -> State:
-        """Flat and free of stress."""
+        """Flat, and free of stress where nothing acts on it."""
         return State(np.zeros((2, self.count, 3)), np.zeros_like(self.rods.own))
 
     def unextrapolated(self, state: State) -> State:
@@ -137,6 +141,7 @@ class ShellStructure(Creeping[State, Forces]):
     def potential(self, state: State, load_factor: float) -> tuple[float, float]:
         """Strain energy less the work of conservative loads, and the sum of their magnitudes [J]."""
         on_rods = self._on_rods(state)
+        self.element.grow(load_factor)
         stored = sum(self.energies(state).values()) + self.rods.elements.energy(on_rods, load_factor)
         work = float(np.sum(self.dead * state.change[0]) + np.sum(self.rods.elements.weight * on_rods))
         vectors = self.element.reference + self.gather(state.change)
@@ -150,6 +155,7 @@ class ShellStructure(Creeping[State, Forces]):
         intrinsic curvature.
         """
         element, rods = self.element, self.rods.elements
+        element.grow(load_factor)
         slow = element.dragged(element.strain(self.gather(state.change)), drag)
         shape = load_factor * rods.intrinsic + drag * rods.strain(self._on_rods(state))
         intrinsic = shape / (load_factor * (1.0 + drag)) if self.rods.rods else rods.intrinsic
@@ -159,12 +165,16 @@ class ShellStructure(Creeping[State, Forces]):
     def forces(self, state: State, load_factor: float) -> Forces:
         """Internal less external forces, and what they are measured against."""
         change, n = self.gather(state.change), self.count
+        self.element.grow(load_factor)
         vectors, strain = self.element.reference + change, self.element.strain(change)
         stress = self.element.stress(strain)
         residuals = self.scatter(forces_of(vectors, stress))
         external = load_factor * self._external(vectors)
         size = np.abs(external[:n]).sum() + np.abs(residuals.ravel()[self._held_components]).sum()
         size += np.abs(external[n:]).sum() / self.lever
+        if (natural := self.element.prestrain) is not None:  # often all that loads it
+            pull = np.abs(self.scatter(forces_of(vectors, weighed(self.element.stiffness, natural))))
+            size += pull[:n].sum() + pull[n:].sum() / self.lever
         residuals -= external
         if not self.rods.rods:
             rods = self._no_rods

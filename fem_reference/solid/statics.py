@@ -26,6 +26,7 @@ from fem_reference.solid.balance import balance
 from fem_reference.solid.element import Bricks
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
+from fem_reference.solid.natural import NaturalBricks
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.structure import Forces, SolidStructure, State
 from fem_reference.surface import loads, rod
@@ -51,7 +52,7 @@ from sheetbench.scenes import (
     require_uniform,
 )
 from sheetbench.scenes.orthotropy import Ply, impossible_in_space
-from sheetbench.scenes.patches import constants_at, of_sheet
+from sheetbench.scenes.patches import constants_at, of_sheet, require_flat_at_rest
 from sheetbench.scenes.rigid_motions import require_static
 
 GRADINGS = ("edges", "uniform")
@@ -105,6 +106,7 @@ def _solved(
     solver = DirectSolver(structure.symmetric)
     ready = now()
     path = trace_path(structure, solver, partial(inspected, structure), progress=progress)
+    structure.bricks.grow(path.load_factor)
     done = now()
 
     columns, displacement = structure.columns, path.state.displacement
@@ -199,7 +201,8 @@ def bricks_through(scene: Scene, layers: int) -> int:
     many, with faces between all plies. Raises BadInput where those are too many."""
     if not scene.layers:
         return layers
-    between = np.array([ply.low + 0.5 for ply in of_sheet(scene).plies])
+    plies = of_sheet(scene).plies
+    between = np.array([ply.low - plies[0].low for ply in plies])
     for count in range(layers, MOST_BRICKS + 1):
         if np.allclose(count * between, np.rint(count * between), rtol=0.0, atol=1e-6):
             return count
@@ -215,7 +218,7 @@ def _constants_of_bricks(scene: Scene, middles: np.ndarray, layers: int) -> Cons
     found = constants_at(scene, middles)
     if not scene.layers:
         return found
-    heights = (np.arange(layers) + 0.5) / layers - 0.5
+    heights = (np.arange(layers) + 0.5) / layers + found.plies[0].low
     own = [next(ply for ply in found.plies if ply.low <= at <= ply.high) for at in heights]
     values: list[Any] = [np.repeat(each, len(middles) // layers)[:, None] for each in zip(*own, strict=True)]
     ply = Ply(*values)
@@ -252,11 +255,10 @@ def discretise(
     stacks = columns.positions.reshape(-1, 3)[columns.stacks]
     positions = np.concatenate([stacks[:, place] for place in columns.places])
     middles = np.tile(columns.plan.corners.mean(axis=1), (layers, 1))[:, None]
-    bricks = Bricks.build(
-        positions,
-        LAWS[law],
-        scene.material if scene.uniform else _constants_of_bricks(scene, middles, layers),
-    )
+    material = scene.material if scene.uniform else _constants_of_bricks(scene, middles, layers)
+    if law != STRAIN_LAW:
+        require_flat_at_rest(scene, f"the solid's law '{law}'")
+    bricks = NaturalBricks.of(Bricks.build(positions, LAWS[law], material), scene)
     rods = rod.of_scene(scene, columns.plan)
     supports = column_supports.of_scene(scene, columns, clamp, rods)
     dead, followers = loads.of_scene(scene, columns.plan)

@@ -96,8 +96,12 @@ class SolidStructure(Structure[State, Forces]):
         """Whether the tangent is: follower loads make it unsymmetric, unless they have a potential."""
         return all(load.conservative for load in self.followers)
 
+    @property
+    def prestrained(self) -> bool:
+        return self.bricks.prestrain is not None
+
     def rest(self) -> State:
-        """Flat and free of stress."""
+        """Flat, and free of stress where nothing acts on it."""
         return State(np.zeros_like(self.columns.positions), np.zeros_like(self.rods.own))
 
     def with_stresses(self, state: State, of: State) -> State:
@@ -115,6 +119,7 @@ class SolidStructure(Structure[State, Forces]):
     def forces(self, state: State, load_factor: float) -> Forces:
         """Internal less external forces, and what they are measured against."""
         change = self.of_bricks(state.displacement)
+        self.bricks.grow(load_factor)
         gradient, strain = self.bricks.gradient(change), self.bricks.strain(change)
         stress = self.bricks.stress(strain)
         internal = self.scatter(np.einsum("ekic,ek->eic", gradient, stress))
@@ -122,6 +127,9 @@ class SolidStructure(Structure[State, Forces]):
         bases = self.supports.bases(load_factor)
         size = np.linalg.norm(external) + np.linalg.norm(internal[self.supports.held])
 
+        if (natural := self.bricks.prestrain) is not None:  # often all that loads it
+            pull = np.einsum("ekic,ek->eic", gradient, self.bricks.stress(natural))
+            size += np.linalg.norm(self.scatter(pull))
         elements = self.rods.elements
         rods = elements.strained(self._on_rods(state), load_factor)
         driving = elements.driving(rods.gradient)[:, -DIRECTORS : -DIRECTORS + 3]  # on d

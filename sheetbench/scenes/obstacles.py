@@ -99,8 +99,21 @@ def obstacles_by_name(scene: Scene) -> dict[str, AnyObstacle]:
 
 
 def flat_gap(scene: Scene, obstacle: AnyObstacle) -> float:
+    """Return the gap of `nearest`."""
+    return nearest(scene, obstacle)[0]
+
+
+def farther(scene: Scene, obstacle: AnyObstacle, factor: float) -> AnyObstacle:
+    """Return an obstacle at so many times its distance from the flat sheet; one that it touches stays."""
+    gap, away = nearest(scene, obstacle)
+    x, y, z = (np.array(obstacle.position) + (factor - 1.0) * gap * away).tolist()
+    return obstacle.replace(position=(x, y, z))
+
+
+def nearest(scene: Scene, obstacle: AnyObstacle) -> tuple[float, np.ndarray]:
     """Return the smallest gap [m] between the flat sheet's face and an obstacle where a motion begins, < 0
-    where the sheet begins inside it: exact of a rectangle, of a drawn sheet at the points of a grid."""
+    where the sheet begins inside it, and the way from the sheet to it (3,): exact of a rectangle, of a drawn
+    sheet at the points of a grid."""
     from scipy.optimize import lsq_linear
 
     at = np.array(obstacle.position) + obstacle.displacement(0.0, 0.0)
@@ -114,14 +127,16 @@ def flat_gap(scene: Scene, obstacle: AnyObstacle) -> float:
     else:
         plan = np.array([[0.0, 0.0, 0.0], [lx, 0.0, 0.0], [0.0, ly, 0.0], [lx, ly, 0.0]])
     if isinstance(obstacle, Plane):
-        return float(((plan - at) @ obstacle.direction).min()) - half
+        return float(((plan - at) @ obstacle.direction).min()) - half, -obstacle.direction
     across = np.eye(3) - np.outer(obstacle.direction, obstacle.direction)
     if scene.pierced:
-        distance = float(np.linalg.norm((plan - at) @ across, axis=1).min())
+        ways = (at - plan) @ across
+        way = ways[np.argmin(np.linalg.norm(ways, axis=1))]
     else:  # a square of distances is convex in the plan
-        nearest = lsq_linear(across[:, :2], across @ at, ([0.0, 0.0], [lx, ly])).x
-        distance = float(np.linalg.norm(across @ (np.append(nearest, 0.0) - at)))
-    return distance - obstacle.radius - half
+        touched = lsq_linear(across[:, :2], across @ at, ([0.0, 0.0], [lx, ly])).x
+        way = across @ (at - np.append(touched, 0.0))
+    distance = float(np.linalg.norm(way))
+    return distance - obstacle.radius - half, way / (distance or 1.0)
 
 
 def conflicts(scene: Scene) -> Iterator[tuple[str, str | None]]:

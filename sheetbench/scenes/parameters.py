@@ -10,6 +10,7 @@ curvature_EDGE                                        of the curved support, or 
 tilt_EDGE                                             of the clamp on an edge
 drag                                                  of the air
 massN                                                 of the scene's Nth [[mass]]
+obstacleN.x, y, z, radius, friction                   of the scene's Nth [[obstacle]]
 natural.exx, …, natural.kxy                           of [natural]: strain (e), curvature (k)
 patchN.natural.exx, …                                 of the scene's Nth [[patch]], where that has its own
 """
@@ -33,11 +34,12 @@ MATERIAL = ("young", "poisson", "density", "damping_time", "damping_rate", "loss
 FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23", "angle")
 BRANCH = ("share", "time")
 NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
-NAMES += ["drag", "massN", "natural.KEY", "patchN.natural.KEY"]
+NAMES += ["drag", "massN", "obstacleN.KEY", "natural.KEY", "patchN.natural.KEY"]
 UNITS = {  # none of other keys
     **dict.fromkeys(("young", "young_1", "young_2", "shear_12", "shear_13", "shear_23"), "Pa"),
     **{"density": "kg/m³", "thickness": "m", "curvature": "1/m", "angle": "rad", "tilt": "rad"},
     **{"damping_time": "s", "damping_rate": "1/s", "time": "s", "mass": "kg"},
+    **{"position": "m", "radius": "m"},
 }
 BOUNDS = {  # others are above 0
     "poisson": (-0.99, 0.4999),
@@ -45,6 +47,7 @@ BOUNDS = {  # others are above 0
     "tilt": (-LARGEST_TILT, LARGEST_TILT),
     "curvature": (-inf, inf),
     "share": (0.0, 1.0),
+    "position": (-inf, inf),
     "strain": (-LARGEST_STRAIN, LARGEST_STRAIN),
 }
 Path = tuple[str | int, ...]  # keys, and numbers in lists
@@ -121,6 +124,14 @@ def _paths(scene: Scene, name: str) -> list[Path]:
         if not 1 <= int(payload[1]) <= len(scene.masses):
             raise BadInput(f"'{name}': the scene has {len(scene.masses)} masses")
         return [("masses", int(payload[1]) - 1, "mass")]
+    if touched := re.fullmatch(r"obstacle(\d+)\.(x|y|z|radius|friction)", name):
+        number, key = int(touched[1]), touched[2]
+        if not 1 <= number <= len(scene.obstacles) or not hasattr(
+            scene.obstacles[number - 1], "position" if key in "xyz" else key
+        ):
+            raise BadInput(f"'{name}': the scene has {len(scene.obstacles)} obstacles, or not this key of it")
+        place: Path = ("position", "xyz".index(key)) if key in "xyz" else (key,)
+        return [("obstacles", number - 1, *place)]
     key, _, of = name.partition("_")
     if key in BRANCH and of.isdecimal():
         if not 1 <= int(of) <= len(material.relaxation):
@@ -171,7 +182,8 @@ def _replaced(of: Any, path: Path, value: Any) -> Any:
         return value
     part, *rest = path
     if isinstance(part, int):
-        return tuple(_replaced(one, tuple(rest), value) if i == part else one for i, one in enumerate(of))
+        new = _replaced(of[part], tuple(rest), value) if rest else value
+        return tuple(new if i == part else one for i, one in enumerate(of))
     inside = _replaced(getattr(of, part), tuple(rest), value) if rest else value
     return of.replace(**{part: inside})
 

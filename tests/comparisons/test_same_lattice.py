@@ -9,7 +9,7 @@ from commands import run
 
 import lumped
 import sheetbench as sb
-from comparisons.advice.probing import Probing
+from comparisons.advice.trials import TrialSolves
 from comparisons.live import server
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
@@ -95,7 +95,7 @@ def python(ask):
 
 def of_advice(scene, folder, **options):
     """Of the last lattice of 9 × 9 masses that may be chosen."""
-    found = [c for c in Probing(scene, Lattice(**options)).candidates(linear=False) if c.model == "lumped"]
+    found = TrialSolves(scene, Lattice(**options), ["lumped"]).candidates(linear=False)
     (*_, last) = [c for c in found if c.settings["grid"] == [9, 9, 2]]
     return resolve(scene, last).springs
 

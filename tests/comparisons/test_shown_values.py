@@ -9,7 +9,7 @@ from matplotlib.pyplot import subplots
 
 import fem_reference
 import lumped
-from comparisons.advice import probing
+from comparisons.advice import trials
 from comparisons.cli import modes
 from comparisons.models.spec import spec_of
 from comparisons.modes.spectra import spectra
@@ -50,11 +50,11 @@ def test_time_is_predicted_by_the_models_own_family():
 
     shell, plate = (spec_of(model, {"elements": [8, 8]}) for model in ("shell", "plate"))
     took = ((lattice(5), 0.001), (shell, 0.1), (lattice(9), 0.008))
-    trials = {one: SimpleNamespace(candidate=one, seconds=seconds) for one, seconds in took}
+    rows = {one: SimpleNamespace(ask=SimpleNamespace(spec=one), seconds=seconds) for one, seconds in took}
     asked = (shell, lattice(17), shell.but(count=(16, 16)), plate)
-    found = [probing.Probing.predicted_seconds(SimpleNamespace(trials=trials), one) for one in asked]
+    found = [trials.TrialSolves.predicted_seconds(SimpleNamespace(rows=rows), one) for one in asked]
     # as measured; 8 times as long for 4 times the cells; by the usual power of one; by the unknowns alone
-    assert found == pytest.approx([0.1, 0.064, 0.1 * 4**probing.EXPONENT, probing.unknowns(plate) * 1e-5])
+    assert found == pytest.approx([0.1, 0.064, 0.1 * 4**trials.EXPONENT, trials.unknowns(plate) * 1e-5])
 
 
 def test_tiles_reach_half_way_to_their_neighbours():
@@ -99,7 +99,7 @@ def test_grading_changes_no_rate_and_a_calibration_does():
         spec_of("lumped", {"grid": [9, 9], "calibration": name, **more})
         for name, more in (("consistent", {}), ("consistent", {"grading": 0.5}), ("uniform", {}))
     )
-    assert probing._rate(even) == probing._rate(graded) != probing._rate(other)
+    assert trials._rate(even) == trials._rate(graded) != trials._rate(other)
 
 
 def test_a_fit_is_shown_in_the_tables_units(monkeypatch):

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import fem_reference
-from comparisons.comparison import comparison as displacement
 from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Elements
+from comparisons.sweep import here as table
 from fem_reference.edge_layer import Missed, missed_by
 from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes
@@ -170,7 +170,7 @@ def by_mesh(monkeypatch):
         own = {"settings": {"elements": n}, "solve_seconds": 0.004}
         return fake_solutions.solution(model.scene, model.spec.model, size, **own)
 
-    monkeypatch.setattr(displacement, "solve", answer)
+    monkeypatch.setattr(table, "solve", answer)
     return sizes
 
 

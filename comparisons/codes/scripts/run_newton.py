@@ -25,7 +25,8 @@ CHECK, AT_REST = 50, 1e-4  # steps between checks; of the largest displacement
 def sheet_model(sheet, keys):
     builder = newton.ModelBuilder(up_axis=newton.Axis.Z, gravity=wp.vec3(*sheet["gravity"]))
     for place, held, mass in zip(sheet["vertices"], sheet["held"], sheet["masses"], strict=True):
-        builder.add_particle(wp.vec3(*place), wp.vec3(0.0), 0.0 if held else mass)
+        radius = {"radius": sheet["offset"]} if sheet.get("obstacles") else {}
+        builder.add_particle(wp.vec3(*place), wp.vec3(0.0), 0.0 if held else mass, **radius)
     for corners in sheet["triangles"]:
         builder.add_triangle(*corners, tri_ke=keys["tri_ke"], tri_ka=keys["tri_ka"], tri_kd=0.0)
     normal = {}
@@ -34,6 +35,18 @@ def sheet_model(sheet, keys):
     for a, b, *_ in sheet["hinges"]:
         factor = sheet["clamp"] if sheet["held"][a] and sheet["held"][b] else 1.0
         builder.add_edge(normal[a, b], normal[b, a], a, b, edge_ke=factor * keys["edge_ke"], edge_kd=0.0)
+    for one in sheet.get("obstacles", []):
+        at, kind = wp.vec3(*one["position"]), one["kind"]
+        material = newton.ModelBuilder.ShapeConfig(mu=one["friction"])
+        along = wp.normalize(wp.vec3(*one.get("normal", one.get("axis", [0.0, 0.0, 1.0]))))
+        turned = wp.quat_between_vectors(wp.vec3(0.0, 0.0, 1.0), along)
+        if kind == "plane":
+            builder.add_shape_plane(plane=(*along, -wp.dot(along, at)), width=0.0, length=0.0, cfg=material)
+        elif kind == "sphere":
+            builder.add_shape_sphere(-1, xform=wp.transform(at, turned), radius=one["radius"], cfg=material)
+        else:
+            size = {"radius": one["radius"], "half_height": 50.0 * one["radius"]}
+            builder.add_shape_cylinder(-1, xform=wp.transform(at, turned), cfg=material, **size)
     builder.color(include_bending=True)
     return builder.finalize(device="cpu")
 
@@ -54,7 +67,8 @@ def main(seconds=300.0):
     began = time.process_time()
     while time.process_time() - began < seconds:
         now.particle_f.assign(forces)
-        solver.step(now, after, control, None, steps[0])
+        touching = model.collide(now) if sheet.get("obstacles") else None
+        solver.step(now, after, control, touching, steps[0])
         now, after = after, now
         count += 1
         speed = now.particle_qd.numpy()

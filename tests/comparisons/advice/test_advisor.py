@@ -11,14 +11,13 @@ from answers import once
 from commands import json_of, run
 
 import fem_reference
-from comparisons.advice import probing
 from comparisons.advice.advisor import advise
-from comparisons.comparison import comparison
 from comparisons.comparison.comparison import error
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice, Spec, spec_of
+from comparisons.sweep import here as table
 from comparisons.sweep.front import cheapest
 from fem_reference.pulled_strip import pulled
 from fem_reference.verification.strain_laws import stress
@@ -33,12 +32,12 @@ answer = once(solvers.solve)  # one for all tests: what is looked at is what the
 def clock(monkeypatch):
     """Every solve takes what its size says, however busy the machine is."""
 
-    def answer_in_time(model):
-        solution = answer(model)
+    def answer_in_time(model, name=""):
+        solution = replace(answer(model), model=name or model.spec.model)
         seconds = SECONDS * solution.unknowns * (1 + solution.iterations)
         return replace(solution, solve_seconds=seconds)
 
-    monkeypatch.setattr(probing, "solve", answer_in_time)
+    monkeypatch.setattr(table, "solve", answer_in_time)
 
 
 @cache
@@ -198,7 +197,7 @@ def test_the_printed_command_solves_the_choice(capsys, monkeypatch):
         solved.append(model.spec)
         return replace(answer(model), model=name or model.spec.model)
 
-    monkeypatch.setattr(comparison, "solve", recorded)
+    monkeypatch.setattr(table, "solve", recorded)
     _, *asked = shlex.split(advice["command"])
     assert run(*asked) == 0
     choice = {"calibration": "consistent", **advice["choice"]["settings"]}

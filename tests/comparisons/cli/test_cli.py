@@ -13,7 +13,7 @@ from commands import json_of, run
 from scene_files import written
 
 from comparisons.cli import interruption
-from comparisons.comparison import comparison as displacement
+from comparisons.sweep import here as table
 from sheetbench import scenes
 from sheetbench.scenes import Status
 
@@ -91,7 +91,7 @@ def test_a_fault_of_ours_is_not_passed_off_as_bad_input(fault, monkeypatch, caps
     def stumble(*_, **__):
         raise fault
 
-    monkeypatch.setattr(displacement, "solve", stumble)
+    monkeypatch.setattr(table, "solve", stumble)
     assert run("compare", "two-edges-clamped") == 1
     *trace, asked = capsys.readouterr().err.splitlines()
     assert any("in stumble" in line for line in trace)
@@ -129,7 +129,7 @@ def test_what_is_finished_is_kept_when_a_later_model_fails(monkeypatch, tmp_path
             raise KeyboardInterrupt
         return fake_solutions.solution(model.scene, name)
 
-    monkeypatch.setattr(displacement, "solve", answer)
+    monkeypatch.setattr(table, "solve", answer)
     assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) != 0
     assert {path.name for path in tmp_path.iterdir()} == {"lumped.vtu", "manifest.json"}
     (run_of_compare,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
@@ -140,7 +140,7 @@ def test_an_interrupt_within_compiled_code_is_an_interrupt(monkeypatch, capsys):
     def answer(*_, **__):
         raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
 
-    monkeypatch.setattr(displacement, "solve", answer)
+    monkeypatch.setattr(table, "solve", answer)
     assert run("compare", "two-edges-clamped") == interruption.STATUS
     assert capsys.readouterr().err.strip().endswith("interrupted; nothing was kept")
 

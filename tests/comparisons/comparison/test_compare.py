@@ -7,13 +7,12 @@ import fake_solutions
 import numpy as np
 import pytest
 
-from comparisons.comparison import comparison as displacement
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.context import running
 from comparisons.models.grading import choice_notes
-from comparisons.sweep.differences import relative
+from comparisons.sweep.differences import error, relative
 from fem_reference.uncertainty import estimate
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
@@ -37,13 +36,13 @@ def real(scene):
 def test_error_is_the_largest_component_over_the_probes():
     reference = np.array([[0.0, 0.0, -2.0], [1.0, 0.0, -10.0]])
     model = np.array([[0.5, 0.0, -2.0], [1.0, -0.1, -10.2]])
-    assert displacement.error(model, reference) == pytest.approx(0.05)
+    assert error(model, reference) == pytest.approx(0.05)
     assert relative(model[0], reference[0]) == pytest.approx(0.25)
 
 
 def test_error_has_no_meaning_where_nothing_moves_or_a_number_is_not_finite():
     still = np.zeros((4, 3))
-    assert displacement.error(still, still) is None
+    assert error(still, still) is None
     assert relative(np.array([np.nan, 0.0, 0.0]), np.ones(3)) is None
 
 

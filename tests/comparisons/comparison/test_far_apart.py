@@ -4,7 +4,7 @@ import pytest
 from fake_solutions import solution
 
 from comparisons.comparison.answer import Comparison
-from comparisons.comparison.comparison import compare, error
+from comparisons.comparison.comparison import compare
 from comparisons.comparison.far_apart import far_apart_note, reasons
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
@@ -36,7 +36,7 @@ def said(first, finer, lattice=LATTICE, **known):
     """Of a lattice whose corner moves by `first` [m], where the shell's moves by −10 mm."""
     grid = {"settings": {"grid": [5, 3, 2]}}
     both = (solution(SCENE, size=first, **grid), solution(SCENE, "shell", **known.pop("shell", {})))
-    return far_apart_note(resolve(SCENE, lattice), both, error, known.pop("bar", None), lambda other: finer)[
+    return far_apart_note(resolve(SCENE, lattice), both, known.pop("bar", None), lambda other: finer)[
         0
     ]
 
@@ -55,7 +55,7 @@ def test_answers_on_different_branches_have_no_error(known):
     """Where only the grid is too coarse the error stands."""
     pair = (solution(SCENE, size=0.01), solution(SCENE, "shell"))
     finer = solution(SCENE, size=0.0101 if known else -0.007, settings={"grid": [9, 5, 2]})
-    apart, other_branch = far_apart_note(resolve(SCENE, LATTICE), pair, error, 0.01, lambda other: finer)
+    apart, other_branch = far_apart_note(resolve(SCENE, LATTICE), pair, 0.01, lambda other: finer)
     assert other_branch is known
     found = Comparison(SCENE, pair, disagreement=apart, several=known, other_branch=other_branch)
     assert (found.error(pair[0]) is None) is known
@@ -90,7 +90,7 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
     both = (solution(SCENE, size=-0.005, settings=settings), solution(SCENE, "shell", stretch=stretch))
     lattice = LATTICE.but(calibration=calibration)
     apart, other_branch = far_apart_note(
-        resolve(SCENE, lattice), both, error, 0.01, lambda other: fine(finer)
+        resolve(SCENE, lattice), both, 0.01, lambda other: fine(finer)
     )
     assert "50 % apart" in apart
     assert other_branch is known

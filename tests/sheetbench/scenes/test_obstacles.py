@@ -3,8 +3,10 @@
 import pytest
 from contact_cases import THICKNESS, laid_strip
 
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Cylinder, Motion, Plane, Scene, SceneError, Sphere, load
-from sheetbench.scenes.obstacles import flat_gap
+from sheetbench.scenes.obstacles import farther, flat_gap
+from sheetbench.scenes.parameters import parameter, put
 from sheetbench.scenes.words import in_words
 
 GAPS = {
@@ -43,3 +45,16 @@ def test_written_and_read_again(tmp_path):
     assert load(tmp_path / "scene.toml") == scene
     assert Scene.model_validate(scene.document()) == scene
     assert "47.5 mm from the flat sheet" in dict(in_words(scene))["obstacle 1"]
+
+
+def test_parameters_and_distances_of_an_obstacle():
+    scene = laid_strip(0.1, obstacles=(Sphere(position=(0.4, 0.05, -0.4), radius=0.2, friction=0.1),))
+    assert parameter(scene, "obstacle1.radius").value == 0.2
+    moved = put(put(scene, "obstacle1.x", -0.1), "obstacle1.friction", 0.3).obstacles[0]
+    assert (moved.position, moved.friction) == ((-0.1, 0.05, -0.4), 0.3)
+    for unknown in ("obstacle2.x", "obstacle1.axis"):
+        with pytest.raises(BadInput, match=unknown):
+            put(scene, unknown, 1.0)
+    for obstacle, gap in GAPS.values():
+        twice = farther(scene, obstacle, 2.0)
+        assert flat_gap(scene, twice) == pytest.approx(2.0 * (gap - THICKNESS / 2), abs=1e-8)

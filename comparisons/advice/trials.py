@@ -1,4 +1,4 @@
-"""Quick solves of a scene that predict the error and the time of every model on this machine.
+"""Trial solves of a scene that predict the error and the time of every model on this machine.
 
 The reference is the shell on three meshes of rising fineness, its error bar the grid convergence index, made
 finer only as long as a decision hangs on it. Times are this machine's, on warm code; those of models
@@ -8,29 +8,25 @@ that were not solved follow t = c N^p through the two solved ones nearest in unk
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
-from statistics import median
 from time import perf_counter
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from comparisons.comparison.comparison import error
-from comparisons.models.context import running
 from comparisons.models.grading import fixed
 from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
 from comparisons.models.sizes import has_room, require_room
-from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice, Spec, counted
 from comparisons.models.symmetry import planes
-from comparisons.report.work import silent
-from comparisons.runs import load
+from comparisons.sweep.differences import error
+from comparisons.sweep.here import SolvedHere, here
+from comparisons.sweep.limits import limit
 from comparisons.sweep.model_error import ModelError, model_error
 from sheetbench.choices import CALIBRATION
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes import Scene
 from sheetbench.scenes.grading import Graded, amount
 from sheetbench.scenes.grid import MASSES, near_square
 
@@ -42,22 +38,8 @@ EXPONENT = 1.1  # of time in unknowns, where one solve only is known
 REPEATS = 3
 
 
-@dataclass
-class Trial:
-    """A candidate that was solved: its answer and its median time [s]."""
-
-    candidate: Spec
-    solution: Solution
-    seconds: float
-
-    @property
-    def usable(self) -> bool:
-        """Whether the answer is a stable equilibrium under the whole load."""
-        return self.solution.status is Status.CONVERGED and self.solution.comparable
-
-
-class Probing:
-    """The solves of a scene so far."""
+class TrialSolves:
+    """The rows of a scene so far, each solved once."""
 
     def __init__(
         self,
@@ -79,14 +61,11 @@ class Probing:
         own = {"calibration": self.method, "k": lattice.k, "layer_distance": lattice.layer_distance}
         self.springs = {name: value for name, value in own.items() if value not in (None, CALIBRATION)}
         self.because = resolved.reasons.get("calibration_reason", "")
-        self.points = scene.probe_points()
         self.planes = planes(scene)
         self.scales = scales(scene)
-        self.trials: dict[Spec, Trial] = {}
+        self.rows: dict[Spec, SolvedHere] = {}
         self.meshes: list[int] = []
-        self.seconds = 0.0
-        self.loads: list[float | None] = []
-        self.samples: list[list[float]] = []
+        self.seconds = 0.0  # of all solves
         require_room(scene, self.elements("shell", MESHES[FIRST - 1]), instead="advise has no coarser one")
 
     def lattice(self, cells: int, linear: bool = False) -> Lattice:
@@ -126,21 +105,14 @@ class Probing:
         resolved = resolve(self.scene, lattice.but(grading=self.grading), "springs")
         return fixed(resolved.spec.grading), resolved.reasons.get("grading_reason", "")
 
-    def trial(self, candidate: Spec, repeats: int = REPEATS) -> Trial:
-        """Return the candidate's answer and time; solved once, whoever asks."""
-        if candidate not in self.trials:
+    def row(self, candidate: Spec, repeats: int = REPEATS) -> SolvedHere:
+        """Return the candidate's row; solved once, whoever wants it."""
+        if candidate not in self.rows:
             began = perf_counter()
             with threadpool_limits(1):  # as campaigns measure
-                solution = solve(model := resolve(self.scene, candidate))
-                times = [solution.solve_seconds]
-                with running(progress=silent):
-                    while solution.solve_seconds < 0.2 and len(times) < repeats:
-                        times.append(solve(model).solve_seconds)
-            self.loads.append(load.average())
-            self.samples.append(times)
-            self.trials[candidate] = Trial(candidate, solution, median(times))
+                self.rows[candidate] = here(resolve(self.scene, candidate), repeats=repeats)
             self.seconds += perf_counter() - began
-        return self.trials[candidate]
+        return self.rows[candidate]
 
     def refine(self) -> bool:
         """Solve the reference on its next mesh; return whether there was one with room, and it converged."""
@@ -150,57 +122,45 @@ class Probing:
         if not has_room(self.scene, self.elements("shell", cells)):
             return False
         self.meshes.append(cells)
-        return self.trial(self.elements("shell", cells), repeats=1).usable
+        return self.row(self.elements("shell", cells), repeats=1).stable
 
     @property
-    def reference(self) -> Trial:
+    def reference(self) -> SolvedHere:
         """The reference on its finest mesh so far."""
-        return self.trial(self.elements("shell", self.meshes[-1]))
+        return self.row(self.elements("shell", self.meshes[-1]))
 
     @property
     def uncertainty(self) -> float:
         """Error bar of the reference, in the design's measure of error."""
-        from fem_reference.edge_layer import missed_by
-        from fem_reference.uncertainty import estimate
-
-        finest = self.meshes[:-4:-1]
-        trials = [self.trial(self.elements("shell", cells)) for cells in finest]
-        answers = [trial.solution.displacement(self.points) for trial in trials if trial.usable]
-        if len(answers) < len(finest) or len(answers) < 2:
-            return float("inf")
-        layers = [missed_by(self.scene, trial.solution.settings) for trial in trials]
-        return estimate(answers, [1.0 / cells for cells in finest], layers).error
+        finest = [self.row(self.elements("shell", cells)) for cells in self.meshes[:-4:-1]]
+        bar = limit(finest) if all(row.stable for row in finest) else None
+        return float("inf") if bar is None else bar.error
 
     @cached_property
     def model_error(self) -> ModelError | None:
         """What the reference leaves out of the sheet on every mesh, by its present answer."""
-        return model_error(self.scene, self.reference.solution)
+        return model_error(self.scene, self.reference.answer)
 
-    def error(self, trial: Trial) -> float:
-        """Error of a trial against the reference; infinite for an answer that is none."""
-        if not trial.usable:
-            return float("inf")
-        off = error(
-            trial.solution.displacement(self.points), self.reference.solution.displacement(self.points)
-        )
-        return 0.0 if off is None else off
+    def error(self, row: SolvedHere) -> float:
+        """Error of a row against the reference; infinite for an answer that is none."""
+        return (error(row.u, self.reference.u) or 0.0) if row.stable else float("inf")
 
     def predicted_seconds(self, candidate: Spec) -> float:
         """Time of a candidate: as measured, or by the rates of its family."""
-        if candidate in self.trials:
-            return self.trials[candidate].seconds
-        family = [t for t in self.trials.values() if _rate(t.candidate) == _rate(candidate)]
+        if candidate in self.rows:
+            return self.rows[candidate].seconds
         size = unknowns(candidate)
+        alike = [row for one, row in self.rows.items() if _rate(one) == _rate(candidate)]
+        family = [(unknowns(row.ask.spec), row.seconds) for row in alike]
         if not family:
             return size * 1e-5
-        family.sort(key=lambda t: abs(np.log(unknowns(t.candidate) / size)))
-        near = family[0]
-        exponent = EXPONENT
-        others = [t for t in family[1:] if unknowns(t.candidate) != unknowns(near.candidate)]
+        family.sort(key=lambda one: abs(np.log(one[0] / size)))
+        (near, seconds), exponent = family[0], EXPONENT
+        others = [one for one in family[1:] if one[0] != near]
         if others:
-            ratio = unknowns(near.candidate) / unknowns(others[0].candidate)
-            exponent = float(np.clip(np.log(near.seconds / others[0].seconds) / np.log(ratio), 0.3, 1.6))
-        return near.seconds * float(size / unknowns(near.candidate)) ** exponent
+            slope = np.log(seconds / others[0][1]) / np.log(near / others[0][0])
+            exponent = float(np.clip(slope, 0.3, 1.6))
+        return seconds * float(size / near) ** exponent
 
 
 def _rate(candidate: Spec) -> str:

@@ -1,0 +1,56 @@
+"""Rows solved in this process, whose whole answers are kept; nothing is written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+from comparisons.models.context import running
+from comparisons.models.resolve import Resolved, resolve
+from comparisons.models.sizes import has_room
+from comparisons.models.solve import solve
+from comparisons.models.spec import Lattice
+from comparisons.report.work import silent
+from comparisons.runs import load
+from comparisons.sweep.solved import Ask, Solved
+from sheetbench.scenes import Scene, Solution
+
+QUICK = 0.2  # s, up to which solves are repeated
+
+
+@dataclass(frozen=True)
+class SolvedHere(Solved):
+    """A row with the answer that it is of."""
+
+    answer: Solution = None  # type: ignore[assignment]  # fields before it have defaults
+
+    @cached_property
+    def u(self) -> np.ndarray:
+        return self.answer.displacement(self.ask.scene.probe_points())
+
+    @property
+    def seconds(self) -> float:
+        return median(self.samples)
+
+
+def here(model: Resolved[Any], name: str = "", repeats: int = 1) -> SolvedHere:
+    """Return the row of a model; name: what to call it instead of its own; repeats: of a quick solve."""
+    answer = solve(model, name)
+    samples = [answer.solve_seconds]
+    with running(progress=silent):
+        while len(samples) < repeats and answer.solve_seconds < QUICK:
+            samples.append(solve(model).solve_seconds)
+    row = {"settings": answer.settings, "load_factor": answer.load_factor, "probes": model.scene.probes}
+    row["cost"] = {"samples": samples, "load_average": load.average()}
+    status = str(answer.status)
+    return SolvedHere(Ask(model.scene, model.spec, repeats), status, answer.message, row, answer=answer)
+
+
+def with_room(scene: Scene, lattice: Lattice) -> Solution | None:
+    """Return the answer of a lattice that is finer than the one requested, None where it takes too much
+    memory."""
+    return solve(resolve(scene, lattice), "lumped on a finer grid") if has_room(scene, lattice) else None

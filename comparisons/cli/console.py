@@ -21,7 +21,19 @@ if TYPE_CHECKING:
 
 out = Console(highlight=False)
 err = Console(stderr=True, highlight=False)
-_quiet = _verbose = False
+_quiet = False
+verbose = False  # all notes
+
+
+@contextmanager
+def verbosely() -> Iterator[None]:
+    """Show all notes of an answer within a block."""
+    global verbose
+    verbose = True
+    try:
+        yield
+    finally:
+        verbose = False
 
 
 @contextmanager
@@ -35,17 +47,6 @@ def quietly() -> Iterator[None]:
         _quiet = False
 
 
-@contextmanager
-def verbosely() -> Iterator[None]:
-    """Print a line for everything that is begun within a block."""
-    global _verbose
-    _verbose = True
-    try:
-        yield
-    finally:
-        _verbose = False
-
-
 def printable(text: str, keep: str = "") -> str:
     """Return a text without control characters but those in `keep`, in characters that the output's encoding
     has."""
@@ -57,9 +58,6 @@ def progress() -> Iterator[Callable[[Work | str], None]]:
     """Yield a function that shows what is being done: a spinner on a terminal, else lines."""
     if _quiet:
         yield lambda what: None
-        return
-    if _verbose:
-        yield lambda what: tell(str(what)) if getattr(what, "share", None) is None else None
         return
     if not err.is_terminal:
         with Lines(tell) as lines:

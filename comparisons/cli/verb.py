@@ -25,7 +25,7 @@ from comparisons.cli.output import OutputOptions
 Quiet = Annotated[
     bool, option("No progress and no notes on standard error; results, warnings and errors stay.")
 ]
-Verbose = Annotated[bool, option("A line on standard error for everything that is begun.")]
+Verbose = Annotated[bool, option("All notes on the answer, not only the first three.")]
 NoPicturesAnyway = Annotated[bool, typer.Option(hidden=True)]  # of verbs that draw none, for scripts
 TERMINAL = ("json",)  # options of the terminal alone
 OPTIONS = re.compile(r"(?:^|(?<=with )|(?<=without )|(?<=missing )|(?<=, ))--([a-z][a-z-]*)")  # in a refusal
@@ -113,9 +113,7 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
     parameters = [one.replace(kind=Parameter.KEYWORD_ONLY) for one in declared.each()]
     draws = any(parameter.name == "no_pictures" for parameter in parameters)
     of_campaign = any(issubclass(kind, CampaignOptions) for kind in declared.groups.values())
-    added = {"quiet": Quiet, "verbose": Verbose}
-    if not draws:
-        added = {"no_pictures": NoPicturesAnyway, **added}
+    added = ({} if draws else {"no_pictures": NoPicturesAnyway}) | {"quiet": Quiet, "verbose": Verbose}
     for flag, annotation in added.items():
         parameters.append(Parameter(flag, Parameter.KEYWORD_ONLY, default=False, annotation=annotation))
     for parameter in parameters:
@@ -133,14 +131,15 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
         plain = {} if draws else {"no_pictures": values.pop("no_pictures")}
         grouped = declared.grouped(values, verb=name, **plain)
         try:
-            if not (quiet or verbose):
+            if not quiet and not verbose:
                 command(**grouped)
                 return
             from comparisons.cli import console  # with rich: help must not wait for it
-            from sheetbench.errors import require_effect
 
-            require_effect("with --quiet", {"--verbose": quiet and verbose})
-            with console.quietly() if quiet else console.verbosely():
+            with (
+                console.quietly() if quiet else nullcontext(),
+                console.verbosely() if verbose else nullcontext(),
+            ):
                 command(**grouped)
         except ValueError as error:
             from sheetbench.errors import Impossible, SceneError

@@ -48,18 +48,6 @@ def test_a_quiet_comparison_prints_its_result_alone(monkeypatch, capsys):
     assert "solving shell" in capsys.readouterr().err
 
 
-def test_verbose_has_a_line_for_everything_that_is_begun(capsys):
-    assert run(*SMALL, "--verbose") == 0
-    said = capsys.readouterr().err.splitlines()
-    assert [line for line in said if line.startswith("solving")] == [
-        "solving lumped, 3 × 3 × 2 masses …",
-        "solving shell, 2 × 2 elements …",
-        "solving lumped-uniform, 3 × 3 × 2 masses …",
-        "solving lumped on a finer grid, 13 × 13 × 2 masses …",
-    ]
-    assert run(*SMALL, "--quiet", "--verbose") == 2
-
-
 def test_quiet_is_quiet_of_what_the_packages_log(capsys):
     from comparisons.cli import messages
 

@@ -183,6 +183,6 @@ def test_every_key_says_what_it_is():
     for name, table in {"Scene": schema, **schema["$defs"]}.items():
         for key, facts in table["properties"].items():
             assert facts.get("description", "").endswith((".", ")")), f"{name}.{key}"
-            tables = "$ref" in facts.get("items", {})
+            tables = {"$ref", "oneOf"} & facts.get("items", {}).keys()
             if facts.get("type") in ("number", "array") and key not in WITHOUT_UNIT and not tables:
                 assert "unit" in facts, f"{name}.{key}"

@@ -174,7 +174,7 @@ def test_whatever_is_put_in_its_place_the_refusal_is_ours():
 WITHOUT_UNIT = {"quads", 
     "grid", "grading", "graded_edges", "poisson", "factor", "components", "support", "load", "actuator",
     "x", "y", "z", "limit", "poisson_12", "poisson_13", "poisson_23", "loss_factor", "relaxation", "share",
-    "patch", "cutout", "layer", "drag",
+    "patch", "cutout", "layer", "drag", "friction", "normal", "axis",
 }  # fmt: skip
 
 

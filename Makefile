@@ -28,7 +28,7 @@ help:
 	@echo "make studies   what the studies of the laboratory are, and the target of each (studies/Makefile)"
 	@echo "make tradeoff  error against time on test 1 of Habibi et al., with the picture (files in $(OUT)/)"
 	@echo "make bench     settling beside SciPy's BDF, statics, explicit steps, start-up: time and what it goes to (files in $(OUT)/, history in benchmarks/history/)"
-	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
+	@echo "make viewer    the viewer of sheets in a browser, comparisons/pages/viewer.js, from its source (needs Node)"
 	@echo "make docs-scene  the sketch of a scene, docs/images/scene.svg"
 	@echo "make animations  the README's moving pictures, docs/images/settling.gif and actuated.gif (two minutes)"
 	@echo "make pictures  the still pictures of the README and of the pages (a minute; needs chromium)"
@@ -158,7 +158,7 @@ extras-check: install
 	@.ci/extras-check $(PYTHON)
 
 viewer:
-	@cd comparisons/browser/source && npm ci --ignore-scripts --silent && npm run --silent build
+	@cd comparisons/pages/source && npm ci --ignore-scripts --silent && npm run --silent build
 
 lint: $(VENV)/testing
 	@$(BIN)/ruff check .

@@ -11,11 +11,11 @@ from rich.text import Text
 
 from comparisons.cli.characters import spelled, takes_everything
 from comparisons.cli.lines import Lines
-from comparisons.report.amounts import duration
+from comparisons.pictures.amounts import duration
 from sheetbench.answers.escape import terminal
 
 if TYPE_CHECKING:
-    from comparisons.report.work import Work
+    from comparisons.pictures.work import Work
     from comparisons.runs.campaign import Progress
     from sheetbench.answers.table import Table
 

@@ -21,7 +21,7 @@ from comparisons.cli.options import CampaignOptions, Group, Json, NoPictures, op
 from sheetbench import clock
 
 if TYPE_CHECKING:
-    from comparisons.report.work import Work
+    from comparisons.pictures.work import Work
     from comparisons.runs.folder import Folder
     from lumped import Calibration
     from sheetbench.answers.answer import Answer

@@ -24,8 +24,8 @@ from comparisons.comparison.error_bar import ErrorBar
 from comparisons.comparison.rows import CostRow, Difference, ProbeRow, ReactionRow
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
-from comparisons.report.plan import plan_mesh
-from comparisons.report.vtk import write_mesh
+from comparisons.pictures.plan import plan_mesh
+from comparisons.pictures.vtk import write_mesh
 from comparisons.sweep.differences import error, relative
 from comparisons.sweep.model_error import ModelError, model_error
 from sheetbench.answers.answer import Answer

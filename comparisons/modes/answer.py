@@ -14,8 +14,8 @@ from comparisons.models.grading import choice_notes
 from comparisons.modes.damping import ModeDamping, mode_damping
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, Pair, Shaped, on_cells, pairs_of
-from comparisons.report.plan import plan_mesh
-from comparisons.report.vtk import write_mesh
+from comparisons.pictures.plan import plan_mesh
+from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import HERTZ, NUMBER, PERCENT, Column, Table, number

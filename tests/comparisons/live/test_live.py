@@ -136,7 +136,7 @@ def test_a_narrow_sheet_gets_no_more_masses_than_a_square_one():
 
 
 def test_answers_are_those_of_compare(address, panel):
-    values = {"grid": 5, "thickness": 0.0025, "curvature_x0": 3.0, "gravity": 0.5}
+    values = {"grid": 5, "elements": 3, "thickness": 0.0025, "curvature_x0": 3.0, "gravity": 0.5}
     (_, lattice), (_, shell) = (posted(address, of, asked(panel, 7, **values)) for of in ("lattice", "shell"))
     scene = sb.load("curved-edge")
     weight = tuple(0.5 * g for g in scene.gravity.acceleration)
@@ -146,7 +146,7 @@ def test_answers_are_those_of_compare(address, panel):
         gravity=scene.gravity.replace(acceleration=weight),
         supports=tuple(bent),
     )
-    both = sb.compare(scene, grid=5, calibration="consistent", elements=2, uncertainty=False)
+    both = sb.compare(scene, grid=5, calibration="consistent", elements=3, uncertainty=False)
     assert (lattice["number"], shell["number"]) == (7, 7)
     for message, solution in zip((lattice, shell), both.solutions, strict=True):
         assert message["status"] == solution.status == "converged"

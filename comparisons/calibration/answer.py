@@ -10,7 +10,7 @@ from comparisons.calibration import damping
 from comparisons.calibration.damping import ModeDamping
 from comparisons.codes.lattice import lattice_files
 from comparisons.models.expected_error import ExpectedError
-from lumped import Calibration
+from lumped import Calibration, FittedCalibration
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table
@@ -33,7 +33,8 @@ class SheetCalibration(Calibration):
     @classmethod
     def of(cls, springs: Calibration, scene: Scene, **more: Any) -> SheetCalibration:
         """Return springs as those of a scene."""
-        return cls(**{one.name: getattr(springs, one.name) for one in fields(springs)}, scene=scene, **more)
+        kind = FittedSheetCalibration if isinstance(springs, FittedCalibration) else cls
+        return kind(**{one.name: getattr(springs, one.name) for one in fields(springs)}, scene=scene, **more)
 
     @property
     def subject(self) -> Scene:
@@ -64,6 +65,11 @@ class SheetCalibration(Calibration):
     @cached_property
     def _for_code(self) -> tuple[dict[str, Write], list[str]]:
         return lattice_files(self.subject, self, self.code)
+
+
+@dataclass(frozen=True, repr=False)
+class FittedSheetCalibration(SheetCalibration, FittedCalibration):
+    """The same of springs that were fitted to data."""
 
 
 def to_toml(springs: Calibration) -> str:

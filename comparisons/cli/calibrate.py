@@ -157,6 +157,4 @@ def command(
         out.export(export, of, springs)
         modes = damping.ratios(of, springs)
         answer = SheetCalibration.of(springs, of, expected=off, modes=modes, code=for_)
-        if for_ is not None:
-            answer.files()  # refuses what the code does not have, before anything is shown
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

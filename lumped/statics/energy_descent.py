@@ -93,7 +93,8 @@ def _disturbed(
 ) -> np.ndarray:
     """Displacement beside an unstable equilibrium, moved along a direction of negative curvature.
 
-    The move is this share of the layer distance; of its two signs the one of lower energy (the first if even).
+    The move is this share of the layer distance; of its two signs the one of lower energy (if even the
+    first).
     """
     n, load_factor = problem.system.unknowns, state.load_factor
     blocks = path.tangent(state, load_factor)

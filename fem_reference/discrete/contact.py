@@ -1,8 +1,8 @@
-"""Contact of a reference with a rigid obstacle: penalty pressures at nodes, on the mid-surface of a shell with
-an offset of half the thickness, on the faces of a solid.
+"""Contact of a reference with a rigid obstacle: penalty pressures at nodes, on the mid-surface of a shell
+with an offset of half the thickness, on the faces of a solid.
 
-A point x = φ + ζ d of the sheet, ζ = 0 or ±h/2, is at the distance r from an obstacle's middle, its normal line
-or its axis: with w = P (x − c), P the projector on what the distance is measured in,
+A point x = φ + ζ d of the sheet, ζ = 0 or ±h/2, is at the distance r from an obstacle's middle, its normal
+line or its axis: with w = P (x − c), P the projector on what the distance is measured in,
 
     plane   depth = o − n·w                  sphere, cylinder   depth = R + o − |w|,   n = w/|w|
 
@@ -11,9 +11,9 @@ with o = h/2 of a mid-surface, 0 of faces. The work of the pressure p = k ⟨dep
 
     f = A p n on φ,  ζ f on d;      −∂f/∂x = A (k n nᵀ − (p/|w|) (P − n nᵀ)).
 
-A node's area is ∫ N dA, all positive on nine nodes, where it is Simpson's rule; those at Gauss points are nine
-constraints on four nodes an element, whose pressures scatter. k = E/h; see `sheetbench.scenes.obstacles` for
-what the words mean.
+A node's area is ∫ N dA, all positive on nine nodes, where it is Simpson's rule; those at Gauss points are
+nine constraints on four nodes an element, whose pressures scatter. k = E/h; see
+`sheetbench.scenes.obstacles` for what the words mean.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ SOFTER, ROUNDED = 0.01, 0.3  # in motion: of k, and over which part of the thick
 
 
 class Touching(Item):
-    """Contact with one obstacle. share: of its stiffness, as `soften` has it; faces: ζ of the points of a node
-    [m]."""
+    """Contact with one obstacle. share: of its stiffness, as `soften` has it; faces: ζ of the points of a
+    node [m]."""
 
     def __init__(self, scene: Scene, plan: Plan, name: str, obstacle: AnyObstacle, moving: bool, solid: bool):
         self.name, self.obstacle, self.moving = name, obstacle, moving
@@ -72,8 +72,8 @@ class Touching(Item):
         return self.obstacle.displacement(1.0, at) if self.moving else self.obstacle.displacement(at)
 
     def soft_share(self, load: float, travel: float, size: float) -> float:
-        """Return the share of k that a load [Pa] sinks into by 0.02 of the size or of a fifth of the radius; what
-        bends the sheet by a travel [m] counts as the load that does so."""
+        """Return the share of k that a load [Pa] sinks into by 0.02 of the size or of a fifth of the radius;
+        what bends the sheet by a travel [m] counts as the load that does so."""
         rigidity = float((self.full * self.thickness**4).max()) / 12.0
         travel = max(travel, float(np.abs(self.moved(1.0)).max()))
         soft = max(load, 8.0 * rigidity * travel / size**4) / (0.02 * min(size, 0.2 * self.radius))
@@ -180,8 +180,8 @@ class Touching(Item):
         sinking, sliding = self._speeds(shape, normal)
         pressed = load * np.maximum(obstacle.contact_damping * sinking, -1.0)
         slip = np.sqrt((sliding**2).sum(axis=2) + SLIP_SPEED**2)
-        rubbed: np.ndarray = pressed[..., None] * normal - (obstacle.friction * load / slip)[..., None] * sliding
-        return rubbed
+        rubbed = (obstacle.friction * load / slip)[..., None] * sliding
+        return np.asarray(pressed[..., None] * normal - rubbed)
 
     def damping(self, shape: Shape) -> Tangent | None:
         obstacle = self.obstacle
@@ -225,8 +225,8 @@ class Touching(Item):
         return list(zip(self.points(shape.vectors), self._pulled(shape), strict=True))
 
     def leads_through(self, before: np.ndarray, after: np.ndarray, at: float) -> bool:
-        """Whether a straight way between vectors (m, 18, 3) leads any point nearer to the obstacle's middle than
-        half its radius."""
+        """Whether a straight way between vectors (m, 18, 3) leads any point nearer to the obstacle's middle
+        than half its radius."""
         if self.plane:
             return False
         origin = self.obstacle.position + self.moved(at)
@@ -259,7 +259,9 @@ class Softness:
 
     def __init__(self, sheet: Discrete):
         self._sheet = sheet
-        dead = sum((item.force(sheet.shape(np.zeros(sheet.size), 1.0)) for item in sheet.items), np.zeros(sheet.size))
+        flat = sheet.shape(np.zeros(sheet.size), 1.0)
+        others = [item for item in sheet.items if not isinstance(item, Touching)]
+        dead = sum((item.force(flat) for item in others), np.zeros(sheet.size))
         self._force = float(np.abs(sheet.displacement(dead)).sum())
         placed = sheet.displacement(sheet.placed(np.zeros(sheet.size), 1.0))
         self._travel = float(np.abs(placed).max())
@@ -279,8 +281,8 @@ class Softness:
 
 
 def with_pressure(sheet: Discrete, shape: Shape, mesh: FieldMesh) -> FieldMesh:
-    """Return a mesh with the field "contact_pressure" [Pa] on it, where there are obstacles and it has the plan's
-    nodes."""
+    """Return a mesh with the field "contact_pressure" [Pa] on it, where there are obstacles and it has the
+    plan's nodes."""
     if sheet.contacts:
         pressure = sum(one.pressure(shape) for one in sheet.contacts)
         stacked = len(mesh.points) // len(np.asarray(pressure))

@@ -1,4 +1,5 @@
-"""The path of a sheet at rest to its full load: straight, or with soft contact first where there are obstacles."""
+"""The path of a sheet at rest to its full load: straight, or with soft contact first where there are
+obstacles."""
 
 from __future__ import annotations
 

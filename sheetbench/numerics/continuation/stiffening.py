@@ -54,10 +54,17 @@ def trace_stiffening(
     settles = settle is not None and path.structure.symmetric
     ended: StepFailed | Fault | None = None
     if soft is not None or not settles:
-        penalties.soften(soft or 1.0)
-        path = trace()
-        penalties.soften(1.0)
-        ended = path.fault
+        share, spent = soft or 1.0, 0
+        while True:  # what leads through an obstacle is too soft, where nothing else is left
+            penalties.soften(share)
+            path = trace()
+            path.factorisations, spent = path.factorisations + spent, path.factorisations + spent
+            penalties.soften(1.0)
+            ended = path.fault
+            if ended is None or share == 1.0 or settles:
+                break
+            share = min(1.0, FIRST_FACTOR * share)
+        soft = share if soft is not None else None
     with one_blas_thread():
         if soft is not None and ended is None:
             path.snaps.clear()

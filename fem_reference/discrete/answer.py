@@ -35,6 +35,7 @@ def sheet_of(path: Path[State, Forces]) -> DiscreteElements:
 
 def judge(sheet: Discrete, path: Path[State, Forces]) -> tuple[Status, list[str]]:
     """Return status and notes of a path that has ended, strains beyond the law among them."""
+    sheet.grow(path.load_factor)
     outside = sheet.beyond(sheet.stretch(path.state.q))
     if not outside or path.status is Status.NON_FINITE:
         return path.status, path.notes
@@ -65,6 +66,7 @@ def answer(
 ) -> Solution:
     """Return the answer at q (N,), with a residual (N,), under a share of the load. size, allowed: of the
     balance (`scenes.Balance`), which there is only where `balanced`."""
+    sheet.grow(share)
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
     pull = rods.pull(q, rods.stress(sheet.shape(q, share))) - share * rods.weight(scene)
     edges = sheet.on_edges(q, pull)

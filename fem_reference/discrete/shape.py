@@ -13,6 +13,8 @@ class Sheet(Protocol):
 
     element: Any
 
+    def grow(self, at: float) -> None: ...
+
     def frame(self, q: np.ndarray, at: float) -> Any: ...
 
     def gather(self, q: np.ndarray) -> np.ndarray: ...
@@ -59,7 +61,8 @@ class Shape:
 
     @cached_property
     def strain(self) -> Any:
-        """(m, k)."""
+        """(m, k), from the sheet's natural state."""
+        self.sheet.grow(self.at)
         return self.sheet.element.strain(self.change)
 
     @cached_property

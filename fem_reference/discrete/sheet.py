@@ -38,11 +38,12 @@ from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Plan
 from fem_reference.surface.supports import Supports
-from sheetbench.errors import NoEquilibrium
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
 from sheetbench.scenes.motion import NO_START, at_start, kinks, starts_flat
+from sheetbench.scenes.natural_state import sources_of
 from sheetbench.scenes.obstacles import obstacles_by_name
 from sheetbench.scenes.relaxation import Branches
 
@@ -96,6 +97,14 @@ class Discrete(ABC):
     def __init__(self, scene: Scene, moving: bool = False):
         self.scene, self.moving = scene, moving
         material = scene.material
+        if (
+            moving
+            and material.branches.times
+            and any(one.of.history is not None for one in sources_of(scene))
+        ):
+            raise BadInput(
+                f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
+            )
         self.memory = Memory(material.branches if moving else Branches((), ()))
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
         self.items: list[Item] = []
@@ -175,6 +184,15 @@ class Discrete(ABC):
         """Times [s] at which something prescribed bends its course."""
         return np.array(kinks(self.scene))
 
+    @abstractmethod
+    def grow(self, at: float) -> None:
+        """Set the sheet's natural state to that at a load factor or time [s], where it has one."""
+
+    @property
+    @abstractmethod
+    def grows(self) -> bool:
+        """Whether the natural state changes over time."""
+
     def jumps(self, time: float) -> bool:
         """Whether what is prescribed changes its velocity at once."""
         turned = any(time in motion.time for motion in self.scene.motions().values())
@@ -250,6 +268,7 @@ class Discrete(ABC):
     def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
         """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
         q, v = 0.5 * (start + end), (end - start) / h
+        self.grow(time)
         out = self.elements_mean_internal(start, end, h)
         for body in self.bodies:
             out = out + body.scatter(body.pull(q, body.mean_stress(start, end, h, time)))
@@ -308,6 +327,7 @@ class Discrete(ABC):
     def energies(self, q: np.ndarray, v: np.ndarray, time: float) -> Energies:
         """Energies of a state."""
         self.memory.now = time
+        self.grow(time)
         shape = self.shape(q, time, v)
         potential = sum(item.stored(shape) for item in self.items)
         elastic = self.elastic(q) + sum(body.energy(q, time) for body in self.bodies)
@@ -323,6 +343,7 @@ class Discrete(ABC):
         damped += self.alpha * float(step @ (self.sheet_mass @ rate))
         self.memory.since(start.time, start.memory)
         self.memory.now = end.time
+        self.grow(end.time)
         damped += self.memory.dissipated(self.strains(end.q)) if self.memory else 0.0
         exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
         work = float(self.of_supports(exerted) @ step)
@@ -330,6 +351,9 @@ class Discrete(ABC):
             damped += body.dissipated(middle, step, rate)
             for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
                 work += 0.5 * (body.energy(q, end.time) - body.energy(q, start.time))
+        for sign, time in ((1.0, end.time), (-1.0, start.time)) if self.grows else ():
+            self.grow(time)
+            work += 0.5 * sign * (self.elastic(start.q) + self.elastic(end.q))
         shape = self.shape(middle, half_way, step / h)
         for item in self.items:
             taken, done = item.exchanged(shape, step)

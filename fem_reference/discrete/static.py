@@ -62,8 +62,12 @@ class Static(Creeping[State, Forces]):
     def unknowns(self) -> int:
         return self.sheet.unknowns
 
+    @property
+    def prestrained(self) -> bool:
+        return self.sheet.element.prestrain is not None
+
     def rest(self) -> State:
-        """Flat and free of stress."""
+        """Flat, and free of stress where nothing acts on it."""
         return State(np.zeros(self.sheet.size))
 
     def unextrapolated(self, state: State) -> State:
@@ -74,6 +78,7 @@ class Static(Creeping[State, Forces]):
 
     def potential(self, state: State, load_factor: float) -> tuple[float, float]:
         sheet = self.sheet
+        sheet.grow(load_factor)
         shape = sheet.shape(state.q, load_factor)
         stored = sheet.elastic(state.q) + sum(body.energy(state.q, load_factor) for body in sheet.bodies)
         of_items = sum(item.potential(shape) for item in sheet.items)
@@ -88,6 +93,9 @@ class Static(Creeping[State, Forces]):
         external = sheet.external(shape)
         residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
         size = sheet.measured(external, sheet.scale) + sheet.measured(sheet.of_held_positions(residual))
+        if (natural := sheet.element.prestrain) is not None:  # often all that loads it
+            pull = sheet.element.forces(shape.operator, sheet.element.stress(natural))
+            size += sheet.measured(sheet.scatter(pull), sheet.scale)
         residual -= external
         on_rods = tuple(body.stress(shape) for body in sheet.bodies)
         for body, stress in zip(sheet.bodies, on_rods, strict=True):

@@ -20,6 +20,7 @@ from fem_reference.discrete.relaxation import Strained
 from fem_reference.discrete.shape import Shape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import TILT_X, PlateElements, W
+from fem_reference.plate.natural import NaturalPlate
 from fem_reference.plate.validity import TURN_LIMIT, strained
 from fem_reference.surface import carried, rod
 from fem_reference.surface import supports as surface_supports
@@ -60,6 +61,7 @@ class DiscretePlate(Discrete):
         self.plan = plan = plan_of(mesh)
         nodes, self.elements = plan.nodes, PlateElements.build(plan.elements, plan.nodes)
         self.section = section or section_at(scene, plan.corners)
+        self.natural = NaturalPlate(scene, self.elements, plan.corners, self.section)
         self._cut = 5 * len(nodes)
 
         def bind(of: Scene) -> BoundRods:
@@ -82,6 +84,21 @@ class DiscretePlate(Discrete):
         self.unknowns, self.scale = len(self.free), np.full(self.size, self.lever)
         self.scale[number[: len(nodes)]] = 1.0
         self.bind(bind, bound, number[bound.sites].reshape(-1, 27))
+        self._grow(None)
+
+    def grow(self, at: float) -> None:
+        if (state := self.natural.state) is not None:
+            share, time = self.instant(at)
+            self._grow(share * state.factors(time))
+
+    def _grow(self, factors: np.ndarray | None) -> None:
+        self._natural = self.natural.strains(factors)
+        self._pull = self.natural.force(self.size, factors)
+        self._stored = self.natural.stored(factors)
+
+    @property
+    def grows(self) -> bool:
+        return self.natural.moves
 
     @cached_property
     def stiffness(self) -> csr_matrix:
@@ -143,10 +160,11 @@ class DiscretePlate(Discrete):
     # forces
 
     def elements_internal(self, shape: Shape) -> np.ndarray:
+        self.grow(shape.at)
         elastic = self.stiffness @ shape.q
         out = elastic + self.memory.added(elastic) if self.memory else elastic
         viscous = 0.0 if shape.v is None else self.tau * (self.stiffness @ shape.v)
-        return np.asarray(out + viscous)
+        return np.asarray(out + viscous - self._pull)
 
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
         return self.elements_internal(Shape(self, 0.5 * (start + end), 0.0, (end - start) / h))
@@ -206,15 +224,16 @@ class DiscretePlate(Discrete):
         return q, self.stiffness @ q
 
     def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
+        own = dict(zip(PARTS, self._natural, strict=False))
         nodal, out = q[self.elements.unknowns], {}
         for name, operator, section in zip(PARTS, self._strains, self.section, strict=True):
-            strain = (operator @ nodal[:, None, :, None])[..., 0]
+            strain = (operator @ nodal[:, None, :, None])[..., 0] - own.get(name, 0.0)
             force = (section @ strain[..., None])[..., 0]
             out[name] = 0.5 * float(np.einsum("mq,mqi,mqi", self.elements.areas, strain, force))
         return out
 
     def elastic(self, q: np.ndarray) -> float:
-        return 0.5 * self.stiffness_of(q, q, q)
+        return 0.5 * self.stiffness_of(q, q, q) - float(self._pull @ q) + self._stored
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         return float(step @ (self.stiffness @ other))

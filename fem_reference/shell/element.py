@@ -118,6 +118,19 @@ class Element:
         found: np.ndarray = np.linalg.norm(across, axis=2)
         return found
 
+    def grow(self, share: float = 1.0, time: float | None = None) -> None:
+        """Set the share of the sheet's natural strains at a time [s]; these elements have none."""
+
+    @property
+    def grows(self) -> bool:
+        """Whether they change over time."""
+        return False
+
+    @property
+    def prestrain(self) -> np.ndarray | None:
+        """Natural strains (m, 54) at that share; None of a sheet that is flat at rest."""
+        return None
+
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors: its product with
         their derivatives half way, which keeps the digits of a small one."""

@@ -23,6 +23,7 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
+from fem_reference.shell.natural import NaturalElement
 from fem_reference.shell.validity import STRETCHED, inspector
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.materials import Section, section_at
@@ -36,6 +37,7 @@ from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.scenes import Scene, Solution, Status, require_uniform
+from sheetbench.scenes.patches import require_flat_at_rest
 from sheetbench.scenes.rigid_motions import require_static
 
 LIMITS = Limits()
@@ -197,7 +199,8 @@ def elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> 
     material, thickness = scene.material, scene.sheet.thickness
     require_law(law, LAWS, material)
     if law == STRAIN_LAW:
-        return Element.build(nodes, section or section_at(scene, nodes))
+        return NaturalElement.of(nodes, section or section_at(scene, nodes), scene)
+    require_flat_at_rest(scene, f"the shell's law '{law}'")
     require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
     if section is not None:
         raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")

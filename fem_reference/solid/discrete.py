@@ -23,6 +23,7 @@ from fem_reference.discrete.shape import Shape
 from fem_reference.solid.element import Bricks, tangent
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
+from fem_reference.solid.natural import NaturalBricks
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.supports import components, from_forces, into_forces, of_scene, vectors
 from fem_reference.surface import carried, rod
@@ -56,7 +57,7 @@ class DiscreteSolid(DiscreteElements):
         self.conservative, self.any_strain = law == STRAIN_LAW, LAWS[law].stands_any_strain
         stacks = columns.positions.reshape(-1, 3)[columns.stacks]
         positions = np.concatenate([stacks[:, place] for place in columns.places])
-        self.element = Bricks.build(positions, LAWS[law], material)
+        self.element = NaturalBricks.of(Bricks.build(positions, LAWS[law], material), scene)
         self.per_vector = np.ones(27)
 
         def bind(of: Scene) -> BoundRods:

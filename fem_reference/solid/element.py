@@ -50,6 +50,7 @@ RETAINED_SHEAR = (
 _EVERY = (THREE, THREE)
 _TYING = (TYING["rr"], TYING["ss"], _EVERY, TYING["rs"], TYING["ss"], TYING["rr"])
 _SITES = (*_TYING[:3], _EVERY, *_TYING[4:])
+SAMPLED = [[[x, y, z] for x in sites[0] for y in sites[1] for z in THREE] for sites in _SITES]
 
 
 def shape(local: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -84,8 +85,7 @@ def reference() -> Reference:
     points, weights = get_quadrature(RefHex, 5)
     x, y, z = 2.0 * points - 1.0
     forms, kept, dropped = [], [], []
-    for (a, b), tying, sites in zip(PAIRS, _TYING, _SITES, strict=True):
-        sampled = [[x, y, z] for x in sites[0] for y in sites[1] for z in THREE]
+    for (a, b), tying, sites, sampled in zip(PAIRS, _TYING, _SITES, SAMPLED, strict=True):
         _, slope = shape((np.array(sampled).T + 1.0) / 2.0)
         form = np.einsum("it,jt->tij", slope[:, a], slope[:, b])
         forms.append(0.5 * (form + form.swapaxes(1, 2)) * (1.0 if a == b else 2.0))
@@ -131,6 +131,19 @@ class Bricks:
         """Λ [Pa], (1,) or (m, 1)."""
         return np.atleast_1d(self.law.bulk(self.material))
 
+    def grow(self, share: float = 1.0, time: float | None = None) -> None:
+        """Set the share of the sheet's natural strains at a time [s]; these bricks have none."""
+
+    @property
+    def grows(self) -> bool:
+        """Whether they change over time."""
+        return False
+
+    @property
+    def prestrain(self) -> np.ndarray | None:
+        """Natural strains (m, k) at that share; None of a sheet that is flat at rest."""
+        return None
+
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains (m, k) of displacements (m, 27, 3): ½ (x H x − X H X) = ½ u H (2X + u)."""
         return 0.5 * np.einsum("ekic,eic->ek", self.gradient(self.positions + change), change)
@@ -162,6 +175,9 @@ class Bricks:
 
     def products(self) -> np.ndarray:
         """∫ ρ N_i N_j dV (m, 27, 27) [kg]."""
+        return self._products()
+
+    def _products(self) -> np.ndarray:
         values, _ = shape(reference().points)
         weighed = self.material.density * self.volumes
         return np.einsum("eq,iq,jq->eij", weighed, values, values, optimize=True)

@@ -44,7 +44,7 @@ from sheetbench.scenes import (
     require_uniform,
 )
 from sheetbench.scenes.orthotropy import Ply, impossible_in_space
-from sheetbench.scenes.patches import constants_at, of_sheet
+from sheetbench.scenes.patches import constants_at, of_sheet, require_flat_at_rest
 from sheetbench.scenes.rigid_motions import require_static
 
 GRADINGS = ("edges", "uniform")
@@ -154,7 +154,8 @@ def bricks_through(scene: Scene, layers: int) -> int:
     many, with faces between all plies. Raises BadInput where those are too many."""
     if not scene.layers:
         return layers
-    between = np.array([ply.low + 0.5 for ply in of_sheet(scene).plies])
+    plies = of_sheet(scene).plies
+    between = np.array([ply.low - plies[0].low for ply in plies])
     for count in range(layers, MOST_BRICKS + 1):
         if np.allclose(count * between, np.rint(count * between), rtol=0.0, atol=1e-6):
             return count
@@ -170,7 +171,7 @@ def _constants_of_bricks(scene: Scene, middles: np.ndarray, layers: int) -> Cons
     found = constants_at(scene, middles)
     if not scene.layers:
         return found
-    heights = (np.arange(layers) + 0.5) / layers - 0.5
+    heights = (np.arange(layers) + 0.5) / layers + found.plies[0].low
     own = [next(ply for ply in found.plies if ply.low <= at <= ply.high) for at in heights]
     values: list[Any] = [np.repeat(each, len(middles) // layers)[:, None] for each in zip(*own, strict=True)]
     ply = Ply(*values)
@@ -208,6 +209,8 @@ def columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Col
     if layers < 1:
         raise BadInput(f"layers = {layers}: at least one through the thickness")
     _require_meshable(scene, law)
+    if law != STRAIN_LAW:
+        require_flat_at_rest(scene, f"the solid's law '{law}'")
     layers = bricks_through(scene, layers)
     columns = Columns.on(mesh, scene.sheet, layers)
     if scene.uniform:

@@ -64,6 +64,7 @@ def shapes_of(scene: Scene, lines: bool = True) -> list[Shape]:
         getattr(load, "where", None) for load in scene.loads if lines or not isinstance(load, EdgeLoad)
     ]
     places += [payload.where for payload in scene.masses]
+    places += [patch.shape for patch in scene.patches if patch.natural is not None]
     shapes = [shape for shape in places if shape is not None]
     return [*shapes, *(patch.shape for patch in scene.patches)] if _differ(scene) else shapes
 

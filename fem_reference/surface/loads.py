@@ -34,7 +34,6 @@ from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan, elements_in, facets_on
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, encloses_volume
 from sheetbench.scenes.loads import AreaLoad
-from sheetbench.scenes.patches import require_flat_at_rest
 
 # Local nodes of the four sides, in scikit-fem's order of facets: corner, mid-side, corner.
 _SIDES = np.array([[0, 4, 1], [1, 5, 2], [2, 6, 3], [0, 7, 3]])
@@ -221,7 +220,6 @@ def point_force(plan: Plan, at: np.ndarray, force: np.ndarray) -> np.ndarray:
 def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
     """Dead nodal forces (n, 3) [N] and follower loads of a scene on a mesh that carries the edges' names;
     every load with the last factor of its history."""
-    require_flat_at_rest(scene, "a reference")
     count, corners = len(plan.nodes), plan.corners
     dead, followers = np.zeros((count, 3)), list[Follower]()
     if scene.gravity is not None:

@@ -53,7 +53,9 @@ class System:
     """Forces, mass and constraints of a scene in motion. mass: of every lumped mass, (n,) [kg], instead of
     its share of the sheet's and the payloads'.
 
-    shared_mass: whether neighbours on the lattice share some, of bodies with moments of inertia.
+    shared_mass: whether neighbours on the lattice share some, of bodies with moments of inertia. Forces are
+    computed in arrays that it keeps (`scratch`), so a system is for one thread at a time; what it answers
+    does not depend on the order of calls.
     """
 
     def __init__(self, scene: Scene, problem: Problem, mass: np.ndarray | None = None):
@@ -109,8 +111,6 @@ class System:
         self.motions = self._support_motions()
         self.moving = bool(self.motions or (self.coupling is not None and self.coupling.moved.any()))
         self._still = problem.constraints.turned(1.0)
-        self._energy: tuple[State | None, list[float]] = None, []
-        self._level, self._largest = 0.0, 0.0
 
     @property
     def working(self) -> bool:
@@ -342,20 +342,6 @@ class System:
     def accelerate(self, force: np.ndarray) -> np.ndarray:
         """T M⁻¹ Tᵀ f, (size, 3) [m/s²]."""
         return self.expand(self.solve_mass(self.reduce(force)))
-
-    def energy_gained(self, before: State, after: State, taken: float, work: float) -> float:
-        """Return by how much energy has grown from nothing in a step [J], over the largest part of it so far;
-        taken, work: by dampers and by what moves in it."""
-        if self._energy[0] is not before:
-            self._energy = before, self._parts(before)
-        parts = self._parts(after)
-        then, self._energy = self._energy[1], (after, parts)
-        self._largest = max(self._largest, parts[0], abs(parts[1]), abs(parts[2] - self._level))
-        gained = float(sum(parts) - sum(then)) + taken - work
-        return abs(gained) / self._largest if self._largest else 0.0
-
-    def _parts(self, state: State) -> list[float]:
-        return list(self.balance(state)[0].values())
 
     def pushed_between(self, start: State, end: np.ndarray, middle: float) -> float:
         """Work [J] of what items are fixed to in a step of the conserving midpoint rule."""

@@ -54,11 +54,15 @@ def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
     obstacle = [
         lambda **more: Plane(position=(0.0, 0.0, -depth - 0.3 * long), normal=(*lean, 1.0), **more),
         lambda **more: Sphere(position=tuple(below), radius=radius, **more),
-        lambda **more: Cylinder(position=tuple(below), axis=(np.cos(turn), np.sin(turn), 0.0), radius=radius, **more),
+        lambda **more: Cylinder(
+            position=tuple(below), axis=(np.cos(turn), np.sin(turn), 0.0), radius=radius, **more
+        ),
         lambda **more: Cylinder(position=tuple(below), axis=(0.0, 1.0, 0.0), radius=radius, **more),
     ][rng.integers(4)]
     rise = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, float(0.5 * depth))))
-    push = PointLoad(at=tuple(rng.uniform(0.3, 1.0, 2) * lengths), force=(0.0, 0.0, -float(10 ** rng.uniform(-3, -0.5))))
+    push = PointLoad(
+        at=tuple(rng.uniform(0.3, 1.0, 2) * lengths), force=(0.0, 0.0, -float(10 ** rng.uniform(-3, -0.5)))
+    )
     scene = Scene(
         name=f"drawn {number}",
         sheet=Sheet(length_x=lengths[0], length_y=lengths[1], thickness=thickness),
@@ -75,7 +79,10 @@ def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
 
 def surface(solution: Solution, grid: tuple[int, int, int], scene: Scene) -> np.ndarray:
     """Return places (m, n, 3) of points INSIDE a cell on the deformed mid-surface."""
-    axes = [np.linspace(0.0, length, INSIDE * (n - 1) + 1) for length, n in zip(scene.sheet.lengths, grid, strict=False)]
+    axes = [
+        np.linspace(0.0, length, INSIDE * (n - 1) + 1)
+        for length, n in zip(scene.sheet.lengths, grid, strict=False)
+    ]
     x, y = np.meshgrid(*axes, indexing="ij")
     plan = np.column_stack([x.ravel(), y.ravel()])
     return (np.column_stack([plan, np.zeros(len(plan))]) + solution.displacement(plan)).reshape(*x.shape, 3)
@@ -133,7 +140,7 @@ def judged(number: int) -> tuple[str, str]:
             solution = lumped.solve(scene, springs)
     except (SceneError, BadInput) as error:
         return "refused", "" if "\n" not in str(error) else str(error)
-    except Exception:  # noqa: BLE001  # that is what is looked for
+    except Exception:  # that is what is looked for
         return "traceback", traceback.format_exc()
     return str(solution.status), fault(scene, grid, solution)
 

@@ -27,10 +27,11 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from lumped.dynamics.implicit.compiled_stages import Stages, Step
+from lumped.dynamics.implicit.energy_gain import EnergyGain
 from lumped.dynamics.implicit.newton import Newton, StepEquation
+from lumped.dynamics.implicit.polynomial import polynomials
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
 from lumped.dynamics.integrator import Integrator, Samples
 from lumped.dynamics.system import State, System
@@ -68,7 +69,7 @@ class Esdirk(Integrator):
         self._control = Controller(5, 4.0, (1.0, 1.2), step)
         self._first, self._error = step, error
         self._newton = Newton(system, STEP_TOLERANCE, STALE)
-        self._largest = 0.0
+        self._largest, self._gain = 0.0, EnergyGain(system)
         self._end: tuple[State | None, np.ndarray] = None, np.zeros(2)  # the last state, and its power
 
     @classmethod
@@ -87,12 +88,18 @@ class Esdirk(Integrator):
 
     def memory(self) -> dict[str, Any]:
         """Return the step's control."""
-        return {**self._control.memory(), "first": self._first, "largest": self._largest}
+        return {
+            **self._control.memory(),
+            "first": self._first,
+            "largest": self._largest,
+            "energy": self._gain.largest,
+        }
 
     def recall(self, memory: dict[str, Any]) -> None:
         """Take up what `memory` gave."""
         self._control.recall(memory)
         self._first, self._largest = float(memory["first"]), float(memory["largest"])
+        self._gain.largest = float(memory["energy"])
 
     def notes(self) -> str:
         """Return a clause on steps that counted in spite of their error."""
@@ -119,7 +126,7 @@ class Esdirk(Integrator):
             largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
             if self.system.items:  # which are touched within steps
                 found = self._advance(state, stages, h)
-                gained = self.system.energy_gained(state, found.state, found.dissipated, found.work)
+                gained = self._gain.of(state, found.state, found.dissipated - found.work)
                 error = max(error, largest * gained * ENERGY)
             return stages, error, self._error * largest
 
@@ -329,32 +336,3 @@ class Esdirk(Integrator):
             put_in += float(np.sum(force * stage.v))
             put_in += system.natural_power(stage.u, stage.time, before)
         return put_in + (system.pushing(stage) if system.pushed else 0.0)
-
-
-@njit(cache=True)
-def polynomials(
-    displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, h: float, theta: np.ndarray
-) -> np.ndarray:
-    """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step of length h [s], by
-    the polynomial with those of both its ends, (2, n, 3) each."""
-    u0, v0, a0 = displacement[0].ravel(), velocity[0].ravel(), acceleration[0].ravel()
-    u1, v1, a1 = displacement[1].ravel(), velocity[1].ravel(), acceleration[1].ravel()
-    curve, out = np.empty((6, len(u0))), np.empty((3, len(theta), len(u0)))
-    for i in range(len(u0)):
-        change = u1[i] - u0[i] - h * v0[i] - 0.5 * h * h * a0[i]
-        speed = h * (v1[i] - v0[i] - h * a0[i])
-        bend = h * h * (a1[i] - a0[i])
-        curve[0, i], curve[1, i], curve[2, i] = u0[i], h * v0[i], 0.5 * h * h * a0[i]
-        curve[3, i] = 10.0 * change - 4.0 * speed + 0.5 * bend
-        curve[4, i] = -15.0 * change + 7.0 * speed - bend
-        curve[5, i] = 6.0 * change - 3.0 * speed + 0.5 * bend
-    rate = 1.0 / h
-    for k in range(len(theta)):
-        for i in range(len(u0)):
-            u = v = a = 0.0
-            for power in range(5, -1, -1):  # Horner's rule, with the derivatives
-                a = a * theta[k] + 2.0 * v
-                v = v * theta[k] + u
-                u = u * theta[k] + curve[power, i]
-            out[0, k, i], out[1, k, i], out[2, k, i] = u, v * rate, a * rate * rate
-    return out.reshape(3, len(theta), -1, 3)

@@ -27,7 +27,8 @@ def careful_budget(path: Path[State, Forces]) -> int:
     """Return how many factorisations a second, careful run may take, which looks for a branch that large load
     steps may have left; 0 if none is needed: the equilibrium is stable and was found quickly, or the path is
     one linear step, without a correction, and has jumped over nothing."""
-    if not path.structure.symmetric or path.load_factor == 0.0 or path.factorisations == 1:
+    one_step = path.factorisations == 1 and not path.structure.prestrained
+    if not path.structure.symmetric or path.load_factor == 0.0 or one_step:
         return 0
     taken, limits = path.factorisations, path.limits
     unstable = stability(path)[0] is Status.UNSTABLE
@@ -58,9 +59,9 @@ def continuous(
 ) -> tuple[Factor, float]:
     """The factors of the tangent at an equilibrium, and how far the next linear step may go. Raises
     StepFailed where it is on another branch than the one that the step set out from: far from where the
-    linear step led, or past a change of stability by more than a short step, of little load where
-    a natural strain is what loads it. negative: eigenvalues before; found: the factors, where they are at
-    hand."""
+    linear step led, or past a change of stability by more than a short step, or, where a
+    natural strain loads it that may not move it, at all. negative: eigenvalues before; found: the factors,
+    where they are at hand."""
     limits, miss = path.limits, path.structure.length(first.state, state)
     if miss > max(min(limits.continuous * first.length, limits.miss), max(limits.idle, limits.tolerance)):
         raise StepFailed(Status.STEP_LIMIT, "the path folds", first.length)
@@ -68,8 +69,7 @@ def continuous(
         found = found or path.factored(path.tangent(state, first.target))
     except SingularMatrixError as error:
         raise StepFailed(Status.SINGULAR, str(error), first.length) from None
-    little = first.target - path.load_factor <= limits.branching_load or not path.structure.prestrained
-    short = first.length <= limits.branching and little
+    short = first.length <= limits.branching and not path.structure.prestrained
     if negatives(found) > negative and not short:
         raise StepFailed(Status.STEP_LIMIT, "the path loses stability", first.length)
     longest = limits.growth * first.length

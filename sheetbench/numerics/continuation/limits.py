@@ -39,7 +39,6 @@ class Limits:
     miss: float = 0.05  # and as a length
     safe: float = 0.8  # of what the last miss lets the next careful step go
     branching: float = 1e-3  # linear steps so short may cross a bifurcation
-    branching_load: float = 2.0**-11  # of what a natural strain loads, which may not move it until it buckles
     same_branch: float = 0.25  # of a start's displacement: beyond, an equilibrium may be on another branch
     snaps: int = 12  # of one path
     snap_step: float = 0.01  # in load factor, past the limit point

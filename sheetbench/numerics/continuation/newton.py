@@ -58,6 +58,8 @@ class Predictor(Generic[State, Forces]):
             rows = None if self.factor is None else structure.rows(path.state, forces, self.target)
             if rows is None:
                 matrix, rows = structure.system(path.state, forces, self.target)
+                if structure.prestrained:  # the tangent would be of stresses at the target, nothing moved yet
+                    matrix = path.tangent(path.state, path.load_factor)
                 if self.factor is None or not structure.symmetric:
                     self.factor = path.factored(matrix)
             assert self.factor is not None

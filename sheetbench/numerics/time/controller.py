@@ -91,4 +91,5 @@ class Controller:
         """Return a clause on steps that counted in spite of their error."""
         if not self.floored:
             return ""
-        return f"{self.floored} steps of the shortest length have a larger error than asked for"
+        count = f"{self.floored} step{'s' * (self.floored > 1)} of the shortest length"
+        return f"{count} with a larger error than asked for"

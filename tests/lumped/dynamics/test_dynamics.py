@@ -122,22 +122,6 @@ def test_the_limit_for_any_dampers_holds_for_every_damping_up_to_theirs(ratio):
     assert max(amplification(1.01 * turn, each / 2.02 / turn) for each in z) > 1.0 + 1e-9
 
 
-@pytest.mark.parametrize("radius", [0.0, 0.3, 0.9, 1.0])
-def test_generalised_alpha_shrinks_fast_oscillations_by_its_radius_and_none_grow(radius):
-    equations, _ = system(scene(gravity=False), 3)
-    method = INTEGRATORS["generalised-alpha"](equations, 1.0, radius=radius)
-    am, af, beta, gamma = method._am, method._af, method._beta, method._gamma
-
-    def largest_root(turn):
-        """Of a step of turn = ω h: (u₁, h v₁, h² a₁) from (u₀, h v₀, h² a₀)."""
-        after = [[1.0, 0.0, -beta], [0.0, 1.0, -gamma], [turn**2 * (1.0 - af), 0.0, 1.0 - am]]
-        before = [[1.0, 1.0, 0.5 - beta], [0.0, 1.0, 1.0 - gamma], [-(turn**2) * af, 0.0, -am]]
-        return largest(np.linalg.eigvals(np.linalg.solve(after, before)))
-
-    assert largest_root(1e4) == pytest.approx(radius, abs=1e-2)  # a threefold root is off by (ω h)^(-2/3)
-    assert max(map(largest_root, np.geomspace(1e-2, 1e4, 60))) < 1.0 + 1e-7
-
-
 def test_a_step_above_the_limit_is_refused_with_the_limit_named():
     asked = scene()
     equations, rest = system(asked)

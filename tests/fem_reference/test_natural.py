@@ -1,0 +1,158 @@
+"""Sheets that are not flat at rest in plate, shell and solid, against closed forms and the lattice."""
+
+import numpy as np
+import pytest
+
+import fem_reference
+import lumped
+from sheetbench.errors import BadInput
+from sheetbench.scenes import (
+    Clamped,
+    FactorTable,
+    Gravity,
+    Held,
+    Hinged,
+    Layer,
+    Material,
+    Patch,
+    Scene,
+    Sheet,
+    Symmetric,
+)  # fmt: skip
+from sheetbench.scenes.natural import Natural, Temperature
+
+EDGES = ("x0", "x1", "y0", "y1")
+MATERIAL = Material(young=1e6, poisson=0.3, density=1e3)
+
+
+def scene(length_x, length_y, thickness, supports, weight=0.0, **more):
+    return Scene(
+        name="natural", sheet=Sheet(length_x=length_x, length_y=length_y, thickness=thickness),
+        material=more.pop("material", MATERIAL), supports=tuple(supports),
+        gravity=Gravity(acceleration=(0.0, 0.0, -weight)) if weight else None,
+        probes={"tip": [length_x, length_y / 2]}, **more,
+    )  # fmt: skip
+
+
+def tip(of, model, elements=4, point=None):
+    found = fem_reference.solve(of, model=model, elements=elements)
+    assert found.succeeded, found.message
+    return found.displacement([point or of.probes["tip"]])[0], found
+
+
+@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
+def test_a_free_sheet_grows_to_its_natural_size_without_stress(model):
+    rims = [Symmetric(edge="x0"), Symmetric(edge="y0")]
+    rims += [Held(edge=e, components=("z",)) for e in ("x1", "y1")]
+    moved, found = tip(scene(0.2, 0.1, 0.004, rims, natural=Natural((0.08, -0.03, 0.0))), model)
+    np.testing.assert_allclose(moved, [0.016, -0.0015, 0.0], atol=1e-11)
+    assert sum(found.energies.values()) < 1e-19
+
+
+@pytest.mark.parametrize(("turns", "within"), [(0.25, 5e-6), (0.9, 1e-4)])
+def test_the_shell_rolls_up_without_energy_and_of_fourth_order(turns, within):
+    k = 2.0 * np.pi * turns / 0.2
+    arc = np.array([np.sin(0.2 * k) / k - 0.2, 0.0, (1.0 - np.cos(0.2 * k)) / k])
+    of = scene(0.2, 0.1, 0.002, [Clamped(edge="x0")], natural=Natural(curvature=(k, 0.0, 0.0)))
+    errors = []
+    for elements in (4, 8):
+        moved, found = tip(of, "shell", elements)
+        errors.append(np.linalg.norm(moved - arc) / 0.2)
+        assert sum(found.energies.values()) < 1e-24
+    assert errors[0] < within and np.log2(errors[0] / errors[1]) > 3.5
+    solid = tip(of, "solid")[0]  # which has the strain of every height
+    assert np.linalg.norm(solid - arc) / 0.2 < 5.0 * within
+
+
+def test_all_models_agree_with_published_bricks_where_rotations_are_small():
+    """Cantilever of isotropic and of orthotropic expansion: uz of tip and corner [mm] by C3D20R."""
+    for k, published in (((0.25, 0.25, 0.0), (5.0997, 5.3762)), ((0.25, 0.1, 0.0), (5.1621, 5.2661))):
+        of = scene(0.2, 0.1, 0.0005, [Clamped(edge="x0")], natural=Natural(curvature=k))
+        for model in ("shell", "solid"):
+            _, found = tip(of, model, 8)
+            at = 1e3 * found.displacement([[0.2, 0.05], [0.2, 0.1]])[:, 2]
+            np.testing.assert_allclose(at, published, rtol=3e-4)
+
+
+@pytest.mark.parametrize("model", ["shell", "solid"])
+def test_the_moduli_of_what_has_grown_are_those_of_its_natural_sides(model):
+    bent = []
+    for strain in (0.0, 0.1):
+        natural = Natural((strain, 0.0, 0.0))
+        bent.append(tip(scene(0.2, 0.05, 0.002, [Clamped(edge="x0")], 1e-3, natural=natural), model)[0][2])
+    assert bent[1] / bent[0] == pytest.approx(1.1**3, rel=3e-3)
+
+
+def test_the_lattice_is_within_two_thousandths_of_the_shell_with_a_band_of_muscle_under_weight():
+    band = {"rectangle": {"x": (0.05, 0.1), "y": (0.0, 0.1)}}
+    patch = Patch(shape=band, natural=Natural(curvature=(20.0, 0.0, 0.0)))
+    of = scene(0.2, 0.1, 0.002, [Clamped(edge="x0")], 0.981, patches=(patch,))
+    shell, solid = (tip(of, model, 8)[0] for model in ("shell", "solid"))
+    lattice = lumped.solve(of, lumped.calibrate(of.sheet, of.material, (33, 17, 2))).displacement(
+        [[0.2, 0.05]]
+    )
+    assert np.abs(lattice[0] - shell).max() < 2e-3 * np.abs(shell).max()
+    assert np.abs(solid - shell).max() < 3e-4 * np.abs(shell).max()
+
+
+def test_a_bimetal_bends_alike_in_all_models():
+    """The solid has its layers; z of a strip 20 mm wide, by Timoshenko's k0 [1/m] and 0.3 ν k0 b at the
+    clamp."""
+    layers = (
+        Layer(thickness=0.001, young=1e6, poisson=0.3, expansion=1e-4),
+        Layer(thickness=0.002, young=3e6, poisson=0.3, expansion=0.0),
+    )
+    of = scene(0.2, 0.02, 0.003, [Clamped(edge="x0")], layers=layers, temperature=Temperature(change=10.0))
+    shell, solid = (1e3 * tip(of, model, 4)[0][2] for model in ("shell", "solid"))
+    assert shell == pytest.approx(solid, rel=2e-3)
+    k = 0.320474778
+    assert shell == pytest.approx(1e3 * (0.5 * k * 0.2**2 + 0.3 * 0.3 * k * 0.02 * 0.2), rel=5e-3)
+
+
+def heated(times, kind=Hinged):
+    strain = times * np.pi**2 * 0.002**2 / (6.0 * 1.3 * 0.2**2)
+    return scene(0.2, 0.2, 0.002, [kind(edge=e) for e in EDGES], natural=Natural((strain, strain, 0.0)))
+
+
+@pytest.mark.parametrize("model", ["shell", "solid"])
+def test_a_heated_plate_buckles_where_kirchhoff_says(model):
+    assert fem_reference.buckling(heated(1.0), model, 8).load_factors[0] == pytest.approx(1.0, rel=0.01)
+
+
+@pytest.mark.parametrize(("times", "rise"), [(2.0, 0.864), (5.0, 1.679)])
+def test_a_heated_shell_past_buckling_is_not_found_flat(times, rise):
+    moved, found = tip(heated(times), "shell", 8, point=[0.1, 0.1])
+    assert abs(moved[2]) / 0.002 == pytest.approx(rise, rel=2e-3)
+    assert found.snaps == pytest.approx([1.0 / times], rel=0.012)
+    plate = fem_reference.solve(heated(times), model="plate", elements=8)
+    assert not plate.succeeded and "buckle it" in plate.message
+
+
+def test_frequencies_of_a_stretched_square():
+    h, tension, q = 2.5e-4, 0.05, 2.0 * np.pi**2 / 0.04
+    rigidity = 1e6 * h**3 / 10.92
+    natural = Natural(pretension=(tension, tension))
+    of = scene(0.2, 0.2, h, [Hinged(edge=e) for e in EDGES], natural=natural)
+    found = fem_reference.modes(of, "shell", 8, 1, about="deformed").frequencies[0]
+    exact = np.sqrt((rigidity * q**2 + tension * q) / (1e3 * h)) / (2.0 * np.pi)
+    assert found == pytest.approx(exact, rel=1e-3)
+
+
+@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
+def test_a_curvature_that_grows_moves_every_reference_as_it_does_the_lattice(model):
+    ramp = FactorTable(time=(0.0, 0.1), factor=(0.0, 1.0))
+    natural = Natural(curvature=(0.5, 0.0, 0.0), history=ramp)
+    of = scene(0.2, 0.1, 0.002, [Clamped(edge="x0")], natural=natural)
+    found = fem_reference.simulate(of, model, 0.2, elements=2, every=0.02)
+    lattice = lumped.simulate(of, lumped.calibrate(of.sheet, of.material, (17, 9, 2)), 0.2, every=0.02)
+    assert found.succeeded
+    off = np.abs(found.probes["tip"] - lattice.probes["tip"])[:, 2].max()
+    assert off < 0.03 * np.abs(lattice.probes["tip"]).max()
+    assert np.abs(found.balance - found.balance[0]).max() < 0.01 * found.energies["work"].max()
+
+
+def test_other_laws_of_strain_are_refused_by_name():
+    of = scene(0.2, 0.1, 0.002, [Clamped(edge="x0")], natural=Natural(curvature=(5.0, 0.0, 0.0)))
+    for model in ("shell", "solid"):
+        with pytest.raises(BadInput, match="law 'neo-hookean' is for sheets that are flat at rest"):
+            fem_reference.solve(of, model=model, elements=2, law="neo-hookean")

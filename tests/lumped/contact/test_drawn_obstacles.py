@@ -1,4 +1,5 @@
-"""Drawn sheets over drawn obstacles: no tracebacks, and none is walked through, by the geometry afterwards."""
+"""Drawn sheets over drawn obstacles: no tracebacks, and none is walked through, by the geometry
+afterwards."""
 
 import pytest
 from drawn_obstacles import judged

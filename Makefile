@@ -28,7 +28,7 @@ help:
 	@echo "make studies   what the studies of the laboratory are, and the target of each (studies/Makefile)"
 	@echo "make tradeoff  error against time on test 1 of Habibi et al., with the picture (files in $(OUT)/)"
 	@echo "make bench     settling beside SciPy's BDF, statics, explicit steps, start-up: time and what it goes to (files in $(OUT)/, history in benchmarks/history/)"
-	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
+	@echo "make viewer    the viewer of sheets in a browser, comparisons/pages/viewer.js, from its source (needs Node)"
 	@echo "make docs-scene  the sketch of a scene, docs/images/scene.svg"
 	@echo "make animations  the README's moving pictures, docs/images/settling.gif and actuated.gif (two minutes)"
 	@echo "make pictures  the still pictures of the README and of the pages (a minute; needs chromium)"
@@ -99,6 +99,7 @@ verify: install
 	@$(BIN)/sheetbench verify
 
 tradeoff: install
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt ./examples/plug-ins
 	@$(BIN)/sheetbench tradeoff two-edges-clamped --lumped 3,5,7,9,17,33 --calibration consistent,consistent-interior,cauchy,uniform \
 	  --shell 2,3,4,8,12,16 --solid 2,4,8 --model mujoco:grid=5 --model mujoco:grid=9 --model mujoco:grid=17 \
 	  --out $(OUT)
@@ -158,7 +159,7 @@ extras-check: install
 	@.ci/extras-check $(PYTHON)
 
 viewer:
-	@cd comparisons/browser/source && npm ci --ignore-scripts --silent && npm run --silent build
+	@cd comparisons/pages/source && npm ci --ignore-scripts --silent && npm run --silent build
 
 lint: $(VENV)/testing
 	@$(BIN)/ruff check .

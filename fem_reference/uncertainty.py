@@ -132,6 +132,11 @@ def of_solutions(
     return estimate(answers, of_sizes, layers)
 
 
+def of_answers(scene: Scene, answers: Sequence[np.ndarray], meshes: Sequence[Elements]) -> Uncertainty:
+    """Return the bars of any answers (n, k) on these numbers of elements, finest first, but for the layer."""
+    return estimate(answers, [mesh_size(scene, n) for n in meshes])
+
+
 def estimate(
     answers: Sequence[np.ndarray],
     sizes: Sequence[float],

@@ -17,7 +17,7 @@ from comparisons.models import solve as solvers
 from comparisons.models.context import in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, parse, spec_of
-from comparisons.report.work import silent
+from comparisons.pictures.work import silent
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, Solution, scene_of
 

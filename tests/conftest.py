@@ -23,10 +23,15 @@ def pytest_configure():
 
 
 def pytest_collection_modifyitems(items):
-    """Tests of studies, and those that need a browser, are for `make nightly`."""
+    """Tests of studies, of a browser, and two of three rows of a matrix are for `make nightly`."""
+    rows = {}
     for item in items:
         if "studies" in item.path.parts[-2:] or "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.nightly)
+        if "matrix" in item.path.stem and "row" in getattr(getattr(item, "callspec", None), "params", ()):
+            rows[item.path] = rows.get(item.path, -1) + 1
+            if rows[item.path] % 3:
+                item.add_marker(pytest.mark.nightly)
 
 
 @pytest.fixture

@@ -95,10 +95,10 @@ def test_imports_run_one_way(package):
 
 
 FLOORS = {  # of comparisons; CONTRIBUTING.md says what is in each room
-    **dict.fromkeys(("models", "external", "report", "browser", "measured"), 0),
+    **dict.fromkeys(("models", "external", "pictures"), 0),
     "runs": 1,
     "sweep": 2,
-    **dict.fromkeys(("comparison", "check", "identification", "modes", "scoring", "verification"), 3),
+    **dict.fromkeys(("comparison", "identification", "modes", "scoring"), 3),
     **dict.fromkeys(("advice", "calibration", "codes", "crosscheck", "motion", "tradeoff"), 4),
     **dict.fromkeys(("live", "reproduction", "stability", "pages"), 5),
     "cli": 6,
@@ -176,7 +176,7 @@ def test_no_file_imports_itself_by_way_of_others(package):
 def test_every_figure_is_there():
     """Figures are named by module and function, and loaded when they are drawn."""
     text = "".join(text_of(path) for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
-    named = set(re.findall(r'"((?:sheetbench|comparisons|studies)[\w.]*figure|[\w.]*\.locking):(\w+)"', text))
+    named = set(re.findall(r'"((?:sheetbench|comparisons|fem_reference|studies)[\w.]*figure):(\w+)"', text))
     assert len(named) > 10
     for module, function in named:
         assert callable(getattr(import_module(module), function)), f"{module}:{function}"
@@ -191,7 +191,7 @@ SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "
 SLOW += ("ezc3d", "shapely", "xarray")
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
 DRAWS = ("figure", "style", "layout", "probes_figure", "motion_figure", "comparison_figure", "animation")
-DRAWS += ("offscreen", "locking", "vtk", "toml")
+DRAWS += ("offscreen", "locking_figure", "check_figure", "state_figure", "vtk", "toml")
 AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "__init__", "__main__")))
 
 

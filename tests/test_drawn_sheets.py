@@ -5,7 +5,7 @@ import pytest
 
 import fem_reference
 import lumped
-from comparisons.codes.lattice import export
+from comparisons.codes.lattice import lattice_files
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
@@ -187,7 +187,7 @@ def test_springs_alike_in_all_cells_are_shared_out_where_a_sheet_is_cut(tmp_path
     moved, expected = (each.displacement(scene.probe_points()) for each in (found, shell))
     assert found.balance.holds and np.abs(moved - expected).max() < 0.05 * np.abs(expected).max()
     springs = resolve(scene, spec).springs
-    export(tmp_path, scene, springs, simulators=["mujoco"])
+    lattice_files(scene, springs, "mujoco")[0]["mujoco.xml"](tmp_path / "mujoco.xml")
     there = len(lumped.describe(scene, springs).mass)
     assert (tmp_path / "mujoco.xml").read_text(encoding="utf-8").count("<body ") == there < 17 * 11 * 2
 

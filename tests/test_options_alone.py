@@ -1,5 +1,6 @@
 """Each option of each verb, alone beside a small command: the answer's numbers change, or it is refused for
-having no effect. A refusal for another reason, as of a file that is not there, proves nothing and fails.
+having no effect, and the function of Python answers alike. A refusal for another reason, as of a file that is
+not there, proves nothing and fails.
 
 What is neither is in `SAME` or `SAME_OF`, with the reason. An option that is in no table fails the test: a
 new one needs a row.
@@ -7,12 +8,16 @@ new one needs a row.
 
 import json
 import math
+from inspect import signature
 
 import pytest
 from commands import run
 from verbs import write_inputs as write_inputs_of_verbs
 
+import sheetbench as sb
 from comparisons.cli.app import verb_group
+from sheetbench.answers.files import to_json
+from sheetbench.errors import BadInput
 from sheetbench.scenes import load
 from sheetbench.scenes.toml import to_toml
 
@@ -28,17 +33,13 @@ BASE = {
     "compare": f"{SEED} --lumped 3 --elements 2",
     "simulate": f"{SETTLING} --lumped 3 --duration 0.01 --every 0.002",
     "modes": f"{ONE} --lumped 3 --elements 2 --count 2",
-    "linearise": f"{SETTLING} --lumped 3 --modes 3",
     "calibrate": f"{ONE} --lumped 3",
     "identify": f"{SEED} --measured measured.csv --lumped 3",
     "tradeoff": f"{ONE} --lumped 3,4 --plate= --shell 2 --solid= --elements 3 --repeats 1 --workers 1",
     "crosscheck": f"{ONE} --lumped 3,4 --plate= --shell 2,3 --solid= --judges= --workers 1",
     "stability": f"{ONE} --lumped 3 --elements 2 --vary load --workers 1",
-    "advise": f"{ONE} --tolerance 0.2",
-    "homogenise": "equilateral one-edge-clamped",
     "check": ONE,
     "score": "answers.csv --case thick",
-    "suite": "--suite modes",
     "verify": "--case patch",
 }
 VALUES = {  # of options that all verbs with them take alike, then of verbs
@@ -56,12 +57,14 @@ VALUES = {  # of options that all verbs with them take alike, then of verbs
     "--integrator": "verlet",
     "--every": "0.001",
     "--measured": "other.csv",
-    "--models": "lumped",
     "--error": "1e-5",
     "--count": "3",
     "--masses": "tributary",
     "--about": "deformed",
-    "--modes": "4",
+    "--state-space": "4",
+    "--cell": "one-diagonal",
+    "--schema": None,
+    "--no-refine": None,
     "--reduce": "balanced:2",
     "--young": "2e6",
     "--poisson": "0.3",
@@ -87,7 +90,7 @@ VALUES = {  # of options that all verbs with them take alike, then of verbs
     "--shell": "3,4",
     "--solid": "1,2",
     "--repeats": "2",
-    "--judges": "felupe",
+    "--judges": "calculix",
     "--meshes": "2,3",
     "--vary": "slenderness",
     "--tolerance": "0.02",
@@ -104,14 +107,13 @@ OF_VERB = {
     ("tradeoff", "--elements"): "4",
     ("crosscheck", "--lumped"): "3,5",
     ("modes", "--reference"): "plate",
-    ("linearise", "--about"): "flat",
     ("verify", "--case"): "strain-laws",
     ("simulate", "--measured"): "motion.csv",
     ("identify", "--model"): "solid",
-    ("suite", "--case"): "thick",
 }
 SHELL = f"{SEED} --measured measured.csv --model shell --elements 2"
 MOVING = f"{SETTLING} --lumped 3,4 --plate= --shell 2 --solid= --elements 3 --workers 1 --duration 0.002"
+CELL = f"{ONE} --cell equilateral"
 TENSILE = "--tensile tensile.csv --area 20mm2"
 OTHER_BASE = {  # where an option has an effect on something else alone
     ("compare", "--every"): f"{SETTLING} --lumped 3 --elements 2 --duration 0.004",
@@ -128,6 +130,10 @@ OTHER_BASE = {  # where an option has an effect on something else alone
     " --workers 1 --calibration consistent",
     ("identify", "--model"): SHELL,
     ("modes", "--buckling"): "edge.toml --lumped 3 --elements 2 --count 2",
+    **dict.fromkeys((("modes", "--state-space"), ("modes", "--reduce")), f"{ONE} --lumped 3 --state-space 3"),
+    **dict.fromkeys((("tradeoff", "--tolerance"), ("tradeoff", "--budget")), f"{ONE} --tolerance 0.2"),
+    **{("calibrate", f"--{name}"): CELL for name in ("cell", "spacing", "hinge", "coefficient")},
+    ("check", "--schema"): "",
 }
 PLACES = "where the answer goes, and how it looks"
 SAME = {  # no number of the answer is another with them, and why
@@ -160,12 +166,11 @@ TIMES = (
     "compile",
 )
 OPTIONS = [
-    (verb, option.opts[0])
+    (verb, name)
     for verb in BASE
     for option in verb_group((verb,)).commands[verb].params
-    if option.opts[0].startswith("--")
-    and option.opts[0] not in SAME
-    and (verb, option.opts[0]) not in SAME_OF
+    for name in (*option.opts[:1], *option.secondary_opts)
+    if name.startswith("--") and name not in SAME and (verb, name) not in SAME_OF
 ]
 
 
@@ -202,6 +207,14 @@ def write_inputs(folder):
         (folder / f"{name}.csv").write_text(text, encoding="utf-8")
 
 
+def in_python(verb, arguments):
+    """The document of the verb's function, of the words as the terminal reads them."""
+    function, command = getattr(sb, verb), verb_group((verb,)).commands[verb]
+    asked = command.make_context(verb, list(arguments)).params
+    known = signature(function).parameters
+    return json.loads(to_json(function(**{k: v for k, v in asked.items() if k in known}).document()))
+
+
 @pytest.fixture(scope="module")
 def answers():
     return {}
@@ -221,9 +234,15 @@ def answered(tmp_path, monkeypatch, capsys, undrawn, few):
         status = run(verb, *words, *more, "--json")
         said = capsys.readouterr()
         assert "Traceback" not in said.err and status in (0, 2, 3), said.err
+        arguments = [*words, *more]
         if status == 2:
+            with pytest.raises(BadInput):
+                in_python(verb, arguments)
             return said.err
-        return dict(numbers(json.loads(said.out)))
+        found = dict(numbers(json.loads(said.out)))
+        if status == 0 and not {"--tolerance", "--budget"} & {*arguments}:  # which go by times
+            assert dict(numbers(in_python(verb, arguments))) == found
+        return found
 
     return answered
 

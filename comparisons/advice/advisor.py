@@ -25,7 +25,7 @@ from comparisons.models.context import in_context
 from comparisons.models.keywords import SpringKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, items
-from comparisons.report.work import Progress, silent
+from comparisons.pictures.work import Progress, silent
 from comparisons.runs import load
 from comparisons.sweep.here import SolvedHere
 from comparisons.sweep.model_error import left_for_grid

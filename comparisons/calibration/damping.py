@@ -19,7 +19,7 @@ from typing import Annotated, Any
 import numpy as np
 
 import lumped
-from comparisons.measured.columns import Columns, read_columns
+from comparisons.identification.columns import Columns, read_columns
 from comparisons.modes.damping import ModeDamping, mode_damping
 from sheetbench.answers.table import MILLISECONDS, NUMBER, Table
 from sheetbench.errors import BadInput

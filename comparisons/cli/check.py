@@ -33,8 +33,8 @@ def command(
     """
     from warnings import catch_warnings, simplefilter
 
-    from comparisons.check.catalogue import Catalogue, Schema
-    from comparisons.check.check import check
+    from comparisons.models.catalogue import Catalogue, Schema
+    from comparisons.models.check import check
     from sheetbench.scenes import scene_of
 
     if schema:

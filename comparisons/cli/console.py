@@ -11,17 +11,29 @@ from rich.text import Text
 
 from comparisons.cli.characters import spelled, takes_everything
 from comparisons.cli.lines import Lines
-from comparisons.report.amounts import duration
+from comparisons.pictures.amounts import duration
 from sheetbench.answers.escape import terminal
 
 if TYPE_CHECKING:
-    from comparisons.report.work import Work
+    from comparisons.pictures.work import Work
     from comparisons.runs.campaign import Progress
     from sheetbench.answers.table import Table
 
 out = Console(highlight=False)
 err = Console(stderr=True, highlight=False)
 _quiet = False
+verbose = False  # all notes
+
+
+@contextmanager
+def verbosely() -> Iterator[None]:
+    """Show all notes of an answer within a block."""
+    global verbose
+    verbose = True
+    try:
+        yield
+    finally:
+        verbose = False
 
 
 @contextmanager

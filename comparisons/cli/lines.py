@@ -9,7 +9,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
-    from comparisons.report.work import Work
+    from comparisons.pictures.work import Work
 
 QUIET = 2.0  # s, at first
 BETWEEN = 10.0  # s, from line to line

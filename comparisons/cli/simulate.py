@@ -52,7 +52,7 @@ def command(
     from comparisons.models.solve import simulate
     from comparisons.motion.answer import Simulation
     from comparisons.motion.history import read_measured, require_within
-    from comparisons.report.work import Pace, Work
+    from comparisons.pictures.work import Pace, Work
     from sheetbench.scenes import scene_of
 
     loaded = scene_of(scene)

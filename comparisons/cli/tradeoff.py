@@ -150,7 +150,6 @@ def command(
         repeats=repeats,
         duration=duration,
         integrator=integrator,
-        option="--",
     )
     with output.open(scene=loaded) as out:
         with out.campaign(campaign) as run:

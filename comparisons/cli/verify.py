@@ -20,8 +20,8 @@ def command(
     One row each: exit status 3 unless all pass. The sweeps locking-plate, locking-shell and locking-solid
     have a picture (with --out), strain-laws a table of what the laws change.
     """
-    from comparisons.verification.answer import Verification
     from fem_reference.verification import run
+    from fem_reference.verification.answer import Verification
 
     with output.open(variant={"--case": sorted(case) if case else None}) as out:
         return out.show(

@@ -16,7 +16,7 @@ from comparisons.codes.mujoco import to_mjcf
 from comparisons.codes.page import page
 from comparisons.codes.sofa import to_sofa
 from comparisons.codes.tables import plan, tables
-from comparisons.report.array_files import write_mat, write_npz
+from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.runs.folder import Folder
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write

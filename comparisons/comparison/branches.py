@@ -18,7 +18,7 @@ import numpy as np
 
 from comparisons.models.resolve import Resolved
 from comparisons.models.spec import Elements, Lattice
-from comparisons.report.plan import on_sheet
+from comparisons.pictures.plan import on_sheet
 from sheetbench.scenes import Scene, Solution, Status
 
 FAR = 0.2  # of the largest displacement, from which on another branch is looked for

@@ -19,7 +19,7 @@ from comparisons.models.grids import Elements as Count
 from comparisons.models.keywords import StaticKeywords
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
-from comparisons.report.work import Progress, silent
+from comparisons.pictures.work import Progress, silent
 from comparisons.runs.load import average
 from comparisons.runs.load import warnings as doubts
 from comparisons.sweep.differences import error as error  # where others take it from
@@ -62,7 +62,7 @@ def compare(
     which leaves unstable equilibria along their buckling mode; of lattice and shell.
     models: that stand in the table too, plug-ins or our own. A name that is taken is changed. large:
     even where a model takes more memory than there is. progress: called with what is being done,
-    and with every iteration (`comparisons.report.work`).
+    and with every iteration (`comparisons.pictures.work`).
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.

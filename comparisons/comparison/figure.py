@@ -1,7 +1,7 @@
 """The picture of a comparison: the lattice, the reference, and their difference on the deformed sheet.
 
 The sheets are drawn at true scale unless they move too little to see; lengths are in millimetres. Actuators
-and loads are drawn on both (`comparisons.report.acting`).
+and loads are drawn on both (`comparisons.pictures.acting`).
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from comparisons.comparison.answer import Comparison
-from comparisons.report import acting, offscreen
-from comparisons.report.labels import place_labels
-from comparisons.report.plan import plan_mesh
-from comparisons.report.stage import Stage
+from comparisons.pictures import acting, offscreen
+from comparisons.pictures.labels import place_labels
+from comparisons.pictures.plan import plan_mesh
+from comparisons.pictures.stage import Stage
 from sheetbench.answers import style as plots
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.report import NoPicture

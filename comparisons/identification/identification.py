@@ -47,7 +47,7 @@ from comparisons.models.keywords import LatticeKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice, items
-from comparisons.report.work import Progress, silent
+from comparisons.pictures.work import Progress, silent
 from lumped import identifiability
 from sheetbench.choices import REFERENCES
 from sheetbench.errors import BadInput, require_choice, require_effect

@@ -1,6 +1,6 @@
 """Measurements of a deformed sheet: displacements of marked points, or the shape of its surface.
 
-CSV (`comparisons.measured.columns`), in metres and in the scene's axes, with the columns
+CSV (`comparisons.identification.columns`), in metres and in the scene's axes, with the columns
 
     x,y,ux,uy,uz    plan point on the flat sheet, then its displacement; a component may be left empty
     x,y,uz          the same of deflections alone
@@ -25,10 +25,10 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.measured.c3d import read_markers
-from comparisons.measured.columns import Columns, Row, read_columns
-from comparisons.measured.ply import read_points
-from comparisons.measured.start import require_flat_start
+from comparisons.identification.c3d import read_markers
+from comparisons.identification.columns import Columns, Row, read_columns
+from comparisons.identification.ply import read_points
+from comparisons.identification.start import require_flat_start
 from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes import Scene, Sheet
 

@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.browser.sheets import packed, viewer_sheet
 from comparisons.comparison.comparison import error
 from comparisons.live.panel import Question
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements
-from comparisons.report.plan import on_sheet, plan_mesh
+from comparisons.pages.sheets import packed, viewer_sheet
+from comparisons.pictures.plan import on_sheet, plan_mesh
 from sheetbench.answers.files import plain
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 

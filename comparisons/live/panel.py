@@ -12,9 +12,9 @@ from dataclasses import asdict, dataclass
 from math import isfinite, pi
 from typing import Any, NoReturn
 
-from comparisons.browser.sheets import eye, outline
 from comparisons.models.grids import scene_grid
 from comparisons.models.spec import Lattice
+from comparisons.pages.sheets import eye, outline
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Curved, Scene, Sheet

@@ -32,13 +32,13 @@ from itertools import count
 from socketserver import TCPServer, ThreadingMixIn
 from typing import Any
 
-from comparisons.browser import viewer
 from comparisons.calibration.answer import to_toml as springs_to_toml
 from comparisons.live import answers
 from comparisons.live.answers import Answered
 from comparisons.live.guard import LOOPBACK, Guard
 from comparisons.live.panel import Panel, Question
 from comparisons.models.resolve import resolve
+from comparisons.pages import viewer
 from comparisons.runs.executors import Processes, single_threaded
 from sheetbench.errors import BadInput
 from sheetbench.scenes.toml import to_toml

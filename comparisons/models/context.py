@@ -14,7 +14,7 @@ from functools import wraps
 from inspect import Parameter, signature
 from typing import Any, ParamSpec, TypeVar, is_typeddict
 
-from comparisons.report.work import Progress, silent
+from comparisons.pictures.work import Progress, silent
 from sheetbench.scenes import Solution
 
 Parameters = ParamSpec("Parameters")

@@ -37,7 +37,7 @@ import numpy as np
 from comparisons.models.grids import scene_grid
 from comparisons.models.layers import layers
 from comparisons.models.spec import Lattice
-from comparisons.report.plan import inside
+from comparisons.pictures.plan import inside
 from sheetbench.choices import EXTRAPOLATED
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grid import LAYERS, Grid
@@ -137,7 +137,7 @@ def expected_error(
     points = scene.probe_points()
     ratio = prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
     stretch = largest_stretch(scene, fine, finer)
-    value = estimate(solution.displacement(points), fine.displacement(points), ratio, stretch)
+    value = grid_error(solution.displacement(points), fine.displacement(points), ratio, stretch)
     if value is None:
         return NoEstimate(
             f"on {masses} masses the answer is the same, too far away, or laws of strain would differ by more"
@@ -145,7 +145,7 @@ def expected_error(
     return ExpectedError(value, finer, fine.solve_seconds)
 
 
-def estimate(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float) -> float | None:
+def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float) -> float | None:
     """e of displacements (n, 3) on grids with `ratio` times as many cells in plan on the finer; None where
     they are alike but for rounding, too far apart, or `stretch` makes the laws of strain weigh more."""
     size = float(np.max(np.abs(fine)))

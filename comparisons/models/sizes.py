@@ -13,7 +13,7 @@ from comparisons.external import memory
 from comparisons.models.context import context
 from comparisons.models.spec import Spec
 from comparisons.models.symmetry import cut_axes
-from comparisons.report import amounts
+from comparisons.pictures import amounts
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.size import Size

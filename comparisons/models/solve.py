@@ -19,7 +19,7 @@ from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import mesh
 from comparisons.models.spec import Elements, Lattice, LatticePair
 from comparisons.models.symmetry import by_parts, cut_axes
-from comparisons.report.work import Work
+from comparisons.pictures.work import Work
 from sheetbench.choices import REFERENCES
 from sheetbench.clock import now
 from sheetbench.scenes import FieldMesh, History, Iteration, Scene, Solution, load

@@ -19,7 +19,7 @@ import lumped
 from comparisons.models.context import context
 from comparisons.models.sizes import size
 from comparisons.models.spec import Elements, Lattice
-from comparisons.report.work import Work
+from comparisons.pictures.work import Work
 from lumped import Calibration, ModalTarget, StaticTarget
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Status

@@ -14,8 +14,8 @@ from comparisons.models.grading import choice_notes
 from comparisons.modes.damping import ModeDamping, mode_damping
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, Pair, Shaped, on_cells, pairs_of
-from comparisons.report.plan import plan_mesh
-from comparisons.report.vtk import write_mesh
+from comparisons.pictures.plan import plan_mesh
+from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import HERTZ, NUMBER, PERCENT, Column, Table, number
@@ -64,7 +64,7 @@ class ModeRow:
     mode: Annotated[int, NUMBER("d")]
     kind: str | None
     frequencies: Mapping[Column, float | None]
-    relative: Annotated[float | None, PERCENT("+.2f", "off by")] = None
+    relative: Annotated[float | None, PERCENT("+.2f", "difference")] = None
     mac: Annotated[float | None, NUMBER(".3f", "MAC")] = None
     expected: Annotated[float | None, PERCENT("+.2f")] = None
 
@@ -77,7 +77,7 @@ class BucklingRow:
     load_factor: Annotated[float, NUMBER(".5g", "load factor")]
     against: Annotated[int | None, NUMBER("d", "reference's mode")] = None
     reference: Annotated[float | None, NUMBER(".5g")] = None
-    relative: Annotated[float | None, PERCENT("+.2f", "off by")] = None
+    relative: Annotated[float | None, PERCENT("+.2f", "difference")] = None
     mac: Annotated[float | None, NUMBER(".3f", "MAC")] = None
 
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from scipy.ndimage import maximum_filter
 
 from comparisons.modes.answer import Spectra
-from comparisons.report.plan import inside, rims
+from comparisons.pictures.plan import inside, rims
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, GREY, plain
 from sheetbench.scenes.grid import near_square

@@ -11,7 +11,7 @@ from comparisons.models.keywords import LatticeKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from comparisons.modes.state_space import Linearisation
-from comparisons.report.work import Progress, Work, silent
+from comparisons.pictures.work import Progress, Work, silent
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, scene_of
 

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from comparisons.report.plan import inside
+from comparisons.pictures.plan import inside
 from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.grid import near_square
 

@@ -23,7 +23,7 @@ from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
 from comparisons.modes.pairing import expected_errors, on_cells
-from comparisons.report.work import Progress, Work, silent
+from comparisons.pictures.work import Progress, Work, silent
 from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice

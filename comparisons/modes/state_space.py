@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from comparisons.report.array_files import write_mat, write_npz
+from comparisons.pictures.array_files import write_mat, write_npz
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, Unit

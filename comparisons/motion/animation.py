@@ -19,9 +19,9 @@ from PIL import Image
 
 from comparisons.comparison.figure import HEIGHTS, colour_bar
 from comparisons.motion.frames import Frame, frames
-from comparisons.report import offscreen
-from comparisons.report.plan import plan_mesh
-from comparisons.report.stage import Stage
+from comparisons.pictures import offscreen
+from comparisons.pictures.plan import plan_mesh
+from comparisons.pictures.stage import Stage
 from sheetbench.answers.report import NoPicture
 from sheetbench.answers.style import STYLE, plain
 from sheetbench.files import whole

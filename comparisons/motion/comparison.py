@@ -27,7 +27,7 @@ from comparisons.models.spec import Elements, External, Lattice, Spec, parse, un
 from comparisons.motion.comparison_answer import MotionComparison
 from comparisons.motion.measures import largest
 from comparisons.motion.run import refusal, require_motion
-from comparisons.report.work import Pace, Progress, Work, silent
+from comparisons.pictures.work import Pace, Progress, Work, silent
 from sheetbench.choices import REFERENCE
 from sheetbench.scenes import AnyScene, History, Scene, scene_of
 

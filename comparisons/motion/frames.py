@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.report.vtk import write_mesh
+from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.files import folder, write_text
 from sheetbench.scenes import FieldMesh, History
 

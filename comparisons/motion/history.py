@@ -1,7 +1,7 @@
 """Read measured histories of probes.
 
 A measured history is a CSV with the columns time,probe,ux,uy,uz: seconds, a probe's name, metres; a
-component may be left empty (`comparisons.measured.columns`).
+component may be left empty (`comparisons.identification.columns`).
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.measured.columns import read_columns
-from comparisons.measured.start import require_flat_start
+from comparisons.identification.columns import read_columns
+from comparisons.identification.start import require_flat_start
 from sheetbench.errors import BadInput
 from sheetbench.scenes import History
 from sheetbench.scenes.measured_history import COMPONENTS, Measured

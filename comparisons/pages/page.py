@@ -21,11 +21,11 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from PIL import Image
 
-from comparisons.browser import viewer
+from comparisons.pages import viewer
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import FolderContents, Study
 from comparisons.pages.tables import tables
-from comparisons.report.amounts import memory
+from comparisons.pictures.amounts import memory
 from comparisons.runs.manifest import made_with
 from sheetbench.answers.escape import terminal
 from sheetbench.answers.files import plain

@@ -16,9 +16,9 @@ from xml.etree import ElementTree
 import meshio
 import numpy as np
 
-from comparisons.browser.sheets import displaced, eye, field, outline, viewer_sheet
+from comparisons.pages.sheets import displaced, eye, field, outline, viewer_sheet
 from comparisons.pages.studies import Study
-from comparisons.report.plan import PLAN_CELLS
+from comparisons.pictures.plan import PLAN_CELLS
 from sheetbench.errors import BadInput
 from sheetbench.scenes import FieldMesh, Scene
 

@@ -15,7 +15,7 @@ import lumped
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
 from comparisons.models.grids import Elements
-from comparisons.report.work import Progress, Work, silent
+from comparisons.pictures.work import Progress, Work, silent
 from comparisons.reproduction.published import scene
 from sheetbench.scenes import Solution
 from sheetbench.scenes.habibi import published_inputs

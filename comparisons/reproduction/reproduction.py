@@ -17,8 +17,8 @@ import numpy as np
 
 from comparisons.models.grids import Elements
 from comparisons.motion.frames import write_frames
-from comparisons.report.vtk import write_mesh
-from comparisons.report.work import Work, silent
+from comparisons.pictures.vtk import write_mesh
+from comparisons.pictures.work import Work, silent
 from comparisons.reproduction import findings, nearest, printed_errors
 from comparisons.reproduction.answers import SETS, ReproducedTest, answer
 from comparisons.reproduction.findings import Finding

@@ -1,4 +1,4 @@
-"""Somebody's answers to a suite, from a CSV file (`comparisons.measured.columns`); SI units.
+"""Somebody's answers to a suite, from a CSV file (`comparisons.identification.columns`); SI units.
 
 statics  case,probe,ux,uy,uz[,seconds]; so have curves
 motion   case,probe,time,ux,uy,uz[,seconds]: a sample at every time of the reference, for nothing is
@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.measured.columns import Row, read_columns
+from comparisons.identification.columns import Row, read_columns
 from comparisons.scoring.reference import Reference, reference, references
 from sheetbench.errors import BadInput
 

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.report.labels import spread
+from comparisons.pictures.labels import spread
 from comparisons.scoring.score import Place, Score
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, GREY, plain

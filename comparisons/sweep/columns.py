@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.report.plan import inside
+from comparisons.pictures.plan import inside
 from comparisons.sweep.differences import error
 from comparisons.sweep.model_error import model_error
 from sheetbench.scenes import Scene, Solution

@@ -14,7 +14,7 @@ from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import has_room
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
-from comparisons.report.work import silent
+from comparisons.pictures.work import silent
 from comparisons.runs import load
 from comparisons.sweep.solved import Ask, Solved
 from sheetbench.scenes import Scene, Solution

@@ -17,9 +17,11 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.surface.mesh import elements_in, nodes_of, on_boundary
+from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Scene, Symmetric, held_axes, holds_director
 from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, Placed, bent_or_tilted
-from sheetbench.scenes.supports import named, place
+from sheetbench.scenes.shapes import COINCIDENT
+from sheetbench.scenes.supports import Point, named, place
 from sheetbench.scenes.tables import PiecewiseCurve
 
 ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
@@ -122,12 +124,23 @@ class Supports:
         return out
 
 
+def _node_at(nodes: np.ndarray, support: Point, name: str) -> np.ndarray:
+    """The node (1,) at a point. Raises BadInput where a mesh has none, as one of the caller's own."""
+    far = np.linalg.norm(nodes - np.array(support.at), axis=1)
+    if far.min() > 1e3 * COINCIDENT * np.ptp(nodes, axis=0).max():
+        raise BadInput(f"{name}.at = {list(support.at)}: no node of the mesh is there")
+    return np.array([int(np.argmin(far))])
+
+
 def of_scene(scene: Scene, mesh: MeshQuad) -> Supports:
     """The supports and moved edges of a scene on the biquadratic nodes of a mesh."""
     nodes, elements = nodes_of(mesh)
     named_supports = named(scene.supports)
     on_edge = {str(on.edge): on_boundary(mesh, on.edge) for on in scene.actuators}
     for name, support in named_supports.items():
+        if isinstance(support, Point):
+            on_edge[name] = _node_at(nodes, support, name)
+            continue
         shape = place(support)
         inside = np.unique(elements[elements_in(shape, nodes, elements)]) if shape else None
         on_edge[name] = on_boundary(mesh, support.edge) if inside is None else inside

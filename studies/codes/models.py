@@ -10,13 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
-
-from comparisons.models.resolve import resolve
-from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, External, Lattice, Spec, spec_of
 from comparisons.scoring.reference import FILE, Reference, document, references
+from comparisons.sweep import task
 from comparisons.sweep.differences import error
+from comparisons.sweep.solved import Ask, Solved
 from sheetbench.answers.files import plain, to_json, write_text
 from sheetbench.errors import BadInput, require_choice
 from studies.codes.results import CASES, SCENES, Trial, write_results
@@ -56,16 +54,16 @@ SLOW = (External("felupe", {"elements": 4}),)  # minutes
 
 def row(case: Reference, candidate: Spec) -> dict[str, Any]:
     """Return the error of a model on a case, and its median time."""
-    answers = [solve(resolve(case.scene, candidate)) for _ in range(REPEATS)]
-    final = answers[-1]
-    there = final.comparable
+    ask = Ask(case.scene, candidate, REPEATS)
+    found = task.solve(**ask.task.arguments)
+    one = Solved(ask, found["status"], row=found)
     return {
         "case": case.name,
         "model": candidate.model,
         "settings": candidate.settings,
-        "status": str(final.status),
-        "error": error(final.displacement(case.scene.probe_points()), case.values) if there else None,
-        "seconds": float(np.median([answer.solve_seconds for answer in answers])) if there else None,
+        "status": one.status,
+        "error": error(one.u, case.values) if one.usable else None,
+        "seconds": one.seconds if one.usable else None,
     }
 
 

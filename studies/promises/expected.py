@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 import lumped
-from comparisons.models.expected_error import estimate, finer_grid, largest_stretch, resolves
+from comparisons.models.expected_error import finer_grid, grid_error, largest_stretch, resolves
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
@@ -81,6 +81,6 @@ def expected_errors() -> Iterator[Promise]:
             alike = fine["status"] == "converged" and fine["snaps"] == coarse["snaps"]
             if alike and resolves(row["scene"], finer_grid(grid)):
                 ratio = prod(n - 1 for n in fine["grid"][:2]) / prod(n - 1 for n in grid[:2])
-                promised = estimate(u, finer, ratio, fine["stretch"])
+                promised = grid_error(u, finer, ratio, fine["stretch"])
             if (actual := error(u, truth)) is not None:
                 yield Promise("expected error", f"{masses} masses", name, row["group"], promised, actual)

@@ -26,7 +26,7 @@ from comparisons.runs.manifest import machine
 from comparisons.scoring.cases import FREQUENCIES, Case, cases
 from comparisons.scoring.reference import LICENCE, VERSION, document
 from comparisons.sweep.differences import error
-from fem_reference.uncertainty import coarser, estimate, mesh_size, solve_with_bar
+from fem_reference.uncertainty import coarser, of_answers, solve_with_bar
 from sheetbench.answers.files import plain
 from sheetbench.scenes import History, Scene, Status
 from sheetbench.sources import version
@@ -144,7 +144,7 @@ def modes(case: Case) -> dict[str, Any]:
     """Natural frequencies [Hz] with their bars."""
     meshes = coarser(ELEMENTS)
     answers = [_frequencies(case.scene, "shell", n) for n in meshes]
-    bar = estimate([a[:, None] for a in answers], [mesh_size(case.scene, n) for n in meshes])
+    bar = of_answers(case.scene, [a[:, None] for a in answers], meshes)
     solid = _frequencies(case.scene, "solid", SOLID)
     off = float(np.max(np.abs(solid / answers[0] - 1.0)))
     return {

@@ -22,16 +22,17 @@ import numpy as np
 
 from comparisons.models.resolve import resolve, resolve_each
 from comparisons.models.sizes import require_room
-from comparisons.models.spec import Elements, GradingLike, Lattice, lattices
+from comparisons.models.spec import Elements, GradingLike, Lattice, Spec, lattices
 from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
 from comparisons.runs.store import Finished, Store
 from comparisons.sweep.differences import error
+from comparisons.sweep.solved import Ask
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
 from studies.transfer.answer import Transfer
 from studies.transfer.drawn_scenes import drawn_sheets
 from studies.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
-from studies.transfer.tasks import FINE
+from studies.transfer.tasks import FINE, points
 
 # `consistent` has their moduli
 OTHERS = (
@@ -98,6 +99,7 @@ class _Study:
         self.grading = grading
         self.scenes, self.methods, self.grids, self.elements = scenes, methods, grids, elements
         self.texts = {name: scene.document() for name, scene in scenes.items()}
+        self.probed = {name: scene.replace(probes=_probes(scene)) for name, scene in scenes.items()}
         self.planned: dict[str, Run] = {}
         self.outcomes: dict[str, Finished] | None = None
 
@@ -186,7 +188,7 @@ class _Study:
             for name in held_out:
                 if not (training := [other for other in held_out if other != name]):
                     continue
-                u = self._lattice(name, method, (n, n), training=training)
+                u = self._lattice(name, method, (n, n), "fitted", training=training)
                 f = self._lattice(
                     name, method, (n, n), "lattice_frequencies", training=training, masses=own_masses
                 )
@@ -202,8 +204,7 @@ class _Study:
     def drawn(self) -> Iterator[dict[str, Any]]:
         for scene in drawn_sheets():
             run = Run("studies.transfer.drawn:measure", {"scene": scene.document()}, f"{scene.name} drawn")
-            self.planned.setdefault(run.key, run)
-            if self.outcomes is not None and (done := self.outcomes[run.key]).status == "done":
+            if (done := self._done(run)) is not None:
                 yield {key: done.row[key] for key in ("scene", "errors", "bar")}
 
     def _method(self, name: str, method: str) -> str:
@@ -215,32 +216,47 @@ class _Study:
         name: str,
         method: str,
         grid: tuple[int, int],
-        task: str = "lattice",
+        task: str = "",
         *,
         training: Sequence[str] = (),
         grading: float | str = 0.0,
         **more: Any,
     ) -> np.ndarray | None:
-        """What a task finds of a lattice; training: scenes of a fitted method in place of its own."""
+        """What a task finds of a lattice, its displacement at the points without one; training: scenes of a
+        fitted method in place of its own."""
         method = self._method(name, method)
+        if not task:
+            return self._field(name, Lattice((*grid, 2), method, grading=grading))
         if training:
             more["training"] = [self.texts[other] for other in training]
-        if grading:
-            more["grading"] = grading
-        label = f"{method} {grid[0]}×{grid[1]} {'' if task == 'lattice' else task}".rstrip()
+        label = f"{method} {grid[0]}×{grid[1]} {task}"
         return self._ask(task, name, label, method=method, grid=[*grid, 2], **more)
 
-    def _reference(self, name: str, task: str = "reference") -> np.ndarray | None:
+    def _reference(self, name: str, task: str = "") -> np.ndarray | None:
+        if not task:
+            return self._field(name, Elements("shell", self.elements))
         return self._ask(task, name, task, elements=self.elements)
+
+    def _field(self, name: str, spec: Spec) -> np.ndarray | None:
+        """The displacement at the points, by the table of solves."""
+        done = self._done(Ask(self.probed[name], spec, label=f"{name} {spec.label}").task)
+        return None if done is None else np.array([*done.row["probes"].values()])
 
     def _ask(self, task: str, name: str, label: str, **arguments: Any) -> np.ndarray | None:
         """What a run found, or None where it has no answer to the whole load or is not done yet."""
         arguments["scene"] = self.texts[name]
-        run = Run(f"studies.transfer.tasks:{task}", arguments, f"{name} {label}")
+        done = self._done(Run(f"studies.transfer.tasks:{task}", arguments, f"{name} {label}"))
+        return None if done is None else np.array(done.row["found"], dtype=float)
+
+    def _done(self, run: Run) -> Finished | None:
+        """Note a run; what it found, None where it has no answer to the whole load or is not done yet."""
         self.planned.setdefault(run.key, run)
-        if self.outcomes is None or not _answered(done := self.outcomes[run.key]):
-            return None
-        return np.array(done.row["found"], dtype=float)
+        done = None if self.outcomes is None else self.outcomes[run.key]
+        return done if done is not None and _answered(done) else None
+
+
+def _probes(scene: Scene) -> dict[str, list[float]]:
+    return {f"p{i}": place for i, place in enumerate(points(scene.sheet).tolist())}
 
 
 def _answered(done: Finished) -> bool:

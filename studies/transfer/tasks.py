@@ -29,16 +29,10 @@ def points(sheet: Sheet) -> np.ndarray:
     return plan_points(plan_grid(sheet.lengths, (POINTS, POINTS)))
 
 
-def lattice(scene: dict[str, Any], **lattice: Any) -> dict[str, Any]:
-    """Return the displacement of a lattice at the points."""
+def fitted(scene: dict[str, Any], **lattice: Any) -> dict[str, Any]:
+    """Return the displacement at the points of a lattice whose springs are fitted to other scenes."""
     parsed = Scene.model_validate(scene)
     return _displacement(lumped.solve(parsed, _springs(parsed, **lattice)), parsed)
-
-
-def reference(scene: dict[str, Any], elements: int) -> dict[str, Any]:
-    """Return the displacement of the shell at the points."""
-    parsed = Scene.model_validate(scene)
-    return _displacement(fem_reference.solve(parsed, "shell", elements=elements), parsed)
 
 
 def homogenised(scene: dict[str, Any], elements: int, **lattice: Any) -> dict[str, Any]:

@@ -12,7 +12,7 @@ import sheetbench as sb
 from comparisons.external import memory
 from comparisons.models import sizes
 from comparisons.models.spec import spec_of
-from comparisons.report import amounts
+from comparisons.pictures import amounts
 from comparisons.runs.campaign import campaign
 from comparisons.tradeoff.statics import tradeoff
 from fem_reference.footprint import footprint as of_reference

@@ -21,7 +21,7 @@ from rich.console import Console
 
 from comparisons.cli import characters, console
 from comparisons.cli.output import Output, OutputOptions
-from comparisons.report import offscreen
+from comparisons.pictures import offscreen
 from comparisons.runs import executors
 from comparisons.runs.campaign import carry_out
 from comparisons.stability import extremes

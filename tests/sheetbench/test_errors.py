@@ -3,7 +3,7 @@
 import pytest
 
 from comparisons.external.plugins import plugin
-from comparisons.measured import columns
+from comparisons.identification import columns
 from sheetbench.errors import FOREIGN, BadInput, foreign
 from sheetbench.process import run
 from sheetbench.scenes import SceneError, load, mesh_files

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.measured.columns import Columns, read_columns
+from comparisons.identification.columns import Columns, read_columns
 from sheetbench.errors import BadInput, require_choice
 
 TESTS = ("uniaxial", "pure-shear", "equibiaxial")

@@ -22,8 +22,8 @@ from comparisons.models.context import running
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
-from comparisons.report import amounts, work
-from comparisons.report.work import Pace, Work
+from comparisons.pictures import amounts, work
+from comparisons.pictures.work import Pace, Work
 from comparisons.runs.campaign import GOING, Progress, campaign, carry_out
 from sheetbench.scenes import Iteration
 from sheetbench.scenes.size import Size

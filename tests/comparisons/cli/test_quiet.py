@@ -8,7 +8,7 @@ from commands import run
 from comparisons.cli import console
 from comparisons.cli import lines as cli_lines
 from comparisons.cli.verb import as_verb
-from comparisons.report import work
+from comparisons.pictures import work
 from comparisons.runs.campaign import Progress
 
 SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")

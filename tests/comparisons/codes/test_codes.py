@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from xml.etree import ElementTree
 
+import meshio
 import numpy as np
 import pytest
 from commands import run
@@ -114,8 +115,28 @@ def test_two_layers_of_equal_springs_bend_as_a_sheet_of_a_third(tmp_path):
     expected = found.bending[0, 0] * np.array([[1, 1 / 3, 0], [1 / 3, 1, 0], [0, 0, 1 / 3]])
     assert found.bending == pytest.approx(expected, rel=1e-9, abs=1e-12)
     written("pybullet", tmp_path)
-    lines = (tmp_path / "sheet.vtk").read_text().splitlines()
-    assert f"POINTS {len(made.mesh.vertices)} double" in lines
+    read = meshio.read(tmp_path / "sheet.vtk")
+    assert read.points.tolist() == made.mesh.vertices.tolist()
+    assert read.cells_dict["tetra"].tolist() == made.problem.tetrahedra.tolist()
+
+
+def test_genesis_reads_the_triangles(tmp_path):
+    mesh = written("genesis", tmp_path).mesh
+    read = meshio.read(tmp_path / "sheet.obj")
+    assert read.points.tolist() == mesh.vertices.tolist()
+    assert read.cells_dict["triangle"].tolist() == mesh.triangles.tolist()
+
+
+@pytest.mark.parametrize("code", WRITERS)
+def test_the_script_gets_the_numbers_that_are_shown(code, tmp_path):
+    """With the membrane's C11, which bounds its steps, and the factor of hinges on a clamp."""
+    made = written(code, tmp_path)
+    read = json.loads((tmp_path / "sheet.json").read_text())
+    assert read["parameters"] == {key.parameter: key.value for key in made.keys}
+    assert read["stretching"] == pytest.approx(54.5e6 * 0.003 / (1.0 - 0.48**2))
+    assert read["hinges"] == made.mesh.hinges.tolist() and read["clamp"] == 1.0
+    scripts = [path.name for path in tmp_path.glob("run_*.py")]
+    assert scripts == [f"run_{code}.py"] and "sheet.json" in (tmp_path / scripts[0]).read_text()
 
 
 @pytest.mark.parametrize("code", WRITERS)

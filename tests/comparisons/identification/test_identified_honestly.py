@@ -28,6 +28,7 @@ from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.face import solve
 from sheetbench.scenes.grading import of_settings
+from sheetbench.scenes.parameters import put
 
 SEED = scenes.load("two-edges-clamped")
 TRUE = 1.23e6
@@ -121,9 +122,7 @@ def test_noise_is_taken_for_noise_and_a_smooth_rest_is_not(kind):
 def test_a_model_that_lacks_something_is_said_not_to_explain_the_data():
     """A clamp turned by 0.05 rad that the scene does not know of, and 0.1 % noise."""
     cantilever = scenes.load("one-edge-clamped")
-    (clamp,) = cantilever.supports
-    turned = cantilever.model_copy(update={"supports": (clamp.model_copy(update={"tilt": 0.05}),)})
-    data = Displacements(POINTS, noisy(solved(turned), 4, 0.001))
+    data = Displacements(POINTS, noisy(solved(put(cantilever, "tilt_x0", 0.05)), 4, 0.001))
     found = identify(cantilever, data, grid=3, refine=False)
     assert not found.explained and found.starts == starts.STARTS + 1
     (said,) = found.warnings
@@ -176,8 +175,6 @@ def test_the_fit_chooses_cells_that_are_small_beside_the_noise():
     assert found.grids == ((9, 9, 2), (17, 17, 2)) and found.settings["grid"] == [17, 17, 2]
     assert found.explained and young.interval[0] < TRUE < young.interval[1] < 1.1 * young.interval[0]
     assert "noise and grid" in repr(found) and "noise and grid" in found._repr_html_()
-    coarse = identify(THICK, Displacements(POINTS, values), grid=9).unknowns["young"]
-    assert coarse.noise_interval[1] < TRUE < coarse.interval[1]
 
 
 def test_an_interval_of_the_noise_alone_is_headed_so():

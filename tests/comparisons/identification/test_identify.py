@@ -118,13 +118,13 @@ def test_the_shell_finds_what_the_shell_made():
     assert not any("--lumped" in said for said in found.warnings)  # a lattice's
 
 
-def test_curvature_of_a_support():
-    scene = scenes.load("curved-edge")
-    (support,) = scene.supports
-    bent = scene.model_copy(update={"supports": (support.model_copy(update={"curvature": 3.0}),)})
-    values = lattice(bent).displacement(POINTS)
+@pytest.mark.parametrize(("curvature", "changes"), [(3.0, {}), (-2.0, {"gravity": None})])
+def test_curvature_of_a_support(curvature, changes):
+    """Without gravity it may turn the deflection over."""
+    scene = scenes.load("curved-edge").model_copy(update=changes)
+    values = lattice(put(scene, "curvature_x0", curvature)).displacement(POINTS)
     found = identify(scene, Displacements(POINTS, values), ["curvature_x0"], grid=9)
-    assert found.unknowns["curvature_x0"].value == pytest.approx(3.0, rel=1e-6)
+    assert found.unknowns["curvature_x0"].value == pytest.approx(curvature, rel=1e-6)
 
 
 CANTILEVER = scenes.load("one-edge-clamped")
@@ -134,9 +134,7 @@ BOTH = ["young", "tilt_x0"]
 
 def tilted(young=TRUE, tilt=TILT):
     """The sheet held by one edge, with this E and its clamp turned by this tilt."""
-    (clamp,) = CANTILEVER.supports
-    turned = {"supports": (clamp.model_copy(update={"tilt": tilt}),)}
-    return with_material(CANTILEVER.model_copy(update=turned), young=young)
+    return put(with_material(CANTILEVER, young=young), "tilt_x0", tilt)
 
 
 def test_a_clamps_tilt_is_told_from_young():
@@ -168,9 +166,6 @@ def test_the_shell_finds_the_tilt_that_the_shell_had():
 
 def test_what_the_data_cannot_tell_apart_is_said(truth):
     data = Displacements(POINTS, noisy(truth, np.random.default_rng(5)))
-    unseen = identify(SCENE, data, ["young", "density"], grid=5)  # displacements depend on ρ/E only
-    assert any("do not see a combination of young, density" in said for said in unseen.warnings)
-    assert unseen.unknowns["young"].interval == (0.0, np.inf)
     alike = identify(SCENE, data, ["young", "thickness"], grid=5)
     assert any("cannot tell young from thickness" in said for said in alike.warnings)
 
@@ -197,15 +192,6 @@ def test_deflections_positive_downwards_are_refused(truth):
     deformed = np.column_stack([POINTS, np.zeros(len(POINTS))]) + down
     with pytest.raises(ValueError, match=r"heights have the opposite sign .* z points up"):
         identify(SCENE, Surface(deformed), ["young"])
-
-
-def test_a_curvature_may_turn_the_deflection_over():
-    scene = scenes.load("curved-edge").model_copy(update={"gravity": None})
-    (support,) = scene.supports
-    bent = scene.model_copy(update={"supports": (support.model_copy(update={"curvature": -2.0}),)})
-    values = lattice(bent).displacement(POINTS)
-    found = identify(scene, Displacements(POINTS, values), ["curvature_x0"], grid=9)
-    assert found.unknowns["curvature_x0"].value == pytest.approx(-2.0, rel=1e-6)
 
 
 def test_an_axis_turned_round_is_named_where_the_fit_is_poor():

@@ -8,9 +8,9 @@ from scipy.interpolate import CubicSpline
 
 import fem_reference
 import lumped
+from comparisons.identification import c3d
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, read
-from comparisons.measured import c3d
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Air, Relaxation, load
 from sheetbench.scenes.parameters import parameter, put

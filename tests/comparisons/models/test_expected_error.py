@@ -13,9 +13,9 @@ from comparisons.models.expected_error import (
     MOST,
     ExpectedError,
     NoEstimate,
-    estimate,
     expected_error,
     finer_grid,
+    grid_error,
 )
 from comparisons.models.grading import grading_of
 from comparisons.models.layers import layers
@@ -32,16 +32,16 @@ SCENE = load("two-edges-clamped")
 def test_an_error_of_second_order_is_found_exactly():
     u = np.array([[0.0, 0.0, -0.01], [0.001, 0.0, -0.02]])
     answers = [u * (1.0 + 0.03 / cells**2 * 64.0) for cells in (8, 12)]
-    value = estimate(*answers, ratio=2.25, stretch=0.0)
+    value = grid_error(*answers, ratio=2.25, stretch=0.0)
     assert value == pytest.approx(0.03 / (1.0 + 0.03 * 64 / 144), rel=1e-12)
 
 
 def test_nothing_is_said_of_rounding_of_answers_far_apart_and_of_large_stretch():
     u = np.array([[0.0, 0.0, -0.01]])
-    assert estimate(u, u * (1.0 + 1e-12), 2.25, 0.0) is None
-    assert estimate(u, -u, 2.25, 0.0) is None
-    assert estimate(0.0 * u, 0.0 * u, 2.25, 0.0) is None
-    assert estimate(u, 1.01 * u, 2.25, 0.05) is not None and estimate(u, 1.01 * u, 2.25, 0.1) is None
+    assert grid_error(u, u * (1.0 + 1e-12), 2.25, 0.0) is None
+    assert grid_error(u, -u, 2.25, 0.0) is None
+    assert grid_error(0.0 * u, 0.0 * u, 2.25, 0.0) is None
+    assert grid_error(u, 1.01 * u, 2.25, 0.05) is not None and grid_error(u, 1.01 * u, 2.25, 0.1) is None
 
 
 @pytest.mark.parametrize(

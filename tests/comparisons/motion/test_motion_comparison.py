@@ -9,6 +9,7 @@ import pytest
 from commands import json_of, run
 
 import sheetbench as sb
+from comparisons.models.spec import Lattice
 from comparisons.motion.comparison import compare_motion
 from comparisons.motion.measures import difference, extrema, measured_alike
 from comparisons.pages.stage import stage
@@ -163,12 +164,12 @@ def test_both_sheets_move_side_by_side(tmp_path):
     """A GIF with both in every frame, the lattice's half and the shell's each changing over time."""
     from PIL import Image
 
-    from comparisons.report import offscreen
+    from comparisons.pictures import offscreen
 
     if impossible := offscreen.why_not():
         pytest.skip(impossible)
-    both = sb.compare(
-        "two-edges-settling", duration=0.05, grid=3, elements=2, uncertainty=False, every=0.01, frames=3
+    both = compare_motion(
+        "two-edges-settling", 0.05, Lattice(3), elements=2, uncertainty=False, every=0.01, frames=3
     )
     film = replace(both, animate=True).figures()[-1]
     assert film.write(tmp_path) is None

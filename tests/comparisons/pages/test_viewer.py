@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from browser import browser, colours, opened, pixels  # noqa: F401
 
-from comparisons.browser import sheets, viewer
-from comparisons.report.plan import plan_mesh
+from comparisons.pages import sheets, viewer
+from comparisons.pictures.plan import plan_mesh
 from sheetbench.scenes import EdgeLoad, FieldMesh, PointLoad, Pressure, load
 
 SOURCE = Path(viewer.__file__).parent / "source"

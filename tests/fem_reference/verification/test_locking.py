@@ -4,9 +4,9 @@ import pytest
 from cases import with_material
 
 import fem_reference
-from comparisons.verification.locking import compose
 from fem_reference.verification import run
 from fem_reference.verification.locking import POISSON
+from fem_reference.verification.locking_figure import compose
 from fem_reference.verification.mindlin_plates import deflection
 from fem_reference.verification.rows import relatively
 from sheetbench import scenes

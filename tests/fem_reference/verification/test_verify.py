@@ -9,7 +9,6 @@ import pytest
 from commands import run as command
 from scipy.integrate import solve_bvp
 
-from comparisons.verification.answer import Verification
 from fem_reference.verification import (
     CASES,
     Case,
@@ -20,6 +19,7 @@ from fem_reference.verification import (
     run,
     slit_annulus,
 )
+from fem_reference.verification.answer import Verification
 from fem_reference.verification.rows import absolutely, relatively
 from sheetbench.answers.layout import blocks
 

@@ -1,6 +1,6 @@
 """`make kills`: campaigns, runs in time and trade-offs, killed at drawn instants and resumed to their end.
 
-    python -m fuzz.kills FOLDER [--campaign 45] [--run 40] [--tradeoff 15] [--seed 1]
+    python -m fuzz.kills FOLDER [--campaign 45] [--run 30] [--reference 15] [--tradeoff 15] [--seed 1]
 
 A process writes into a folder and gets SIGKILL at an instant drawn between its start and somewhat beyond the
 time that it takes undisturbed; the next process goes on in the same folder, and is killed in turn, until one
@@ -26,6 +26,7 @@ import numpy as np
 from campaigns import Here, rows_in, task
 from dynamic_cases import scene, springs
 
+import fem_reference
 import lumped
 from comparisons.runs.campaign import campaign, carry_out
 from comparisons.runs.manifest import made_with
@@ -52,6 +53,13 @@ def run_in_time(folder: Path) -> None:
     """A motion with samples, frames and some checkpoints."""
     asked = scene("one-edge-clamped", damping_time=1e-3)
     lumped.simulate(asked, springs(asked, 4), 0.06, store=folder, every=2e-4, frames=20, integrator="verlet")
+
+
+def run_of_reference(folder: Path) -> None:
+    """A motion of the shell, its steps by the error, with checkpoints within them."""
+    fem_reference.simulate(
+        "two-edges-settling", "shell", 0.04, elements=2, store=folder, every=2e-4, frames=20
+    )
 
 
 def run_tradeoff(folder: Path) -> None:
@@ -107,7 +115,8 @@ class Kind:
 
 KINDS = {
     "campaign": Kind("campaigns of forty runs", run_campaign, rows, answers, 45),
-    "run": Kind("runs in time", run_in_time, checkpointed, contents, 40),
+    "run": Kind("runs in time of a lattice", run_in_time, checkpointed, contents, 30),
+    "reference": Kind("runs in time of a reference", run_of_reference, checkpointed, contents, 15),
     "tradeoff": Kind("the verb tradeoff with a worker", run_tradeoff, rows, answers, 15),
 }
 

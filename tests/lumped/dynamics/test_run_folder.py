@@ -15,7 +15,7 @@ from limits import at_most
 import lumped
 from sheetbench.files import only_writer
 from sheetbench.runs.store import FolderStore
-from sheetbench.scenes import Air, BadInput, Relaxation
+from sheetbench.scenes import Air, BadInput, Plane, Relaxation
 
 DURATION = 0.025  # s, two checkpoints
 PULSE = {"kind": "pressure", "value": 5.0, "history": {"time": [0.0, 0.01, 0.02], "factor": [0.0, 1.0, 0.0]}}
@@ -256,3 +256,24 @@ def test_a_run_that_other_code_began_is_not_gone_on_with(kept, key):
     (folder / "run.json").write_text(json.dumps(run))
     with pytest.raises(BadInput, match="another state of sheetbench's code began"):
         again()
+
+
+@pytest.mark.parametrize("name", ["esdirk", "verlet"])
+def test_a_killed_run_that_touches_an_obstacle_resumes_to_the_last_digit(tmp_path, name):
+    """The strip falls 1 mm by 14 ms and touches before and after the checkpoint; what esdirk measures its
+    energy's gain against is remembered."""
+    asked = scene("one-edge-clamped").replace(obstacles=(Plane(position=(0.0, 0.0, -0.002)),))
+    whole, killed, after = tmp_path / "whole", tmp_path / "killed", []
+
+    def kill(time):
+        after.extend([time] if (whole / "checkpoint.npz").exists() else [])
+        if len(after) == 3:
+            shutil.copytree(whole, killed)
+
+    def run(folder, progress=None):
+        options = {"integrator": name, "every": 5e-4, "progress": progress}
+        return lumped.simulate(asked, springs(asked, 4), 0.06, store=folder, **options)
+
+    at_once, resumed = run(whole, kill), run(killed)
+    assert (killed / "samples.bin").read_bytes() == (whole / "samples.bin").read_bytes()
+    assert np.abs(at_once.reactions["obstacle 1"][:50, 2]).max() > 0.0 and resumed.resumed_from > 0.0

@@ -43,15 +43,3 @@ def test_a_start_of_another_grid_is_refused(case):
     scene, springs, _, near = case
     with pytest.raises(BadInput, match="near"):
         lumped.solve(scene, springs, near=near[1:])
-
-
-def test_options_that_are_not_looked_at_are_refused():
-    for given, name in (
-        ({"linear": True, "near": np.zeros((3, 3))}, "near"),
-        ({"linear": True, "branch": "stable"}, "branch"),
-        ({"linear": True, "precision": "single"}, "precision"),
-        ({"branch": "stable", "near": np.zeros((3, 3))}, "near"),
-        ({"weights": "full", "near": np.zeros((3, 3))}, "near"),
-    ):
-        with pytest.raises(BadInput, match=f"^{name}: no effect with"):
-            lumped.solve("two-edges-clamped", **given)

@@ -1,7 +1,7 @@
 """Drawing deformed sheets with pyvista, off screen: what stands on the stage of every panel.
 
 Displacements are multiplied by `scale` for drawing. Needs off-screen drawing
-(`comparisons.report.offscreen`).
+(`comparisons.pictures.offscreen`).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pyvista
 
-from comparisons.report.plan import eye_heading, held_lines, plan_lines, plan_mesh, rims
+from comparisons.pictures.plan import eye_heading, held_lines, plan_lines, plan_mesh, rims
 from sheetbench.answers.style import DARK, GREY
 from sheetbench.scenes import Cylinder, FieldMesh, Plane, Scene, Solution, holds_director
 from sheetbench.scenes.obstacles import AnyObstacle

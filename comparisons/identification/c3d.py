@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from comparisons.measured import c3d_reader
+from comparisons.identification import c3d_reader
 from sheetbench.errors import BadInput
 from sheetbench.process import ONE_THREAD, run
 from sheetbench.scenes.units import quantity

@@ -22,8 +22,8 @@ from comparisons.modes.spectra import spectra
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
-from comparisons.verification import locking
 from fem_reference.uncertainty import Uncertainty
+from fem_reference.verification import locking_figure as locking
 from fem_reference.verification.rows import relatively
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
@@ -161,7 +161,7 @@ def test_the_option(tmp_path, capsys):
     assert drawn == {"modes.svg", "modes.pdf"} and all((out / name).is_file() for name in drawn)
     capsys.readouterr()
     assert run(*asked, "--figure", "svg") == 2
-    assert "needs --out" in one_line(capsys)
+    assert "--figure: no effect without --out" in one_line(capsys)
     assert run(*asked, "--figure", "svg", "--no-pictures", "--out", str(out)) == 2
     assert "--no-pictures" in one_line(capsys)
     bare = tmp_path / "bare"

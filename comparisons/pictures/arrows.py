@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from comparisons.report.plan import edge_ends
+from comparisons.pictures.plan import edge_ends
 from sheetbench.scenes import AreaLoad, EdgeLoad, PointLoad, Pressure, Scene
 from sheetbench.scenes.shapes import Shape
 

@@ -94,7 +94,7 @@ class Verification(Answer):
 
     def figures(self) -> tuple[Picture, ...]:
         rows = [row for row in self.rows if row.case in MODELS]
-        compose = "comparisons.verification.locking:compose"
+        compose = "fem_reference.verification.locking_figure:compose"
         return (Picture("locking", compose, (rows,), formats=("png",)),) if rows else ()
 
 

@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Annotated, Any
 from warnings import catch_warnings, simplefilter
 
-from comparisons.check.catalogue import scene_file
+from comparisons.models.catalogue import scene_file
 from comparisons.models.grids import scene_grid
 from comparisons.models.method import RUBBER
 from sheetbench.answers.answer import Answer
@@ -70,7 +70,7 @@ class Check(Answer):
         return (Table.of(Part, self.parts, "What will be solved"),)
 
     def figures(self) -> tuple[Picture, ...]:
-        return (Picture("plan", "comparisons.check.figure:compose", (self.scene,)),)
+        return (Picture("plan", "comparisons.models.check_figure:compose", (self.scene,)),)
 
     def files(self) -> dict[str, Write]:
         return scene_file(self.called)

@@ -1,7 +1,7 @@
 """The viewer's script and style, to be put into a page: they ask for nothing and evaluate nothing.
 
 The script is `source/` bundled with three.js by `make viewer`; the page calls `Sheets.createViewer(element,
-options)`, whose options `source/index.js` describes and `comparisons.browser.sheets` makes.
+options)`, whose options `source/index.js` describes and `comparisons.pages.sheets` makes.
 """
 
 from __future__ import annotations
@@ -23,4 +23,4 @@ def style() -> str:
 
 
 def _read(name: str) -> str:
-    return resources.files("comparisons.browser").joinpath(name).read_text(encoding="utf-8")
+    return resources.files("comparisons.pages").joinpath(name).read_text(encoding="utf-8")

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from comparisons.report.labels import place_labels
+from comparisons.pictures.labels import place_labels
 from sheetbench.answers.style import MOST, STYLE, plain, save
 from sheetbench.scenes import History, Status
 from sheetbench.scenes import history_figure as motion

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.path import Path
 
-from comparisons.report.arrows import load_arrows
-from comparisons.report.plan import edge_ends, held_lines
+from comparisons.pictures.arrows import load_arrows
+from comparisons.pictures.plan import edge_ends, held_lines
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, plain
 from sheetbench.scenes import Cylinder, EdgeLoad, Scene, Sphere, holds_director

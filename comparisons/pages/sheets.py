@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.report.arrows import load_arrows
-from comparisons.report.plan import PLAN_CELLS, eye_heading, rims
+from comparisons.pictures.arrows import load_arrows
+from comparisons.pictures.plan import PLAN_CELLS, eye_heading, rims
 from sheetbench.scenes import EDGES, FieldMesh, Scene, holds_director
 from sheetbench.scenes.supports import place
 

@@ -1,7 +1,7 @@
 """What acts on a sheet, on the stage of its picture: chains and moved edges in red, loads as blue arrows,
 payloads at points as dark balls, obstacles pale.
 
-An arrow starts where its force acts and points along it (`comparisons.report.arrows`). A turned arrow is an
+An arrow starts where its force acts and points along it (`comparisons.pictures.arrows`). A turned arrow is an
 edge's moment.
 """
 
@@ -12,9 +12,9 @@ from functools import partial
 import numpy as np
 import pyvista
 
-from comparisons.report.arrows import ALONG, edge_plan, load_arrows
-from comparisons.report.plan import on_sheet
-from comparisons.report.stage import Stage
+from comparisons.pictures.arrows import ALONG, edge_plan, load_arrows
+from comparisons.pictures.plan import on_sheet
+from comparisons.pictures.stage import Stage
 from sheetbench.scenes import EDGES, Chain, EdgeLoad, Solution
 
 LOAD = "#1b6ca8"

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from comparisons.report.amounts import count, duration
+from comparisons.pictures.amounts import count, duration
 
 if TYPE_CHECKING:
     from sheetbench.scenes.size import Size

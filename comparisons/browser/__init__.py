@@ -1,1 +1,0 @@
-"""Deformed sheets in a browser: the viewer, and sheets as it takes them."""

@@ -1,1 +1,0 @@
-"""What will be solved, in words, before anything is."""

@@ -1,1 +1,0 @@
-"""Readers of measurements: CSV, point clouds, motion capture."""

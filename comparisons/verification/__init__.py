@@ -1,1 +1,0 @@
-"""Whether the references can be believed: published values, and the locking sweeps."""

@@ -13,8 +13,8 @@ from typing import Any, cast
 
 import numpy as np
 
-from fem_reference.discrete.contact import with_pressure
 from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.discrete.shape import Shape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.discrete.static import Forces, State, Static
 from fem_reference.surface.actuator_forces import exerted
@@ -22,7 +22,7 @@ from fem_reference.surface.balance import left_over
 from fem_reference.surface.location import interpolate
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.path import Path
-from sheetbench.scenes import Solution, Status
+from sheetbench.scenes import FieldMesh, Solution, Status
 from sheetbench.scenes.contact import contact_notes
 
 EPSILON = float(np.finfo(float).eps)
@@ -92,3 +92,13 @@ def answer(
         balance=left_over(scene, surface, edges, reactions, held, size, allowed, share) if balanced else None,
         **own,
     )
+
+
+def with_pressure(sheet: Discrete, shape: Shape, mesh: FieldMesh) -> FieldMesh:
+    """Return a mesh with the field "contact_pressure" [Pa] on it, where there are obstacles and it has the
+    plan's nodes."""
+    if sheet.contacts:
+        pressure = sum(one.pressure(shape) for one in sheet.contacts)
+        stacked = len(mesh.points) // len(np.asarray(pressure))
+        mesh.point_data["contact_pressure"] = np.repeat(pressure, stacked)
+    return mesh

@@ -18,8 +18,6 @@ nine constraints on four nodes an element, whose pressures scatter. k = E/h; see
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from fem_reference.discrete.items import Item, Tangent
@@ -27,11 +25,8 @@ from fem_reference.discrete.shape import Shape
 from fem_reference.surface.biquadratic import AT_GAUSS, areas
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan
-from sheetbench.scenes import ContactState, FieldMesh, Plane, Scene
+from sheetbench.scenes import ContactState, Plane, Scene
 from sheetbench.scenes.obstacles import SLIP_SPEED, AnyObstacle
-
-if TYPE_CHECKING:
-    from fem_reference.discrete.sheet import Discrete
 
 TOUCH = 1e-9  # of the thickness, that a sheet which lies on a plane is held by it
 UNDECIDED = 1e-6
@@ -252,39 +247,3 @@ class Touching(Item):
         """Return the pressure (n,) [Pa] at the nodes of the plan."""
         pressures: np.ndarray = self._pressures(self._sunk(shape)[0])[1].sum(axis=0) / self.area
         return pressures
-
-
-class Softness:
-    """The penalties of a sheet's contacts (`sheetbench.numerics.continuation.stiffening`)."""
-
-    def __init__(self, sheet: Discrete):
-        self._sheet = sheet
-        flat = sheet.shape(np.zeros(sheet.size), 1.0)
-        others = [item for item in sheet.items if not isinstance(item, Touching)]
-        dead = sum((item.force(flat) for item in others), np.zeros(sheet.size))
-        self._force = float(np.abs(sheet.displacement(dead)).sum())
-        placed = sheet.displacement(sheet.placed(np.zeros(sheet.size), 1.0))
-        self._travel = float(np.abs(placed).max())
-
-    @property
-    def soft(self) -> float | None:
-        """The share of the stiffness to begin with."""
-        each = self._sheet.contacts
-        loads = [self._force / float(one.area.sum()) for one in each]
-        size = self._sheet.longest
-        return min(one.soft_share(load, self._travel, size) for one, load in zip(each, loads, strict=True))
-
-    def soften(self, share: float) -> None:
-        """Give the contacts a share of their stiffness."""
-        for one in self._sheet.contacts:
-            one.share = share
-
-
-def with_pressure(sheet: Discrete, shape: Shape, mesh: FieldMesh) -> FieldMesh:
-    """Return a mesh with the field "contact_pressure" [Pa] on it, where there are obstacles and it has the
-    plan's nodes."""
-    if sheet.contacts:
-        pressure = sum(one.pressure(shape) for one in sheet.contacts)
-        stacked = len(mesh.points) // len(np.asarray(pressure))
-        mesh.point_data["contact_pressure"] = np.repeat(pressure, stacked)
-    return mesh

@@ -3,7 +3,9 @@ obstacles."""
 
 from __future__ import annotations
 
-from fem_reference.discrete.contact import Softness
+import numpy as np
+
+from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.static import Forces, State, Static
 from sheetbench.numerics.continuation.limits import Limits
@@ -12,6 +14,32 @@ from sheetbench.numerics.continuation.path import Fault, Inspect, Path, Progress
 from sheetbench.numerics.continuation.stiffening import trace_stiffening
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.scenes import Status
+
+
+class Softness:
+    """The penalties of a sheet's contacts (`sheetbench.numerics.continuation.stiffening`)."""
+
+    def __init__(self, sheet: DiscreteElements):
+        self._sheet = sheet
+        flat = sheet.shape(np.zeros(sheet.size), 1.0)
+        others = [item for item in sheet.items if not isinstance(item, Touching)]
+        dead = sum((item.force(flat) for item in others), np.zeros(sheet.size))
+        self._force = float(np.abs(sheet.displacement(dead)).sum())
+        placed = sheet.displacement(sheet.placed(np.zeros(sheet.size), 1.0))
+        self._travel = float(np.abs(placed).max())
+
+    @property
+    def soft(self) -> float | None:
+        """The share of the stiffness to begin with."""
+        each = self._sheet.contacts
+        loads = [self._force / float(one.area.sum()) for one in each]
+        size = self._sheet.longest
+        return min(one.soft_share(load, self._travel, size) for one, load in zip(each, loads, strict=True))
+
+    def soften(self, share: float) -> None:
+        """Give the contacts a share of their stiffness."""
+        for one in self._sheet.contacts:
+            one.share = share
 
 
 def trace(

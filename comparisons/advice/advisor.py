@@ -79,7 +79,7 @@ def advise(
         failed = trials.reference.answer
         reason = f"the shell finds no stable equilibrium: {failed.status}: {failed.message}"
         return _advice(trials, tolerance, budget, None, reason)
-    linear = not scene.actuators and trials.scales.span_load_number <= LINEAR_LOAD_NUMBER
+    linear = not (scene.actuators or scene.obstacles) and trials.scales.span_load_number <= LINEAR_LOAD_NUMBER
     candidates = trials.candidates(linear)
     for candidate in candidates[:3]:
         trials.row(candidate)

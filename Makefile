@@ -99,6 +99,7 @@ verify: install
 	@$(BIN)/sheetbench verify
 
 tradeoff: install
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt ./examples/plug-ins
 	@$(BIN)/sheetbench tradeoff two-edges-clamped --lumped 3,5,7,9,17,33 --calibration consistent,consistent-interior,cauchy,uniform \
 	  --shell 2,3,4,8,12,16 --solid 2,4,8 --model mujoco:grid=5 --model mujoco:grid=9 --model mujoco:grid=17 \
 	  --out $(OUT)

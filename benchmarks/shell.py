@@ -63,13 +63,13 @@ class Clock:
 
 def watched() -> Clock:
     """Return a clock of the shell's functions."""
+    from fem_reference.discrete.static import Static
     from fem_reference.shell import statics
-    from fem_reference.shell.structure import ShellStructure
     from sheetbench.numerics.direct import DirectSolver, Factor
 
     clock = Clock()
     for owner, names, kind in (
-        (ShellStructure, ASSEMBLY, "assembly"),
+        (Static, ASSEMBLY, "assembly"),
         (DirectSolver, FACTORS[:1], "factors"),
         (Factor, FACTORS[1:], "factors"),
         (statics, OUTSIDE, "set-up"),

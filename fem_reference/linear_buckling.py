@@ -5,19 +5,17 @@ The plate's strains are linear, and so its stiffness is the same under every loa
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.discrete.static import Static
 from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
-from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.buckling import buckling_modes
-from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import AnyScene, require_static, scene_of
 from sheetbench.scenes.modes import STILL, Buckling, require_flat_and_dead
 
@@ -36,37 +34,28 @@ def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, cou
     require_flat_and_dead(scene)
     begin, counts = now(), divisions(scene.sheet, elements)
     law = scene.material.law or STRAIN_LAW
-    structure: Any
+    sheet: DiscreteElements
     if model == "shell":
-        mesh = mesh_of(scene, counts, graded=True)
-        structure, _ = shell.discretise(mesh, scene, law=law)
-        solver = DirectSolver(fronts=structure.fronts)
-
-        def surface(state: Any) -> np.ndarray:
-            return state.change[0]
-
-        def sample(state: Any, points: np.ndarray) -> np.ndarray:
-            return interpolate(mesh, structure.element_nodes, state.change[0], points)
-
+        sheet = shell.discretise(mesh_of(scene, counts, graded=True), scene, law=law)
     elif model == "solid":
-        structure = solid.discretise(solid.plan_mesh(scene, counts, "edges"), scene, law=law)
-        solver, columns = DirectSolver(), structure.columns
-
-        def surface(state: Any) -> np.ndarray:
-            return state.displacement[:, columns.layers]
-
-        def sample(state: Any, points: np.ndarray) -> np.ndarray:
-            return columns.sample(state.displacement, points)
-
+        sheet = solid.discretise(solid.plan_mesh(scene, counts, "edges"), scene, law=law)
     else:
         raise BadInput(f"model = {model!r}: buckling is of shell and solid; the plate's strains are linear")
-    factors, states = buckling_modes(structure, solver, surface, count, STILL * max(scene.sheet.lengths))
+    smallest = STILL * max(scene.sheet.lengths)
+    found, states = buckling_modes(
+        Static(sheet),
+        sheet.solver(),
+        lambda state: sheet.middles(sheet.displacement(state.q)),
+        count,
+        smallest,
+    )
+    shapes = [sheet.displacement(state.q) for state in states]
     return Buckling(
         model=model,
         label=f"{model} {counts[0]} × {counts[1]}",
         settings={"elements": list(counts)},
-        load_factors=factors,
-        unknowns=structure.unknowns,
+        load_factors=found,
+        unknowns=sheet.unknowns,
         seconds=now() - begin,
-        displacement=lambda points: np.stack([sample(state, points) for state in states]),
+        displacement=lambda points: np.stack([sheet.sample(shape, points) for shape in shapes]),
     )

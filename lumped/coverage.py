@@ -13,7 +13,7 @@ from sheetbench.scenes import EDGES, Scene, Support, Symmetric, held_axes
 from sheetbench.scenes.patches import boxes_of, shares_of
 from sheetbench.scenes.region import edge_parts
 from sheetbench.scenes.shapes import COINCIDENT, Shape
-from sheetbench.scenes.supports import place
+from sheetbench.scenes.supports import Point, place
 
 if TYPE_CHECKING:
     from shapely import Geometry
@@ -78,7 +78,7 @@ def clamped_stiffness(scene: Scene, lines: tuple[Lines, Lines]) -> np.ndarray:
     """
     factor = np.ones((len(lines[1].widths), len(lines[0].widths)))
     for support in scene.supports:
-        shape = place(support)
+        shape = None if isinstance(support, Point) else place(support)
         if shape is None or held_axes(support) != (0, 1, 2):
             continue
         covered = shares_of(shape.area, *(side.at for side in lines))
@@ -158,6 +158,13 @@ def held_columns(
         return np.asarray(columns[np.any(near, axis=0)])
     columns = lattice.columns()
     inside = held_crossings(lattice.lines, shape)
+    if isinstance(support, Point) and not inside.any():
+        where = ", ".join(f"{at:g}" for at in support.at)
+        grid = "x".join(map(str, lattice.grid[:2]))
+        raise BadInput(
+            f"{name}.at = [{where}]: no mass of a grid of {grid} is there; take a grid with lines through it "
+            "(lumped.calibrate: grading), or a point that has one"
+        )
     inside[np.isin(columns[:, :, 0], lattice.absent_masses)] = False
     if not inside.any():
         grid = "x".join(map(str, lattice.grid[:2]))

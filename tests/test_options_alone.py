@@ -90,7 +90,7 @@ VALUES = {  # of options that all verbs with them take alike, then of verbs
     "--shell": "3,4",
     "--solid": "1,2",
     "--repeats": "2",
-    "--judges": "felupe",
+    "--judges": "calculix",
     "--meshes": "2,3",
     "--vary": "slenderness",
     "--tolerance": "0.02",

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from sheetbench_felupe import MODEL as FELUPE
+from sheetbench_mujoco import MODEL as MUJOCO
 
 import fem_reference
 import lumped
 from comparisons.external.bricks import Bricks, forces
 from comparisons.external.calculix.deck import deck
 from comparisons.external.calculix.model import MODEL as CALCULIX
-from comparisons.external.felupe import MODEL as FELUPE
 from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.kratos.problem import Triangles, problem
-from comparisons.external.mujoco import MODEL as MUJOCO
 from sheetbench.scenes import AreaLoad, Gravity, Material, PointLoad, Scene, Sheet, Status, dead_force
 from sheetbench.scenes.parameters import parameter, put
 

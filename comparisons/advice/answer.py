@@ -141,16 +141,16 @@ class Advice(Answer):
         """Return the advice and its reasons, a sentence a line, and the command that solves the choice."""
         scales, command = self.scales, self.command
         return [
+            f"{self.reason} ({few(self.probing_seconds)} s of trial solves)",
+            *([] if command is None else [f"Solve it with:\n{command}"]),
+            f"the scene needs {', '.join(self.needs)}",
+            *self.warnings,
+            *(choice for choice in (self.grading, self.calibration, self.limit) if choice),
+            *(f"left out: {left}" for left in self.left_out),
             f"load number q L³/D = {number(scales.span_load_number, '.3g')}, "
             f"L = {quantity(scales.span, 'm', '.4g')} from the held edges; "
             f"slenderness h/a = {number(scales.slenderness, '.3g')}; "
             f"membrane strain q a/(E h) = {number(scales.strain, '.2g')}; a: shorter side",
-            f"the scene needs {', '.join(self.needs)}",
-            *(f"left out: {left}" for left in self.left_out),
-            *(choice for choice in (self.grading, self.calibration, self.limit) if choice),
-            *self.warnings,
-            f"{self.reason} (probing took {few(self.probing_seconds)} s)",
-            *([] if command is None else ["Solve it with:", command]),
         ]
 
     def result(self) -> str:

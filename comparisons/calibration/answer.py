@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from functools import cached_property, partial
+from dataclasses import dataclass, field, fields
+from functools import partial
 from typing import Any
 
 from comparisons.calibration import damping
@@ -22,48 +22,60 @@ from sheetbench.scenes.words import sheet_in_words
 
 @dataclass(frozen=True, repr=False)
 class SheetCalibration(Calibration):
-    """Springs for a scene's sheet; expected: the error of their grid in the scene, where it is known; modes:
-    the damping of the lowest ones; code: another one that the lattice is written for."""
+    """Springs for a scene's sheet, as they were found; expected: the error of their grid in the scene, where
+    it is known; modes: the damping of the lowest ones; lattice: files for another code, and what is not in
+    them."""
 
+    found: Calibration | None = None
     scene: Scene | None = None
     expected: ExpectedError | None = None
     modes: tuple[ModeDamping, ...] = ()
-    code: str | None = None
+    lattice: tuple[dict[str, Write], list[str]] = field(default=({}, []), compare=False)
 
     @classmethod
-    def of(cls, springs: Calibration, scene: Scene, **more: Any) -> SheetCalibration:
-        """Return springs as those of a scene."""
-        return cls(**{one.name: getattr(springs, one.name) for one in fields(springs)}, scene=scene, **more)
+    def of(
+        cls,
+        springs: Calibration,
+        scene: Scene,
+        expected: ExpectedError | None = None,
+        modes: tuple[ModeDamping, ...] = (),
+        code: str | None = None,
+    ) -> SheetCalibration:
+        """Return springs as those of a scene. Raises BadInput for what the code does not have."""
+        own = {one.name: getattr(springs, one.name) for one in fields(Calibration)}
+        lattice = ({}, []) if code is None else lattice_files(scene, springs, code)
+        return cls(**own, found=springs, scene=scene, expected=expected, modes=modes, lattice=lattice)
 
     @property
-    def subject(self) -> Scene:
-        """The scene that they are of."""
-        assert self.scene is not None
-        return self.scene
+    def parts(self) -> tuple[Calibration, Scene]:
+        """The springs as they were found, and the scene that they are of."""
+        assert self.found is not None and self.scene is not None
+        return self.found, self.scene
 
     def heading(self) -> tuple[str, str, str]:
-        return (*super().heading()[:2], sheet_in_words(self.subject.sheet, self.subject.material))
+        found, scene = self.parts
+        return (*found.heading()[:2], sheet_in_words(scene.sheet, scene.material))
 
     def document(self) -> dict[str, Any]:
-        found = super().document()
+        springs, scene = self.parts
+        found = springs.document()
         if self.expected is not None:
             found["expected_error"] = self.expected.as_dict()
-        return found | damping.document(self.subject.material, self.modes)
+        return found | damping.document(scene.material, self.modes)
 
     def tables(self) -> tuple[Table, ...]:
-        return (*super().tables(), *damping.tables(self.subject.material, self.modes))
+        found, scene = self.parts
+        return (*found.tables(), *damping.tables(scene.material, self.modes))
 
     def notes(self) -> tuple[str, ...]:
         expected = () if self.expected is None else (f"in this scene: {self.expected}",)
-        return (*super().notes(), *expected, *(self._for_code[1] if self.code else ()))
+        return (*self.parts[0].notes(), *expected, *self.lattice[1])
 
     def files(self) -> dict[str, Write]:
-        own = {"springs.toml": partial(write_text, text=to_toml(self))}
-        return {**own, **(self._for_code[0] if self.code else {})}
+        return {"springs.toml": partial(write_text, text=to_toml(self)), **self.lattice[0]}
 
-    @cached_property
-    def _for_code(self) -> tuple[dict[str, Write], list[str]]:
-        return lattice_files(self.subject, self, self.code)
+    def choices(self) -> dict[str, Any]:
+        return dict(self.parts[0].choices())
 
 
 def to_toml(springs: Calibration) -> str:

@@ -22,6 +22,18 @@ if TYPE_CHECKING:
 out = Console(highlight=False)
 err = Console(stderr=True, highlight=False)
 _quiet = False
+verbose = False  # all notes
+
+
+@contextmanager
+def verbosely() -> Iterator[None]:
+    """Show all notes of an answer within a block."""
+    global verbose
+    verbose = True
+    try:
+        yield
+    finally:
+        verbose = False
 
 
 @contextmanager

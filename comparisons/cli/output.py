@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 Shown = TypeVar("Shown", bound="Answer")
 NOT_CONVERGED = 3
+NOTES = 3  # that a terminal shows without --verbose
 COMPILED = 5.0  # s, above which it is noted: loading takes less
 
 
@@ -176,8 +177,11 @@ class Output:
             console.note(
                 f"Kernels were compiled, once on this machine: {spent:.3g} s, in none of the times shown."
             )
-        for note in report.notes:  # last: they may end in a command to copy
+        shown = len(report.notes) if console.verbose else NOTES
+        for note in report.notes[:shown]:
             console.note(note)
+        if (left := len(report.notes) - shown) > 0:
+            console.note(f"{left} more {'note' if left == 1 else 'notes'}: --verbose")
         if self._folder is not None:
             written = [*self._folder.written, "manifest.json", *self._store_files]
             console.note(f"Files in {self._folder.path}: {', '.join(written)}")

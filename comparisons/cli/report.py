@@ -27,12 +27,15 @@ def command(
     from webbrowser import open as browse
 
     from comparisons.cli import console
-    from comparisons.pages.page import memory_of, page
     from comparisons.pages.studies import read
     from sheetbench.answers.files import folder as made
     from sheetbench.answers.files import write_text
     from sheetbench.errors import BadInput
 
+    try:
+        from comparisons.pages.page import memory_of, page
+    except ModuleNotFoundError as error:
+        raise BadInput(f"report: needs {error.name}; pip install 'sheetbench[report]'") from None
     contents = read(folder)
     if not contents.studies:
         trouble = f"'{folder}': no verb has written here with --out."

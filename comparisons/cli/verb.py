@@ -25,6 +25,7 @@ from comparisons.cli.output import OutputOptions
 Quiet = Annotated[
     bool, option("No progress and no notes on standard error; results, warnings and errors stay.")
 ]
+Verbose = Annotated[bool, option("All notes on the answer, not only the first three.")]
 NoPicturesAnyway = Annotated[bool, typer.Option(hidden=True)]  # of verbs that draw none, for scripts
 TERMINAL = ("json",)  # options of the terminal alone
 OPTIONS = re.compile(r"(?:^|(?<=with )|(?<=without )|(?<=missing )|(?<=, ))--([a-z][a-z-]*)")  # in a refusal
@@ -112,7 +113,7 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
     parameters = [one.replace(kind=Parameter.KEYWORD_ONLY) for one in declared.each()]
     draws = any(parameter.name == "no_pictures" for parameter in parameters)
     of_campaign = any(issubclass(kind, CampaignOptions) for kind in declared.groups.values())
-    added = {"quiet": Quiet} if draws else {"no_pictures": NoPicturesAnyway, "quiet": Quiet}
+    added = ({} if draws else {"no_pictures": NoPicturesAnyway}) | {"quiet": Quiet, "verbose": Verbose}
     for flag, annotation in added.items():
         parameters.append(Parameter(flag, Parameter.KEYWORD_ONLY, default=False, annotation=annotation))
     for parameter in parameters:
@@ -123,19 +124,22 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
         return option.upper() if option in arguments else _flag(option)
 
     @wraps(command)
-    def run(*, quiet: bool, **values: Any) -> None:
+    def run(*, quiet: bool, verbose: bool, **values: Any) -> None:
         resumed = of_campaign or values.get("duration") is not None
         interruption.promise(name, values.get("out"), resumed)
         require_effects(declared.rules, declared.given(values), shown)
         plain = {} if draws else {"no_pictures": values.pop("no_pictures")}
         grouped = declared.grouped(values, verb=name, **plain)
         try:
-            if not quiet:
+            if not quiet and not verbose:
                 command(**grouped)
                 return
             from comparisons.cli import console  # with rich: help must not wait for it
 
-            with console.quietly():
+            with (
+                console.quietly() if quiet else nullcontext(),
+                console.verbosely() if verbose else nullcontext(),
+            ):
                 command(**grouped)
         except ValueError as error:
             from sheetbench.errors import Impossible, SceneError

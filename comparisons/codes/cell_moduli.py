@@ -41,7 +41,7 @@ class Modulus:
     unit: str
     sheet: Annotated[float, Column("sheet", form="#.6g")]
     cell: Annotated[float, Column("cell", form="#.6g")]
-    miss: Annotated[float, Column("off by", "", "%", 100.0, "z.2f")]
+    miss: Annotated[float, Column("difference", "", "%", 100.0, "z.2f")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -121,7 +121,7 @@ class CellModuli(Answer):
             for row in self.rows
             if abs(row.miss) > MISSED
         ]
-        notes = ["off by: difference over the sheet's A11, D11 or S."]
+        notes = ["difference: over the sheet's A11, D11 or S."]
         if missed:
             notes.append(f"These coefficients miss {', '.join(missed)}.")
         if self.limit_error is not None:

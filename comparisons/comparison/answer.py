@@ -309,18 +309,18 @@ class Comparison(Answer):
         ]
 
     def notes(self) -> list[str]:
-        """Return the models, what was chosen for them, error bars, and what the percentages mean."""
+        """Return what to know of the errors first, then the models and what was chosen for them, and what the
+        percentages mean."""
         ref, first = f"u_{self.reference.model}", self.solutions[0].model
         return [
-            " · ".join(solution.label for solution in self.solutions),
-            *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
+            *([BUCKLED] if self.reference.settings.get("branch") == "buckled" else []),
             *([f"{first}: {self.expected}"] if self.expected else []),
             *self._bar_notes(),
-            f"off by: |u − {ref}| / |{ref}| at the probe. "
+            *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
+            " · ".join(solution.label for solution in self.solutions),
+            f"difference: |u − {ref}| / |{ref}| at the probe. "
             f"error: largest component of u − {ref} over the probes / largest component of {ref}."
-            + " ±: mesh or grid error of the model at the probe."
-            * bool(self.bars),
-            *([BUCKLED] if self.reference.settings.get("branch") == "buckled" else []),
+            + " ±: mesh or grid error of the model at the probe." * bool(self.bars),
         ]
 
     def _bar_notes(self) -> list[str]:

@@ -60,7 +60,7 @@ class ErrorBar:
             why = "no change but rounding"
         else:
             swing = int(np.sum(~found.trusted))
-            why = f"{swing} of {found.trusted.size} components did not converge monotonically"
+            why = f"the meshes disagree in {swing} of {found.trusted.size} components"
         meshes = f"{', '.join(finer)} and {coarsest} elements"
         return f"{model}: mesh error ± {few(100.0 * self.error)} % (from {meshes}; {why})."
 

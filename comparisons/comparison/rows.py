@@ -32,7 +32,7 @@ class ProbeRow:
     y: Annotated[float, MILLIMETRES(".4g", detail=True)]
     model: str
     displacement: Annotated[Mapping[str, float], MILLIMETRES("z.3f")]
-    relative: Annotated[float | None, PERCENT("z.2f", "off by")]
+    relative: Annotated[float | None, PERCENT("z.2f", "difference")]
     bar: Annotated[float | None, PERCENT(".2g", "±")]
 
 

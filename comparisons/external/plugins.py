@@ -35,9 +35,7 @@ from sheetbench.scenes import History, Scene, Solution
 GROUP = "sheetbench.models"
 OURS = {  # external codes that come with this package
     "calculix": "comparisons.external.calculix.model:MODEL",
-    "felupe": "comparisons.external.felupe:MODEL",
     "kratos": "comparisons.external.kratos.model:MODEL",
-    "mujoco": "comparisons.external.mujoco:MODEL",
 }
 OBJECT = "MODEL"  # what of a file is the model, by default
 OWN = (

@@ -64,7 +64,7 @@ class ModeRow:
     mode: Annotated[int, NUMBER("d")]
     kind: str | None
     frequencies: Mapping[Column, float | None]
-    relative: Annotated[float | None, PERCENT("+.2f", "off by")] = None
+    relative: Annotated[float | None, PERCENT("+.2f", "difference")] = None
     mac: Annotated[float | None, NUMBER(".3f", "MAC")] = None
     expected: Annotated[float | None, PERCENT("+.2f")] = None
 
@@ -77,7 +77,7 @@ class BucklingRow:
     load_factor: Annotated[float, NUMBER(".5g", "load factor")]
     against: Annotated[int | None, NUMBER("d", "reference's mode")] = None
     reference: Annotated[float | None, NUMBER(".5g")] = None
-    relative: Annotated[float | None, PERCENT("+.2f", "off by")] = None
+    relative: Annotated[float | None, PERCENT("+.2f", "difference")] = None
     mac: Annotated[float | None, NUMBER(".3f", "MAC")] = None
 
 

@@ -29,7 +29,7 @@ class ModeDamping:
     got: Annotated[float, PERCENT(".2f", "ζ obtained")]
 
     @property
-    def miss(self) -> Annotated[float | None, PERCENT("z.1f", "off by")]:
+    def miss(self) -> Annotated[float | None, PERCENT("z.1f", "difference")]:
         """Relative difference of what is got."""
         return self.got / self.asked - 1.0 if self.asked else None
 

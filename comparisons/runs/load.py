@@ -34,11 +34,9 @@ def warnings(loads: Iterable[float | None], samples: Iterable[Sequence[float]] =
     busy = [load for load in known if load > cores]
     sentences = []
     if busy:
-        times = "these times" if len(known) == 1 else f"{len(busy)} of {len(known)} times"
-        sentences.append(
-            f"{times} were taken under a load of up to {max(busy):.3g} on {cores} "
-            "processors and are longer than on an idle machine: measure again on one"
-        )
+        times = "times are" if len(known) == 1 else f"{len(busy)} of {len(known)} times are"
+        load = f"load {max(busy):.3g} on {cores} processors"
+        sentences.append(f"{times} too long: the machine was busy ({load})")
     ratios = [max(times) / min(times) for times in samples if len(times) > 1 and min(times) > 0.0]
     wide = [ratio for ratio in ratios if ratio > SCATTER]
     if wide:

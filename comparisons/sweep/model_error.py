@@ -56,11 +56,8 @@ class ModelError:
         named = ", ".join(f"{name} {_percent(part)}" for name, part in parts.items() if part > 0.0)
         sentences = [f"model error ± {_percent(self.value)} ({named})"] if named else []
         if self.clamp > 0.0:
-            other = (
-                "of a clamp that holds the mean over the thickness; one that also prevents the change of "
-                "thickness would change it by up to"
-            )
-            sentences.append(f"{other} {_percent(self.clamp)}")
+            change = f"(up to {_percent(self.clamp)})"
+            sentences.append(f"not included: a clamp that also holds the thickness {change}")
         return "; ".join(sentences)
 
     def as_dict(self) -> dict[str, float | dict[str, float]]:

@@ -16,11 +16,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from skfem import ElementQuad2, MeshQuad
+from skfem import ElementQuad2
 
+from fem_reference.discrete.static import Forces, State, Static
+from fem_reference.shell.discrete import UP, DiscreteShell
 from fem_reference.shell.element import GRIDS, MEMBRANE
-from fem_reference.shell.state import Forces, State
-from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.surface.biquadratic import interpolation, jacobians, product_grid, shape
 from fem_reference.surface.location import interpolate
 from sheetbench.numerics.continuation.limits import Limits
@@ -56,37 +56,39 @@ def plain(path: Path[State, Forces]) -> bool:
     return path.status is Status.CONVERGED and straight and not path.snaps and not path.notes
 
 
-def start(
-    mesh: MeshQuad, coarser: ShellStructure, state: State, structure: ShellStructure, nodes: np.ndarray
-) -> Start[State]:
-    """The state of a shell on a mesh, on the nodes (n, 2) [m] of another."""
-    on, at, finer = coarser.element_nodes, coarser.element.reference[:, :9, :2], structure.element
-    strain = at_nodes(at, on, coarser.element.strain(coarser.gather(state.change))[:, MEMBRANE])
-    every = np.concatenate([*state.change, strain.reshape(-1, 4)], axis=1)
-    displacement, turn, flat = np.split(interpolate(mesh, on, every, nodes), (3, 6), axis=1)
+def start(coarser: DiscreteShell, q: np.ndarray, sheet: DiscreteShell) -> Start[State]:
+    """The state of a shell from the coordinates (N,) of another."""
+    plan, at, finer = coarser.plan, coarser.element.reference[:, :9, :2], sheet.element
+    strain = at_nodes(at, plan.elements, coarser.element.strain(coarser.gather(q))[:, MEMBRANE])
+    changes = q[: 6 * coarser.nodes].reshape(2, -1, 3)
+    every = np.concatenate([*changes, strain.reshape(-1, 4)], axis=1)
+    found = interpolate(plan.mesh, plan.elements, every, sheet.plan.nodes)
+    displacement, turn, flat = np.split(found, (3, 6), axis=1)
     director = turn + UP
     director /= np.linalg.norm(director, axis=1, keepdims=True)
     stretched = np.zeros(finer.stiffness.shape[:2])
-    stretched[:, MEMBRANE] = sampled(
-        finer.reference[:, :9, :2], flat.reshape(-1, 2, 2)[structure.element_nodes]
-    )
-    change = np.array([displacement, director - UP])
-    rest, no_rods = structure.rest(), np.zeros_like(structure.rods.elements.stiffness)
-    found = State(change, rest.aside, finer.stress(stretched), no_rods)
-    return Start(found, 1.0, structure.length(rest, found), structure.potential(found, 1.0)[1])
+    stretched[:, MEMBRANE] = sampled(finer.reference[:, :9, :2], flat.reshape(-1, 2, 2)[sheet.plan.elements])
+    return _start(sheet, displacement, director - UP, stretched)
 
 
-def shaped(shape: Shape, structure: ShellStructure, nodes: np.ndarray) -> Start[State]:
+def shaped(shape: Shape, sheet: DiscreteShell) -> Start[State]:
     """The state of a shell without membrane stress in a shape: the displacement (k, 3) [m] of what lies at
-    (k, 3) [m] in the flat sheet, on its normals; nodes: (n, 2) [m]."""
+    (k, 3) [m] in the flat sheet, on its normals."""
+    nodes = sheet.plan.nodes
     flat, over = (np.column_stack([nodes, np.full(len(nodes), height)]) for height in (0.0, 1.0))
     displacement = shape(flat)
-    rest, element = structure.rest(), structure.element
-    no_rods = np.zeros_like(structure.rods.elements.stiffness)
-    no_stress = np.zeros(element.stiffness.shape[:2])
-    change = np.array([displacement, shape(over) - displacement])
-    found = State(change, rest.aside, element.stress(no_stress), no_rods)
-    return Start(found, 1.0, structure.length(rest, found), structure.potential(found, 1.0)[1])
+    no_strain = np.zeros(sheet.element.stiffness.shape[:2])
+    return _start(sheet, displacement, shape(over) - displacement, no_strain)
+
+
+def _start(
+    sheet: DiscreteShell, displacement: np.ndarray, turn: np.ndarray, strain: np.ndarray
+) -> Start[State]:
+    """That of displacements and changes of directors (n, 3), its stresses those of strains (m, 54)."""
+    q, static = sheet.of_vectors(displacement, turn), Static(sheet)
+    no_rods = tuple(np.zeros_like(body.elements.stiffness) for body in sheet.bodies)
+    found = State(q, sheet.element.stress(strain), on_rods=no_rods)
+    return Start(found, 1.0, static.length(static.rest(), found), static.potential(found, 1.0)[1])
 
 
 def at_nodes(nodes: np.ndarray, element_nodes: np.ndarray, strain: np.ndarray) -> np.ndarray:

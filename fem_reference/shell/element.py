@@ -136,13 +136,26 @@ class Element:
         their derivatives half way, which keeps the digits of a small one."""
         return strain_of(self.reference + 0.5 * change, change)
 
-    def step(self, change: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """B δq (m, 54) of a step (m, 18, 3) from a change q (m, 18, 3)."""
-        return strain_of(self.reference + change, step)
+    def operator(self, change: np.ndarray) -> np.ndarray:
+        """Nodal vectors Q (m, 18, 3), which B = H Q is made of, at a change q (m, 18, 3)."""
+        return self.reference + change
 
-    def forces(self, change: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Bᵀ s (m, 18, 3) of stresses (m, 54) at a change q (m, 18, 3)."""
-        return forces_of(self.reference + change, stress)
+    def step(self, operator: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """B δq (m, 54) of a step (m, 18, 3)."""
+        return strain_of(operator, step)
+
+    def forces(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Bᵀ s (m, 18, 3) of stresses (m, 54)."""
+        return forces_of(operator, stress)
+
+    def geometric(self, step: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Σ s_k H_k δq (m, 18, 3) of a step (m, 18, 3) under stresses (m, 54)."""
+        return forces_of(step, stress)
+
+    def magnitudes(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Σ |B| |s| (18,) by nodal vector, of stresses (m, 54)."""
+        found: np.ndarray = sampling.magnitudes(operator, stress, TABLES)
+        return found
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s = D e (m, 54), conjugate to the sampled strains."""
@@ -200,12 +213,6 @@ def strain_of(vectors: np.ndarray, step: np.ndarray) -> np.ndarray:
 def forces_of(vectors: np.ndarray, stress: np.ndarray) -> np.ndarray:
     """Bᵀ s (m, 18, 3) at nodal vectors (m, 18, 3); of a step in their place, Σ s_k H_k times it."""
     found: np.ndarray = sampling.forces_of(np.ascontiguousarray(vectors), stress, TABLES)
-    return found
-
-
-def magnitudes(vectors: np.ndarray, stress: np.ndarray) -> np.ndarray:
-    """Σ |B| |s| (18,) by nodal vector, of vectors (m, 18, 3) and stresses (m, 54)."""
-    found: np.ndarray = sampling.magnitudes(vectors, stress, TABLES)
     return found
 
 

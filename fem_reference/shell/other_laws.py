@@ -14,16 +14,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.shell.element import forces_of
+from fem_reference.discrete.static import State, Static
+from fem_reference.shell.discrete import UP
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise
-from fem_reference.shell.structure import UP
-from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import mesh_of
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
+from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene, Solution
 
@@ -40,28 +38,27 @@ def shift(scene: Scene, answer: Solution) -> float | None:
     if not whole or not scene.uniform or scene.actuators or len(scene.probe_points()) == 0:
         return None
     with one_blas_thread():
-        mesh = mesh_of(scene, tuple(settings["elements"]), settings["graded"])
-        structure, nodes = discretise(mesh, scene)
-        fields = answer.mesh.point_data
-        if fields["displacement"].shape != (len(nodes), 3):
+        sheet = discretise(mesh_of(scene, tuple(settings["elements"]), settings["graded"]), scene)
+        fields, element = answer.mesh.point_data, sheet.element
+        if fields["displacement"].shape != (sheet.nodes, 3):
             return None
-        state = State(np.array([fields["displacement"], fields["director"] - UP]), structure.rest().aside)
-        forces = structure.forces(state, 1.0)
-        if not structure.imbalance(state, forces) <= SAME * forces.size:
+        state = State(sheet.of_vectors(fields["displacement"], fields["director"] - UP))
+        static = Static(sheet)
+        forces = static.forces(state, 1.0)
+        if not static.imbalance(state, forces) <= SAME * forces.size:
             return None
-        matrix, _ = structure.system(state, forces, 1.0, mixed=False)
-        strain = structure.element.strain(structure.gather(state.change))
-        corners = structure.element.reference[:, :9, :2]
-        moved = [np.zeros(1)]
+        matrix, _ = static.system(state, forces, 1.0, mixed=False)
+        shape, moved = forces.shape, [np.zeros(1)]
         try:
-            factor = DirectSolver(structure.symmetric, fronts=structure.fronts).factor(matrix)
+            factor = sheet.solver().factor(matrix)
             for law in OTHERS:
-                other = HyperelasticElement.of(corners, scene.material, scene.sheet.thickness, LAWS[law])
-                change = structure.scatter(forces_of(forces.vectors, other.stress(strain) - forces.stress))
-                couple = np.einsum("nc,nck->nk", change[structure.count :], forces.frames)
-                step = -factor.solve(structure.of_unknowns(change[: structure.count], couple))
-                after = structure.advance(state, forces, 1.0, step).change[0] - state.change[0]
-                moved.append(interpolate(mesh, structure.element_nodes, after, scene.probe_points()))
+                other = HyperelasticElement.of(
+                    sheet.plan.corners, scene.material, scene.sheet.thickness, LAWS[law]
+                )
+                change = element.forces(shape.operator, other.stress(shape.strain) - shape.elastic)
+                step = -factor.solve(sheet.reduce(shape, sheet.scatter(change)))
+                after = sheet.displacement(static.advance(state, forces, 1.0, step).q - state.q)
+                moved.append(sheet.sample(after, scene.probe_points()))
         except SingularMatrixError:
             return None
     largest = np.abs(answer.displacement(scene.probe_points())).max()

@@ -9,32 +9,24 @@ and follower loads. Rotations may be large; the weight has no couple on the dire
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from skfem import MeshQuad
 
+from fem_reference.discrete.answer import answered, judge
+from fem_reference.discrete.static import Forces, State, Static
 from fem_reference.shell import coarse_start
-from fem_reference.shell.balance import balance
 from fem_reference.shell.coarse_start import Shape
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
 from fem_reference.shell.natural import NaturalElement
-from fem_reference.shell.state import Forces, State
-from fem_reference.shell.structure import UP, ShellStructure
-from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
-from fem_reference.surface import loads, rod
-from fem_reference.surface import supports as surface_supports
-from fem_reference.surface.actuator_forces import Held, exerted, on_edges
-from fem_reference.surface.balance import Surface
-from fem_reference.surface.biquadratic import cross
+from fem_reference.shell.validity import STRETCHED, inspector
 from fem_reference.surface.borders import borders_of
-from fem_reference.surface.bound_rods import on_surface
-from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_at
-from fem_reference.surface.mesh import Elements, Plan, divisions, field_mesh, has_lines, mesh_of, nodes_of
+from fem_reference.surface.mesh import Elements, Plan, divisions, has_lines, mesh_of, plan_of
 from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
@@ -44,7 +36,6 @@ from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.numerics.continuation.trace import trace_path
-from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Solution, Status, require_uniform
 from sheetbench.scenes.patches import require_flat_at_rest
 from sheetbench.scenes.rigid_motions import require_static
@@ -100,15 +91,15 @@ def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
     Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
     anywhere; of the scene's sheet only the thickness is used, and the lengths of edges with actuators.
     """
-    return _solution(scene, _run(mesh, scene), "shell", {"elements": mesh.nelements}, own=True)
+    run = _run(mesh, scene)
+    run.sheet.own = True
+    return _solution(scene, run, "shell", {"elements": mesh.nelements})
 
 
 class _Run(NamedTuple):
     """A traced path on a mesh, with the seconds that setting up and solving took."""
 
-    mesh: MeshQuad
-    structure: ShellStructure
-    nodes: np.ndarray
+    sheet: DiscreteShell
     path: Path[State, Forces]
     setup_seconds: float
     solve_seconds: float
@@ -147,29 +138,26 @@ def _run(
     """graded: give up where stretched elements bend too much (see `validity`); near: where to begin;
     limits and buckled: as `trace_path` has them."""
     begin = now()
-    structure, nodes = discretise(mesh, scene, section, law)
-    solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
+    sheet = discretise(mesh, scene, section, law)
     ready = now()
     begin_at: Start[State] | None = None
     if callable(near):
-        begin_at = coarse_start.shaped(near, structure, nodes)
+        begin_at = coarse_start.shaped(near, sheet)
     elif near is not None:
-        begin_at = coarse_start.start(near.mesh, near.structure, near.path.state, structure, nodes)
-    inspect = inspector(scene, structure, graded)
-    slenderness = scene.sheet.thickness / structure.lever
+        begin_at = coarse_start.start(near.sheet, near.path.state.q, sheet)
+    slenderness = scene.sheet.thickness / sheet.lever
     path = trace_path(
-        structure, solver, inspect, relax, progress, begin_at, slenderness, limits or LIMITS, buckled
-    )
+        Static(sheet), sheet.solver(), inspector(graded), relax, progress, begin_at, slenderness,
+        limits or LIMITS, buckled,
+    )  # fmt: skip
     path.factor = None  # a run is kept longer than that
-    return _Run(mesh, structure, nodes, path, ready - begin, now() - ready)
+    return _Run(sheet, path, ready - begin, now() - ready)
 
 
-def trace_on(scene: Scene, structure: ShellStructure) -> tuple[State, Status, list[str]]:
-    """The equilibrium of a structure under the full load, how the path to it ended and the notes."""
-    solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
-    path = trace_path(structure, solver, inspector(scene, structure, False), relax)
-    structure.element.grow(path.load_factor)
-    return path.state, *judge(scene, structure, path, membrane_strain(structure, path.state))
+def trace_on(sheet: DiscreteShell) -> tuple[np.ndarray, Status, list[str]]:
+    """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
+    path = trace_path(Static(sheet), sheet.solver(), inspector(False), relax)
+    return path.state.q, *judge(sheet, path)
 
 
 def _solution(
@@ -179,66 +167,38 @@ def _solution(
     settings: dict[str, Any],
     fallback: str = "",
     spent: Sequence[_Run] = (),
-    own: bool = False,
 ) -> Solution:
-    """The answer of a run; spent: those before it, the last first; own: whether the mesh has an outline of
-    its own."""
-    structure, path, mesh, on = run.structure, run.path, run.mesh, run.structure.element_nodes
-    structure.element.grow(path.load_factor)
-    stretched = membrane_strain(structure, path.state)
-    status, notes = judge(scene, structure, path, stretched)
-    displacement, turn = path.state.change
-    forces = structure.forces(path.state, path.load_factor)
-    director = turn + UP
-    couple = cross(director, forces.residual[1])
-    position = structure.rest_positions + displacement
-    held = Held(np.concatenate([forces.residual[0], couple], axis=1), position)
-    edges = on_edges(structure.rods, forces.rods.pull, held, director)
-    wrenches, line_force = exerted(scene, edges, structure.supports.moved, held)
-    fields = {"actuator_line_force": line_force} if scene.actuators else {}
-    surface = Surface(Plan(mesh, on, run.nodes), position, director, own)
+    """The answer of a run; spent: those before it, the last first."""
+    status, notes = judge(run.sheet, run.path)
     runs = [*reversed(spent), run]
-    of_rods = {"rod": structure.rod_energy(path.state)} if scene.actuators else {}
-    return Solution(
-        model="shell",
+    return answered(
+        run.path,
         label=label,
         settings=settings,
         status=status,
-        unknowns=structure.unknowns,
         iterations=sum(one.path.factorisations for one in runs),
         setup_seconds=sum(one.setup_seconds for one in runs),
         solve_seconds=sum(one.solve_seconds for one in runs),
-        sample=partial(interpolate, mesh, on, displacement),
-        reactions=structure.supports.reactions(forces.residual[0]),
-        energies=structure.energies(path.state) | of_rods,
-        mesh=field_mesh(run.nodes, on, displacement, director, **fields),
         history=tuple(entry for one in runs for entry in one.path.history),
-        load_factor=path.load_factor,
-        actuators=wrenches,
-        balance=balance(scene, structure, path, forces, surface, edges),
-        snaps=tuple(path.snaps),
+        snaps=tuple(run.path.snaps),
         fallback=fallback,
         remarks=(*notes, *limit_notes(settings.get("law"), scene.material, status)),
-        stretch=stretched,
+        stretch=run.sheet.stretch(run.path.state.q),
     )
 
 
 def discretise(
     mesh: MeshQuad, scene: Scene, section: Section | None = None, law: str = STRAIN_LAW
-) -> tuple[ShellStructure, np.ndarray]:
-    """The discrete shell of a scene on a mesh, and its nodes' plan positions (n, 2) [m]."""
-    nodes, element_nodes = nodes_of(mesh)
-    plan = Plan(mesh, element_nodes, nodes)
-    element = _elements(plan.corners, scene, section, law)
-    supports = surface_supports.of_scene(scene, mesh)
-    dead, followers = loads.of_scene(scene, plan)
-    rods = rod.of_scene(scene, plan)
-    supports = rod.hold_bases(supports, rods)
-    bound = on_surface(rods, len(nodes))
-    return ShellStructure.build(element, element_nodes, supports, dead, followers, bound), nodes
+) -> DiscreteShell:
+    """The discrete shell of a scene at rest, on a mesh."""
+    plan = plan_of(mesh)
+    return DiscreteShell(plan, scene, elements_of(plan, scene, section, law), law == STRAIN_LAW)
 
 
-def _elements(nodes: np.ndarray, scene: Scene, section: Section | None, law: str) -> Element:
+def elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:
+    """The elements of a scene's shell on a plan, of a law of strain and, unless that is another than the
+    default, of a section."""
+    nodes = plan.corners
     material, thickness = scene.material, scene.sheet.thickness
     require_law(law, LAWS, material)
     if law == STRAIN_LAW:

@@ -20,70 +20,60 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.shell.element import BENDING, MEMBRANE
-from fem_reference.shell.state import Forces, State
-from fem_reference.shell.structure import ShellStructure
+from fem_reference.discrete.answer import sheet_of
+from fem_reference.discrete.static import Forces, State
+from fem_reference.shell.element import BENDING, MEMBRANE, Element
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
 from sheetbench.numerics.continuation.path import Fault, Inspect, Path
 from sheetbench.numerics.continuation.stability import stability
-from sheetbench.scenes import Scene, Status, outside_model
+from sheetbench.scenes import Status
 
 STRETCH_LIMIT = 5.0
 STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much they bend: divide it evenly")
 FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as turned inside out
 
 
-def inspector(scene: Scene, structure: ShellStructure, graded: bool) -> Inspect[State, Forces]:
+def inspector(graded: bool) -> Inspect[State, Forces]:
     """What `trace_path` is to look at; graded: elements are stretched, and may be without harm."""
 
     def inspect(path: Path[State, Forces]) -> Fault | None:
-        fault = inverted(structure, path.state)
-        if fault is None and graded and stretch(structure, path.state, scene.sheet.thickness) > STRETCH_LIMIT:
-            return None if stability(path)[0] is Status.CONVERGED else STRETCHED
-        return fault
+        sheet, q = sheet_of(path), path.state.q
+        if found := sheet.inside_out(q):
+            return Fault(Status.INVERTED, found)
+        assert isinstance(sheet.element, Element)
+        bent = stretch(sheet.element, sheet.gather(q), sheet.scene.sheet.thickness) if graded else 0.0
+        return STRETCHED if bent > STRETCH_LIMIT and stability(path)[0] is not Status.CONVERGED else None
 
     return inspect
 
 
-def inverted(structure: ShellStructure, state: State) -> Fault | None:
-    """The element that has turned inside out most, if one has."""
+def inverted(element: Element, change: np.ndarray) -> str:
+    """A sentence on the element that has turned inside out most, "" for none; change: of the elements'
+    vectors (m, 18, 3)."""
     value, slope = AT_GAUSS
-    reference = structure.element.reference
-    now = reference + structure.gather(state.change)
+    now = element.reference + change
     along, across, director = slope[0] @ now[:, :9], slope[1] @ now[:, :9], value @ now[:, 9:]
     area = (cross(along, across) * director).sum(axis=2)
-    share = (area / structure.element.flat_jacobian).min(axis=1)
+    share = (area / element.flat_jacobian).min(axis=1)
     worst = int(np.argmin(share))
     if share[worst] > FLAT:
-        return None
-    x, y = reference[worst, 8, :2]
-    where = f"x = {x:.4g} m, y = {y:.4g} m"
-    return Fault(Status.INVERTED, f"the element at {where} has turned inside out: use more elements")
+        return ""
+    x, y = element.reference[worst, 8, :2]
+    return f"the element at x = {x:.4g} m, y = {y:.4g} m has turned inside out: use more elements"
 
 
-def stretch(structure: ShellStructure, state: State, thickness: float) -> float:
+def stretch(element: Element, change: np.ndarray, thickness: float) -> float:
     """The largest (h κ/2) (b/l)² of all elements, κ the curvature along their shorter side."""
-    sides = structure.element.sides
-    strain = structure.element.strain(structure.gather(state.change))[:, BENDING]
+    sides = element.sides
+    strain = element.strain(change)[:, BENDING]
     bent = np.stack([np.abs(strain[:, part]).max(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
     surface = 0.5 * thickness * bent / (0.5 * sides) ** 2
     return float(np.max(surface * (sides[:, ::-1] / sides) ** 2))
 
 
-def membrane_strain(structure: ShellStructure, state: State) -> float:
+def membrane_strain(element: Element, change: np.ndarray) -> float:
     """The mid-surface's largest stretching along an element's sides, √(1 + 2 E) − 1 of Green's strain E."""
-    strain = structure.element.strain(structure.gather(state.change))[:, MEMBRANE]
+    strain = element.strain(change)[:, MEMBRANE]
     along = np.stack([strain[:, part].mean(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
-    green = along / (0.5 * structure.element.sides) ** 2
+    green = along / (0.5 * element.sides) ** 2
     return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + 2.0 * green, 0.0)) - 1.0)))
-
-
-def judge(
-    scene: Scene, structure: ShellStructure, path: Path[State, Forces], stretched: float
-) -> tuple[Status, list[str]]:
-    """The status and notes of a path that has ended: strains beyond the model, if it has come to them;
-    stretched: by how much, as `membrane_strain` has it."""
-    outside = "" if structure.element.stands_any_strain else outside_model(scene, stretched)
-    if not outside or path.status is Status.NON_FINITE:
-        return path.status, path.notes
-    return Status.STRAIN_OUTSIDE_MODEL, [outside, *path.notes]

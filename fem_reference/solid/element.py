@@ -154,13 +154,24 @@ class Bricks:
         product = forms.reshape(-1, NODES) @ (self.positions + change)
         return product.reshape(len(change), len(forms), NODES, 3)
 
-    def step(self, change: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """B δu (m, k) of a step (m, 27, 3) from displacements (m, 27, 3)."""
-        return np.einsum("ekic,eic->ek", self.gradient(change), step)
+    operator = gradient
 
-    def forces(self, change: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Bᵀ s (m, 27, 3) [N] of stresses (m, k) at displacements (m, 27, 3)."""
-        return np.einsum("ekic,ek->eic", self.gradient(change), stress)
+    def step(self, operator: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """B δu (m, k) of a step (m, 27, 3)."""
+        return np.einsum("ekic,eic->ek", operator, step)
+
+    def forces(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Bᵀ s (m, 27, 3) [N] of stresses (m, k)."""
+        return np.einsum("ekic,ek->eic", operator, stress)
+
+    def geometric(self, step: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Σ s_k H_k ⊗ I δu (m, 27, 3) [N] of a step (m, 27, 3) under stresses (m, k)."""
+        forms = reference().forms
+        return (stress @ forms.reshape(len(forms), -1)).reshape(-1, NODES, NODES) @ step
+
+    def magnitudes(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Σ |B| |s| (27,) by node, of stresses (m, k)."""
+        return np.einsum("ekic,ek->i", np.abs(operator), np.abs(stress))
 
     def products(self) -> np.ndarray:
         """∫ ρ N_i N_j dV (m, 27, 27) [kg]."""

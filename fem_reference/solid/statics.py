@@ -15,40 +15,32 @@ units.
 
 from __future__ import annotations
 
-from functools import partial
 from typing import Any
 
 import numpy as np
 from skfem import MeshQuad
 
-from fem_reference.solid import supports as column_supports
-from fem_reference.solid.balance import balance
-from fem_reference.solid.element import Bricks
+from fem_reference.discrete.answer import answered, judge, sheet_of
+from fem_reference.discrete.static import Forces, State, Static
+from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
-from fem_reference.solid.natural import NaturalBricks
-from fem_reference.solid.rods import DIRECTORS, on_columns
-from fem_reference.solid.structure import Forces, SolidStructure, State
-from fem_reference.surface import loads, rod
-from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.mesh import Elements, divisions, has_lines, mesh_of, require_upright
 from fem_reference.surface.rubber import limit_notes, require_law
-from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.path import Fault, Path, Progress
 from sheetbench.numerics.continuation.trace import trace_path
-from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import (
     Constants,
     EdgeLoad,
+    Material,
     Pressure,
     Scene,
     Solution,
     Status,
-    outside_model,
     require_uniform,
 )
 from sheetbench.scenes.orthotropy import Ply, impossible_in_space
@@ -102,74 +94,35 @@ def _solved(
 ) -> Solution:
     """own: whether the mesh has an outline of its own, in place of the scene's sheet."""
     begin = now()
-    structure = discretise(mesh, scene, layers, law, clamp)
-    solver = DirectSolver(structure.symmetric)
+    sheet = discretise(mesh, scene, layers, law, clamp)
+    sheet.own = own
     ready = now()
-    path = trace_path(structure, solver, partial(inspected, structure), progress=progress)
-    structure.bricks.grow(path.load_factor)
+    path = trace_path(Static(sheet), sheet.solver(), inspected, progress=progress)
     done = now()
-
-    columns, displacement = structure.columns, path.state.displacement
-    status, notes, stretch = judge(scene, structure, path, law)
-    forces = structure.forces(path.state, path.load_factor)
-    middle = (columns.positions + displacement)[:, columns.layers]
-    held = Held(columns.about_middle(displacement, forces.residual), middle)
-    edges = _on_edges(structure, path.state, forces, middle)
-    wrenches, _ = exerted(scene, edges, structure.supports.line.moved, held)
-    of_rods = {"rod": structure.rod_energy(path.state)} if scene.actuators else {}
-    return Solution(
-        model="solid",
+    status, notes = judge(sheet, path)
+    return answered(
+        path,
         label=label,
         settings={**requested, "layers": layers, "law": law, "clamp": clamp},
         status=status,
-        unknowns=structure.unknowns,
-        iterations=path.factorisations,
         setup_seconds=ready - begin,
         solve_seconds=done - ready,
-        sample=partial(columns.sample, displacement),
-        reactions=structure.supports.reactions(forces.residual, path.load_factor),
-        energies=structure.energies(path.state) | of_rods,
-        mesh=columns.field_mesh(displacement),
         history=tuple(path.history),
-        load_factor=path.load_factor,
-        actuators=wrenches,
-        balance=balance(scene, structure, path, forces, edges, own),
         remarks=(*notes, *limit_notes(law, scene.material, status)),
-        stretch=stretch,
+        stretch=sheet.stretch(path.state.q),
     )
 
 
-def judge(
-    scene: Scene, structure: SolidStructure, path: Path[State, Forces], law: str
-) -> tuple[Status, list[str], float]:
-    """Return status and notes of a path that has ended, strains beyond the law among them, and the stretch of
-    the mid-surface."""
-    status, notes = path.status, path.notes
-    stretch = largest_stretch(*(structure.mid_surface(at) for at in (0.0, path.state.displacement)))
-    outside = "" if LAWS[law].stands_any_strain else outside_model(scene, stretch)
-    if outside and status is not Status.NON_FINITE:
-        status, notes = Status.STRAIN_OUTSIDE_MODEL, [outside, *notes]
-    return status, notes, stretch
+def trace_on(sheet: DiscreteSolid) -> tuple[np.ndarray, Status, list[str]]:
+    """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
+    path = trace_path(Static(sheet), sheet.solver(), inspected)
+    return path.state.q, *judge(sheet, path)
 
 
-def inspected(structure: SolidStructure, path: Path[State, Forces]) -> Fault | None:
+def inspected(path: Path[State, Forces]) -> Fault | None:
     """Return why a step of the path is given up: a brick that has turned inside out."""
-    inside_out = structure.inside_out(path.state)
-    return Fault(Status.INVERTED, "a brick has turned inside out: use more elements") if inside_out else None
-
-
-def _on_edges(structure: SolidStructure, state: State, forces: Forces, middle: np.ndarray) -> list[OnEdge]:
-    """What the rods exert on the columns of their edges, whose middles are at (n, 3) [m]."""
-    found, first = [], 0
-    rods = structure.rods
-    for one, pull in zip(rods.rods, rods.by_rod(forces.rods.pull), strict=True):
-        nodal, count = np.zeros_like(state.displacement), len(one.line)
-        np.subtract.at(nodal, one.nodes, pull[:, :-DIRECTORS].reshape(*one.nodes.shape, -1, 3))
-        about = structure.columns.about_middle(state.displacement, nodal)
-        director = (state.aside + rods.own)[first : first + count]
-        found.append(OnEdge(one, about[one.line], middle[one.line], director))
-        first += 3 * count
-    return found
+    found = sheet_of(path).inside_out(path.state.q)
+    return Fault(Status.INVERTED, found) if found else None
 
 
 def _require_meshable(scene: Scene, law: str) -> None:
@@ -239,27 +192,28 @@ def discretise(
     layers: int = 1,
     law: str = STRAIN_LAW,
     clamp: str = "shell-like",
-) -> SolidStructure:
-    """The discrete solid of a scene on a plan mesh of straight-sided quadrilaterals.
+) -> DiscreteSolid:
+    """The discrete solid of a scene at rest, on a plan mesh of straight-sided quadrilaterals.
 
     Supports and loads act on the mesh's boundaries of their edges' names; of the scene's sheet only the
     thickness is used. Raises BadInput for an unknown law or clamp, no layers or a folded element.
     """
+    columns, material = columns_of(mesh, scene, layers, law)
+    return DiscreteSolid(columns, scene, law, material, clamp)
+
+
+def columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Columns, Material | Constants]:
+    """The columns of a scene's solid over a mesh, and what its bricks are made of."""
     require_upright(mesh)
     require_law(law, LAWS, scene.material)
     if layers < 1:
         raise BadInput(f"layers = {layers}: at least one through the thickness")
     _require_meshable(scene, law)
-    layers = bricks_through(scene, layers)
-    columns = Columns.on(mesh, scene.sheet, layers)
-    stacks = columns.positions.reshape(-1, 3)[columns.stacks]
-    positions = np.concatenate([stacks[:, place] for place in columns.places])
-    middles = np.tile(columns.plan.corners.mean(axis=1), (layers, 1))[:, None]
-    material = scene.material if scene.uniform else _constants_of_bricks(scene, middles, layers)
     if law != STRAIN_LAW:
         require_flat_at_rest(scene, f"the solid's law '{law}'")
-    bricks = NaturalBricks.of(Bricks.build(positions, LAWS[law], material), scene)
-    rods = rod.of_scene(scene, columns.plan)
-    supports = column_supports.of_scene(scene, columns, clamp, rods)
-    dead, followers = loads.of_scene(scene, columns.plan)
-    return SolidStructure(columns, bricks, supports, dead, followers, on_columns(rods, columns))
+    layers = bricks_through(scene, layers)
+    columns = Columns.on(mesh, scene.sheet, layers)
+    if scene.uniform:
+        return columns, scene.material
+    middles = np.tile(columns.plan.corners.mean(axis=1), (layers, 1))[:, None]
+    return columns, _constants_of_bricks(scene, middles, layers)

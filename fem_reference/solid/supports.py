@@ -28,7 +28,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import bsr_matrix
 
 from fem_reference.solid.mesh import Columns
 from fem_reference.surface import supports
@@ -52,9 +51,13 @@ class ColumnSupports:
     edges: dict[str, np.ndarray]
     by_mean: np.ndarray
 
-    def target(self, load_factor: float) -> np.ndarray:
+    def target(self, load_factor: float, time: float | None = None) -> np.ndarray:
         """Prescribed displacement (n, levels, 3) [m]; zero where nothing moves."""
-        displacement, turn = self.line.change(load_factor)
+        return self.spread(self.line.change(load_factor, time))
+
+    def spread(self, change: np.ndarray) -> np.ndarray:
+        """That of the columns (n, levels, 3) whose middles and directors change so (2, n, 3)."""
+        displacement, turn = change
         heights = np.multiply.outer(self.columns.taper, self.columns.heights)
         return displacement[:, None] + heights[..., None] * turn[:, None]
 
@@ -69,11 +72,6 @@ class ColumnSupports:
         spread = np.where(self.by_mean[:, None, None], np.linalg.inv(with_mean), np.eye(levels))
         size = 3 * levels
         return np.einsum("nlm,nck->nlcmk", spread, axes).reshape(-1, size, size)
-
-    def basis(self, load_factor: float) -> bsr_matrix:
-        """Z over all columns, (3 n levels, 3 n levels)."""
-        blocks = np.arange(len(self.held) + 1)
-        return bsr_matrix((self.bases(load_factor), blocks[:-1], blocks))
 
     @property
     def turned(self) -> np.ndarray:

@@ -38,15 +38,15 @@ class Held(NamedTuple):
     position: np.ndarray
 
 
-def on_edges(rods: BoundRods, pull: np.ndarray, held: Held, director: np.ndarray) -> list[OnEdge]:
-    """What the rods on a surface exert; pull: on their sides (k, 9, 3); director: (n, 3)."""
+def on_edges(rods: BoundRods, pull: np.ndarray, position: np.ndarray, director: np.ndarray) -> list[OnEdge]:
+    """What the rods exert on a surface that lies so, (n, 3) each; pull: on their sides (k, 9, 3)."""
     found = []
     for rod, own in zip(rods.rods, rods.by_rod(pull), strict=True):
         on_nodes = np.zeros((2, len(rod.line), 3))
         np.add.at(on_nodes[0], rod.places, -own[:, :3])
         np.add.at(on_nodes[1], rod.places, -own[:, 3:6])
         nodal = np.concatenate([on_nodes[0], np.cross(director[rod.line], on_nodes[1])], axis=1)
-        found.append(OnEdge(rod, nodal, held.position[rod.line], director[rod.line]))
+        found.append(OnEdge(rod, nodal, position[rod.line], director[rod.line]))
     return found
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from sheetbench.scenes import EdgeLoad, Scene
 from sheetbench.scenes.cells import Constants
 from sheetbench.scenes.shapes import COINCIDENT, Shape
-from sheetbench.scenes.supports import place
+from sheetbench.scenes.supports import Point, place
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -49,17 +49,19 @@ class Borders(NamedTuple):
 def borders_of(scene: Scene) -> Borders | None:
     """Return the borders in a scene's plan, None of a whole rectangle without any: patches that are made of
     what the sheet is made of have none."""
-    shapes = shapes_of(scene)
-    if not (shapes or scene.pierced):
+    shapes, points = shapes_of(scene), [s.at for s in scene.supports if isinstance(s, Point)]
+    if not (shapes or points or scene.pierced):
         return None
     import shapely
 
-    return Borders(scene.region, shapely.union_all([shape.area.boundary for shape in shapes]))
+    lx, ly = scene.sheet.lengths
+    through = [shapely.LineString(ends) for x, y in points for ends in (((x, 0), (x, ly)), ((0, y), (lx, y)))]
+    return Borders(scene.region, shapely.union_all([*(shape.area.boundary for shape in shapes), *through]))
 
 
 def shapes_of(scene: Scene, lines: bool = True) -> list[Shape]:
     """Return the shapes whose borders count; lines: those too that say which part of an edge is loaded."""
-    places = [place(support) for support in scene.supports]
+    places = [place(support) for support in scene.supports if not isinstance(support, Point)]
     places += [
         getattr(load, "where", None) for load in scene.loads if lines or not isinstance(load, EdgeLoad)
     ]

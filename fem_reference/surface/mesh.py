@@ -108,6 +108,12 @@ def nodes_of(mesh: MeshQuad) -> tuple[np.ndarray, np.ndarray]:
     return _nodes(type(mesh), mesh.doflocs, mesh.t)
 
 
+def plan_of(mesh: MeshQuad) -> Plan:
+    """A mesh with its biquadratic nodes."""
+    nodes, elements = nodes_of(mesh)
+    return Plan(mesh, elements, nodes)
+
+
 @kept(last=8, most=1 << 18)
 def _nodes(kind: type[MeshQuad], places: np.ndarray, elements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     mesh, element = kind(places, elements), ElementQuad2()

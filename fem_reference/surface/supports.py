@@ -1,4 +1,4 @@
-"""What supports and moved edges hold in the sheet, as a function of the load factor.
+"""What supports and moved edges hold in the sheet, as a function of the load factor or of time.
 
 Of every node the position φ = X + u and the director d may be held. Where a bent rod, a tilted clamp or a
 motion puts them is the scene's to say (`sheetbench.scenes.kinematics`); statics take the last pose of a
@@ -9,15 +9,22 @@ it contradicts; two motions share its force.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.surface.mesh import elements_in, nodes_of, on_boundary
+from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Scene, Symmetric, held_axes, holds_director
-from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, Placed, bent_or_tilted, shifts
-from sheetbench.scenes.supports import named, place
+from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, Placed, bent_or_tilted
+from sheetbench.scenes.shapes import COINCIDENT
+from sheetbench.scenes.supports import Point, named, place
+from sheetbench.scenes.tables import PiecewiseCurve
+
+ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
 
 
 @dataclass(frozen=True)
@@ -30,9 +37,19 @@ class Driven:
     edge: DrivenEdge
     part: np.ndarray
 
-    def placed(self, load_factor: float) -> Placed:
-        """Where the nodes are at a load factor."""
+    def placed(self, load_factor: float, time: float | None = None) -> Placed:
+        """Where the nodes are at a load factor, of a moved edge at a time [s] or in its last pose."""
+        if isinstance(self.edge, MovedEdge):
+            return self.edge.placed(self.points, load_factor, time)
         return self.edge.placed(self.points, load_factor)
+
+
+class Moving(NamedTuple):
+    """Nodes (k,) and axes that a support moves along its course (`scenes.supports.Motion`)."""
+
+    nodes: np.ndarray
+    axes: np.ndarray
+    course: PiecewiseCurve
 
 
 @dataclass(frozen=True)
@@ -40,8 +57,8 @@ class Supports:
     """What is held: position (n, 3) by component, director (n,); edges: name → nodes and held axes.
 
     tilt: (n, 2), whether the director's component along x or y is held at 0, as on a plane of symmetry;
-    turning: what bends or tilts edges that are held; moved: what moves edges, by the actuators' names; shift:
-    (n, 3) [m] in the end of supports that move.
+    turning: what bends or tilts edges that are held; moved: what moves edges, by the actuators' names;
+    shifts: the supports that move.
     """
 
     position: np.ndarray
@@ -50,20 +67,48 @@ class Supports:
     edges: dict[str, tuple[np.ndarray, np.ndarray]]
     turning: tuple[Driven, ...]
     moved: dict[str, Driven]
-    shift: np.ndarray
+    shifts: tuple[Moving, ...]
 
     @property
     def driven(self) -> tuple[Driven, ...]:
         """Everything that puts held nodes elsewhere; of what shares a corner the last counts there."""
         return (*self.turning, *self.moved.values())
 
-    def change(self, load_factor: float) -> np.ndarray:
-        """Prescribed change (2, n, 3) of positions [m] and directors; zero where nothing moves them."""
+    def change(self, load_factor: float, time: float | None = None) -> np.ndarray:
+        """Prescribed change (2, n, 3) of positions [m] and directors; zero where nothing moves them. time
+        [s]: of motions, their last samples where None."""
         out = np.zeros((2, len(self.director), 3))
         for driven in self.driven:
-            placed = driven.placed(load_factor)
+            placed = driven.placed(load_factor, time)
             out[0, driven.nodes], out[1, driven.nodes] = placed.displacement, placed.director
-        out[0] += load_factor * self.shift
+        out[0] += (load_factor if time is None else 1.0) * self.shift(time)
+        return out
+
+    def shift(self, time: float | None = None) -> np.ndarray:
+        """Where supports that move are at a time [s], or in the end (n, 3) [m]."""
+        return self._shifted(lambda course: course.at(time))
+
+    def rate(self, time: float) -> np.ndarray:
+        """Rate (2, n, 3) of that change from a time [s] on."""
+        out = np.zeros((2, len(self.director), 3))
+        out[0] = self._shifted(lambda course: course.slope(time))
+        for moved in self.moved.values():
+            assert isinstance(moved.edge, MovedEdge)
+            count = len(moved.points)
+            low, high = (moved.edge.velocity(moved.points, np.full(count, at), time) for at in (0.0, 1.0))
+            out[0, moved.nodes], out[1, moved.nodes] = low, high - low
+        return out
+
+    def jumps(self, time: float) -> bool:
+        """Whether a support changes its velocity at once."""
+        slopes = [(course.slope(time), course.slope(time, before=True)) for _, _, course in self.shifts]
+        return any(np.abs(a - b).max() > ROUNDED * np.abs([a, b]).max() for a, b in slopes)
+
+    def _shifted(self, of: Callable[[PiecewiseCurve], np.ndarray]) -> np.ndarray:
+        """Values of the supports' courses (3,), at their nodes and along their axes (n, 3)."""
+        out = np.zeros((len(self.director), 3))
+        for nodes, axes, course in self.shifts:
+            out[np.ix_(nodes, axes)] = of(course)[axes]
         return out
 
     def reactions(self, nodal: np.ndarray) -> dict[str, np.ndarray]:
@@ -79,12 +124,23 @@ class Supports:
         return out
 
 
+def _node_at(nodes: np.ndarray, support: Point, name: str) -> np.ndarray:
+    """The node (1,) at a point. Raises BadInput where a mesh has none, as one of the caller's own."""
+    far = np.linalg.norm(nodes - np.array(support.at), axis=1)
+    if far.min() > 1e3 * COINCIDENT * np.ptp(nodes, axis=0).max():
+        raise BadInput(f"{name}.at = {list(support.at)}: no node of the mesh is there")
+    return np.array([int(np.argmin(far))])
+
+
 def of_scene(scene: Scene, mesh: MeshQuad) -> Supports:
     """The supports and moved edges of a scene on the biquadratic nodes of a mesh."""
     nodes, elements = nodes_of(mesh)
     named_supports = named(scene.supports)
     on_edge = {str(on.edge): on_boundary(mesh, on.edge) for on in scene.actuators}
     for name, support in named_supports.items():
+        if isinstance(support, Point):
+            on_edge[name] = _node_at(nodes, support, name)
+            continue
         shape = place(support)
         inside = np.unique(elements[elements_in(shape, nodes, elements)]) if shape else None
         on_edge[name] = on_boundary(mesh, support.edge) if inside is None else inside
@@ -113,7 +169,9 @@ def of_scene(scene: Scene, mesh: MeshQuad) -> Supports:
     turning = tuple(driven(edge) for edge in bent_or_tilted(scene.supports, scene.sheet))
     moved = {name: driven(MovedEdge(motion, scene.sheet)) for name, motion in motions.items()}
     director |= tilt.all(axis=1)
-    shift = np.zeros((len(nodes), 3))
-    for end in shifts(scene.supports):
-        shift[np.ix_(edges[end.support][0], np.array(end.axes))] = end.displacement
-    return Supports(position, director, tilt, edges, turning, moved, shift)
+    shifts = tuple(
+        Moving(edges[name][0], edges[name][1], support.motion.course)
+        for name, support in named_supports.items()
+        if support.motion is not None
+    )
+    return Supports(position, director, tilt, edges, turning, moved, shifts)

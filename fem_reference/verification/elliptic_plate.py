@@ -48,15 +48,15 @@ def rows(case: str) -> Iterator[Row]:
 def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
     """Stress (3, 3) [Pa] at D."""
     scene = Scene(name="LE10", sheet=Sheet(length_x=3.25, length_y=2.75, thickness=0.6), material=STEEL)
-    structure = solid.discretise(_quarter(radial, around), scene, layers=layers)
-    columns, rest = structure.columns, structure.rest()
-    free = np.ones(structure.free.shape, dtype=bool)
+    sheet = solid.discretise(_quarter(radial, around), scene, layers=layers)
+    columns, rest = sheet.columns, np.zeros(sheet.size)
+    free = np.ones(sheet.free.shape, dtype=bool)
     free[columns.edge("x0"), :, 0] = False
     free[columns.edge("y0"), :, 1] = False
     free[columns.edge("outer"), :, :2] = False
     free[columns.edge("outer"), columns.layers, 2] = False
     unknowns = np.flatnonzero(free.ravel())
-    matrix, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
+    matrix = sheet.tangent(rest, rest, 0.0, rest, 0.0, 0.0)
     force = np.zeros(free.shape)
     force[:, -1, 2] = -PRESSURE * _shares(columns)
     displacement = solve_free(matrix, force.ravel(), np.zeros(free.size), unknowns)

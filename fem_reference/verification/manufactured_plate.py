@@ -17,9 +17,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from skfem import Basis, Functional, LinearForm
+from skfem import Basis, ElementQuad2, Functional, LinearForm
 
-from fem_reference.plate import statics as plate
+from fem_reference.discrete.items import Dead
+from fem_reference.discrete.static import Static
+from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.shell import statics as shell
 from fem_reference.surface.materials import bending_stiffness
 from fem_reference.surface.mesh import rectangle
@@ -60,27 +62,27 @@ def _square(ratio: float) -> Scene:
 
 def _of_plate(scene: Scene, elements: int) -> tuple[float, float]:
     """Errors of deflection and tilt of the plate on elements × elements."""
-    model = plate.Plate.on(rectangle(scene.sheet, elements))
-    _, held, _ = plate.constrain(scene, model)
-    free = np.flatnonzero(~held.ravel())
-    force = np.zeros(held.shape)
-    force[:, 2] = share(model.basis, pressure(scene))
-    stiffness = plate.stiffness_matrix(scene, model)
-    fields = solve_free(stiffness, force.ravel(), np.zeros(held.size), free)
+    sheet = DiscretePlate(rectangle(scene.sheet, elements), scene)
+    basis = Basis(sheet.plan.mesh, ElementQuad2())
+    force = sheet.on_coordinates(np.outer(share(basis, pressure(scene)), [0.0, 0.0, 1.0]))
+    fields = solve_free(sheet.stiffness, force, np.zeros(sheet.size), sheet.free)
     w, tilt = fields.reshape(-1, 5)[:, 2:4].T
-    return _errors(scene, model.basis, w, tilt)
+    return _errors(scene, basis, w, tilt)
 
 
 def _of_shell(scene: Scene, elements: int) -> tuple[float, float]:
     """Errors of deflection and tilt of the shell's first linear step from the flat sheet."""
-    structure, _ = shell.discretise(rectangle(scene.sheet, elements), scene)
-    basis = plate.Plate.on(rectangle(scene.sheet, elements)).basis
-    structure.dead[:, 2] = share(basis, pressure(scene))
-    rest = structure.rest()
-    forces = structure.forces(rest, 1.0)
-    matrix, right = structure.system(rest, forces, 1.0, mixed=False)
-    state = structure.advance(rest, forces, 1.0, DirectSolver().factor(matrix).solve(right))
-    return _errors(scene, basis, state.change[0, :, 2], state.change[1, :, 0])
+    sheet = shell.discretise(rectangle(scene.sheet, elements), scene)
+    basis, static = Basis(sheet.plan.mesh, ElementQuad2()), Static(sheet)
+    force = np.outer(share(basis, pressure(scene)), [0.0, 0.0, 1.0])
+    sheet.items.append(Dead(sheet.on_coordinates(force), None))
+    rest = static.rest()
+    forces = static.forces(rest, 1.0)
+    matrix, right = static.system(rest, forces, 1.0, mixed=False)
+    moved, turned = static.advance(rest, forces, 1.0, DirectSolver().factor(matrix).solve(right)).q.reshape(
+        2, -1, 3
+    )
+    return _errors(scene, basis, moved[:, 2], turned[:, 0])
 
 
 MODELS: dict[str, Callable[[Scene, int], tuple[float, float]]] = {"plate": _of_plate, "shell": _of_shell}

@@ -49,8 +49,8 @@ def error(poisson: float, elements: int) -> float:
     waves = WAVES[poisson]
     material = Material(young=1.0, poisson=poisson, density=1.0)
     scene = Scene(name="manufactured", sheet=SHEET, material=material)
-    structure = solid.discretise(rectangle(SHEET, elements), scene, layers=elements // 2)
-    columns, bricks, rest = structure.columns, structure.bricks, structure.rest()
+    sheet = solid.discretise(rectangle(SHEET, elements), scene, layers=elements // 2)
+    columns, bricks, rest = sheet.columns, sheet.element, np.zeros(sheet.size)
     nodes = np.concatenate([columns.stacks[:, place] for place in columns.places])  # (m, 27) of the bricks
     values, _ = shape(reference().points)
     points = np.einsum("aq,mac->mqc", values, bricks.positions)
@@ -58,7 +58,7 @@ def error(poisson: float, elements: int) -> float:
     force = np.zeros((columns.positions.size // 3, 3))
     np.add.at(force, nodes, shares)
 
-    matrix, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
+    matrix = sheet.tangent(rest, rest, 0.0, rest, 0.0, 0.0)
     positions = columns.positions.reshape(-1, 3)
     low, high = positions.min(axis=0), positions.max(axis=0)
     inside = np.all((positions > low + 1e-9) & (positions < high - 1e-9), axis=1)

@@ -14,11 +14,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from skfem import MeshQuad
 
-from fem_reference.plate import statics as plate
+from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.discrete.static import State, Static
+from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.shell import statics as shell
-from fem_reference.shell.state import State as ShellState
 from fem_reference.solid import statics as solid
-from fem_reference.solid.structure import State as SolidState
 from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.outlined import quadrilaterals
 from fem_reference.verification.rows import EXACT, Row, absolutely
@@ -72,55 +72,59 @@ def _inside_over_rim(forces: np.ndarray, plan: np.ndarray) -> float:
     return float(np.abs(forces[inside]).max() / np.abs(forces[~inside]).max())
 
 
-def _plate(fields: np.ndarray, model: plate.Plate) -> np.ndarray:
-    return (plate.stiffness_matrix(SCENE, model) @ fields.ravel()).reshape(-1, 5)
+def _plate(fields: np.ndarray, sheet: DiscretePlate) -> np.ndarray:
+    return (sheet.stiffness @ fields.ravel()).reshape(-1, 5)
 
 
 def _plate_stretch(mesh: MeshQuad) -> float:
-    model = plate.Plate.on(mesh)
-    fields = np.zeros((model.basis.N, 5))
-    fields[:, :2] = model.nodes @ STRETCH.T
-    return _inside_over_rim(_plate(fields, model)[:, :2], model.nodes)
+    sheet = DiscretePlate(mesh, SCENE)
+    nodes, fields = sheet.plan.nodes, np.zeros((sheet.nodes, 5))
+    fields[:, :2] = nodes @ STRETCH.T
+    return _inside_over_rim(_plate(fields, sheet)[:, :2], nodes)
 
 
 def _plate_curvature(mesh: MeshQuad) -> float:
-    model = plate.Plate.on(mesh)
-    fields = np.zeros((model.basis.N, 5))
-    fields[:, 2] = -0.5 * np.einsum("na,ab,nb->n", model.nodes, CURVATURE, model.nodes)
-    fields[:, 3:] = model.nodes @ CURVATURE
-    return _inside_over_rim(_plate(fields, model)[:, 2:], model.nodes)
+    sheet = DiscretePlate(mesh, SCENE)
+    nodes, fields = sheet.plan.nodes, np.zeros((sheet.nodes, 5))
+    fields[:, 2] = -0.5 * np.einsum("na,ab,nb->n", nodes, CURVATURE, nodes)
+    fields[:, 3:] = nodes @ CURVATURE
+    return _inside_over_rim(_plate(fields, sheet)[:, 2:], nodes)
+
+
+def _residual(sheet: DiscreteElements, q: np.ndarray) -> np.ndarray:
+    """Forces on the nodes' vectors."""
+    return Static(sheet).forces(State(q), 0.0).residual.reshape(-1, 3)
 
 
 def _shell_stretch(mesh: MeshQuad) -> float:
-    structure, nodes = shell.discretise(mesh, SCENE)
+    sheet = shell.discretise(mesh, SCENE)
     turn = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
-    change = np.zeros((2, len(nodes), 3))
-    flat = np.column_stack([nodes, np.zeros(len(nodes))])
-    change[0, :, :2] = nodes @ STRETCH.T
-    change[0] = (flat + change[0]) @ turn.T - flat
-    change[1] = turn[:, 2] - [0.0, 0.0, 1.0]
-    return _inside_over_rim(structure.forces(ShellState(change), 0.0).residual[0], nodes)
+    flat = np.pad(sheet.plan.nodes, ((0, 0), (0, 1)))
+    moved = (flat + np.pad(sheet.plan.nodes @ STRETCH.T, ((0, 0), (0, 1)))) @ turn.T - flat
+    turned = np.tile(turn[:, 2] - [0.0, 0.0, 1.0], (sheet.nodes, 1))
+    residual = _residual(sheet, sheet.of_vectors(moved, turned))
+    return _inside_over_rim(residual[: sheet.nodes], sheet.plan.nodes)
 
 
 def _shell_curvature(mesh: MeshQuad) -> float:
-    structure, nodes = shell.discretise(mesh, SCENE)
-    change = np.zeros((2, len(nodes), 3))
-    change[0, :, 2] = -0.5 * SMALL * np.einsum("na,ab,nb->n", nodes, CURVATURE, nodes)
-    change[1, :, :2] = SMALL * nodes @ CURVATURE
-    residual = structure.forces(ShellState(change), 0.0).residual
-    return _inside_over_rim(np.column_stack([residual[0, :, 2], residual[1, :, :2]]), nodes)
+    sheet = shell.discretise(mesh, SCENE)
+    nodes, (moved, turned) = sheet.plan.nodes, np.zeros((2, sheet.nodes, 3))
+    moved[:, 2] = -0.5 * SMALL * np.einsum("na,ab,nb->n", nodes, CURVATURE, nodes)
+    turned[:, :2] = SMALL * nodes @ CURVATURE
+    force, couple = _residual(sheet, sheet.of_vectors(moved, turned)).reshape(2, -1, 3)
+    return _inside_over_rim(np.column_stack([force[:, 2], couple[:, :2]]), nodes)
 
 
 def _solid_deformation(mesh: MeshQuad) -> float:
-    structure = solid.discretise(mesh, SCENE)
+    sheet = solid.discretise(mesh, SCENE)
     gradient = np.eye(3)
     gradient[:2, :2] += STRETCH
     gradient[2, 2] = 1.05
     turn = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
-    positions = structure.columns.positions
+    positions = sheet.columns.positions
     displacement = positions @ (turn @ gradient).T - positions
-    residual = structure.forces(SolidState(displacement), 0.0).residual
-    plan = structure.columns.plan.nodes
+    residual = _residual(sheet, displacement.ravel()).reshape(positions.shape)
+    plan = sheet.plan.nodes
     inside = np.all((plan > 1e-9) & (plan < 1.0 - 1e-9), axis=1)
-    middle = residual[inside, structure.columns.layers]  # top and bottom belong to the rim
+    middle = residual[inside, sheet.columns.layers]  # top and bottom belong to the rim
     return float(np.abs(middle).max() / np.abs(residual).max())

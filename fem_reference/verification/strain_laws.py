@@ -22,11 +22,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fem_reference import solve
+from fem_reference.discrete.static import State, Static
 from fem_reference.pulled_strip import MATERIAL, SHEET, pulled
 from fem_reference.shell import statics as shell
-from fem_reference.shell.state import State as ShellState
 from fem_reference.solid import statics as solid
-from fem_reference.solid.structure import State as SolidState
 from fem_reference.surface.mesh import mesh_of
 from fem_reference.verification.rows import EXACT, Row, relatively
 from sheetbench.choices import STRAIN_LAWS
@@ -113,19 +112,21 @@ def _pull(material: Material, stretches: list[float], axis: int) -> float:
 
 def _of_shell(material: Material, stretches: list[float]) -> float:
     scene = pulled((0.0, 0.0), SHEET, material)
-    structure, nodes = shell.discretise(mesh_of(scene, (1, 1)), scene, law=str(material.law))
-    change = np.zeros((2, len(nodes), 3))
-    change[0, :, :2] = nodes * (np.array(stretches[:2]) - 1.0)
-    residual = structure.forces(ShellState(change), 0.0).residual[0]
-    return float(residual[nodes[:, 0] == SHEET.length_x, 0].sum() / (SHEET.length_y * SHEET.thickness))
+    sheet = shell.discretise(mesh_of(scene, (1, 1)), scene, law=str(material.law))
+    nodes = sheet.plan.nodes
+    moved = np.pad(nodes * (np.array(stretches[:2]) - 1.0), ((0, 0), (0, 1)))
+    residual = Static(sheet).forces(State(sheet.of_vectors(moved, np.zeros_like(moved))), 0.0).residual
+    pull = sheet.displacement(residual)[nodes[:, 0] == SHEET.length_x, 0]
+    return float(pull.sum() / (SHEET.length_y * SHEET.thickness))
 
 
 def _of_solid(material: Material, stretches: list[float]) -> float:
     scene = pulled((0.0, 0.0), SHEET, material)
-    structure = solid.discretise(mesh_of(scene, (1, 1)), scene, law=str(material.law))
-    displacement = structure.columns.positions * (np.array(stretches) - 1.0)
-    residual = structure.forces(SolidState(displacement), 0.0).residual
-    return float(residual[structure.columns.edge("x1"), :, 0].sum() / (SHEET.length_y * SHEET.thickness))
+    sheet = solid.discretise(mesh_of(scene, (1, 1)), scene, law=str(material.law))
+    positions = sheet.columns.positions
+    displacement = positions * (np.array(stretches) - 1.0)
+    residual = Static(sheet).forces(State(displacement.ravel()), 0.0).residual.reshape(positions.shape)
+    return float(residual[sheet.columns.edge("x1"), :, 0].sum() / (SHEET.length_y * SHEET.thickness))
 
 
 FORCES: dict[str, Callable[[Material, list[float]], float]] = {"shell": _of_shell, "solid": _of_solid}

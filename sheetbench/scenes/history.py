@@ -37,7 +37,7 @@ class ProbeRow:
 
     probe: str
     moved: Annotated[Mapping[str, float], MILLIMETRES("z.3f")]
-    error: Annotated[float | None, PERCENT("z.2f", "off by")]
+    error: Annotated[float | None, PERCENT("z.2f", "difference")]
 
 
 @dataclass(frozen=True, repr=False)

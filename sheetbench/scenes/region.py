@@ -16,7 +16,7 @@ from sheetbench.scenes.loads import AnyLoad, AreaLoad, EdgeLoad, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint
 from sheetbench.scenes.shapes import COINCIDENT, Shape, straight_sides
 from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import named, place
+from sheetbench.scenes.supports import Point, named, place
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -110,10 +110,12 @@ def edge_parts(scene: Scene, edge: str, where: Shape | None = None) -> list[tupl
 def sides_of_shapes(scene: Scene) -> Places:
     """x and y [m], rising, of the sides along the axes of the rim and of shapes that hold or load the sheet,
     and of the ends of its sides at the edges; those within the edges."""
-    shapes = [place(support) for support in scene.supports]
+    shapes = [place(support) for support in scene.supports if not isinstance(support, Point)]
     shapes += [getattr(acting, "where", None) for acting in (*scene.loads, *scene.masses)]
     rims = [scene.region] if scene.pierced else []
     sides = straight_sides(*rims, *(shape.area for shape in shapes if shape is not None))
+    for axis, at in ((axis, s.at[axis]) for s in scene.supports if isinstance(s, Point) for axis in (0, 1)):
+        sides[axis].add(at)
     for name, edge in EDGES.items() if scene.pierced else ():
         sides[edge.along_axis].update(at for part in edge_parts(scene, name) for at in part)
     x, y = (
@@ -159,10 +161,11 @@ def resultant(scene: Scene, load: AnyLoad, length: float | None = None) -> np.nd
 
 
 def marked(scene: Scene) -> dict[str, PlanPoint]:
-    """Plan points [m] of probes, point loads and payloads, by their keys."""
+    """Plan points [m] of probes, point loads, payloads and held points, by their keys."""
     loads = {f"load {n}.at": each.at for n, each in enumerate(scene.loads, 1) if isinstance(each, PointLoad)}
     payloads = {f"mass {n}.at": each.at for n, each in enumerate(scene.masses, 1) if each.at is not None}
-    return {f"probes.{name}": point for name, point in scene.probes.items()} | loads | payloads
+    pins = {f"{name}.at": s.at for name, s in named(scene.supports).items() if isinstance(s, Point)}
+    return {f"probes.{name}": point for name, point in scene.probes.items()} | loads | payloads | pins
 
 
 def share_of(scene: Scene, corners: np.ndarray) -> np.ndarray:
@@ -187,7 +190,8 @@ def misplaced(scene: Scene) -> str:
     for key, point in marked(scene).items():
         if off_sheet(scene, point):
             return f"{key} = {list(point)} m: there is no sheet, by its outline or a cutout"
-    shapes = {name: place(support) for name, support in named(scene.supports).items()}
+    extended = {name: s for name, s in named(scene.supports).items() if not isinstance(s, Point)}
+    shapes = {name: place(support) for name, support in extended.items()}
     shapes |= {f"load {n}": getattr(load, "where", None) for n, load in enumerate(scene.loads, start=1)}
     shapes |= {f"mass {n}": payload.where for n, payload in enumerate(scene.masses, start=1)}
     least = NECK * min(scene.sheet.lengths)

@@ -12,7 +12,7 @@ from sheetbench.scenes.actuators import Chain
 from sheetbench.scenes.obstacles import require_frictionless
 from sheetbench.scenes.region import Cutout, common, region
 from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import Held, Support, held_axes, holds_tilt, place
+from sheetbench.scenes.supports import Held, Point, Support, held_axes, holds_tilt, place
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
@@ -45,7 +45,9 @@ def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutou
     plan = region(sheet, cutouts) if any(place(support) is not None for support in supports) else None
     for support in supports:
         shape, axes = place(support), list(held_axes(support))
-        if plan is None or shape is None:
+        if isinstance(support, Point):
+            ends = np.array([support.at])
+        elif plan is None or shape is None:
             ends = np.array(sheet.edge_ends(support.edge))
         else:
             ends = shapely.get_coordinates(common(plan, shape.area).convex_hull)

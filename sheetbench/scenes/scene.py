@@ -35,7 +35,7 @@ from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.region import Cutout
 from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringTable
-from sheetbench.scenes.supports import Support, held_axes, lets_twist_go, place
+from sheetbench.scenes.supports import Point, Support, held_axes, lets_twist_go, place
 from sheetbench.scenes.words import in_words
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ LISTS = {  # by their keys in Python: those in a file, where each entry is a tab
 }  # fmt: skip
 SHAPED = (
     "sheet.outline", "sheet.mesh", "cutout", "support.where", "load.where", 'load.kind = "area"',
-    "mass.where",
+    "mass.where", 'support.kind = "point"',
 )  # fmt: skip
 OURS = {"sheetbench", "lumped", "fem_reference", "comparisons", "studies"}
 
@@ -276,10 +276,11 @@ class Scene(Frozen):
             self.sheet.outline is not None,
             self.sheet.mesh is not None,
             bool(self.cutouts),
-            any(place(support) is not None for support in self.supports),
+            any(place(one) is not None and not isinstance(one, Point) for one in self.supports),
             any(getattr(load, "where", None) is not None for load in self.loads),
             any(isinstance(load, AreaLoad) for load in self.loads),
             any(payload.where is not None for payload in self.masses),
+            any(isinstance(support, Point) for support in self.supports),
         )
         return ", ".join(word for word, drawn in zip(SHAPED, given, strict=True) if drawn)
 

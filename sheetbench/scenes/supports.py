@@ -18,13 +18,14 @@ from typing import Annotated, Literal, Self
 
 from pydantic import ConfigDict, Field, field_validator, model_validator
 
-from sheetbench.scenes.quantities import Angle, Frozen, Number, Unit, Vector3
-from sheetbench.scenes.shapes import Shape
+from sheetbench.scenes.quantities import Angle, Frozen, Number, PlanPoint, Unit, Vector3
+from sheetbench.scenes.shapes import Rectangle, Shape
 from sheetbench.scenes.sheet import EDGES, EdgeName
 from sheetbench.scenes.tables import CURVES, Interpolation, OverTime, PiecewiseCurve
 
 Component = Literal["x", "y", "z"]
 LARGEST_TILT = pi / 2.0  # rad, of a clamp
+SMALLEST_PLACE = 1e-12  # m, to each side of a point
 
 
 class Motion(OverTime):
@@ -109,6 +110,41 @@ class Held(_Support):
         return components
 
 
+class Point(_EdgeSupport):
+    """Some components of the mid-surface's displacement held at one point, free to turn: a pin, a tack, one
+    of the three points that a free sheet rests on."""
+
+    kind: Literal["point"] = Field(default="point", kw_only=True)
+    at: Annotated[PlanPoint, Unit("m")]
+    """Plan point [x, y] of the undeformed sheet that is held."""
+    components: tuple[Component, ...] = Field(default=("x", "y", "z"), min_length=1)
+    """Which of "x", "y" and "z" are held there; all unless given."""
+    edge: Annotated[EdgeName, Field(default=None, kw_only=True)]
+    """Of no edge: left out."""
+    motion: Motion | None = Field(default=None, kw_only=True)
+    """A point that is held does not move: left out."""
+
+    @model_validator(mode="after")
+    def _stays(self) -> Self:
+        for key in ("edge", "motion"):
+            if getattr(self, key) is not None:
+                raise ValueError(f"{key}: a point that is held has none; leave it out")
+        return self
+
+    @property
+    def where(self) -> Shape:
+        """Return the point as a shape, smaller than any distance on a sheet."""
+        (x, y), half = self.at, SMALLEST_PLACE
+        return Shape(rectangle=Rectangle(x=(x - half, x + half), y=(y - half, y + half)))
+
+    @field_validator("components")
+    @classmethod
+    def _each_once(cls, components: tuple[Component, ...]) -> tuple[Component, ...]:
+        if len(set(components)) != len(components):
+            raise ValueError("a component is named twice")
+        return components
+
+
 class Curved(_EdgeSupport):
     """Clamped to a rigid rod bent in the plane of the edge and z."""
 
@@ -127,7 +163,7 @@ class Symmetric(Frozen):
     """A plane of symmetry does not move."""
 
 
-AnySupport = Clamped | Hinged | Held | Curved | Symmetric
+AnySupport = Clamped | Hinged | Held | Point | Curved | Symmetric
 Support = Annotated[AnySupport, Field(discriminator="kind")]
 
 
@@ -145,7 +181,7 @@ def held_axes(support: AnySupport) -> tuple[int, ...]:
     """Axes (0, 1, 2) in which the support holds the mid-surface."""
     if isinstance(support, Symmetric):
         return (EDGES[support.edge].normal_axis,)
-    if isinstance(support, Held):
+    if isinstance(support, Held | Point):
         return tuple("xyz".index(component) for component in support.components)
     return (0, 1, 2)
 

@@ -21,7 +21,7 @@ from sheetbench.scenes.region import area_in, resultant
 from sheetbench.scenes.rigid_motions import free_rigid_motions
 from sheetbench.scenes.shapes import Shape
 from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Held, Hinged, named, place
+from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Held, Hinged, Point, named, place
 from sheetbench.scenes.tables import FactorTable
 
 if TYPE_CHECKING:
@@ -64,6 +64,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
     for name, support in named(scene.supports).items():
         shape = place(support)
         inside = f", everywhere in the {shape.in_words()}" if shape is not None else ""
+        inside = f" at {_point(support.at)} mm" if isinstance(support, Point) else inside
         where = name if shape is not None else f"edge {name}"
         sentences.append((where, f"{_support(support, sheet)}{inside}"))
     sentences += [(f"load {n}", _load(load, scene)) for n, load in enumerate(scene.loads, start=1)]
@@ -225,7 +226,7 @@ def _support(support: AnySupport, sheet: Sheet) -> str:
         )
     if isinstance(support, Hinged):
         return f"hinged: the mid-surface held, free to turn{moved}"
-    if isinstance(support, Held):
+    if isinstance(support, Held | Point):
         free = [axis for axis in "xyz" if axis not in support.components]
         slides = f", free to move along {' and '.join(free)}" if free else ""
         return f"held along {' and '.join(support.components)}{slides}, free to turn{moved}"

@@ -75,7 +75,7 @@ class Drop:
     found: Annotated[float, Column("H/W", form=".5g")]
 
     @property
-    def error(self) -> Annotated[float, Column("off by", "", "%", 100.0, "z.2f")]:
+    def error(self) -> Annotated[float, Column("difference", "", "%", 100.0, "z.2f")]:
         """Relative difference."""
         return self.found / self.exact - 1.0
 
@@ -101,7 +101,7 @@ class Twisted:
     aside: Annotated[float, Column("aside", form="z.4f")]
 
     @property
-    def error(self) -> Annotated[float, Column("off by", "", "%", 100.0, ".2f")]:
+    def error(self) -> Annotated[float, Column("difference", "", "%", 100.0, ".2f")]:
         """The distance of both tips over the narrow strip's displacement."""
         miss = np.hypot(self.drop - self.narrow_drop, self.aside - self.narrow_aside)
         return float(miss / np.hypot(self.narrow_drop, self.narrow_aside))
@@ -116,7 +116,7 @@ class Tip:
     along: Annotated[float, Column("along", form="z.4f")]
     down: Annotated[float, Column("down", form="z.4f")]
     aside: Annotated[float, Column("aside", form="z.4f")]
-    error: Annotated[float, Column("off by", "", "%", 100.0, ".2f")]
+    error: Annotated[float, Column("difference", "", "%", 100.0, ".2f")]
 
 
 @dataclass(frozen=True, repr=False)

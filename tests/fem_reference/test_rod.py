@@ -2,19 +2,17 @@
 
 import numpy as np
 import pytest
-from cases import GRAVITY, RUBBER, SHEET
+from cases import RUBBER, SHEET
 from rod_cases import CHAINS, STRIP, alone, chain, driven, shell
 
 import fem_reference
 import lumped
-from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise
-from fem_reference.shell.structure import UP
 from fem_reference.surface.actuator_forces import by_segment
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification import heavy_elastica
 from sheetbench import scenes
-from sheetbench.scenes import Gravity, Scene, Status
+from sheetbench.scenes import Gravity, Status
 
 
 @pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])
@@ -137,44 +135,6 @@ def test_a_pair_is_one_rod_on_the_mean_axis():
     assert list(together.actuators) == ["x1.1", "x1.2"]
 
 
-def test_the_tangent_is_the_derivative_of_the_force():
-    """Along the spheres of both directors, with rods on two edges that share a corner."""
-    scene = Scene(
-        name="t", sheet=SHEET, material=RUBBER, gravity=GRAVITY, probes={"A": (0, 0)},
-        actuators=(chain(face="top", curvature=3.0, plane="spatial"), chain(edge="y0", base="start")),
-    )  # fmt: skip
-    structure, _ = discretise(rectangle(SHEET, 2), scene)
-    rng = np.random.default_rng(1)
-    positions = 0.02 * rng.uniform(-1.0, 1.0, (structure.count, 3))
-    rest = np.concatenate([np.tile(UP, (structure.count, 1)), structure.rods.own])
-    directors = unit(rest + 0.3 * rng.uniform(-1.0, 1.0, rest.shape))
-
-    def state(positions, directors):
-        change = directors - rest
-        return State(np.array([positions, change[: structure.count]]), change[structure.count :])
-
-    here = state(positions, directors)
-    matrix, _ = structure.system(here, structure.forces(here, 1.0), 1.0, mixed=False)
-    assert abs(matrix - matrix.T).max() < 1e-9 * abs(matrix).max()
-    frames, number, turns = structure.frames(here), structure.number[:, :3], structure.turns
-    step = np.random.default_rng(2).uniform(-1.0, 1.0, structure.unknowns)
-
-    def force(t):
-        turned = np.einsum("nck,nk->nc", frames, t * np.where(turns >= 0, step[turns], 0.0))
-        now = unit(directors + turned)
-        moved = positions + t * np.where(number >= 0, step[number], 0.0)
-        found = structure.forces(state(moved, now), 1.0)
-        couple = np.concatenate([found.residual[1], found.aside])
-        couple -= np.einsum("nc,nc->n", couple, now)[:, None] * now
-        out = np.zeros(structure.unknowns)
-        out[number[number >= 0]] = found.residual[0][number >= 0]
-        out[turns[turns >= 0]] = np.einsum("nc,nck->nk", couple, frames)[turns >= 0]
-        return out
-
-    difference = (force(1e-6) - force(-1e-6)) / 2e-6
-    np.testing.assert_allclose(matrix @ step, difference, rtol=1e-5, atol=1e-5 * np.abs(difference).max())
-
-
 def unit(vectors):
     """Of unit length."""
     return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
@@ -189,11 +149,11 @@ def test_modes_are_those_of_the_sheet_alone(model):
 
 def test_segments_share_the_force_and_the_moment_about_their_middles():
     """On a straight edge, where products with the position are integrated exactly."""
-    structure, nodes = discretise(rectangle(STRIP, (1, 4), graded=False), alone(segments=5))
-    (only,) = structure.rods.rods
-    position = np.column_stack([nodes[only.line], np.zeros(len(only.line))])
+    sheet = discretise(rectangle(STRIP, (1, 4), graded=False), alone(segments=5))
+    (only,) = sheet.rods.bound.rods
+    position = np.column_stack([sheet.plan.nodes[only.line], np.zeros(len(only.line))])
     nodal = np.random.default_rng(0).standard_normal((len(position), 6))
-    found = by_segment(only, nodal, position, np.tile(UP, (len(position), 1)))
+    found = by_segment(only, nodal, position, np.tile([0.0, 0.0, 1.0], (len(position), 1)))
     middles = np.column_stack([np.zeros(5), 0.1 + 0.2 * np.arange(5), np.full(5, only.offset)])
     on_nodes = nodal[:, 3:] + np.cross(position, nodal[:, :3])
     on_segments = found[:, 3:] + np.cross(middles, found[:, :3])
@@ -203,14 +163,13 @@ def test_segments_share_the_force_and_the_moment_about_their_middles():
 
 def test_a_straight_rod_of_intrinsic_curvature_stores_what_straightening_takes():
     """½ EI κ₀² L at full load, a quarter at half; EI and the length are 1."""
-    structure, _ = discretise(rectangle(STRIP, (1, 4), graded=False), alone(curvature=2.0))
-    assert structure.rod_energy(structure.rest()) == pytest.approx(2.0, rel=1e-9)
-    assert structure.potential(structure.rest(), 0.5)[0] == pytest.approx(0.5, rel=1e-9)
+    sheet = discretise(rectangle(STRIP, (1, 4), graded=False), alone(curvature=2.0))
+    for share, stored in ((1.0, 2.0), (0.5, 0.5)):
+        assert sheet.rods.energy(np.zeros(sheet.size), share) == pytest.approx(stored, rel=1e-9)
 
 
 @pytest.mark.parametrize(("edge", "across"), [("x1", (1.0, 0.0, 0.0)), ("y1", (0.0, 1.0, 0.0))])
 def test_a_rods_own_vectors_lie_in_the_sheet_across_its_edge(edge, across):
-    structure, _ = discretise(rectangle(SHEET, 2), driven(chain(edge=edge)))
-    own = structure.rods.own
+    own = discretise(rectangle(SHEET, 2), driven(chain(edge=edge))).rods.bound.own
     assert len(own) == 5
     np.testing.assert_allclose(np.abs(own), np.tile(across, (5, 1)), atol=1e-12)

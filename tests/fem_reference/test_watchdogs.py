@@ -6,8 +6,6 @@ import pytest
 import fem_reference
 import lumped
 from comparisons.stability.limit import start, system
-from fem_reference.shell import validity
-from fem_reference.shell.state import State as ShellState
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import rectangle
 from lumped.dynamics.implicit.esdirk import Esdirk
@@ -136,15 +134,13 @@ def test_a_stagnating_integrator_stops(monkeypatch):
 
 def test_the_shell_knows_its_mid_surface_s_stretch_and_its_inverted_elements():
     scene = sheet(0.016, 1.0)
-    structure, nodes = discretise(rectangle(scene.sheet, (2, 3)), scene)
-    change = np.zeros_like(structure.rest().change)
-    change[0][:, 0] = 0.6 * nodes[:, 0]
-    stretched = ShellState(change)
-    assert validity.membrane_strain(structure, stretched) == pytest.approx(0.6, rel=1e-9)
-    assert validity.inverted(structure, stretched) is None
-    change[0][:, 0] = -1.5 * nodes[:, 0]  # a mirror image of half the length
-    fault = validity.inverted(structure, ShellState(change))
-    assert fault is not None and fault.status is Status.INVERTED and "use more elements" in fault.message
+    shell = discretise(rectangle(scene.sheet, (2, 3)), scene)
+    q = np.zeros(shell.size)
+    shell.displacement(q)[:, 0] = 0.6 * shell.plan.nodes[:, 0]
+    assert shell.stretch(q) == pytest.approx(0.6, rel=1e-9)
+    assert not shell.inside_out(q)
+    shell.displacement(q)[:, 0] = -1.5 * shell.plan.nodes[:, 0]  # a mirror image of half the length
+    assert "use more elements" in shell.inside_out(q)
 
 
 def test_a_sheet_pulled_out_of_its_model_says_so():

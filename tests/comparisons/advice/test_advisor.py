@@ -89,7 +89,7 @@ def test_a_busy_machine_and_all_digits_are_shown(monkeypatch):
     monkeypatch.setattr("comparisons.runs.load.average", lambda: 100.0)
     advice = advise("one-edge-clamped", 0.2)
     assert len(advice.warnings) == 1 or "scatter" in advice.warnings[1]
-    assert "under a load of up to 100 on" in advice.warnings[0]
+    assert "(load 100 on" in advice.warnings[0]
     assert advice.document()["warnings"] == list(advice.warnings)
     report = advice.report()
     assert advice.warnings[0] in report.notes

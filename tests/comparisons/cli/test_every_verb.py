@@ -194,8 +194,9 @@ def _last_digit(number):
 
 @pytest.mark.parametrize("name", ["check", "tradeoff tolerance"])
 def test_a_command_to_copy_is_one_line(kept, name):
-    command = kept(name).shown(50).partition("Solve it with:")[2].strip()
-    assert command.startswith(f"sheetbench compare {SMALL[name].split()[1]}") and "\n" not in command
+    ends = (kept(name).shown(columns).partition("Solve it with:")[2] for columns in (50, 400))
+    narrow, wide = (end.split("\n")[1].strip() for end in ends)
+    assert narrow.startswith(f"sheetbench compare {SMALL[name].split()[1]}") and narrow == wide
 
 
 # ---- in Python
@@ -236,7 +237,7 @@ def test_the_same_call_from_python_gives_the_same_answer(kept, name, here):
 
 
 def test_an_option_has_one_name_and_one_default_in_command_and_function():
-    of_terminal = {"json", "quiet", "help", "progress", "lattice"}
+    of_terminal = {"json", "quiet", "verbose", "help", "progress", "lattice"}
     for verb in set(VERBS) - {"live", "study"}:
         known = inspect.signature(getattr(sb, verb)).parameters
         options = {one.name: one for one in verb_group().commands[verb].params}

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from cases import CLAMP, GRAVITY, OBLONG, SILICONE
 from commands import run
+from sheetbench_mujoco import relax
 
 import lumped
 from comparisons.codes.lattice import CODES, MODELS, READERS
 from comparisons.codes.mujoco import to_mjcf
 from comparisons.codes.sofa import to_sofa
-from comparisons.external.mujoco import relax
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Hinged, PointLoad, Scene

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+import sheetbench_felupe as felupe
 from scipy.sparse import csr_matrix
 
-from comparisons.external import felupe
 from comparisons.external.bricks import Bricks, Held, forces, held, materials
 from comparisons.external.calculix.deck import deck
 from comparisons.external.kratos.problem import Triangles, problem

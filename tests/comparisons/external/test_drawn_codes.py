@@ -3,12 +3,12 @@
 from typing import Any
 
 import pytest
+from sheetbench_felupe import MODEL as FELUPE
 
 import fem_reference
 from comparisons.comparison.comparison import error
 from comparisons.external.answer import ExternalCode
 from comparisons.external.calculix.model import MODEL as CALCULIX
-from comparisons.external.felupe import MODEL as FELUPE
 from comparisons.external.kratos.model import MODEL as KRATOS
 from sheetbench.scenes import Clamped, Pressure, Status, load
 

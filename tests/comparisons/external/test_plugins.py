@@ -2,6 +2,7 @@
 
 import json
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from commands import json_of, one_line, run
 
 from comparisons.external import plugins
+from comparisons.external.answer import ExternalCode
 from comparisons.models import solve as solvers
 from comparisons.models.spec import parse
 from comparisons.sweep import task
@@ -146,15 +148,38 @@ def test_a_row_is_of_an_installed_plug_ins_version(installed, tmp_path):
     assert Ask(scene, parse("strip")).task.key != first
 
 
-def test_mujoco_is_installed_as_a_plugin():
-    assert "mujoco" in plugins.names()
+PLUG_INS = Path(__file__).parents[3] / "examples" / "plug-ins"
+
+
+@pytest.fixture
+def shipped(monkeypatch):
+    """The plug-ins of examples/plug-ins, by the entry points that their package has."""
+    known = tomllib.loads((PLUG_INS / "pyproject.toml").read_text(encoding="utf-8"))["project"][
+        "entry-points"
+    ]
+    monkeypatch.setattr(plugins, "OURS", {**plugins.OURS, **known[plugins.GROUP]})
+    plugins._found.cache_clear()
+    yield known[plugins.GROUP]
+    plugins._found.cache_clear()
+
+
+def test_the_plug_ins_of_the_examples_are_models_by_their_names(shipped):
+    assert shipped.keys() == {"felupe", "mujoco"} <= set(plugins.names())
+    for name in shipped:
+        assert plugins.plugin(name).name == name
+        file = f"{PLUG_INS}/sheetbench_{name}.py:MODEL"
+        assert plugins.plugin(file).settings == plugins.plugin(name).settings
+    assert isinstance(plugins.plugin("felupe"), ExternalCode)
+
+
+def test_settings_that_mujoco_does_not_have_are_refused(shipped):
     with pytest.raises(BadInput, match="elastic2d = 'none'"):
         models.solve(scenes.load("one-edge-clamped"), "mujoco", elastic2d="none")
     with pytest.raises(BadInput, match="grid = 2"):
         models.solve(scenes.load("one-edge-clamped"), "mujoco", grid=2)
 
 
-def test_mujocos_sheet_at_rest_as_it_is():
+def test_mujocos_sheet_at_rest_as_it_is(shipped):
     """With two edges clamped it bends half as far as the shell, less on a finer grid: nothing is tuned."""
     scene = scenes.load("two-edges-clamped")
     truth = models.solve(scene, "shell", elements=8).displacement(scene.probe_points())
@@ -171,7 +196,7 @@ def test_mujocos_sheet_at_rest_as_it_is():
     assert corner[17] == pytest.approx(-6.83e-3, rel=0.02)
 
 
-def test_mujocos_clamps_hinges_and_point_loads():
+def test_mujocos_clamps_hinges_and_point_loads(shipped):
     base = scenes.load("one-edge-clamped")
     light = base.model_copy(
         update={"gravity": None, "loads": (PointLoad(at=(0.188, 0.094), force=(0, 0, 1e-3)),)}
@@ -190,7 +215,7 @@ def test_mujocos_clamps_hinges_and_point_loads():
     assert sagging[1] < sagging[0] < 0.0
 
 
-def test_mujoco_refuses_what_it_does_not_have():
+def test_mujoco_refuses_what_it_does_not_have(shipped):
     base = scenes.load("one-edge-clamped")
     pulled = base.model_copy(update={"loads": (EdgeLoad(edge="x1", force_per_length=(1.0, 0.0, 0.0)),)})
     tilted = base.model_copy(update={"supports": (Clamped(edge="x0", tilt=0.1),)})

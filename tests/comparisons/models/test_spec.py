@@ -20,7 +20,7 @@ SPECS: dict[str, Spec] = {
     "lumped-pair:grid=9,coarser=5,calibration=consistent": sb.LatticePair(9, 5, "consistent"),
     "shell:elements=8x4,law=biot": sb.Elements("shell", (8, 4), law="biot"),
     "solid:elements=4,layers=2": sb.Elements("solid", 4, layers=2),
-    "mujoco:grid=9": sb.External("mujoco", {"grid": 9}),
+    "calculix:elements=4": sb.External("calculix", {"elements": 4}),
 }
 
 

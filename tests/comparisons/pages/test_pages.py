@@ -2,6 +2,7 @@
 
 import json
 import re
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -269,3 +270,10 @@ def test_a_report_of_several_folders_shows_their_numbers_and_tells_them_apart(tm
     text = re.sub(r"<[^>]*>", "", page(read(tmp_path), "all").split("<nav")[1].split("</nav>")[0])
     assert "grid-3: two-edges-clamped" in text and "grid-5: two-edges-clamped" in text
     assert len(re.findall(r"lumped [35]×[35]×2 consistent: [\d.]+ % off shell 4 × 4 ± [\d.]+ %", text)) == 2
+
+
+def test_without_its_extra_the_verb_says_what_to_install(studies, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "jinja2", None)
+    monkeypatch.delitem(sys.modules, "comparisons.pages.page")
+    assert run("report", str(studies)) == 2
+    assert "pip install 'sheetbench[report]'" in " ".join(capsys.readouterr().err.split())

@@ -115,7 +115,7 @@ def test_a_law_of_strain_that_the_user_chose_is_no_error_of_the_model():
 def test_of_a_solid_whose_law_is_chosen_the_clamp_alone_is_said():
     answer = replace(fake_solutions.solution(THICK, "solid", -0.01), stretch=0.5)
     found = model_error(THICK, answer, law_chosen=True)
-    assert str(found).startswith("of a clamp that holds the mean over the thickness; one that also prevents")
+    assert str(found).startswith("not included: a clamp that also holds the thickness (up to ")
     free = THICK.replace(supports=(Hinged(edge="x0"),))
     assert str(model_error(free, answer, law_chosen=True)) == ""
 

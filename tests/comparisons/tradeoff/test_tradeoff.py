@@ -302,7 +302,7 @@ def test_times_under_load_and_samples_that_scatter_are_told(monkeypatch):
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     assert load.warnings([0.5, 2.0, None], [(1.0, 1.9), (1.0,)]) == []
     busy, wide = load.warnings([0.5, 20.0], [(1.0, 3.0), (1.0, 1.1)])
-    assert busy.startswith("1 of 2 times were taken under a load of up to 20 on 2 processors")
+    assert busy.startswith("1 of 2 times are too long: the machine was busy (load 20 on 2 processors")
     assert wide.startswith("1 of 2 timings vary by more than a factor of 2, by up to 3")
 
 

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from drag_cases import FALL, SHEET, fallen, falling
+from drag_cases import DENSE, FALL, SHEET, fallen, falling
 from dynamic_cases import springs
 
 import fem_reference
 import lumped
-from fem_reference.motion.drag import Drag
+from fem_reference.discrete.drag import Drag
+from fem_reference.motion.shell import MovingShell
 from sheetbench.scenes import Air, Gravity
 
 MODELS = ("plate", "shell", "solid")
@@ -43,12 +44,12 @@ def test_a_swing_in_air_is_that_of_the_lattice(model, elements):
         assert np.ptp(history.balance) < 1e-3 * taken[-1]
 
 
-def test_its_tangent_is_the_derivative_by_velocity():
-    vectors, velocities = (np.random.default_rng(n).standard_normal((1, 18, 3)) for n in (0, 1))
-    tangent = Drag(0.6, velocities[:, :9], 3.0).tangent(vectors)
-    step = 1e-6 * np.random.default_rng(2).standard_normal((1, 9, 3))
-    ends = [Drag(0.6, velocities[:, :9] + sign * step, 0.0).force(vectors) for sign in (1.0, -1.0)]
-    moved = 3.0 * 0.5 * (ends[0] - ends[1])
-    assert np.einsum("eicjd,ejd->eic", tangent[..., :9, :], step) == pytest.approx(
-        moved, abs=1e-6 * np.abs(moved).max()
-    )
+def test_its_damping_is_the_derivative_by_velocity():
+    model = MovingShell(SHEET.replace(air=DENSE), (2, 1))
+    q, v, step = 0.01 * np.random.default_rng(0).standard_normal((3, model.size))
+    drag = Drag(0.6)
+    on, damping = drag.damping(model.shape(q, 0.0, v))
+    along = np.einsum("eicjd,ejd->eic", damping, model.surface_change(step))
+    ends = [drag.force(model.shape(q, 0.0, v + sign * 1e-6 * step)) for sign in (1.0, -1.0)]
+    moved = (ends[0] - ends[1]) / 2e-6
+    assert model.of_surface(on, along) == pytest.approx(moved, abs=1e-6 * np.abs(moved).max())

@@ -28,7 +28,7 @@ def test_a_sheet_let_go_swings_at_its_lowest_frequency(strip):
     model = MovingShell(light, (4, 2), graded=False)
     method = ConstrainedAlpha(model, period / 200.0, 1e-6, 0.0)
     motion = method.begin(0.0, model.start(), np.zeros(model.mass.shape[0]))
-    shape = np.zeros((2, len(mode.shapes[0]), 3))
+    shape = np.zeros((2, *mode.shapes[0].shape))
     shape[0, :, 2] = mode.shapes[0][:, 2]
     coordinate = [0.0]
     while motion.time < 2.2499 * period:

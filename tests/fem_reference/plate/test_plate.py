@@ -5,9 +5,10 @@ import re
 import numpy as np
 import pytest
 from cases import WEIGHT
-from skfem import Functional, MeshQuad
+from skfem import Basis, ElementQuad2, Functional, MeshQuad
 
 from fem_reference.plate import statics as plate
+from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.plate.element import TILT_X, TILT_Y, UX, UY, W
 from fem_reference.surface.location import locate
 from fem_reference.verification.manufactured_plate import share
@@ -38,6 +39,15 @@ def distorted(divisions=3, amount=0.25):
     return MeshQuad(moved, mesh.t)
 
 
+def plate_on(mesh, scene):
+    """The discrete plate of a scene's free sheet."""
+    return DiscretePlate(mesh, scene.model_copy(update={"supports": ()}))
+
+
+def basis_of(model):
+    return Basis(model.plan.mesh, ElementQuad2())
+
+
 CONSTANT_STRAINS = {
     "stretch": lambda x, y: {UX: 2.0 * x + 0.5 * y, UY: -x + 3.0 * y},
     "curvature": lambda x, y: {W: -(x**2 + 3.0 * x * y - y**2) / 2, TILT_X: x + 1.5 * y, TILT_Y: 1.5 * x - y},
@@ -47,21 +57,20 @@ CONSTANT_STRAINS = {
 @pytest.mark.parametrize("state", CONSTANT_STRAINS)
 def test_patch(state):
     """A field of constant strain prescribed on the boundary of a distorted mesh is found inside."""
-    model = plate.Plate.on(distorted())
-    exact = np.zeros((model.basis.N, 5))
-    for field, values in CONSTANT_STRAINS[state](*model.nodes.T).items():
+    model = plate_on(distorted(), square(0.01))
+    exact = np.zeros((model.nodes, 5))
+    for field, values in CONSTANT_STRAINS[state](*model.plan.nodes.T).items():
         exact[:, field] = values
-    boundary = model.basis.get_dofs().flatten()
-    free = np.setdiff1d(np.arange(5 * model.basis.N), (5 * boundary[:, None] + np.arange(5)).ravel())
-    stiffness = plate.stiffness_matrix(square(0.01), model)
-    u = solve_free(stiffness, np.zeros(exact.size), exact.ravel(), free)
+    boundary = basis_of(model).get_dofs().flatten()
+    free = np.setdiff1d(np.arange(model.size), (5 * boundary[:, None] + np.arange(5)).ravel())
+    u = solve_free(model.stiffness, np.zeros(exact.size), exact.ravel(), free)
     np.testing.assert_allclose(u, exact.ravel(), atol=1e-8 * np.abs(exact).max())
 
 
 def test_constant_shear_strain():
     """Constant shear (in equilibrium only under couples) is read exactly in distorted elements."""
-    model = plate.Plate.on(distorted())
-    x, y = model.nodes.T
+    model = plate_on(distorted(), square(0.01))
+    x, y = model.plan.nodes.T
     u = np.column_stack([0 * x, 0 * x, 2.0 * x - y, 0 * x + 0.5, 0 * x + 0.3]).ravel()
     shear = np.einsum("mqic,mc->mqi", model.elements.shear, u[model.elements.unknowns])
     np.testing.assert_allclose(shear - [2.5, -0.7], 0.0, atol=1e-12)
@@ -71,12 +80,12 @@ def test_constant_shear_strain():
 @pytest.mark.parametrize("thickness", [0.2, 1e-3])
 def test_zero_modes_of_the_free_plate(mesh, thickness):
     """Three rigid motions of (w, tilt), three in the plane, and no others."""
-    model = plate.Plate.on(mesh)
-    stiffness = plate.stiffness_matrix(square(thickness), model).toarray().reshape(2 * (model.basis.N, 5))
+    model = plate_on(mesh, square(thickness))
+    stiffness = model.stiffness.toarray().reshape(2 * (model.nodes, 5))
     for part, fields in (("bending", slice(2, 5)), ("membrane", slice(0, 2))):
         block = stiffness[:, fields][:, :, :, fields]
         size = block.shape[0] * block.shape[1]
-        scale = plate.section_stiffness(square(thickness), model)[part][0, 0]
+        scale = getattr(model.section, part)[0, 0]
         values = np.linalg.eigvalsh(block.reshape(size, size)) / scale
         assert np.sum(np.abs(values) < 1e-6) == 3
         assert values[3] > 1e-3
@@ -108,18 +117,18 @@ def test_order_of_convergence(ratio):
 
     errors = []
     for divisions in (4, 8, 16):
-        model = plate.Plate.on(MeshQuad.init_tensor(*2 * [np.linspace(0, 1, divisions + 1)]))
-        force = np.zeros((model.basis.N, 5))
-        force[:, W] = share(model.basis, pressure)
-        held = (5 * model.basis.get_dofs().flatten()[:, None] + np.arange(5)).ravel()
-        free = np.setdiff1d(np.arange(5 * model.basis.N), held)
-        stiffness = plate.stiffness_matrix(square(ratio), model)
-        u = solve_free(stiffness, force.ravel(), np.zeros(force.size), free)
+        model = plate_on(MeshQuad.init_tensor(*2 * [np.linspace(0, 1, divisions + 1)]), square(ratio))
+        force, basis = np.zeros((model.nodes, 5)), basis_of(model)
+        force[:, W] = share(basis, pressure)
+        held = (5 * basis.get_dofs().flatten()[:, None] + np.arange(5)).ravel()
+        u = solve_free(
+            model.stiffness, force.ravel(), np.zeros(force.size), np.setdiff1d(np.arange(force.size), held)
+        )
         row = []
         for field, exact in ((W, deflection), (TILT_X, tilt)):
             difference = Functional(lambda w, exact=exact: (w.u - exact(*w.x)) ** 2)
-            size = Functional(lambda w, exact=exact: exact(*w.x) ** 2).assemble(model.basis)
-            square_error = difference.assemble(model.basis, u=model.basis.interpolate(u[field::5]))
+            size = Functional(lambda w, exact=exact: exact(*w.x) ** 2).assemble(basis)
+            square_error = difference.assemble(basis, u=basis.interpolate(u[field::5]))
             row.append(np.sqrt(square_error / size))
         errors.append(row)
     slopes = np.log2(np.array(errors[:-1]) / errors[1:])
@@ -195,8 +204,8 @@ def test_curved_edge_follows_the_linearised_rod():
 
 def test_the_mass_of_rigid_motions_is_that_of_a_slab():
     """Moved ρh; turned about an axis through its middle ρh/12 + ρh³/12, the latter in the directors alone."""
-    h, model = 0.2, plate.Plate.on(distorted())
-    mass, x = plate.mass_matrix(square(h), model), model.nodes[:, 0] - 0.5
+    h, model = 0.2, plate_on(distorted(), square(0.2))
+    mass, x = model.mass, model.plan.nodes[:, 0] - 0.5
     still = np.zeros_like(x)
     motions = {
         "moved": np.array([still, still, still + 1.0, still, still]),

@@ -80,11 +80,11 @@ def test_a_membrane_strain_is_the_same_on_another_mesh():
     sheared = np.array([[0.02, 0.01], [-0.03, 0.04]])
 
     def shell(elements):
-        structure, nodes = discretise(mesh_of(scene, elements, True), scene)
-        change = np.zeros((2, len(nodes), 3))
-        change[0, :, :2] = nodes @ sheared
-        strain = structure.element.strain(structure.gather(change))[:, MEMBRANE]
-        return structure.element.reference[:, :9, :2], structure.element_nodes, strain
+        sheet = discretise(mesh_of(scene, elements, True), scene)
+        q = np.zeros(sheet.size)
+        sheet.displacement(q)[:, :2] = sheet.plan.nodes @ sheared
+        strain = sheet.element.strain(sheet.gather(q))[:, MEMBRANE]
+        return sheet.element.reference[:, :9, :2], sheet.plan.elements, strain
 
     (at, on, coarse), (finer_at, finer_on, fine) = shell((2, 3)), shell((5, 4))
     green = 0.5 * (sheared + sheared.T + sheared @ sheared.T)

@@ -9,11 +9,12 @@ from scipy.optimize import minimize_scalar
 
 import lumped
 from comparisons.comparison.comparison import error
+from fem_reference.discrete.course import Ramp
+from fem_reference.discrete.items import Dead
+from fem_reference.discrete.static import State, Static
 from fem_reference.shell import statics as shell
-from fem_reference.shell.state import State
-from fem_reference.shell.structure import ShellStructure
 from fem_reference.surface.loads import point_force
-from fem_reference.surface.mesh import Plan, rectangle
+from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.supports import Driven
 from sheetbench import scenes
 from sheetbench.numerics.continuation import pseudo_transient
@@ -66,20 +67,24 @@ class Shortening:
 
     shorter: float
 
-    def placed(self, points, load_factor):
+    def placed(self, points, load_factor, time=None):
         out = np.zeros((len(points), 3))
         out[:, 0] = -0.5 * self.shorter * np.sign(points[:, 0] - SIDE / 2)
         return Placed(out, np.zeros((3, 3)))
 
 
-@dataclass(frozen=True)
-class Strip(ShellStructure):
+class Strip(Static):
     """A strip between hinges, shortened, that sets out from a given state."""
 
-    start: State | None = None
+    start = None
 
     def rest(self):
         return self.start or super().rest()
+
+    def from_state(self, start):
+        found = Strip(self.sheet)
+        found.start = start
+        return found
 
 
 def height(shorter):
@@ -97,20 +102,26 @@ def strip(at=0.5, shorter=SHORTER, bent=0.0):
         supports=(Hinged(edge="x0"), Hinged(edge="x1")),
     )
     mesh = rectangle(scene.sheet, (12, 1), graded=False)
-    plain, nodes = shell.discretise(mesh, scene)
-    ends = np.flatnonzero(plain.supports.position.any(axis=1))
+    sheet = shell.discretise(mesh, scene)
+    nodes = sheet.plan.nodes
+    ends = np.flatnonzero(sheet.supports.position.any(axis=1))
     closer = Driven(ends, nodes[ends], Shortening(shorter), np.ones(len(ends)))
-    supports = replace(plain.supports, turning=(closer,))
+    sheet.supports = replace(sheet.supports, turning=(closer,))
     point = np.array([at * SIDE, WIDTH / 2])
-    dead = point_force(Plan(mesh, plain.element_nodes, nodes), point, np.array([0.0, 0.0, -1.5 * LIMIT]))
-    out = Strip.build(plain.element, plain.element_nodes, supports, dead)
-    change = np.zeros((2, len(nodes), 3))
-    change[0, :, 0] = -shorter * (nodes[:, 0] / SIDE - 0.5)
+    dead = point_force(sheet.plan, point, np.array([0.0, 0.0, -1.5 * LIMIT]))
+    sheet.items.append(Dead(sheet.on_coordinates(dead), Ramp()))
+    moved, turned = np.zeros((2, len(nodes), 3))
+    moved[:, 0] = -shorter * (nodes[:, 0] / SIDE - 0.5)
     phase, high = np.pi * nodes[:, 0] / SIDE, bent * height(shorter)
-    change[0, :, 2] = high * np.sin(phase)
+    moved[:, 2] = high * np.sin(phase)
     slope = np.arctan(high * np.pi / SIDE * np.cos(phase))
-    change[1, :, 0], change[1, :, 2] = -np.sin(slope), np.cos(slope) - 1.0
-    return replace(out, start=State(change))
+    turned[:, 0], turned[:, 2] = -np.sin(slope), np.cos(slope) - 1.0
+    return Strip(sheet).from_state(State(sheet.of_vectors(moved, turned)))
+
+
+def heights(state):
+    """z (n,) of a strip's nodes."""
+    return state.q.reshape(2, -1, 3)[0, :, 2]
 
 
 @pytest.fixture(scope="module")
@@ -120,13 +131,14 @@ def arch():
     return relax(Path(bent, DirectSolver(), bent.start), 0.0)
 
 
-def mirrored(change):
+def mirrored(state):
     """The same on the other side of z = 0."""
-    return change * np.array([[[1.0, 1.0, -1.0]], [[-1.0, -1.0, 1.0]]])
+    change = state.q.reshape(2, -1, 3)
+    return State((change * np.array([[[1.0, 1.0, -1.0]], [[-1.0, -1.0, 1.0]]])).ravel())
 
 
 def pushed(arch, at=0.5, settles=True):
-    structure, solver = replace(strip(at), start=arch), DirectSolver()
+    structure, solver = strip(at).from_state(arch), DirectSolver()
     return structure, trace_path(structure, solver, settle=relax if settles else None)
 
 
@@ -137,7 +149,7 @@ def left_at(path):
 
 
 def test_the_arch_is_the_elastica(arch):
-    assert arch.change[0, :, 2].max() == pytest.approx(height(SHORTER), rel=2e-3)
+    assert heights(arch).max() == pytest.approx(height(SHORTER), rel=2e-3)
 
 
 def test_a_matrix_that_is_singular_ends_the_creep_with_that_status(arch, monkeypatch):
@@ -146,7 +158,7 @@ def test_a_matrix_that_is_singular_ends_the_creep_with_that_status(arch, monkeyp
 
     monkeypatch.setattr(DirectSolver, "factor", factor)
     with pytest.raises(LoadStepFailed) as caught:
-        relax(Path(replace(strip(), start=arch), DirectSolver(), arch), 0.5)
+        relax(Path(strip().from_state(arch), DirectSolver(), arch), 0.5)
     assert caught.value.status is Status.SINGULAR
 
 
@@ -155,7 +167,7 @@ def test_a_compressed_strip_leaves_the_saddle_for_the_buckled_state():
     flat = strip(shorter=shorter)
     path = Path(flat, DirectSolver(), flat.start)
     buckled = relax(path, 0.0)
-    assert np.abs(buckled.change[0, :, 2]).max() == pytest.approx(height(shorter), rel=5e-3)
+    assert np.abs(heights(buckled)).max() == pytest.approx(height(shorter), rel=5e-3)
     assert 0 < path.factorisations < 100
 
 
@@ -172,9 +184,9 @@ def test_a_buckled_strip_snaps_at_its_limit_load_to_the_mirrored_state(arch):
         "the tangent has 1 negative eigenvalues"
     ]
     assert LIMIT > 1.4 * BRANCHING
-    _, other = pushed(State(mirrored(arch.change)))
+    _, other = pushed(mirrored(arch))
     assert not other.snaps and not other.notes and other.status is Status.CONVERGED
-    assert path.state.change == pytest.approx(other.state.change, abs=1e-7)
+    assert path.state.q == pytest.approx(other.state.q, abs=1e-7)
     assert len(path.history) >= path.factorisations / 2
 
 
@@ -183,7 +195,7 @@ def test_pushed_beside_its_middle_a_stable_path_snaps_at_its_limit_load(arch):
     assert path.status is Status.CONVERGED
     assert 1.5 * LIMIT * left_at(path) == pytest.approx(limit(0.6), rel=0.01)
     assert not path.notes  # stable until then
-    assert path.state.change[0, :, 2].min() < -0.9 * arch.change[0, :, 2].max()
+    assert heights(path.state).min() < -0.9 * heights(arch).max()
 
 
 def rod_scene(turn, load_number):
@@ -219,26 +231,23 @@ def test_a_tape_spring_snaps_as_the_lattice_does(taped):
 @pytest.mark.parametrize("scene", [rod_scene(0.1, 3.0), chained()], ids=["shell", "rods"])
 def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene):
     """Along free positions, by central differences; a dragged sheet is, where it begins, the sheet itself."""
-    structure, _ = shell.discretise(rectangle(scene.sheet, (3, 3), graded=True), scene)
-    generator, factor = np.random.default_rng(3), 0.7
-    free = ~structure.supports.position
-    change = generator.normal(0.0, 1e-3, structure.rest().change.shape)
-    way = np.zeros_like(change)
-    way[0][free] = generator.normal(0.0, 1.0, int(free.sum()))
-    rest, step = structure.rest(), 1e-6
-    ahead, behind = (
-        structure.potential(replace(rest, change=change + sign * step * way), factor)[0]
-        for sign in (1.0, -1.0)
-    )
-    state = replace(rest, change=change)
+    sheet = shell.discretise(rectangle(scene.sheet, (3, 3), graded=True), scene)
+    generator, factor, structure = np.random.default_rng(3), 0.7, Static(sheet)
+    free = ~sheet.supports.position
+    q, way = np.zeros((2, sheet.size))
+    q[: 6 * sheet.nodes] = generator.normal(0.0, 1e-3, 6 * sheet.nodes)
+    sheet.displacement(way)[free] = generator.normal(0.0, 1.0, int(free.sum()))
+    step = 1e-6
+    ahead, behind = (structure.potential(State(q + sign * step * way), factor)[0] for sign in (1.0, -1.0))
+    state = State(q)
     residual = structure.forces(state, factor).residual
-    assert (ahead - behind) / (2.0 * step) == pytest.approx(float(np.sum(residual * way)), rel=1e-6)
+    assert (ahead - behind) / (2.0 * step) == pytest.approx(residual @ way, rel=1e-6)
     slow = structure.dragged(state, factor, 3.0).forces(state, factor).residual
     assert slow == pytest.approx(residual, rel=1e-9, abs=1e-9 * np.abs(residual).max())
 
 
 def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
-    structure, _ = shell.discretise(rectangle(taped.sheet, (6, 6), graded=True), taped)
+    structure = Static(shell.discretise(rectangle(taped.sheet, (6, 6), graded=True), taped))
     path = trace_path(structure, DirectSolver())
     energies = []
     measured = pseudo_transient._Creep._accepts
@@ -260,10 +269,10 @@ def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
 @pytest.mark.parametrize("name", ["curved-edge", "two-edges-clamped"])
 def test_a_path_that_reaches_the_full_load_is_the_same_to_the_last_digit(name):
     scene = scenes.load(name)
-    structure, _ = shell.discretise(rectangle(scene.sheet, (4, 4), graded=True), scene)
+    structure = Static(shell.discretise(rectangle(scene.sheet, (4, 4), graded=True), scene))
     with_it = trace_path(structure, DirectSolver(), settle=relax)
     without = trace_path(structure, DirectSolver())
-    assert np.array_equal(with_it.state.change, without.state.change)
+    assert np.array_equal(with_it.state.q, without.state.q)
     assert with_it.factorisations == without.factorisations
     assert (with_it.status, with_it.snaps, with_it.notes) == (Status.CONVERGED, [], [])
 

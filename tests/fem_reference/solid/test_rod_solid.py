@@ -2,15 +2,10 @@
 
 import numpy as np
 import pytest
-from cases import SHEET
 from rod_cases import CHAINS, chain, driven, shell
 
 import fem_reference
-from fem_reference.solid.statics import discretise
-from fem_reference.solid.structure import State
-from fem_reference.solid.supports import into_forces, vectors
-from fem_reference.surface.mesh import rectangle
-from sheetbench.scenes import Curved, Hinged, Status
+from sheetbench.scenes import Status
 
 
 def solid(scene, elements=8, layers=1):
@@ -56,33 +51,3 @@ def test_a_base_holds_the_solid(base):
     sheet, own = 1678.0 * 0.003 * 0.188**2 * 9.81, 0.05 * 0.188 * 9.81
     np.testing.assert_allclose(answer.reactions["y0 base"], [0.0, 0.0, sheet + own], atol=1e-7)
     np.testing.assert_allclose(answer.actuators["y0"].sum(axis=0)[:3], [0.0, 0.0, sheet], atol=1e-7)
-
-
-@pytest.mark.parametrize("layers", [1, 2])
-def test_the_tangent_of_the_rodded_solid_is_the_derivative_of_the_force(layers):
-    """Rods on two edges that share a corner, beside a hinged and a curved edge."""
-    supports = (Curved(edge="x0", kind="curved", curvature=0.8), Hinged(edge="y1"))
-    scene = driven(chain(face="top", curvature=3.0, plane="spatial"), chain(edge="y0", base="start"))
-    scene = scene.model_copy(update={"supports": supports})
-    structure = discretise(rectangle(SHEET, 2), scene, layers)
-    rng = np.random.default_rng(1)
-    bases = structure.supports.bases(0.7)
-    u = structure.supports.target(0.7) + 2e-4 * rng.normal(size=structure.free.shape)
-    own = structure.rods.own
-    free = np.repeat(~structure.rods.held[:, None], 3, axis=1)
-    aside = np.where(free, 0.1 * rng.normal(size=own.shape), 0.0)
-    step, count = rng.normal(size=structure.unknowns), int(structure.free.sum())
-    local, turn = np.zeros(structure.free.shape), np.zeros(own.shape)
-    local[structure.free], turn[free] = step[:count], step[count:]
-    direction = vectors(bases, local)
-
-    def rows(t):
-        forces = structure.forces(State(u + t * direction, aside + t * turn), 0.7)
-        on_columns = into_forces(bases, forces.residual)[structure.free]
-        return np.concatenate([on_columns, forces.aside[free]])
-
-    state = State(u, aside)
-    matrix, _ = structure.system(state, structure.forces(state, 0.7), 0.7, mixed=False)
-    assert abs(matrix - matrix.T).max() < 1e-9 * abs(matrix).max()
-    difference = (rows(1e-6) - rows(-1e-6)) / 2e-6
-    np.testing.assert_allclose(matrix @ step, difference, atol=1e-6 * np.abs(difference).max())

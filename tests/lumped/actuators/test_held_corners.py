@@ -78,9 +78,13 @@ CASES = {
 }
 
 
+CARRIED = ("bent", "on a face", "far end", "in space", "two")
+
+
 @pytest.mark.parametrize("name", CASES)
-def test_the_coarse_lattice_agrees_with_the_shell(name):
-    """Eight segments; hinged at the corner they were wrong by up to 240 %. Measured 1.0 to 6.3 %."""
+def test_the_coarse_lattice_agrees_with_the_shell_and_the_clamp_carries_all(name):
+    """Eight segments; hinged at the corner they were wrong by up to 240 %. Measured 1.0 to 6.3 %. Its
+    share counts to the clamp, and to the first segment as the shell counts it."""
     supports, actuators = CASES[name]
     asked = scene(supports, *actuators)
     lattice, shell = solve(asked, "lumped"), solve(asked, "shell")
@@ -89,17 +93,9 @@ def test_the_coarse_lattice_agrees_with_the_shell(name):
     for support in supports:
         force, expected = lattice.reactions[support.edge], shell.reactions[support.edge]
         assert_allclose(force[2], expected[2], atol=0.1 * WEIGHT)
-
-
-@pytest.mark.parametrize("name", ["bent", "on a face", "far end", "in space", "two"])
-def test_the_clamp_carries_all_and_the_chain_passes_on_its_weight(name):
-    """The corner's share counts to the clamp, and to the first segment as the shell counts it."""
-    supports, actuators = CASES[name]
-    asked = scene(supports, *actuators)
-    lattice, shell = solve(asked, "lumped"), solve(asked, "shell")
-    (reaction,) = lattice.reactions.values()
-    assert_allclose(reaction, [0.0, 0.0, WEIGHT + len(actuators) * OWN], atol=1e-6 * WEIGHT)
-    for edge, wrenches in lattice.actuators.items():
+        if name in CARRIED:
+            assert_allclose(force, [0.0, 0.0, WEIGHT + len(actuators) * OWN], atol=1e-6 * WEIGHT)
+    for edge, wrenches in lattice.actuators.items() if name in CARRIED else ():
         assert_allclose(wrenches[:, :3].sum(axis=0), [0.0, 0.0, -OWN], atol=1e-6 * WEIGHT)
         if edge == "y0" and name == "bent":
             size = np.abs(shell.actuators[edge][0, :3]).max()

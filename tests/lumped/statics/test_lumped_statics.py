@@ -49,41 +49,31 @@ def vertical(scene, solution):
     return solution.displacement(scene.probe_points())[:, 2] * 1e3
 
 
-@pytest.mark.parametrize("name", CONVERGED)
-@pytest.mark.parametrize(("masses", "within"), [(5, 0.02), (9, 0.007), (17, 0.004), (33, 0.003)])
-def test_consistent_calibration_on_the_seeds_scenes(name, masses, within):
-    scene = SEED[name]
-    solution = solve(scene, (masses, masses))
-    assert solution.status is Status.CONVERGED
-    assert np.abs(vertical(scene, solution) / CONVERGED[name] - 1).max() < within
+WITHIN = {5: 0.02, 9: 0.007, 17: 0.004, 33: 0.003}  # by masses a side
+TEN_TIMES_SOFTER = {"two-edges-clamped": (3, -60.1), "one-edge-clamped": (2, -157.3)}  # probe, mm
 
 
 @pytest.mark.parametrize("name", CONVERGED)
-@pytest.mark.parametrize("masses", [5, 9, 17, 33, pytest.param(65, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("masses", [*WITHIN, pytest.param(65, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("soft", "most"), [(1, 12), (10, LIMITS.careful_after)])
 @pytest.mark.parametrize("method", ["consistent", "hyperelastic"])
-def test_factorisations_from_flat(name, masses, soft, most, method):
-    """Paths of more than `careful_after` factorisations would be followed once more, with care."""
-    solution = solve(softer(SEED[name], soft), (masses, masses), method)
+def test_values_and_factorisations_from_flat(name, masses, soft, most, method):
+    """Paths of more than `careful_after` factorisations would be followed once more, with care. 9 masses took
+    6 where what was extrapolated was S alone: the material's part had the stretch of the moment."""
+    scene = softer(SEED[name], soft)
+    solution = solve(scene, (masses, masses), method)
     assert solution.status is Status.CONVERGED
-    assert solution.iterations <= most
+    assert solution.iterations <= (5 if (masses, soft, method) == (9, 1, "consistent") else most)
+    if method == "consistent" and soft == 1 and masses in WITHIN:
+        assert np.abs(vertical(scene, solution) / CONVERGED[name] - 1).max() < WITHIN[masses]
+    if (method, soft, masses) == ("consistent", 10, 17):
+        probe, right = TEN_TIMES_SOFTER[name]
+        assert abs(vertical(scene, solution)[probe] - right) < 0.015 * abs(right)
 
 
-@pytest.mark.parametrize(
-    ("name", "most"), [("two-edges-clamped", 5), ("one-edge-clamped", 5), ("actuated-edge", 7)]
-)
-def test_a_large_rotation_takes_few_corrections(name, most):
-    """6 and 12 where what was extrapolated was S alone: the material's part had the stretch of the moment."""
-    assert solve(scenes.load(name), (9, 9)).iterations <= most
-
-
-@pytest.mark.parametrize(
-    ("name", "probe", "right"), [("two-edges-clamped", 3, -60.1), ("one-edge-clamped", 2, -157.3)]
-)
-def test_ten_times_softer(name, probe, right):
-    scene = softer(SEED[name], 10)
-    solution = solve(scene, (17, 17))
-    assert abs(vertical(scene, solution)[probe] - right) < 0.015 * abs(right)
+def test_a_large_rotation_of_a_chains_edge_takes_few_corrections():
+    """12 where what was extrapolated was S alone."""
+    assert solve(scenes.load("actuated-edge")).iterations <= 7
 
 
 def test_energies_and_link_fields_agree():

@@ -50,7 +50,7 @@ def with_load(keys):
         (
             GOOD.replace('"clamped"', '"clamp"'),
             "support 1: kind = 'clamp': did you mean clamped? "
-            "choose one of clamped, hinged, held, curved, symmetric",
+            "choose one of clamped, hinged, held, point, curved, symmetric",
         ),
         (
             GOOD.replace('edge = "x1"', 'edge = "X1"'),

@@ -7,7 +7,7 @@ of equal ones. A clamp is made of two pinned rows, the edge and one beyond it, w
 of the grid; a hinge of the edge's row alone. The static answer is where dynamics come to rest: implicit steps
 (the integrator "discrete") that stop whenever the kinetic energy has passed a peak.
 
-Upright clamps, hinged edges, gravity and point loads; anything else is refused. Needs the extra [mujoco].
+Upright clamps, hinged edges, gravity and point loads; anything else is refused. Needs MuJoCo.
 Source: MuJoCo's documentation, "Deformable objects" and the XML reference of `flexcomp`.
 """
 
@@ -46,7 +46,7 @@ class MuJoCo:
         try:
             import mujoco
         except ImportError:
-            raise BadInput("model = 'mujoco': needs MuJoCo; pip install 'sheetbench[mujoco]'") from None
+            raise BadInput("model = 'mujoco': needs MuJoCo; pip install mujoco") from None
         nx, ny = _shape(scene, settings["grid"])
         if settings["elastic2d"] not in ("both", "bend"):
             raise BadInput(f"elastic2d = '{settings['elastic2d']}': both or bend")

@@ -5,7 +5,7 @@ it, as its boundary conditions know no turned axes: u = T q + u₀ with the free
 method on Tᵀ r(u) = 0, the load in steps that are halved where it does not converge. 2 × 2 × 2 points a brick,
 without which thin sheets lock.
 
-Everything of a scene but chains and edge moments. Needs the extra [felupe].
+Everything of a scene but chains and edge moments. Needs FElupe.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class FElupe:
 
     name: str = "felupe"
     called: str = "FElupe"
-    needs: str = "FElupe; pip install 'sheetbench[felupe]'"
+    needs: str = "FElupe; pip install felupe"
     meshes: tuple[int, ...] = (4, 6, 8)
     layered: bool = True
     settings: ClassVar[dict[str, Any]] = {"elements": 8, "layers": 2, "grading": "edges"}

@@ -1,0 +1,84 @@
+"""What a discrete sheet answers with: displacements, reactions, energies, wrenches of actuators, balance.
+
+Strains are made of scalar products of positions and directors, so that internal forces on all of them cancel,
+and so do their moments, whatever the shape. What is left over is the residual of the free unknowns, which the
+solver has brought below its tolerance or to where rounding stops it, and the rounding of the sums; the loads
+are the scene's own (see `surface.balance`).
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any, cast
+
+import numpy as np
+
+from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.discrete.sheet import Discrete
+from fem_reference.discrete.static import Forces, State, Static
+from fem_reference.surface.actuator_forces import exerted
+from fem_reference.surface.balance import left_over
+from fem_reference.surface.location import interpolate
+from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.path import Path
+from sheetbench.scenes import Solution, Status
+
+EPSILON = float(np.finfo(float).eps)
+
+
+def sheet_of(path: Path[State, Forces]) -> DiscreteElements:
+    """Return the sheet that a path is of."""
+    return cast(Static, path.structure).sheet
+
+
+def judge(sheet: Discrete, path: Path[State, Forces]) -> tuple[Status, list[str]]:
+    """Return status and notes of a path that has ended, strains beyond the law among them."""
+    sheet.grow(path.load_factor)
+    outside = sheet.beyond(sheet.stretch(path.state.q))
+    if not outside or path.status is Status.NON_FINITE:
+        return path.status, path.notes
+    return Status.STRAIN_OUTSIDE_MODEL, [outside, *path.notes]
+
+
+def answered(path: Path[State, Forces], **own: Any) -> Solution:
+    """Return the answer at the end of a path; own: the fields of it that are the model's own."""
+    sheet, share = sheet_of(path), path.load_factor
+    forces = path.structure.forces(path.state, share)
+    left = max(Limits.tolerance * forces.size, path.structure.imbalance(path.state, forces))
+    if sheet.norm == 2:  # a sum of n numbers is at most √n times their norm
+        left *= np.sqrt(sheet.unknowns)
+    allowed = float(left + EPSILON * sheet.summed(forces.shape))
+    own = {"iterations": path.factorisations, "load_factor": share} | own
+    return answer(sheet, path.state.q, forces.residual, share, forces.size, allowed, **own)
+
+
+def answer(
+    sheet: Discrete,
+    q: np.ndarray,
+    residual: np.ndarray,
+    share: float,
+    size: float,
+    allowed: float,
+    balanced: bool = True,
+    **own: Any,
+) -> Solution:
+    """Return the answer at q (N,), with a residual (N,), under a share of the load. size, allowed: of the
+    balance (`scenes.Balance`), which there is only where `balanced`."""
+    sheet.grow(share)
+    scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
+    pull = rods.pull(q, rods.stress(sheet.shape(q, share))) - share * rods.weight(scene)
+    edges = sheet.on_edges(q, pull)
+    wrenches, line = exerted(scene, edges, sheet.supports.moved, sheet.exerted(q, residual))
+    reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(q)
+    held = sheet.holding(q, residual, share)
+    return Solution(
+        model=sheet.model,
+        unknowns=sheet.unknowns,
+        sample=partial(interpolate, plan.mesh, plan.elements, sheet.middles(sheet.displacement(q))),
+        reactions=reactions,
+        energies=energies | ({"rod": rods.energy(q, share)} if scene.actuators else {}),
+        mesh=sheet.drawn(q, line if scene.actuators else None),
+        actuators=wrenches,
+        balance=left_over(scene, surface, edges, reactions, held, size, allowed, share) if balanced else None,
+        **own,
+    )

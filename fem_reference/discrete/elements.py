@@ -1,0 +1,195 @@
+"""A discrete sheet of elements whose strains are quadratic in the coordinates, e = ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀.
+
+    f = Bᵀ s,    K = Bᵀ D B + Σ s_k H_k,    s = s(e) + τ D ė + what the branches add
+
+The stress of K may be another than that of f: statics take the one that their last step extrapolated.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from copy import copy
+from typing import Self
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from fem_reference.discrete.relaxation import Strained
+from fem_reference.discrete.rods import Rods
+from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.sheet import Discrete
+from fem_reference.shell.element import Element, weighed
+from fem_reference.solid.element import Bricks
+from sheetbench.numerics.sparsity import Pattern, add_blocks
+
+
+class DiscreteElements(Discrete):
+    """element: all elements; pattern: of the tangent, the plan's elements first and then the rods' sides;
+    per_vector: 1 of an element's positions (a,), of its directors 1 over the lever."""
+
+    element: Element | Bricks
+    pattern: Pattern
+    per_vector: np.ndarray
+
+    @abstractmethod
+    def gather(self, q: np.ndarray) -> np.ndarray:
+        """Changes of the elements' vectors (m, a, 3) of coordinates (N,)."""
+
+    @abstractmethod
+    def scatter(self, pull: np.ndarray) -> np.ndarray:
+        """Sums (N,) of what pulls at the elements' vectors (m, a, 3)."""
+
+    @abstractmethod
+    def stiffness(
+        self, shape: Shape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
+    ) -> np.ndarray:
+        """Data of the elements' K and `by_a` times their M, and of what the constraints add under a residual
+        (N,)."""
+
+    @abstractmethod
+    def fold(self, shape: Shape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
+        """Those (k, 18, 3, 18, 3) of forces on φ and d at elements `on`, by their unknowns, (k, b, b)."""
+
+    @abstractmethod
+    def onto_rods(self, shape: Shape) -> np.ndarray:
+        """∂Q/∂(unknowns) of the rods' sides (k, 3 a, b)."""
+
+    @abstractmethod
+    def reduce(self, shape: Shape, force: np.ndarray) -> np.ndarray:
+        """Zᵀ f (unknowns,) of forces (N,)."""
+
+    @abstractmethod
+    def expand(self, shape: Shape, step: np.ndarray) -> np.ndarray:
+        """Z x (N,) of a step (unknowns,)."""
+
+    @abstractmethod
+    def of_held_positions(self, force: np.ndarray) -> np.ndarray:
+        """Those of forces (N,) on what is held of positions, (N,) or fewer."""
+
+    @abstractmethod
+    def short(self, shape: Shape) -> np.ndarray:
+        """The step (N,) to what is prescribed and onto the constraints, linear in both."""
+
+    def grow(self, at: float) -> None:
+        self.element.grow(*self.instant(at))
+
+    @property
+    def grows(self) -> bool:
+        return self.element.grows
+
+    def stress(self, shape: Shape) -> np.ndarray:
+        """s + τ D ė (m, k) and what the branches add."""
+        stress = shape.elastic + self.memory.added(shape.elastic) if self.memory else shape.elastic
+        return stress + self.tau * weighed(shape.moduli, shape.rate) if self.tau else stress
+
+    def elements_internal(self, shape: Shape) -> np.ndarray:
+        return self.scatter(self.element.forces(shape.operator, self.stress(shape)))
+
+    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
+        before, after, element = self.gather(start), self.gather(end), self.element
+        first, last = element.strain(before), element.strain(after)
+        stress = element.stress(0.5 * (first + last))
+        if self.tau:
+            rate = (last - first) / h
+            stress = stress + self.tau * weighed(element.moduli(0.5 * (first + last)), rate)
+        return self.scatter(element.forces(element.operator(0.5 * (before + after)), stress))
+
+    def tangent(
+        self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
+    ) -> csr_matrix:
+        self.memory.now = time
+        shape = self.shape(q, time, v)
+        moduli = (1.0 + by_v * self.tau + self.memory.gain) * shape.moduli
+        on_rods = [body.stress(shape) for body in self.bodies]
+        return self.system(shape, moduli, self.stress(shape), on_rods, residual, by_a, by_v)[0]
+
+    def system(
+        self,
+        shape: Shape,
+        moduli: np.ndarray,
+        stress: np.ndarray,
+        on_rods: Sequence[np.ndarray],
+        residual: np.ndarray,
+        by_a: float = 0.0,
+        by_v: float = 0.0,
+        move: np.ndarray | None = None,
+    ) -> tuple[csr_matrix, np.ndarray]:
+        """Tangent under stresses of elements and rods, and its product (N,) with a step (N,) of all
+        coordinates."""
+        data = self.stiffness(shape, moduli, stress, residual, by_a + self.alpha * by_v)
+        slots, element, product = self.pattern.slots, self.element, np.zeros(self.size)
+        if move is not None:
+            of_move = self.gather(move)
+            pull = element.forces(shape.operator, weighed(moduli, element.step(shape.operator, of_move)))
+            product += self.scatter(pull + element.geometric(of_move, stress))
+        for item in self.items:
+            if (found := item.tangent(shape)) is not None:
+                on, by_surface = found
+                add_blocks(data, slots[0][on], -self.fold(shape, on, by_surface))
+                if move is not None:
+                    moved = self.surface_change(move)[on]
+                    product -= self.of_surface(on, np.einsum("eicjd,ejd->eic", by_surface, moved))
+            if by_v and (found := item.damping(shape)) is not None:
+                on, by_rates = found
+                add_blocks(data, slots[0][on], -by_v * self.fold(shape, on, by_rates))
+        for body, own in zip(self.bodies, on_rods, strict=True):
+            sides, onto = body.tangent(shape, own, by_a, by_v), self.onto_rods(shape)
+            add_blocks(data, slots[1], onto.swapaxes(1, 2) @ sides @ onto)
+            if move is not None:
+                product += body.scatter(body.elements.product(sides, body.gather(move)))
+        return self.pattern.with_data(data), product
+
+    def constraining(
+        self, shape: Shape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
+    ) -> np.ndarray:
+        """The residual (N,) that the constraints' own stiffness is of, where elements and rods have other
+        stresses than that one is of."""
+        return residual
+
+    def moduli(self, shape: Shape, pressure: np.ndarray | None) -> np.ndarray:
+        """D (m, k, k), of a law with a pressure of its own at that one."""
+        return shape.moduli
+
+    def pressure(self, shape: Shape, by: np.ndarray) -> np.ndarray | None:
+        """Pressure, linear in a change of the strain (m, k), of a law that has one of its own."""
+        return None
+
+    def dragged(self, shape: Shape, drag: float) -> Self:
+        """The sheet whose equilibrium is the end of a step of creep from a shape, against drag σ."""
+        slow = copy(self)
+        assert isinstance(self.element, Element)
+        slow.element = self.element.dragged(shape.strain, drag)
+        slow.bodies = [body.dragged(shape, drag) for body in self.bodies]
+        return slow
+
+    def strains(self, q: np.ndarray) -> Strained:
+        strain = self.element.strain(self.gather(q))
+        return strain, self.element.stress(strain)
+
+    def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
+        return self.element.energies(self.element.strain(self.gather(q)))
+
+    def elastic(self, q: np.ndarray) -> float:
+        return sum(self.energies_by_part(q).values())
+
+    def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
+        shape, element = self.shape(q, 0.0), self.element
+        change, other_change = (element.step(shape.operator, self.gather(of)) for of in (step, other))
+        return float(np.sum(change * weighed(shape.moduli, other_change)))
+
+    def measured(self, force: np.ndarray, scale: np.ndarray | float = 1.0) -> float:
+        """Norm [N] of forces, those on directors, whose scale is the lever, over that."""
+        return float(np.linalg.norm(force / scale, self.norm))
+
+    def scale_of(self, body: Rods) -> np.ndarray:
+        """The scale of a body's vectors (k, a, 3)."""
+        return self.scale[body.rows].reshape(body.elements.reference.shape)
+
+    def summed(self, shape: Shape) -> float:
+        """Σ |B| |s| [N] of elements and rods, what forces are sums of, those on directors over the lever."""
+        total = float(self.per_vector @ self.element.magnitudes(shape.operator, shape.elastic))
+        for body in self.bodies:
+            sides = body.magnitudes(shape.q, body.stress(shape))
+            total += float((sides / self.scale_of(body)).sum())
+        return total

@@ -1,0 +1,206 @@
+"""The chains of a sheet: the elastic rods of `surface.rod` with their inertia, dampers and commands.
+
+    ½ ρ_l ∫ |φ̇ + c ḋ|² + ¼ a² (|ḋ|² + |ṁ|²) ds,     s = S (e − e₀) + τ S_elastic ė
+
+A chain's cross-section is round, of radius a; c is the height of its axis, τ its `damping_time`, which acts
+on what bends freely alone. e₀ follows the command; its change is work. The solid's third director t has
+`LIGHT` of the inertia of the others, so that the mass is regular.
+
+On the linear plate strains are those about the flat sheet, B q. With s along the edge, t outwards, tilt β and
+the axis at the height c they are, per length,
+
+    axial u_s,s + c β_s,s    shear w,s + β_s    aside u_t,s + c β_t,s + m_s    twist β_t,s    square β_t + m_z
+    bending −β_s,s out of the plane, −m_s,s in it
+
+so that a rod off the mid-surface couples bending and membrane, as it should; what the initial moment EI κ₀
+does as the rod deflects is of second order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from copy import copy
+from dataclasses import replace
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from fem_reference.discrete.course import Factor, factor_at
+from fem_reference.discrete.shape import Shape
+from fem_reference.surface.biquadratic import SIDE_MASS
+from fem_reference.surface.bound_rods import BoundRods
+from fem_reference.surface.rod import INPLANE, NORMAL
+from fem_reference.surface.rod_elements import RodElements
+from sheetbench.scenes import Scene
+
+LIGHT = 1e-3
+BENT = {"normal": (NORMAL,), "inplane": (INPLANE,), "spatial": (NORMAL, INPLANE)}
+
+
+def components_of(bound: BoundRods) -> np.ndarray:
+    """Numbers (k, 3 a) of the components of the sides' vectors, where all vectors' are the coordinates."""
+    k, a = bound.sites.shape
+    return (3 * bound.sites[:, :, None] + np.arange(3)).reshape(k, 3 * a)
+
+
+class Rods:
+    """The rods of a scene's chains among the coordinates (N,) of a sheet.
+
+    bound: to the sheet's vectors; bind: does that for a scene with the same chains; rows: coordinates
+    (k, 3 a) of the sides' Q, −1 for none; size: N; commands: scenes with a part of the curvature each, and
+    its factor; places: of φ, d and m (9,) in Q; linear: strains are those about the flat sheet.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        bound: BoundRods,
+        bind: Callable[[Scene], BoundRods],
+        rows: np.ndarray,
+        size: int,
+        commands: Iterable[tuple[Scene, Factor]],
+        places: np.ndarray | None = None,
+        linear: bool = False,
+    ):
+        self.bound, self._bind, self._linear, self._size, self.rows = bound, bind, linear, size, rows
+        self.elements: RodElements = bound.elements
+        self._commands: list[tuple[np.ndarray, Factor]] = [
+            (bind(alone).elements.intrinsic, factor) for alone, factor in commands
+        ]
+        self._mass = self._side_masses(scene, np.arange(9) if places is None else places)
+        self._viscous = self._dampers(scene)
+
+    def __bool__(self) -> bool:
+        return bool(self.bound.rods)
+
+    def weight(self, scene: Scene) -> np.ndarray:
+        """Dead forces (k, a, 3) on the sides' vectors of the chains under a scene's gravity."""
+        return self._bind(scene).elements.weight
+
+    def mass(self) -> csr_matrix:
+        """The rods' mass (N, N)."""
+        return self.matrix(self._inertia())
+
+    def stress(self, shape: Shape) -> np.ndarray:
+        """Elastic and viscous stresses (k, s)."""
+        change = self.gather(shape.q)
+        rate = 0.0 if shape.v is None else self._step(self._gradient(change), shape.v)
+        return self._stress(self._strain(change), rate, shape.at)
+
+    def mean_stress(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
+        """Those (k, s) of the mean strains of a step from q to q (N,), and of their mean rate; time: the
+        step's middle."""
+        strains = self._strain(self.gather(start)), self._strain(self.gather(end))
+        return self._stress(0.5 * (strains[0] + strains[1]), (strains[1] - strains[0]) / h, time)
+
+    def pull(self, q: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Bᵀ s (k, a, 3) on the sides' vectors at q (N,)."""
+        return self.elements.force(self._gradient(self.gather(q)), stress)
+
+    def extrapolated(self, shape: Shape, stress: np.ndarray, move: np.ndarray) -> np.ndarray:
+        """Stresses (k, s) linear in a step (N,) from a shape with these."""
+        return stress + self.elements.stiffness * self._step(self._gradient(self.gather(shape.q)), move)
+
+    def tangent(self, shape: Shape, stress: np.ndarray, by_a: float = 0.0, by_v: float = 0.0) -> np.ndarray:
+        """by_a M + by_v C + K of the sides under stresses, (k, 3 a, 3 a)."""
+        stiff = replace(self.elements, stiffness=self.elements.stiffness + by_v * self._viscous)
+        gradient = self._gradient(self.gather(shape.q))
+        return stiff.tangent(gradient, 0.0 * stress if self._linear else stress) + by_a * self._inertia()
+
+    def driving(self, shape: Shape) -> np.ndarray:
+        """Force of the commands on the sides' vectors (k, a, 3)."""
+        return self.pull(shape.q, self.elements.stiffness * self._intrinsic(shape.at))
+
+    def energy(self, q: np.ndarray, at: float) -> float:
+        """Strain energy [J] from the shape that the commands ask for."""
+        off = self._strain(self.gather(q)) - self._intrinsic(at)
+        return 0.5 * float(np.sum(self.elements.stiffness * off**2))
+
+    def dissipated(self, q: np.ndarray, step: np.ndarray, rate: np.ndarray) -> float:
+        """Δeᵀ τ S ė [J] of a step and a rate (N,) at q."""
+        gradient = self._gradient(self.gather(q))
+        return float(np.sum(self._viscous * self._step(gradient, step) * self._step(gradient, rate)))
+
+    def magnitudes(self, q: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Σ |B| |s| (k, a, 3), what forces on the sides' vectors are sums of."""
+        return np.einsum("es,esic->eic", np.abs(stress), np.abs(self._gradient(self.gather(q))))
+
+    def dragged(self, shape: Shape, drag: float) -> Rods:
+        """Rods of stresses (1 + σ) S e − σ S e_n − S e₀: a step of creep from strains e_n of a shape."""
+        past = self._intrinsic(shape.at) + drag * self._strain(self.gather(shape.q))
+        slow = copy(self)
+        slow.elements = replace(self.elements, stiffness=(1.0 + drag) * self.elements.stiffness)
+        slow._commands = [(past / (1.0 + drag), None)]
+        return slow
+
+    def matrix(self, sides: np.ndarray) -> csr_matrix:
+        """The sum (N, N) of matrices of sides (k, 3 a, 3 a)."""
+        width = self.rows.shape[1]
+        rows, columns = np.repeat(self.rows, width, axis=1).ravel(), np.tile(self.rows, (1, width)).ravel()
+        on = (rows >= 0) & (columns >= 0)
+        return csr_matrix((sides.ravel()[on], (rows[on], columns[on])), (self._size, self._size))
+
+    def gather(self, q: np.ndarray) -> np.ndarray:
+        """The sides' vectors (k, a, 3) of coordinates (N,)."""
+        return np.where(self.rows >= 0, q[self.rows], 0.0).reshape(self.elements.reference.shape)
+
+    def scatter(self, of_sides: np.ndarray) -> np.ndarray:
+        """Sums (N,) of the sides' (k, a, 3)."""
+        on = self.rows >= 0
+        return np.bincount(self.rows[on], of_sides.reshape(self.rows.shape)[on], self._size)
+
+    def _inertia(self) -> np.ndarray:
+        k, a = self._mass.shape[:2]
+        return np.einsum("eij,cd->eicjd", self._mass, np.eye(3)).reshape(k, 3 * a, 3 * a)
+
+    def _gradient(self, change: np.ndarray) -> np.ndarray:
+        return self.elements.gradient(np.zeros_like(change) if self._linear else change)
+
+    def _step(self, gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
+        found: np.ndarray = np.einsum("esic,eic->es", gradient, self.gather(step))
+        return found
+
+    def _strain(self, change: np.ndarray) -> np.ndarray:
+        if self._linear:
+            return np.einsum("esic,eic->es", self._gradient(change), change)
+        return self.elements.strain(change)
+
+    def _intrinsic(self, at: float) -> np.ndarray:
+        total = np.zeros_like(self.elements.intrinsic)
+        for shape, factor in self._commands:
+            total += factor_at(factor, at) * shape
+        return total
+
+    def _stress(self, strain: np.ndarray, rate: np.ndarray | float, at: float) -> np.ndarray:
+        return self.elements.stiffness * (strain - self._intrinsic(at)) + self._viscous * rate
+
+    def _dampers(self, scene: Scene) -> np.ndarray:
+        """τ S of what bends freely, (k, s); chains on one edge by their stiffness."""
+        out = [np.zeros((0, self.elements.stiffness.shape[1]))]
+        for rod, stiffness in zip(self.bound.rods, self.bound.by_rod(self.elements.stiffness), strict=True):
+            chains = scene.chains()[rod.edge].values()
+            rigidity = np.array([chain.bending_stiffness for chain in chains])
+            tau = np.array([chain.damping_time for chain in chains]) @ rigidity / rigidity.sum()
+            out.append(np.zeros_like(stiffness))
+            for bent in BENT[next(iter(chains)).plane]:
+                out[-1][:, bent] = tau * stiffness[:, bent]
+        return np.concatenate(out)
+
+    def _side_masses(self, scene: Scene, places: np.ndarray) -> np.ndarray:
+        """Mass of the sides' vectors, (k, a, a)."""
+        a = self.elements.reference.shape[1]
+        out = [np.zeros((0, a, a))]
+        for rod in self.bound.rods:
+            ends = rod.elements.reference[:, [0, 2]]
+            half = 0.5 * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+            mass = np.zeros((len(rod.nodes), a, a))
+            for chain in scene.chains()[rod.edge].values():
+                height, rotary = chain.axis_height(scene.sheet.thickness), chain.radius**2 / 4.0
+                kinds = np.diag([1.0, height**2 + rotary, rotary])
+                kinds[0, 1] = kinds[1, 0] = height
+                side = chain.line_density * half[:, None, None] * np.kron(kinds, SIDE_MASS)
+                mass[:, places[:, None], places] += side
+                third = np.arange(places[-1] + 1, a)
+                mass[:, third[:, None], third] += LIGHT * side[:, 6:, 6:][:, : len(third), : len(third)]
+            out.append(mass)
+        return np.concatenate(out)

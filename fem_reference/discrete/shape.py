@@ -1,0 +1,83 @@
+"""A discrete sheet in a shape: what its forces, its tangent and its loads need, each formed once."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+
+
+class Sheet(Protocol):
+    """What a shape needs of its sheet (`discrete.sheet`, `discrete.elements`), and items of it."""
+
+    element: Any
+
+    def grow(self, at: float) -> None: ...
+
+    def frame(self, q: np.ndarray, at: float) -> Any: ...
+
+    def gather(self, q: np.ndarray) -> np.ndarray: ...
+
+    def on_surface(self, q: np.ndarray) -> np.ndarray: ...
+
+    def surface_change(self, change: np.ndarray) -> np.ndarray: ...
+
+    def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray: ...
+
+
+class Shape:
+    """Coordinates q and rates v (N,), 0 where None, at a load factor or time [s] `at`."""
+
+    def __init__(self, sheet: Sheet, q: np.ndarray, at: float, v: np.ndarray | None = None):
+        self.sheet, self.q, self.at, self.v = sheet, q, at, v
+
+    @cached_property
+    def vectors(self) -> np.ndarray:
+        """Position φ and director d at the nodes of the plan's elements, (m, 18, 3)."""
+        return self.sheet.on_surface(self.q)
+
+    @cached_property
+    def rates(self) -> np.ndarray:
+        """Their rates (m, 18, 3)."""
+        return self.sheet.surface_change(np.zeros_like(self.q) if self.v is None else self.v)
+
+    @cached_property
+    def frame(self) -> Any:
+        """What Z, δq = Z x, is made of."""
+        return self.sheet.frame(self.q, self.at)
+
+    # of a sheet of elements whose strains are quadratic in the coordinates
+
+    @cached_property
+    def change(self) -> np.ndarray:
+        """Change of the elements' vectors (m, a, 3)."""
+        return self.sheet.gather(self.q)
+
+    @cached_property
+    def operator(self) -> Any:
+        """What the elements' B is made of."""
+        return self.sheet.element.operator(self.change)
+
+    @cached_property
+    def strain(self) -> Any:
+        """(m, k), from the sheet's natural state."""
+        self.sheet.grow(self.at)
+        return self.sheet.element.strain(self.change)
+
+    @cached_property
+    def elastic(self) -> Any:
+        """Elastic stress (m, k)."""
+        return self.sheet.element.stress(self.strain)
+
+    @cached_property
+    def moduli(self) -> Any:
+        """Derivative (m, k, k) of the elastic stress by the strain."""
+        return self.sheet.element.moduli(self.strain)
+
+    @cached_property
+    def rate(self) -> Any:
+        """Rate of the strain (m, k)."""
+        if self.v is None:
+            return np.zeros_like(self.strain)
+        return self.sheet.element.step(self.operator, self.sheet.gather(self.v))

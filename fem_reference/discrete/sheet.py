@@ -1,0 +1,422 @@
+"""A discrete sheet: coordinates with a constant mass, forces that depend on them, what is prescribed.
+
+    M ü + g(q, u̇, t) ⊥ Z(q),     g = internal − external forces,     δq = Z(q) x
+
+q are the nodes' vectors: displacements and, of a shell, directors, which are as many coordinates as a vector
+has. |d| = 1 and what supports hold are constraints, and x the unknowns of the tangent space that they leave.
+Since M does not depend on q there are no gyroscopic forces: they come from the constraint. Statics are the
+sheet at rest with the load factor in place of the time (`discrete.static`), modes those of its tangent.
+
+Viscous forces are those of the rate of strain under the elastic moduli, s = D (e + τ ė) with ė = B u̇ and τ
+the material's `dashpot_time`, as every spring of a lattice has the damper τ k; `damping_rate` α adds α M u̇.
+Their tangent leaves out how B changes with the shape, which is of the order of the turn in a step.
+Internal forces are those of the elements and of the rods (`discrete.rods`), external ones those of `items`.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+from scipy.sparse import csc_matrix, csr_matrix
+
+from fem_reference.discrete.course import commands_of, loads_of
+from fem_reference.discrete.drag import Drag
+from fem_reference.discrete.items import Dead, Following, Item
+from fem_reference.discrete.relaxation import Memory, Strained
+from fem_reference.discrete.rods import Rods
+from fem_reference.discrete.shape import Shape
+from fem_reference.surface import loads
+from fem_reference.surface.actuator_forces import Held, OnEdge
+from fem_reference.surface.balance import Surface
+from fem_reference.surface.bound_rods import BoundRods
+from fem_reference.surface.location import interpolate
+from fem_reference.surface.mesh import Plan
+from fem_reference.surface.supports import Supports
+from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.numerics.continuation.stability import require_stable
+from sheetbench.numerics.direct import DirectSolver
+from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
+from sheetbench.scenes.motion import NO_START, at_start, kinks, starts_flat
+from sheetbench.scenes.natural_state import sources_of
+from sheetbench.scenes.relaxation import Branches
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Coordinates, their rates, accelerations and the algorithm's (N,) at a time [s]; exerted: M a + g;
+    memory: of the material's branches."""
+
+    time: float
+    q: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    algorithm: np.ndarray
+    exerted: np.ndarray
+    memory: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+
+class Energies(NamedTuple):
+    """Energies [J]; potential: of constant dead loads, and of items that store it."""
+
+    kinetic: float
+    elastic: float
+    potential: float
+
+
+class Discrete(ABC):
+    """N coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
+
+    norm: order of the norm that residuals are measured in. conservative: whether the law of strain is
+    linear in Green's strain; any_strain: whether it is meant for large strains. size: N; lever: the flat
+    sheet's longer side [m]; scale: 1 of positions (N,), of directors the lever. own: whether the mesh has an
+    outline of its own, in place of the scene's sheet. bodies: the rods, if there are any.
+    """
+
+    model: ClassVar[str]
+    norm: ClassVar[int]
+    label: str
+    settings: dict[str, Any]
+    element: Any = None
+    conservative: bool
+    any_strain: bool = False
+    own: bool = False
+    plan: Plan
+    supports: Supports
+    rods: Rods
+    unknowns: int
+    size: int
+    scale: np.ndarray
+
+    def __init__(self, scene: Scene, moving: bool = False):
+        self.scene, self.moving = scene, moving
+        material = scene.material
+        if (
+            moving
+            and material.branches.times
+            and any(one.of.history is not None for one in sources_of(scene))
+        ):
+            raise BadInput(
+                f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
+            )
+        self.memory = Memory(material.branches if moving else Branches((), ()))
+        self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
+        self.items: list[Item] = []
+
+    def bind(
+        self,
+        bind: Callable[[Scene], BoundRods],
+        bound: BoundRods,
+        rows: np.ndarray,
+        places: np.ndarray | None = None,
+    ) -> None:
+        """Take up the chains and all loads, once the sheet has its plan and N coordinates."""
+        scene, moving = self.scene, self.moving
+        commands = commands_of(scene, moving) if bound.rods else ()
+        linear = self.model == "plate"
+        self.rods = rods = Rods(scene, bound, bind, rows, self.size, commands, places, linear)
+        self.bodies = [rods] if rods else []
+        for alone, factor in loads_of(scene, moving):
+            nodal, followers = loads.of_scene(alone, self.plan)
+            dead = self.on_coordinates(nodal)
+            for body in self.bodies:
+                dead = dead + body.scatter(body.weight(alone))
+            self.items += [Dead(dead, factor)] if dead.any() else []
+            self.items += [Following(load, factor) for load in followers]
+        if moving and scene.air:
+            self.items.append(Drag(scene.air.coefficient))
+
+    @property
+    def nodes(self) -> int:
+        return len(self.plan.nodes)
+
+    @cached_property
+    def lever(self) -> float:
+        return float(np.ptp(self.plan.nodes, axis=0).max())
+
+    @property
+    def longest(self) -> float:
+        """The scene's longer side [m]."""
+        return max(self.scene.sheet.lengths)
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the tangent is: loads that follow the sheet make it unsymmetric, unless they have a
+        potential."""
+        return all(item.conservative for item in self.items)
+
+    def solver(self) -> DirectSolver:
+        """What factorises tangents."""
+        return DirectSolver(self.symmetric)
+
+    @property
+    @abstractmethod
+    def sheet_mass(self) -> csr_matrix:
+        """M (N, N) of the sheet, which `damping_rate` acts on, and its payloads."""
+
+    @cached_property
+    def mass(self) -> csr_matrix:
+        """M (N, N), the chains' mass in it."""
+        return sum((body.mass() for body in self.bodies), self.sheet_mass).tocsr()
+
+    # what is prescribed, and the unknowns
+
+    def instant(self, at: float) -> tuple[float, float | None]:
+        """The share of what bends and tilts edges, and the time [s] of what moves them, None for the last."""
+        return (1.0, at) if self.moving else (at, None)
+
+    @cached_property
+    def kinks(self) -> np.ndarray:
+        """Times [s] at which something prescribed bends its course."""
+        return np.array(kinks(self.scene))
+
+    @abstractmethod
+    def grow(self, at: float) -> None:
+        """Set the sheet's natural state to that at a load factor or time [s], where it has one."""
+
+    @property
+    @abstractmethod
+    def grows(self) -> bool:
+        """Whether the natural state changes over time."""
+
+    def jumps(self, time: float) -> bool:
+        """Whether what is prescribed changes its velocity at once."""
+        turned = any(time in motion.time for motion in self.scene.motions().values())
+        return turned or self.supports.jumps(time)
+
+    @abstractmethod
+    def placed(self, q: np.ndarray, at: float) -> np.ndarray:
+        """q (N,) with what is prescribed, on the constraints."""
+
+    @abstractmethod
+    def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        """u̇ (N,) with what is prescribed from a time on, tangential to the constraints."""
+
+    def gather(self, q: np.ndarray) -> np.ndarray:
+        """Changes of the elements' vectors (m, a, 3) of coordinates (N,)."""
+        raise NotImplementedError
+
+    def frame(self, q: np.ndarray, at: float) -> Any:
+        """What Z is made of, beside what is held."""
+        return None
+
+    @abstractmethod
+    def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
+        """Z (N, unknowns)."""
+
+    @abstractmethod
+    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
+        """The parts that are held of vectors (N, k) of the flat sheet, (h, k)."""
+
+    def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """q after a step Z x (N,), on the constraints."""
+        return q + step
+
+    def centripetal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """The part (N,) of ü that the constraints demand at these velocities: none of coordinates held."""
+        return np.zeros_like(q)
+
+    def of_supports(self, exerted: np.ndarray) -> np.ndarray:
+        """What supports and motions exert (N,) of M ü + g, which has no part along what is free."""
+        return exerted
+
+    # forces
+
+    @abstractmethod
+    def elements_internal(self, shape: Shape) -> np.ndarray:
+        """Elastic and viscous forces (N,) of the sheet."""
+
+    @abstractmethod
+    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
+        """Those (N,) of the mean strains of a step and their mean rate."""
+
+    def shape(self, q: np.ndarray, at: float, v: np.ndarray | None = None) -> Shape:
+        """The sheet at coordinates and rates (N,)."""
+        return Shape(self, q, at, v)
+
+    def external(self, shape: Shape) -> np.ndarray:
+        """Forces (N,) of all items."""
+        return sum((item.force(shape) for item in self.items), np.zeros(self.size))
+
+    def internal(self, shape: Shape) -> np.ndarray:
+        """Forces (N,) of the sheet's elements and of its rods."""
+        out = self.elements_internal(shape)
+        for body in self.bodies:
+            out = out + body.scatter(body.pull(shape.q, body.stress(shape)))
+        return out
+
+    def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        """g (N,): internal and viscous less external forces."""
+        self.memory.now = time
+        shape = self.shape(q, time, v)
+        return self._damped(self.internal(shape) - self.external(shape), v)
+
+    def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
+        """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
+        q, v = 0.5 * (start + end), (end - start) / h
+        self.grow(time)
+        out = self.elements_mean_internal(start, end, h)
+        for body in self.bodies:
+            out = out + body.scatter(body.pull(q, body.mean_stress(start, end, h, time)))
+        return self._damped(out - self.external(self.shape(q, time, v)), v)
+
+    def _damped(self, forces: np.ndarray, v: np.ndarray) -> np.ndarray:
+        return forces + self.alpha * (self.sheet_mass @ v) if self.alpha else forces
+
+    @abstractmethod
+    def tangent(
+        self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
+    ) -> csr_matrix:
+        """Zᵀ (by_a M + by_v C + K) Z, and what the constraints add under a residual (N,)."""
+
+    @abstractmethod
+    def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
+        """Forces (N,) of dead ones on the mid-surface (n, 3)."""
+
+    @abstractmethod
+    def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
+        """Coordinates (N,) of displacements and changes of the directors of the plan's nodes, (n, 3)."""
+
+    @abstractmethod
+    def on_surface(self, q: np.ndarray) -> np.ndarray:
+        """Position φ and director d at the nodes of the plan's elements, (m, 18, 3)."""
+
+    @abstractmethod
+    def surface_change(self, change: np.ndarray) -> np.ndarray:
+        """Their change (m, 18, 3) with the coordinates (N,), which it is linear in."""
+
+    @abstractmethod
+    def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
+        """Forces (N,) of those on φ and d of elements `on`, (k, 18, 3)."""
+
+    # energies
+
+    @abstractmethod
+    def strains(self, q: np.ndarray) -> Strained:
+        """Strains, and the elastic stresses that go with them, as `memory` takes them."""
+
+    @abstractmethod
+    def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
+        """Strain energy [J] of the sheet by part."""
+
+    @abstractmethod
+    def elastic(self, q: np.ndarray) -> float:
+        """Strain energy [J] of the sheet."""
+
+    @abstractmethod
+    def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
+        """Δeᵀ D Δe' [J] of the strains of a step (N,) from q and of another one."""
+
+    def energies(self, q: np.ndarray, v: np.ndarray, time: float) -> Energies:
+        """Energies of a state."""
+        self.memory.now = time
+        self.grow(time)
+        shape = self.shape(q, time, v)
+        potential = sum(item.stored(shape) for item in self.items)
+        elastic = self.elastic(q) + sum(body.energy(q, time) for body in self.bodies)
+        stored = self.memory.stored(self.strains(q)) if self.memory else 0.0
+        return Energies(0.5 * float(v @ (self.mass @ v)), elastic + stored, potential)
+
+    def spent(self, start: Motion, end: Motion, late: float) -> np.ndarray:
+        """Energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
+        forces times changes, of dampers those that the step balances. late: the end's share in them."""
+        h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
+        rate = (1.0 - late) * start.v + late * end.v
+        damped = self.tau * self.stiffness_of(middle, step, rate) if self.tau else 0.0
+        damped += self.alpha * float(step @ (self.sheet_mass @ rate))
+        self.memory.since(start.time, start.memory)
+        self.memory.now = end.time
+        self.grow(end.time)
+        damped += self.memory.dissipated(self.strains(end.q)) if self.memory else 0.0
+        exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
+        work = float(self.of_supports(exerted) @ step)
+        for body in self.bodies:
+            damped += body.dissipated(middle, step, rate)
+            for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
+                work += 0.5 * (body.energy(q, end.time) - body.energy(q, start.time))
+        for sign, time in ((1.0, end.time), (-1.0, start.time)) if self.grows else ():
+            self.grow(time)
+            work += 0.5 * sign * (self.elastic(start.q) + self.elastic(end.q))
+        shape = self.shape(middle, half_way, step / h)
+        for item in self.items:
+            taken, done = item.exchanged(shape, step)
+            damped, work = damped + taken, work + done
+        return np.array([damped, work])
+
+    # where a motion starts, and when it means nothing
+
+    def start(self) -> np.ndarray:
+        """q (N,) at t = 0: flat, or the equilibrium to start from (`sheetbench.scenes.motion`). Raises
+        NoEquilibrium where there is no stable one."""
+        if starts_flat(self.scene):
+            return self.placed(np.zeros(self.size), 0.0)
+        q, status, notes = self.equilibrium(at_start(self.scene))
+        try:
+            require_stable(self.model, status, notes)
+        except NoEquilibrium as error:
+            raise NoEquilibrium(f"{NO_START}: {error}") from None
+        return self.placed(q, 0.0)
+
+    def equilibrium(self, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
+        """q (N,) under the full load of a scene, of this one's sheet; how the path there ended, and notes."""
+        raise NotImplementedError
+
+    def inside_out(self, q: np.ndarray) -> str:
+        """A sentence on the element that has turned inside out, "" for none."""
+        return ""
+
+    @abstractmethod
+    def stretch(self, q: np.ndarray) -> float:
+        """How far the sheet is strained, as `beyond` takes it."""
+
+    def beyond(self, stretch: float) -> str:
+        """A clause where the law of strain does not hold that far, else ""."""
+        return "" if self.any_strain else outside_model(self.scene, stretch)
+
+    # what is shown
+
+    @abstractmethod
+    def displacement(self, q: np.ndarray) -> np.ndarray:
+        """Displacements (k, 3) [m] of the nodes, a view."""
+
+    def middles(self, displacement: np.ndarray) -> np.ndarray:
+        """Those (n, 3) [m] of the plan's nodes on the mid-surface."""
+        return displacement
+
+    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m], of nodal ones as `displacement`."""
+        return interpolate(self.plan.mesh, self.plan.elements, self.middles(displacement), points)
+
+    @abstractmethod
+    def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
+        """Forces (3,) [N] of what holds the sheet, of M ü + g (N,)."""
+
+    @abstractmethod
+    def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
+        """The sheet for drawing, and the line force (n, 3) [N/m] of actuators on it."""
+
+    def mesh(self, displacement: np.ndarray) -> FieldMesh:
+        """The sheet for drawing, of nodal displacements as `displacement`."""
+        q = np.zeros(self.size)
+        self.displacement(q)[:] = displacement
+        return self.drawn(q)
+
+    @abstractmethod
+    def surface(self, q: np.ndarray) -> Surface:
+        """The sheet as it lies."""
+
+    @abstractmethod
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
+        """Force and couple on the nodes of g (N,)."""
+
+    @abstractmethod
+    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
+        """What the rods exert, which pull at their sides' vectors (k, a, 3)."""
+
+    @abstractmethod
+    def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Where, and with which forces of g (N,), the sheet is held, pairs (…, 3), its nodes first."""

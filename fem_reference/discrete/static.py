@@ -1,0 +1,142 @@
+"""Statics of a discrete sheet: at rest, with its load factor in place of the time, as the path tracer has it.
+
+With R = Bᵀ s − λ f the residual on all coordinates, a step goes to equilibrium and onto what is prescribed,
+
+    Zᵀ K Z x = −Zᵀ (R + K δ),    q + δ + Z x,
+
+with δ the step to prescribed values and constraints. All of strain, load and constraint being polynomials in
+q, it is Newton's; `mixed` takes the stresses that the last step extrapolated, s + D B δq, for the geometric
+stiffness and the constraints' own (see `continuation.trace`), and of bricks the extrapolated pressure: near
+ν = ½ the current one is a large error until volumes fit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.discrete.shape import Shape
+from fem_reference.shell.element import weighed
+from sheetbench.numerics.continuation.structure import Creeping
+
+OnRods = tuple[np.ndarray, ...]
+
+
+@dataclass(frozen=True)
+class State:
+    """q (N,); extrapolated: stress (m, k) of the elements, their pressure, where the law has one of its own,
+    and stresses (k, s) of the rods; the sheet's own where None."""
+
+    q: np.ndarray
+    stress: np.ndarray | None = None
+    pressure: np.ndarray | None = None
+    on_rods: OnRods = ()
+
+
+@dataclass(frozen=True)
+class Forces:
+    """At a state: its shape, stresses (k, s) of the rods, residual (N,), size of the forces that balance [N],
+    and the step (N,) to what is prescribed."""
+
+    shape: Shape
+    on_rods: OnRods
+    residual: np.ndarray
+    size: float
+    short: np.ndarray
+
+
+class Static(Creeping[State, Forces]):
+    """A sheet of elements, ready for `trace_path`."""
+
+    def __init__(self, sheet: DiscreteElements):
+        self.sheet = sheet
+
+    @property
+    def symmetric(self) -> bool:
+        return self.sheet.symmetric
+
+    @property
+    def unknowns(self) -> int:
+        return self.sheet.unknowns
+
+    @property
+    def prestrained(self) -> bool:
+        return self.sheet.element.prestrain is not None
+
+    def rest(self) -> State:
+        """Flat, and free of stress where nothing acts on it."""
+        return State(np.zeros(self.sheet.size))
+
+    def unextrapolated(self, state: State) -> State:
+        return State(state.q)
+
+    def with_stresses(self, state: State, of: State) -> State:
+        return replace(of, q=state.q)
+
+    def potential(self, state: State, load_factor: float) -> tuple[float, float]:
+        sheet = self.sheet
+        sheet.grow(load_factor)
+        shape = sheet.shape(state.q, load_factor)
+        stored = sheet.elastic(state.q) + sum(body.energy(state.q, load_factor) for body in sheet.bodies)
+        of_items = sum(item.potential(shape) for item in sheet.items)
+        return stored + of_items, stored + abs(of_items)
+
+    def dragged(self, state: State, load_factor: float, drag: float) -> Static:
+        return Static(self.sheet.dragged(self.sheet.shape(state.q, load_factor), drag))
+
+    def forces(self, state: State, load_factor: float) -> Forces:
+        sheet = self.sheet
+        shape = sheet.shape(state.q, load_factor)
+        external = sheet.external(shape)
+        residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
+        size = sheet.measured(external, sheet.scale) + sheet.measured(sheet.of_held_positions(residual))
+        if (natural := sheet.element.prestrain) is not None:  # often all that loads it
+            pull = sheet.element.forces(shape.operator, sheet.element.stress(natural))
+            size += sheet.measured(sheet.scatter(pull), sheet.scale)
+        residual -= external
+        on_rods = tuple(body.stress(shape) for body in sheet.bodies)
+        for body, stress in zip(sheet.bodies, on_rods, strict=True):
+            residual += body.scatter(body.pull(shape.q, stress))
+            size += sheet.measured((body.driving(shape) / sheet.scale_of(body)).ravel())
+        return Forces(shape, on_rods, residual, size, sheet.short(shape))
+
+    def imbalance(self, state: State, forces: Forces) -> float:
+        sheet = self.sheet
+        left = sheet.reduce(forces.shape, forces.residual / sheet.scale)
+        return float(np.linalg.norm(left, sheet.norm))
+
+    def gap(self, state: State, load_factor: float) -> float:
+        """Largest distance from what is prescribed, relative to the sheet's size, or change of a director."""
+        sheet = self.sheet
+        step = sheet.short(sheet.shape(state.q, load_factor)) * sheet.scale
+        return float(np.abs(step).max() / sheet.lever)
+
+    def system(
+        self, state: State, forces: Forces, load_factor: float, mixed: bool = True
+    ) -> tuple[csr_matrix, np.ndarray]:
+        sheet, shape, residual = self.sheet, forces.shape, forces.residual
+        stress, on_rods, pressure = shape.elastic, forces.on_rods, None
+        if mixed and state.stress is not None:
+            stress, on_rods, pressure = state.stress, state.on_rods, state.pressure
+            residual = sheet.constraining(shape, residual, stress, on_rods)
+        moduli, move = sheet.moduli(shape, pressure), forces.short if forces.short.any() else None
+        matrix, product = sheet.system(shape, moduli, stress, on_rods, residual, move=move)
+        return matrix, -sheet.reduce(shape, forces.residual + product)
+
+    def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
+        sheet, shape = self.sheet, forces.shape
+        move = sheet.expand(shape, step) + forces.short
+        by = sheet.element.step(shape.operator, sheet.gather(move))
+        on_rods = (
+            body.extrapolated(shape, own, move)
+            for body, own in zip(sheet.bodies, forces.on_rods, strict=True)
+        )
+        stress = shape.elastic + weighed(sheet.moduli(shape, state.pressure), by)
+        return State(state.q + move, stress, sheet.pressure(shape, by), tuple(on_rods))
+
+    def length(self, start: State, end: State) -> float:
+        moved = self.sheet.displacement(end.q) - self.sheet.displacement(start.q)
+        return float(np.abs(moved).max() / self.sheet.lever)

@@ -1,0 +1,352 @@
+"""The discrete shell: positions and directors, five unknowns a node.
+
+q: displacements u and changes d − e_z of the directors of all nodes, (2 n, 3), then those of the rods' own
+third director m, one more director at every node of their edges, (p, 3): in all 2 n + p vectors. Unknowns are
+u and two tangent-plane components β of every director: δd = T β with T ⊥ d. The constraint |d|² = 1 is linear
+in the step of statics,
+
+    d · δd = ½ (1 − d · d),
+
+and its multiplier, −(R_d · d)/(d · d), stiffens T (the curvature of the sphere). The kinetic energy per area
+is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|².
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
+
+from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.discrete.rods import components_of
+from fem_reference.discrete.shape import Shape
+from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
+from fem_reference.shell.element import Element, add_tangents
+from fem_reference.shell.validity import inverted, membrane_strain
+from fem_reference.surface import carried, rod
+from fem_reference.surface import supports as surface_supports
+from fem_reference.surface.actuator_forces import Held, OnEdge, on_edges
+from fem_reference.surface.balance import Surface
+from fem_reference.surface.biquadratic import AT_GAUSS, cross
+from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
+from fem_reference.surface.materials import constants_of
+from fem_reference.surface.mesh import Plan, field_mesh
+from sheetbench.numerics.direct import DirectSolver
+from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
+from sheetbench.scenes import FieldMesh, Scene
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+class DiscreteShell(DiscreteElements):
+    """A scene's shell on a plan; number: of the unknowns (n, 5) of every node, turns (n + p, 2) of every
+    director, −1 where held."""
+
+    model = "shell"
+    norm: ClassVar[int] = 1
+    element: Element
+
+    def __init__(self, plan: Plan, scene: Scene, element: Element, conservative: bool, moving: bool = False):
+        super().__init__(scene, moving)
+        self.plan, self.element, self.conservative = plan, element, conservative
+        self.any_strain = element.stands_any_strain
+        n = self.nodes
+
+        def bind(of: Scene) -> BoundRods:
+            return on_surface(rod.of_scene(of, plan), n)
+
+        bound = bind(scene)
+        self.supports = supports = rod.hold_bases(surface_supports.of_scene(scene, plan.mesh), bound.rods)
+        free = np.concatenate([~supports.position, np.repeat(~supports.director[:, None], 2, axis=1)], axis=1)
+        free[supports.tilt.any(axis=1), 3] = False  # the first tangent of such a director is the axis held
+        free_aside = np.repeat(~bound.held[:, None], 2, axis=1)
+        every = np.concatenate([free.ravel(), free_aside.ravel()])
+        numbered = np.where(every, np.cumsum(every) - 1, -1)
+        self.number = numbered[: free.size].reshape(free.shape)
+        self.turns = np.concatenate([self.number[:, 3:], numbered[free.size :].reshape(-1, 2)])
+        m, k = len(plan.elements), len(bound.sites)
+        of_element = self.number[plan.elements]
+        of_sheet = [of_element[:, :, :3].reshape(m, 27), of_element[:, :, 3:].reshape(m, 18)]
+        on_rod = [
+            self.number[bound.sites[:, :3], :3].reshape(k, 9),
+            self.turns[bound.sites[:, 3:] - n].reshape(k, 12),
+        ]
+        sheet, on_sides = element.reference[:, :9, :2], bound.elements.reference[:, :3, :2]
+        places = np.concatenate([sheet.mean(axis=1), on_sides.mean(axis=1)])
+        unknowns = (np.concatenate(each, axis=1) for each in (of_sheet, on_rod))
+        self.pattern = pattern_of(places, *unknowns, size=int(every.sum()))
+        self.unknowns, self.size = self.pattern.size, 6 * n + bound.own.size
+        self.scale = np.full(self.size, self.lever)
+        self.scale[: 3 * n] = 1.0
+        self.per_vector = np.repeat([1.0, 1.0 / self.lever], 9)
+        self._upright = np.concatenate([np.tile(UP, (n, 1)), bound.own])
+        turns = np.concatenate([supports.director, bound.held])
+        self._held = np.concatenate([supports.position, np.tile(turns, (3, 1)).T])
+        self.bind(bind, bound, components_of(bound))
+
+    def solver(self) -> DirectSolver:
+        return DirectSolver(self.symmetric, lambda: self.pattern.fronts)
+
+    @cached_property
+    def _products(self) -> tuple[np.ndarray, np.ndarray]:
+        """∫ ρh N_i N_j dA (m, 9, 9) [kg] and, of the directors' x, y and z, ∫ ρh³/12 N_i N_j dA (3, m, 9, 9)
+        [kg m²], with what the payloads add."""
+        value, of = AT_GAUSS[0], constants_of(self.scene, self.plan.corners)
+        by_place, by_turn = (
+            np.asarray(np.einsum("eg,gi,gj->eij", part * self.element.areas, value, value))
+            for part in (of.per_area, of.rotary_per_area)
+        )
+        payloads = carried.of_scene(self.scene, self.plan)
+        by_place[payloads.elements] += payloads.by_place
+        by_axis = np.tile(by_turn, (3, 1, 1, 1))
+        by_axis[:, payloads.elements] += payloads.by_turn
+        return by_place, by_axis
+
+    @cached_property
+    def sheet_mass(self) -> csr_matrix:
+        pattern, none = (
+            Pattern(self.plan.elements, size=self.nodes),
+            csr_matrix((self.size - 6 * self.nodes,) * 2),
+        )
+        by_place, by_turn = self._products
+        turning = sum(kron(pattern.matrix(by_turn[axis]), np.diag(row)) for axis, row in enumerate(np.eye(3)))
+        return block_diag([kron(pattern.matrix(by_place), np.eye(3)), turning, none], format="csr")
+
+    # what is prescribed, and the unknowns
+
+    def directors(self, q: np.ndarray) -> np.ndarray:
+        """d of the nodes, then m of the rods, (n + p, 3)."""
+        return q[3 * self.nodes :].reshape(-1, 3) + self._upright
+
+    def frame(self, q: np.ndarray, at: float) -> np.ndarray:
+        """T (n + p, 3, 2) ⊥ d, and ⊥ m of the rods."""
+        return tangent_frames(self.directors(q), self._held_axes)
+
+    @cached_property
+    def _held_axes(self) -> np.ndarray:
+        """The axis that is the first tangent of every director (n + p,), −1 for any."""
+        axes = np.full(len(self.turns), -1)
+        nodes, along = np.nonzero(self.supports.tilt & ~self.supports.director[:, None])
+        axes[nodes] = along
+        return axes
+
+    def placed(self, q: np.ndarray, at: float) -> np.ndarray:
+        target = np.zeros(self._held.shape)
+        target[: 2 * self.nodes] = self.supports.change(*self.instant(at)).reshape(-1, 3)
+        return self._of_unit_directors(np.where(self._held, target, q.reshape(target.shape)))
+
+    def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        prescribed = np.zeros(self._held.shape)
+        prescribed[: 2 * self.nodes] = self.supports.rate(time).reshape(-1, 3)
+        rate = np.where(self._held, prescribed, v.reshape(self._held.shape))
+        directors, turns = self.directors(q), rate[self.nodes :]
+        turns -= np.einsum("nc,nc->n", turns, directors)[:, None] * directors
+        return rate.ravel()
+
+    def short(self, shape: Shape) -> np.ndarray:
+        n, change = self.nodes, self.supports.change(*self.instant(shape.at))
+        change -= shape.q[: 6 * n].reshape(2, n, 3)
+        step = np.concatenate(
+            [np.where(self.supports.position, change[0], 0.0), to_unit(self.directors(shape.q))]
+        )
+        held = self._held_directors
+        step[n + held] = change[1][held]
+        if self.bodies:
+            step[2 * n :][self.rods.bound.held] = -shape.q[6 * n :].reshape(-1, 3)[self.rods.bound.held]
+        return step.ravel()
+
+    @cached_property
+    def _held_directors(self) -> np.ndarray:
+        return np.flatnonzero(self.supports.director)
+
+    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
+        n, tilt = self.nodes, self.supports.tilt
+        leaning = np.column_stack([tilt, np.zeros(n, dtype=bool)])
+        on = self._held.copy()
+        on[n : 2 * n] |= leaning
+        return vectors[on.ravel()]
+
+    def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
+        return self._of_unit_directors((q + step).reshape(-1, 3))
+
+    def _of_unit_directors(self, change: np.ndarray) -> np.ndarray:
+        """q (N,) of changes (2 n + p, 3) with those directors that are free brought to unit length."""
+        turns = change[self.nodes :]
+        directors = turns + self._upright
+        unit = directors / np.linalg.norm(directors, axis=1)[:, None] - self._upright
+        return np.append(change[: self.nodes], np.where(self._held[self.nodes :], turns, unit))
+
+    def centripetal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """−|ḋ|² d of the directors that are free."""
+        rate = v.reshape(-1, 3)[self.nodes :]
+        inward = -np.sum(rate**2, axis=1)[:, None] * self.directors(q)
+        turns = np.where(self._held[self.nodes :], 0.0, inward)
+        return np.append(np.zeros((self.nodes, 3)), turns)
+
+    def of_supports(self, exerted: np.ndarray) -> np.ndarray:
+        """Along directors that are free M ü + g is what keeps them unit vectors."""
+        return np.where(self._held.ravel(), exerted, 0.0)
+
+    def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
+        rows, starts, turning, node, tangent = self._basis
+        data = np.ones(len(rows))
+        data[turning] = self.frame(q, at)[node, :, tangent].ravel()
+        return csc_matrix((data, rows, starts), (self.size, self.unknowns))
+
+    @cached_property
+    def _basis(self) -> tuple[np.ndarray, ...]:
+        """Rows and starts of Z's columns, one entry of a displacement, three of a rotation; which entries are
+        rotations', of which directors and tangents."""
+        n = self.nodes
+        node, field = np.nonzero(self.number >= 0)  # in the order of the unknowns
+        of_rod, tangent = np.nonzero(self.turns[n:] >= 0)
+        node, field = np.append(node, n + of_rod), np.append(field, 3 + tangent)
+        widths = np.where(field < 3, 1, 3)
+        starts = np.concatenate([[0], np.cumsum(widths)])
+        rows = np.where(field < 3, 3 * node + field, 3 * (n + node))
+        within = np.arange(starts[-1]) - np.repeat(starts[:-1], widths)
+        turning = np.repeat(field >= 3, widths)
+        return np.repeat(rows, widths) + within, starts, turning, node[field >= 3], field[field >= 3] - 3
+
+    def reduce(self, shape: Shape, force: np.ndarray) -> np.ndarray:
+        n = self.nodes
+        couple = np.einsum("nc,nck->nk", force[3 * n :].reshape(-1, 3), shape.frame)
+        return self._of_unknowns(force[: 3 * n], couple)
+
+    def expand(self, shape: Shape, step: np.ndarray) -> np.ndarray:
+        every, n = np.zeros(3 * self.nodes + self.turns.size), self.nodes
+        every[self._free] = step
+        turned = np.einsum("nck,nk->nc", shape.frame, every[3 * n :].reshape(-1, 2))
+        return np.concatenate([every[: 3 * n], turned.ravel()])
+
+    def _of_unknowns(self, positions: np.ndarray, turns: np.ndarray) -> np.ndarray:
+        """Values (n, 3) of displacements and (n + p, 2) of rotations, of the free ones (unknowns,)."""
+        found: np.ndarray = np.concatenate([positions.ravel(), turns.ravel()])[self._free]
+        return found
+
+    @cached_property
+    def _free(self) -> np.ndarray:
+        """Where the unknowns are among all displacements, then all rotations (unknowns,)."""
+        every = np.concatenate([self.number[:, :3].ravel(), self.turns.ravel()])
+        out = np.empty(self.unknowns, dtype=np.int64)
+        out[every[every >= 0]] = np.flatnonzero(every >= 0)
+        return out
+
+    # forces
+
+    def gather(self, q: np.ndarray) -> np.ndarray:
+        """At the nodes of the elements (m, 18, 3): positions, then directors."""
+        return q.reshape(-1, 3).take(self._both, axis=0)
+
+    @cached_property
+    def _both(self) -> np.ndarray:
+        """Every element's positions, then directors (m, 18), among those of all nodes (2n,)."""
+        return np.concatenate([self.plan.elements, self.nodes + self.plan.elements], axis=1)
+
+    @cached_property
+    def _components(self) -> np.ndarray:
+        """Their components (54 m,) among all (6n,)."""
+        return (3 * self._both.ravel()[:, None] + np.arange(3)).ravel()
+
+    def scatter(self, pull: np.ndarray) -> np.ndarray:
+        return np.bincount(self._components, pull.ravel(), self.size)
+
+    def of_held_positions(self, force: np.ndarray) -> np.ndarray:
+        return force[self._held_components]
+
+    @cached_property
+    def _held_components(self) -> np.ndarray:
+        """Where held components of positions are among those of all vectors."""
+        return np.flatnonzero(self.supports.position)
+
+    def stiffness(
+        self, shape: Shape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
+    ) -> np.ndarray:
+        along = multiplier(self.directors(shape.q), residual[3 * self.nodes :].reshape(-1, 3))
+        on_turns = self._of_unknowns(np.zeros(3 * self.nodes), np.repeat(along, 2))
+        data, slots, on = self.pattern.zeros(on_turns), self.pattern.slots[0], self.plan.elements
+        add_tangents(data, slots, self.element, shape.operator, moduli, stress, on, shape.frame)
+        if by_a:
+            (by_place, by_turn), of_elements = self._products, shape.frame[on]
+            blocks = np.zeros(slots.shape)
+            blocks[:, :27, :27] = by_a * np.einsum("eij,ab->eiajb", by_place, np.eye(3)).reshape(-1, 27, 27)
+            weighed = np.einsum("ceij,ejcb->eicjb", by_turn, of_elements)
+            turned = by_a * np.einsum("eica,eicjb->eiajb", of_elements, weighed)
+            blocks[:, 27:, 27:] = turned.reshape(-1, 18, 18)
+            add_blocks(data, slots, blocks)
+        return data
+
+    def constraining(
+        self, shape: Shape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
+    ) -> np.ndarray:
+        out = residual + self.scatter(self.element.forces(shape.operator, stress - shape.elastic))
+        for body, own in zip(self.bodies, on_rods, strict=True):
+            out += body.scatter(body.pull(shape.q, own - body.stress(shape)))
+        return out
+
+    def fold(self, shape: Shape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
+        return projected(tangent, shape.frame[self.plan.elements[on]])
+
+    def onto_rods(self, shape: Shape) -> np.ndarray:
+        directors = self.rods.bound.sites[:, 3:] - self.nodes
+        fixed = np.tile(np.eye(3), (len(directors), 1, 1))
+        return block_diagonal([fixed] * 3 + [shape.frame[directors[:, i]] for i in range(6)])
+
+    def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
+        """Dead forces turn no director."""
+        return np.pad(dead.ravel(), (0, self.size - dead.size))
+
+    def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
+        return self.on_coordinates(np.concatenate([displacement, turn]))
+
+    def on_surface(self, q: np.ndarray) -> np.ndarray:
+        return self.element.reference + self.gather(q)
+
+    def surface_change(self, change: np.ndarray) -> np.ndarray:
+        return self.gather(change)
+
+    def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
+        every = np.zeros_like(self.element.reference)
+        every[on] = pull
+        return self.scatter(every)
+
+    # what is shown
+
+    def inside_out(self, q: np.ndarray) -> str:
+        return inverted(self.element, self.gather(q))
+
+    def stretch(self, q: np.ndarray) -> float:
+        return membrane_strain(self.element, self.gather(q))
+
+    def displacement(self, q: np.ndarray) -> np.ndarray:
+        return q.reshape(-1, 3)[: self.nodes]
+
+    def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
+        return self.supports.reactions(self.displacement(exerted))
+
+    def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
+        fields = {} if line_force is None else {"actuator_line_force": line_force}
+        directors = self.directors(q)[: self.nodes]
+        return field_mesh(self.plan.nodes, self.plan.elements, self.displacement(q), directors, **fields)
+
+    def surface(self, q: np.ndarray) -> Surface:
+        position = np.pad(self.plan.nodes, ((0, 0), (0, 1))) + self.displacement(q)
+        return Surface(self.plan, position, self.directors(q)[: self.nodes], self.own)
+
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
+        surface, (force, turning) = self.surface(q), exerted[: 6 * self.nodes].reshape(2, -1, 3)
+        return Held(np.concatenate([force, cross(surface.director, turning)], axis=1), surface.position)
+
+    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
+        surface = self.surface(q)
+        return on_edges(self.rods.bound, pull, surface.position, surface.director)
+
+    def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
+        frames, turning = self.frame(q, at), exerted[3 * self.nodes :].reshape(-1, 3)
+        couple = np.where(self.turns < 0, np.einsum("nc,nck->nk", turning, frames), 0.0)
+        on_nodes = np.where(self.supports.position, self.displacement(exerted), 0.0)
+        across = np.einsum("nck,nk->nc", frames, couple)
+        return [(self.surface(q).position, on_nodes), (self.directors(q), across)]

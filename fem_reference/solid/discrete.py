@@ -1,0 +1,306 @@
+"""The discrete solid: three coordinates a node, whose mass is ∫ ρ N N dV; no constraint of it is curved.
+
+q: displacements of all nodes, (n, levels, 3), then changes of the rods' own vectors. Held components c of a
+column, u = Z c (see `supports`), go to their targets in the first step.
+
+Loads act on the sheet as a surface, its mean position x̄ and director D (see `mesh`), with the shell's
+work: a dead force or the pressure on x̄ is a body force uniform through the thickness, an edge moment
+on D a traction linear in ζ. To first order in the strain the power of pressure and moment is the shell's.
+Rods along edges (see `rods`) are further elements with directors of their own.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+from scipy.sparse import block_diag, bsr_matrix, csc_matrix, csr_matrix, identity
+
+from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.discrete.rods import components_of
+from fem_reference.discrete.shape import Shape
+from fem_reference.solid.element import Bricks, tangent
+from fem_reference.solid.materials import LAWS
+from fem_reference.solid.mesh import Columns
+from fem_reference.solid.natural import NaturalBricks
+from fem_reference.solid.rods import DIRECTORS, on_columns
+from fem_reference.solid.supports import components, from_forces, into_forces, of_scene, vectors
+from fem_reference.surface import carried, rod
+from fem_reference.surface.actuator_forces import Held, OnEdge
+from fem_reference.surface.balance import Surface
+from fem_reference.surface.bound_rods import BoundRods, block_diagonal
+from fem_reference.surface.stretch import largest_stretch
+from sheetbench.choices import STRAIN_LAW
+from sheetbench.numerics.sparsity import Pattern
+from sheetbench.scenes import Constants, FieldMesh, Material, Scene
+
+
+class DiscreteSolid(DiscreteElements):
+    """A scene's solid on columns of bricks, layer by layer over the plan's elements."""
+
+    model = "solid"
+    norm: ClassVar[int] = 2
+    element: Bricks
+
+    def __init__(
+        self,
+        columns: Columns,
+        scene: Scene,
+        law: str,
+        material: Material | Constants,
+        clamp: str,
+        moving: bool = False,
+    ):
+        super().__init__(scene, moving)
+        self.columns, self.plan = columns, columns.plan
+        self.conservative, self.any_strain = law == STRAIN_LAW, LAWS[law].stands_any_strain
+        stacks = columns.positions.reshape(-1, 3)[columns.stacks]
+        positions = np.concatenate([stacks[:, place] for place in columns.places])
+        self.element = NaturalBricks.of(Bricks.build(positions, LAWS[law], material), scene)
+        self.per_vector = np.ones(27)
+
+        def bind(of: Scene) -> BoundRods:
+            return on_columns(rod.of_scene(of, columns.plan), columns)
+
+        bound = bind(scene)
+        self.column_supports = of_scene(scene, columns, clamp, bound.rods)
+        self.supports = self.column_supports.line
+        self.free = ~self.column_supports.held
+        self._turned = self.column_supports.turned[columns.plan.elements].any(axis=1)
+        self._held_aside = np.repeat(bound.held, 3)
+        every = np.concatenate([self.free.ravel(), ~self._held_aside])
+        self._free = np.flatnonzero(every)
+        number = np.where(every, np.cumsum(every) - 1, -1).reshape(-1, 3)  # of all vectors
+        kinds = (number[sites] for sites in (columns.stacks, bound.sites))
+        self.pattern = Pattern(*(n.reshape(len(n), 3 * n.shape[1]) for n in kinds), size=len(self._free))
+        self.unknowns, self.size, self._cut = len(self._free), every.size, columns.positions.size
+        self.scale = np.ones(self.size)
+        self.scale[self._cut :] = self.lever
+        levels = columns.levels
+        places = np.concatenate([levels * np.arange(3) + columns.layers, 3 * levels + np.arange(6)])
+        self.bind(bind, bound, components_of(bound), places)
+
+    @cached_property
+    def _inertia(self) -> np.ndarray:
+        """∫ ρ N N dV of the stacks, with what payloads add to columns' means and directors, (m, 3 s, 3 s)."""
+        payloads = carried.of_scene(self.scene, self.plan)
+        blocks = self._stack(np.einsum("eij,cd->eicjd", self.element.products(), np.eye(3)))
+        blocks[payloads.elements] += self._of_columns(payloads.on_surface())
+        return blocks
+
+    @cached_property
+    def sheet_mass(self) -> csr_matrix:
+        sites = (3 * self.columns.stacks[:, :, None] + np.arange(3)).reshape(len(self._inertia), -1)
+        return Pattern(sites, size=self.size).matrix(self._inertia)
+
+    # what is prescribed, and the unknowns
+
+    def frame(self, q: np.ndarray, at: float) -> np.ndarray:
+        """Z of the columns (n, 3 levels, 3 levels)."""
+        share = self.instant(at)[0] if self.supports.driven else 1.0
+        return self._turned_fully if share == 1.0 else self.column_supports.bases(share)
+
+    @cached_property
+    def _turned_fully(self) -> np.ndarray:
+        return self.column_supports.bases(1.0)
+
+    def placed(self, q: np.ndarray, at: float) -> np.ndarray:
+        return q + self._to_supports(self.frame(q, at), q, self.column_supports.target(*self.instant(at)))
+
+    def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        rate = self.column_supports.spread(self.supports.rate(time))
+        return v + self._to_supports(self.frame(q, time), v, rate)
+
+    def short(self, shape: Shape) -> np.ndarray:
+        target = self.column_supports.target(*self.instant(shape.at))
+        return self._to_supports(shape.frame, shape.q, target)
+
+    def _to_supports(self, bases: np.ndarray, q: np.ndarray, target: np.ndarray) -> np.ndarray:
+        """The step (N,) of q (N,) to the held components of a target (n, levels, 3)."""
+        gap = components(bases, target - self._on_columns(q))
+        step = vectors(bases, np.where(self.free, 0.0, gap))
+        return np.append(step, np.where(self._held_aside, -q[self._cut :], 0.0))
+
+    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
+        bases, shape = self.frame(vectors, at), self.columns.positions.shape
+        own = [components(bases, vector[: self._cut].reshape(shape))[~self.free] for vector in vectors.T]
+        return np.concatenate([np.array(own).T, vectors[self._cut :][self._held_aside]])
+
+    def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
+        return self._constant_basis if self.moving else self._basis(self.frame(q, at))
+
+    @cached_property
+    def _constant_basis(self) -> csc_matrix:
+        return self._basis(self._turned_fully)
+
+    def _basis(self, bases: np.ndarray) -> csc_matrix:
+        blocks = np.arange(len(bases) + 1)
+        of_columns = bsr_matrix((bases, blocks[:-1], blocks)).tocsc()
+        aside = identity(len(self._held_aside), format="csc")
+        return block_diag([of_columns, aside], format="csc")[:, self._free]
+
+    def reduce(self, shape: Shape, force: np.ndarray) -> np.ndarray:
+        on_components = into_forces(shape.frame, self._on_columns(force))
+        found: np.ndarray = np.append(on_components, force[self._cut :])[self._free]
+        return found
+
+    def expand(self, shape: Shape, step: np.ndarray) -> np.ndarray:
+        every = np.zeros(self.size)
+        every[self._free] = step
+        return np.append(vectors(shape.frame, self._on_columns(every)), every[self._cut :])
+
+    def _on_columns(self, q: np.ndarray) -> np.ndarray:
+        """The columns' part (n, levels, 3)."""
+        return q[: self._cut].reshape(self.columns.positions.shape)
+
+    def _padded(self, on_columns: np.ndarray) -> np.ndarray:
+        """Forces (N,) of those on the columns (n, levels, 3)."""
+        return np.pad(on_columns.ravel(), (0, self.size - self._cut))
+
+    # forces
+
+    def gather(self, q: np.ndarray) -> np.ndarray:
+        """At the nodes of the bricks, (layers · m, 27, 3)."""
+        stacks = q[: self._cut].reshape(-1, 3)[self.columns.stacks]
+        return np.concatenate([stacks[:, place] for place in self.columns.places])
+
+    def scatter(self, pull: np.ndarray) -> np.ndarray:
+        m, s = self.columns.stacks.shape
+        stacks = np.zeros((m, s, 3))
+        for place, bricks in zip(self.columns.places, np.split(pull, self.columns.layers), strict=True):
+            stacks[:, place] += bricks
+        where = (3 * self.columns.stacks[:, :, None] + np.arange(3)).ravel()
+        return np.bincount(where, stacks.ravel(), self.size)
+
+    def of_held_positions(self, force: np.ndarray) -> np.ndarray:
+        return np.where(self.free.ravel(), 0.0, force[: self._cut])
+
+    def moduli(self, shape: Shape, pressure: np.ndarray | None) -> np.ndarray:
+        return shape.moduli if pressure is None else self.element.moduli(shape.strain, pressure)
+
+    def pressure(self, shape: Shape, by: np.ndarray) -> np.ndarray | None:
+        return None if self.element.law.quadratic else self.element.pressure(shape.strain, by)
+
+    def stiffness(
+        self, shape: Shape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
+    ) -> np.ndarray:
+        stacks = self._stack(tangent(shape.operator, moduli, stress))
+        if by_a:
+            stacks += by_a * self._inertia
+        return self.pattern.matrix(self._turn(stacks, shape.frame, np.arange(len(stacks)))).data
+
+    def fold(self, shape: Shape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
+        return self._turn(self._of_columns(tangent), shape.frame, on)
+
+    def onto_rods(self, shape: Shape) -> np.ndarray:
+        nodes = self.rods.bound.sites[:, : -DIRECTORS : self.columns.levels] // self.columns.levels
+        directors = np.tile(np.eye(3 * DIRECTORS), (len(nodes), 1, 1))
+        return block_diagonal([*(shape.frame[nodes[:, i]] for i in range(3)), directors])
+
+    def _stack(self, of_bricks: np.ndarray) -> np.ndarray:
+        """Matrices (layers · m, 27, 3, 27, 3) of bricks summed over their stacks, (m, 3 s, 3 s)."""
+        m, s = self.columns.stacks.shape
+        out = np.zeros((m, s, 3, s, 3))
+        for place, bricks in zip(self.columns.places, np.split(of_bricks, self.columns.layers), strict=True):
+            out[:, place[:, None], :, place[None, :], :] += bricks.transpose(1, 3, 0, 2, 4)
+        return out.reshape(m, 3 * s, 3 * s)
+
+    def _turn(self, stacks: np.ndarray, bases: np.ndarray, on: np.ndarray) -> np.ndarray:
+        """Zᵀ K Z of the stacks over elements `on`, (k, 3 s, 3 s), in their place."""
+        turned = self._turned[on]
+        if not np.any(turned):
+            return stacks
+        k, size = stacks[turned].shape[:2]
+        z = bases[self.plan.elements[on[turned]]]  # (k, 9, 3 levels, 3 levels)
+        half = stacks[turned]
+        for _ in range(2):
+            rows = half.reshape(*z.shape[:3], size)
+            half = (z.swapaxes(2, 3) @ rows).reshape(k, size, size).swapaxes(1, 2)
+        stacks[turned] = half
+        return stacks
+
+    def _of_columns(self, tangent: np.ndarray) -> np.ndarray:
+        """Derivatives of surface forces (k, 18, 3, 18, 3) as matrices of stacks (k, 3 s, 3 s)."""
+        k, size = len(tangent), 3 * self.columns.stacks.shape[1]
+        parts = tangent.reshape(k, 2, 9, 3, 2, 9, 3)
+        averages = self.columns.averages
+        return np.einsum("epicrjd,pl,rm->eilcjmd", parts, averages, averages, optimize=True).reshape(
+            k, size, size
+        )
+
+    def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
+        """Uniform through the thickness."""
+        return self._padded(self.columns.averages[0][:, None] * dead[:, None, :])
+
+    def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
+        return self._padded(self.column_supports.spread(np.array([displacement, turn])))
+
+    def on_surface(self, q: np.ndarray) -> np.ndarray:
+        return self._averages(self.columns.positions + self._on_columns(q))
+
+    def surface_change(self, change: np.ndarray) -> np.ndarray:
+        return self._averages(self._on_columns(change))
+
+    def _averages(self, positions: np.ndarray) -> np.ndarray:
+        averages = np.einsum("pl,nlc->pnc", self.columns.averages, positions)[:, self.plan.elements]
+        return np.concatenate([averages[0], averages[1]], axis=1)
+
+    def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
+        out = np.zeros_like(self.columns.positions)
+        force = pull.reshape(len(on), 2, 9, 3)
+        np.add.at(out, self.plan.elements[on], np.einsum("epic,pl->eilc", force, self.columns.averages))
+        return self._padded(out)
+
+    # what is shown
+
+    def inside_out(self, q: np.ndarray) -> str:
+        ratio = self.element.volume_ratio(self.gather(q))
+        return "a brick has turned inside out: use more elements" if np.any(ratio <= 0.0) else ""
+
+    def stretch(self, q: np.ndarray) -> float:
+        return largest_stretch(*(self.on_surface(at)[:, :9] for at in (np.zeros_like(q), q)))
+
+    def displacement(self, q: np.ndarray) -> np.ndarray:
+        return self._on_columns(q).reshape(-1, 3)
+
+    def middles(self, displacement: np.ndarray) -> np.ndarray:
+        return displacement.reshape(self.columns.positions.shape)[:, self.columns.layers]
+
+    def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
+        return self.column_supports.reactions(self._on_columns(exerted), self.instant(at)[0])
+
+    def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
+        return self.columns.field_mesh(self._on_columns(q))
+
+    def surface(self, q: np.ndarray) -> Surface:
+        position = self.columns.positions + self._on_columns(q)
+        mean, director = np.einsum("pl,nlc->pnc", self.columns.averages, position)
+        return Surface(self.plan, mean, director, self.own)
+
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
+        columns, displacement = self.columns, self._on_columns(q)
+        middle = (columns.positions + displacement)[:, columns.layers]
+        return Held(columns.about_middle(displacement, self._on_columns(exerted)), middle)
+
+    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
+        columns, bound, displacement = self.columns, self.rods.bound, self._on_columns(q)
+        middle = (columns.positions + displacement)[:, columns.layers]
+        own, found, first = q[self._cut :].reshape(-1, 3) + bound.own, list[OnEdge](), 0
+        for one, at in zip(bound.rods, bound.by_rod(pull), strict=True):
+            nodal, count = np.zeros_like(displacement), len(one.line)
+            np.subtract.at(nodal, one.nodes, at[:, :-DIRECTORS].reshape(*one.nodes.shape, -1, 3))
+            about = columns.about_middle(displacement, nodal)
+            director = own[first : first + count]
+            found.append(OnEdge(one, about[one.line], middle[one.line], director))
+            first += 3 * count
+        return found
+
+    def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
+        bases, on_columns = self.frame(q, at), self._on_columns(exerted)
+        held = np.where(self.free, 0.0, into_forces(bases, on_columns))
+        aside = np.where(self._held_aside, exerted[self._cut :], 0.0).reshape(-1, 3)
+        return [
+            (self.columns.positions + self._on_columns(q), from_forces(bases, held)),
+            (q[self._cut :].reshape(-1, 3) + self.rods.bound.own, aside),
+        ]

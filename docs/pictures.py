@@ -13,7 +13,6 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 import sheetbench as sb
-from comparisons.motion.answer import Simulation
 from sheetbench.answers import style
 from sheetbench.answers.report import Report
 
@@ -29,6 +28,9 @@ COMPARED = (
     "curved-edge",
     "curved-edge-down",
     "actuated-edge",
+    "bimetal-strip",
+    "muscle-bands",
+    "heated-plate",
 )
 RUBBER = {"rubber-inflated-square": 12, "rubber-strip": 6}  # scenes of examples/rubber, elements of the solid
 DPI = 170  # 1224 pixels wide
@@ -50,7 +52,7 @@ def main() -> None:
             (film, 2.0, 1e-6, "film-in-air"),
         ):
             scene = sb.load(moved)
-            run = Simulation(sb.simulate(scene, duration, error=error), scene)
+            run = sb.simulate(scene, duration, error=error)
             keep(run.report(), "history.png", Path(folder), name)
 
 

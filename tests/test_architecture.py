@@ -261,8 +261,10 @@ def test_tests_share_by_modules_of_their_own_and_stay_short():
 
 
 TWICE = {  # class names that stand in several files of the core
-    *("Forces", "State"),  # of the shell and the solid, and of the lattice in motion, which is public
+    "Item",  # what acts on a lattice, and on a reference
     "Modes",  # each solver's answer, public
+    "State",  # of the lattice in motion, which is public, and of a reference at rest
+    "Shape",  # of a reference's sheet, and of a scene's region
     *("Held", "Motion"),  # what holds a mesh, a reference's state; public ones of scenes
     "Section",  # of the lattice's cells, and of the shell's
     "Unit",  # of a table's column, and of a scene's key

@@ -83,7 +83,8 @@ def simulate(
     require_error(error)
     began = now()
     requested = scene_of(scene)
-    require_no_obstacles(requested, f"the {model} in motion")
+    if model == "plate":
+        require_no_obstacles(requested, "the plate, which is linear,")
     require_choice("integrator", integrator, INTEGRATORS)
     options = with_defaults(requested, signature(MODELS[model]).parameters, options)
     moving = MODELS[model](requested, **options)

@@ -24,6 +24,7 @@ from sheetbench.scenes import Status
 LatticePath = Path[LatticeState, LatticeForces]
 
 STEPS = 300
+DISTURBANCES = (0.1, 1.0, 4.0)  # layer distances, of which the first that leads away from a saddle serves
 PROJECTED_RUN = 4  # steps with the projected tangent before the true one is tried again
 
 
@@ -40,8 +41,12 @@ def settle(path: LatticePath, load_factor: float) -> LatticeState:
         factor = factor or path.factored(path.tangent(state, load_factor))
         if load_factor != path.load_factor and not factor.negative:
             return state
-        u = _disturbed(path, problem, state, factor)  # a saddle, as a flat sheet that has buckled
-        return _descend(path, problem, problem.project_to_supports(u, load_factor), load_factor)
+        for share in DISTURBANCES:  # of a saddle, as a flat sheet that has buckled
+            u = _disturbed(path, problem, state, factor, share)
+            found = _descend(path, problem, problem.project_to_supports(u, load_factor), load_factor)
+            if not problem.assembly.natural or not path.factored(path.tangent(found, load_factor)).negative:
+                break
+        return found
     except SingularMatrixError as error:
         raise StepFailed(Status.SINGULAR, str(error), 0.0) from None
 
@@ -83,10 +88,13 @@ def _failed(reason: str) -> StepFailed:
     return StepFailed(Status.STEP_LIMIT, reason, 0.0)
 
 
-def _disturbed(path: LatticePath, problem: Problem, state: LatticeState, factor: Factor) -> np.ndarray:
+def _disturbed(
+    path: LatticePath, problem: Problem, state: LatticeState, factor: Factor, share: float
+) -> np.ndarray:
     """Displacement beside an unstable equilibrium, moved along a direction of negative curvature.
 
-    The move is a tenth of the layer distance; of its two signs the one of lower energy (the first if even).
+    The move is this share of the layer distance; of its two signs the one of lower energy (if even the
+    first).
     """
     n, load_factor = problem.system.unknowns, state.load_factor
     blocks = path.tangent(state, load_factor)
@@ -98,7 +106,7 @@ def _disturbed(path: LatticePath, problem: Problem, state: LatticeState, factor:
     except ArpackNoConvergence:
         raise _failed("no direction of negative curvature found") from None
     move = problem.expand(vectors[:, 0])
-    move *= 0.1 * problem.assembly.lattice.spacing[2] / np.abs(move).max()
+    move *= share * problem.assembly.lattice.spacing[2] / np.abs(move).max()
     return min((state.u + move, state.u - move), key=lambda u: problem.potential(u, load_factor))
 
 

@@ -54,7 +54,7 @@ def limit_point(path: Path[State, Forces]) -> tuple[float, float] | None:
         return None
     start = _Point(path.state, path.load_factor, factor, along)
     # a natural strain may move nothing before it buckles what is held
-    moves = structure.length(structure.rest(), path.state) > path.limits.idle
+    moves = not structure.prestrained or structure.length(structure.rest(), path.state) > path.limits.idle
     for _ in range(STEPS if factor.negative == 0 and moves else 0):
         try:
             end, predicted = _arc_step(path, start, arc)

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 
-class Sheet(Protocol):
+class ShapedSheet(Protocol):
     """What a shape needs of its sheet (`discrete.sheet`, `discrete.elements`), and items of it."""
 
     element: Any
@@ -29,7 +29,7 @@ class Sheet(Protocol):
 class Shape:
     """Coordinates q and rates v (N,), 0 where None, at a load factor or time [s] `at`."""
 
-    def __init__(self, sheet: Sheet, q: np.ndarray, at: float, v: np.ndarray | None = None):
+    def __init__(self, sheet: ShapedSheet, q: np.ndarray, at: float, v: np.ndarray | None = None):
         self.sheet, self.q, self.at, self.v = sheet, q, at, v
 
     @cached_property

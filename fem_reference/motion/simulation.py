@@ -17,7 +17,7 @@ import numpy as np
 
 from fem_reference.defaults import with_defaults
 from fem_reference.motion.energy_momentum import EnergyMomentum
-from fem_reference.motion.generalised_alpha import ERROR, GeneralisedAlpha
+from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
 from fem_reference.motion.moving import Motion, Moving
 from fem_reference.motion.observer import ReferenceObserver
 from fem_reference.motion.plate import MovingPlate
@@ -38,7 +38,7 @@ MODELS: dict[str, Callable[..., Moving]] = {
     "shell": MovingShell,
     "solid": MovingSolid,
 }
-INTEGRATORS = {"generalised-alpha": GeneralisedAlpha, "energy-momentum": EnergyMomentum}
+INTEGRATORS = {"generalised-alpha": ConstrainedAlpha, "energy-momentum": EnergyMomentum}
 STEPS_PER_PERIOD = 200
 
 

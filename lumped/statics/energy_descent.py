@@ -17,7 +17,7 @@ from lumped.actuators import Drive
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.structure import LatticeForces, LatticeStructure
 from sheetbench.numerics.continuation.newton import Start, newton
-from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
 
@@ -48,7 +48,7 @@ def settle(path: LatticePath, load_factor: float) -> LatticeState:
                 break
         return found
     except SingularMatrixError as error:
-        raise StepFailed(Status.SINGULAR, str(error), 0.0) from None
+        raise LoadStepFailed(Status.SINGULAR, str(error), 0.0) from None
 
 
 def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float) -> LatticeState:
@@ -60,7 +60,7 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
         if relative < path.limits.refine_below and wait == 0:
             try:
                 return newton(path, Start(LatticeState(u, load_factor, residual), load_factor, 1.0, 0.0))[0]
-            except StepFailed:
+            except LoadStepFailed:
                 pass
         gradient = -residual.reduced
         direction = factor.solve(-gradient)
@@ -84,8 +84,8 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
     raise _failed(f"no equilibrium in {STEPS} descent steps")
 
 
-def _failed(reason: str) -> StepFailed:
-    return StepFailed(Status.STEP_LIMIT, reason, 0.0)
+def _failed(reason: str) -> LoadStepFailed:
+    return LoadStepFailed(Status.STEP_LIMIT, reason, 0.0)
 
 
 def _disturbed(

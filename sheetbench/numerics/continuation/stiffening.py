@@ -14,7 +14,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from sheetbench.numerics.continuation.newton import Start, newton
-from sheetbench.numerics.continuation.path import Fault, Inspect, Path, Settle, StepFailed
+from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Settle
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.continuation.trace import conclude
 from sheetbench.numerics.threads import one_blas_thread
@@ -52,7 +52,7 @@ def trace_stiffening(
     """
     soft = penalties.soft
     settles = settle is not None and path.structure.symmetric
-    ended: StepFailed | Fault | None = None
+    ended: LoadStepFailed | Fault | None = None
     if soft is not None or not settles:
         share, spent = soft or 1.0, 0
         while True:  # what leads through an obstacle is too soft, where nothing else is left
@@ -78,9 +78,9 @@ def trace_stiffening(
             path.notes.clear()
             try:
                 path.state, path.load_factor, path.factor, ended = settle(path, 1.0), 1.0, None, None
-            except StepFailed as failure:
+            except LoadStepFailed as failure:
                 ended = Fault(failure.status, f"descent with the contact as stiff as it is: {failure}")
-        if isinstance(ended, StepFailed):
+        if isinstance(ended, LoadStepFailed):
             ended = Fault(ended.status, f"contact could not be stiffened: {ended}")
         conclude(path, ended, settle, buckled)
         return path
@@ -92,7 +92,7 @@ def _stiffened(
     share: float,
     inspect: Inspect[State, Forces],
     restart: Callable[[State], Start[State]],
-) -> StepFailed | Fault | None:
+) -> LoadStepFailed | Fault | None:
     """Raise the penalties from a share to all of them: what has ended it before, if anything."""
     factor = FIRST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
@@ -101,7 +101,7 @@ def _stiffened(
         penalties.soften(target)
         try:
             path.state, path.factor = newton(path, restart(path.state))
-        except StepFailed as failure:
+        except LoadStepFailed as failure:
             factor **= 0.5
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:
                 return failure

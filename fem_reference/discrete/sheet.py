@@ -135,6 +135,11 @@ class Discrete(ABC):
         return len(self.plan.nodes)
 
     @cached_property
+    def flat(self) -> np.ndarray:
+        """Places of the nodes at rest (n, 3) [m]."""
+        return np.column_stack([self.plan.nodes, np.zeros(self.nodes)])
+
+    @cached_property
     def lever(self) -> float:
         return float(np.ptp(self.plan.nodes, axis=0).max())
 

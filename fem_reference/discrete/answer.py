@@ -73,6 +73,10 @@ def answer(
     wrenches, line = exerted(scene, edges, sheet.supports.moved, sheet.exerted(q, residual))
     reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(q)
     held = sheet.holding(q, residual, share)
+    for item in sheet.items:
+        for name, (places, forces) in item.holds(sheet.shape(q, share)).items():
+            reactions[name] = forces.reshape(-1, 3).sum(axis=0)
+            held.append((places, forces))
     return Solution(
         model=sheet.model,
         unknowns=sheet.unknowns,

@@ -38,7 +38,7 @@ class Item(Protocol):
         return None
 
     def holds(self, shape: Shape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Where, and with which forces (…, 3) [N], what is no load holds the sheet, by its name in reactions."""
+        """Where, and with which forces (…, 3) [N], what is no load holds the sheet, by its name there."""
         return {}
 
     def potential(self, shape: Shape) -> float:

@@ -29,6 +29,9 @@ COMPARED = (
     "curved-edge",
     "curved-edge-down",
     "actuated-edge",
+    "bimetal-strip",
+    "muscle-bands",
+    "heated-plate",
 )
 RUBBER = {"rubber-inflated-square": 12, "rubber-strip": 6}  # scenes of examples/rubber, elements of the solid
 DPI = 170  # 1224 pixels wide

@@ -24,6 +24,7 @@ from lumped.statics.solver import build_problem, solve
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Status, free_rigid_motions, require_no_branches
 from sheetbench.scenes.obstacles import require_no_obstacles
+from sheetbench.scenes.patches import require_flat_at_rest
 from sheetbench.scenes.supports import named
 
 STRETCH, WARP, TURN = 0.02, 0.05, 2.0  # of the imposed states: strain, height over length, rad in all
@@ -119,6 +120,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     if scene.actuators:
         raise BadInput("export: actuators are not springs between masses; export a scene without them")
     require_no_branches(scene.material, "an exported lattice")
+    require_flat_at_rest(scene, "an exported lattice")
     if any(payload.inertia is not None for payload in scene.masses):
         raise BadInput("mass.inertia: an exported lattice has masses alone, which neighbours do not share")
     if scene.air is not None:

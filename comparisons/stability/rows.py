@@ -36,11 +36,6 @@ def who(row: Row) -> str:
     return str(row["cell"].get("model") or row["cell"]["integrator"])
 
 
-def doubtful(row: Row) -> bool:
-    """Return whether a row is converged and still off by more than LARGE."""
-    return row["status"] == "converged" and row.get("error") is not None and row["error"] > LARGE
-
-
 def broken(rows: Iterable[Row]) -> list[str]:
     """Return a sentence for every row without an answer."""
     lost = (row for row in rows if row["status"] in ("failed", "lost"))

@@ -107,16 +107,6 @@ def strips(
     axis.set_yticks(range(len(names)), names)
 
 
-def references(rows: Iterable[Row]) -> list[Row]:
-    """Return the rows of the references, at the cells that they belong to and without an error."""
-    return [{**r["reference"], "cell": r["cell"], "error": None} for r in rows if r.get("reference")]
-
-
-def iterations(row: Row) -> str:
-    """Return a row's number of factorisations."""
-    return str(row["iterations"])
-
-
 def theory(label: str, **style: Any) -> Line2D:
     """Return the legend's entry of a line of theory."""
     return Line2D([], [], label=label, **{**THEORY, "zorder": 1, **style})
@@ -130,10 +120,3 @@ def legend(figure: Figure, rows: Iterable[Row], *lines: Any) -> None:
     ]
     below: Any = {"loc": "outside lower center", "ncols": 4, "frameon": False, "fontsize": 6.8}
     figure.legend(handles=[*patches, *lines], handlelength=1.6, **below)
-
-
-def plain(axis: Axes) -> None:
-    """Style axes of curves as the maps are."""
-    axis.grid(which="major", color="#e4e4e4", lw=0.5)
-    axis.set_axisbelow(True)
-    axis.tick_params(which="both", width=0.5, length=2)

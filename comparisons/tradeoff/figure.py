@@ -13,7 +13,7 @@ from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from comparisons.sweep.front import grouped
-from comparisons.tradeoff.answer import Tradeoff
+from comparisons.tradeoff.answer import Priced, Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import GREY, SERIES, plain
@@ -57,7 +57,7 @@ def compose(tradeoff: Tradeoff, style: FigureStyle = PLAIN) -> Figure:
     _front(left, tradeoff)
     for axis, note in ((left, "uncertainty of the reference"), (right, "")):
         logarithmic(axis)
-        _floor(axis, tradeoff, note)
+        floor(axis, tradeoff, note)
     left.set_xlabel("solve time [ms], one thread")
     left.set_ylabel("error at the probes [%]")
     right.set_xlabel("size of a cell or element [mm]")
@@ -152,18 +152,18 @@ def _front(axis: Axes, tradeoff: Tradeoff) -> None:
     axis.step(times, errors, where="post", zorder=0, label="front: the best in that time", **band)
 
 
-def _floor(axis: Axes, tradeoff: Tradeoff, note: str) -> None:
+def floor(axis: Axes, tradeoff: Priced, note: str) -> None:
     """Where the reference itself is uncertain."""
     if not tradeoff.uncertainty:
         return
-    floor = 100 * tradeoff.uncertainty
+    bar = 100 * tradeoff.uncertainty
     shown = [100 * row.error for row in tradeoff.rows if row.error]
-    bottom = min([floor / 2.5, *(0.6 * e for e in shown)])
-    axis.set_ylim(bottom, 1.6 * max(floor, *shown))
-    axis.axhspan(bottom, floor, color=GREY, alpha=0.18, lw=0)
+    bottom = min([bar / 2.5, *(0.6 * e for e in shown)])
+    axis.set_ylim(bottom, 1.6 * max(bar, *shown))
+    axis.axhspan(bottom, bar, color=GREY, alpha=0.18, lw=0)
     axis.annotate(
         note,
-        (0.015, floor),
+        (0.015, bar),
         (0, -2),
         xycoords=axis.get_yaxis_transform(),
         textcoords="offset points",

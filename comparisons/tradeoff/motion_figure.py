@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.tradeoff.answer import DynamicTradeoff
-from comparisons.tradeoff.figure import logarithmic
+from comparisons.tradeoff.figure import floor, logarithmic
 from comparisons.tradeoff.row import MotionRow
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
-from sheetbench.answers.style import GREY, SERIES, plain
+from sheetbench.answers.style import SERIES, plain
 
 MARKERS = "osvD^P*"
 
@@ -36,7 +35,7 @@ def compose(found: DynamicTradeoff, style: FigureStyle = PLAIN) -> Figure:
             right.plot(*zip(*stepped, strict=True), markerfacecolor="white", lw=0.9, ms=3.6, **line)
     for axis in (left, right) if right.lines else (left,):
         logarithmic(axis)
-    _band(left, found.uncertainty)
+    floor(left, found, "uncertainty of the reference")
     left.set_xlabel("solve time of a simulated second [s]")
     left.set_ylabel(f"error against the {found.reference.model} [%]")
     right.set_xlabel("step [ms]")
@@ -52,15 +51,3 @@ def compose(found: DynamicTradeoff, style: FigureStyle = PLAIN) -> Figure:
 
 def _points(rows: list[MotionRow]) -> tuple[list[float], list[float]]:
     return [row.seconds_per_second or 0.0 for row in rows], [100 * (row.error or 0.0) for row in rows]
-
-
-def _band(axis: Axes, uncertainty: float | None) -> None:
-    """The reference's uncertainty, below which errors cannot be distinguished."""
-    bottom = axis.get_ylim()[0]
-    if uncertainty:
-        axis.axhspan(min(bottom, 50 * uncertainty), 100 * uncertainty, color=GREY, alpha=0.18, lw=0)
-        note: dict[str, Any] = {"xytext": (0, -2), "textcoords": "offset points", "ha": "right", "va": "top"}
-        of = axis.get_yaxis_transform()
-        at = (0.99, 100 * uncertainty)
-        axis.annotate("uncertainty of the reference", at, xycoords=of, fontsize=6, color=GREY, **note)
-        axis.set_ylim(min(bottom, 50 * uncertainty))

@@ -71,7 +71,7 @@ def test_tiles_reach_half_way_to_their_neighbours():
 def test_a_tradeoffs_axis_holds_its_errors_and_the_bar_in_percent():
     rows = [SimpleNamespace(error=error) for error in (0.002, 0.3, 0.0)]
     _, axis = subplots()
-    tradeoff_figure._floor(axis, SimpleNamespace(rows=rows, uncertainty=0.01), "bar")
+    tradeoff_figure.floor(axis, SimpleNamespace(rows=rows, uncertainty=0.01), "bar")
     assert axis.get_ylim() == pytest.approx((0.6 * 0.2, 1.6 * 30.0))
 
 

@@ -236,7 +236,9 @@ def test_no_reference_leaves_a_reaction_out(monkeypatch, model):
 def test_the_references_are_in_balance_on_every_scene_of_the_catalogue(model, name):
     found = models.solve(load(name), model, elements=2)
     far = model == "plate" and name in ("gripper-finger", "ray-fin")  # bends farther than a linear plate may
-    assert found.status is (Status.STRAIN_OUTSIDE_MODEL if far else Status.CONVERGED)
+    buckled = model == "plate" and name == "heated-plate"  # of which a linear plate says so
+    expected = Status.STRAIN_OUTSIDE_MODEL if far else Status.UNSTABLE if buckled else Status.CONVERGED
+    assert found.status is expected
     assert found.balance.allowed <= SHARP * found.balance.size
 
 

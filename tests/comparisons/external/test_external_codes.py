@@ -86,17 +86,14 @@ def test_results_that_cannot_be_read_are_one_line(damage):
         ("import sys; print(' *ERROR in sheet: no good'); sys.exit(3)", "exit status 3: .*no good"),
         ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "ended by signal 11"),
         ("import time; time.sleep(60)", "stopped: no answer within 0.5 s"),
+        ("", "cannot be started: No such file"),
     ],
 )
 def test_a_program_that_fails_says_so_in_a_line(tmp_path, code, said):
+    program = sys.executable if code else str(tmp_path / "none")
     with pytest.raises(Failed, match=said) as caught:
-        output_of([sys.executable, "-c", code], tmp_path, 0.5 if "sleep" in code else 20.0)
+        output_of([program, "-c", code], tmp_path, 0.5 if "sleep" in code else 20.0)
     assert "\n" not in str(caught.value)
-
-
-def test_a_program_that_is_not_there_cannot_be_started(tmp_path):
-    with pytest.raises(Failed, match="cannot be started: No such file"):
-        output_of([str(tmp_path / "none")], tmp_path, 1.0)
 
 
 def fake_program(folder, monkeypatch, script):

@@ -13,7 +13,6 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 import sheetbench as sb
-from comparisons.motion.answer import Simulation
 from sheetbench.answers import style
 from sheetbench.answers.report import Report
 
@@ -53,7 +52,7 @@ def main() -> None:
             (film, 2.0, 1e-6, "film-in-air"),
         ):
             scene = sb.load(moved)
-            run = Simulation(sb.simulate(scene, duration, error=error), scene)
+            run = sb.simulate(scene, duration, error=error)
             keep(run.report(), "history.png", Path(folder), name)
 
 

@@ -53,7 +53,8 @@ def solve(
     scene = scene_of(scene)
     requested = with_defaults(scene, options(model), requested)
     check(model, requested)
-    require_no_obstacles(scene, model)
+    if model == "plate":
+        require_no_obstacles(scene, "the plate, which is linear,")
     if "progress" in _parameters(model):
         requested["progress"] = progress
     if near is not None:

@@ -16,7 +16,7 @@ from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.natural import NaturalSprings
-from lumped.pattern import Pattern, neighbours, of_grid
+from lumped.pattern import MassPattern, neighbours, of_grid
 from lumped.springs.all_families import AllFamilies, springs_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
@@ -65,7 +65,7 @@ class Assembly:
             own = self.coupling.pairs()
             pairs = neighbours(self.lattice.columns())
             rows, columns = (np.concatenate(part) for part in zip(pairs, own, strict=True))
-            self.pattern = Pattern(self.coupling.size, rows, columns)
+            self.pattern = MassPattern(self.coupling.size, rows, columns)
             self.coupling_slots = self.pattern.slots(*own)
         springs = springs_of(self.lattice, self.pattern, calibration.springs, precision == "single")
         state = natural(self.lattice)

@@ -18,7 +18,7 @@ from lumped.loads import Loads
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
 from lumped.springs.cell_laws import AREA_AND_STRAINS, ENERGIES
-from lumped.springs.families import Cells, Links
+from lumped.springs.families import Links, SpringCells
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve
 from sheetbench.errors import BadInput
@@ -79,7 +79,7 @@ class Couple:
 
 
 @dataclass(frozen=True)
-class State:
+class CheckState:
     """A state to check by: displacement (n, 3) [m], gradient of the elastic energy (n, 3) [N], energy [J]."""
 
     name: str
@@ -107,7 +107,7 @@ class Description:
     pressure: np.ndarray
     pressed: np.ndarray
     couples: tuple[Couple, ...]
-    states: tuple[State, ...]
+    states: tuple[CheckState, ...]
     notes: tuple[str, ...] = ()
 
 
@@ -211,7 +211,7 @@ def _table(links: Links, stiffness: np.ndarray, damping: np.ndarray) -> LinkTabl
 def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
     """Yield the springs of each kind, and dampers where there are no springs."""
     time = 0.0 if scene.dampers is not None else scene.material.dashpot_time
-    families = [family for family in assembly.springs if isinstance(family, Cells)]
+    families = [family for family in assembly.springs if isinstance(family, SpringCells)]
     for kind, energy in ENERGIES.items():
         for family in families:
             stiffness = family.law.parts(family.stiffness, family.others, family.area).get(kind)
@@ -259,7 +259,7 @@ def _constant(loads: Loads) -> np.ndarray:
 
 def _states(
     scene: Scene, calibration: Calibration, assembly: Assembly
-) -> tuple[tuple[State, ...], tuple[str, ...]]:
+) -> tuple[tuple[CheckState, ...], tuple[str, ...]]:
     """Two imposed states and the equilibrium, and why there is none."""
     shapes = [
         ("stretched", f"stretched and warped by {STRETCH:g} and {WARP:g}", _stretched(assembly.lattice)),
@@ -278,7 +278,7 @@ def _states(
     states = []
     for name, meaning, displacement in shapes:
         energy, force = assembly.force(displacement)
-        states.append(State(name, meaning, displacement, force, energy))
+        states.append(CheckState(name, meaning, displacement, force, energy))
     return tuple(states), why
 
 

@@ -42,7 +42,7 @@ from sheetbench.scenes.region import edge_parts
 
 
 @dataclass
-class Part:
+class LoadPart:
     """Loads that share a history, if they have one.
 
     dead: (n, 3) [N]; pressure: (cells,) [Pa] of those present, by their shares under it; moments: masses of
@@ -70,7 +70,7 @@ class Loads:
     def __init__(self, scene: Scene, assembly: Assembly):
         self._assembly = assembly
         lattice = assembly.lattice
-        self._parts: dict[FactorTable | None, Part] = {}
+        self._parts: dict[FactorTable | None, LoadPart] = {}
         self.dead = self._part(None).dead
         if scene.gravity is not None:
             acceleration = np.array(scene.gravity.acceleration)
@@ -115,16 +115,16 @@ class Loads:
         frozen(tuple(part.dead for part in self._parts.values()))
 
     @property
-    def parts(self) -> tuple[Part, ...]:
+    def parts(self) -> tuple[LoadPart, ...]:
         """Loads by history, those without one first."""
         return tuple(self._parts.values())
 
-    def _part(self, history: FactorTable | None) -> Part:
+    def _part(self, history: FactorTable | None) -> LoadPart:
         """The part with this history, made when it is first requested."""
         if history not in self._parts:
             course = None if history is None else PiecewiseLinear(history.time, history.factor)
             pressure = np.zeros(len(self._assembly.lattice.mid_cells))
-            self._parts[history] = Part(course, np.zeros((self._assembly.pattern.size, 3)), pressure)
+            self._parts[history] = LoadPart(course, np.zeros((self._assembly.pattern.size, 3)), pressure)
         return self._parts[history]
 
     def at_time(self, time: float | None) -> tuple[list[tuple[np.ndarray, np.ndarray, float]], np.ndarray]:

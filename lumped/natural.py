@@ -25,7 +25,7 @@ import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.springs.cell_laws import AREA_AND_STRAINS, NATURAL
-from lumped.springs.families import Cells, DirectionalLinks, Family, Links
+from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.laws import of_stiffness
 from sheetbench.errors import BadInput
 from sheetbench.scenes.natural_state import NaturalState
@@ -51,7 +51,7 @@ class NaturalSprings:
             links = _NaturalLinks(lattice, family)
             self._springs.append(links)
             return links.family
-        if isinstance(family, Cells) and family.law is AREA_AND_STRAINS and not family.upright:
+        if isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
             cells = _NaturalCells(lattice, family, self.state)
             self._springs.append(cells)
             return cells.family
@@ -103,7 +103,7 @@ class _NaturalLinks:
 class _NaturalCells:
     """Cells of the layers or of the mid-surface, and the number of the plan cell of each (m,)."""
 
-    def __init__(self, lattice: Lattice, cells: Cells, state: NaturalState):
+    def __init__(self, lattice: Lattice, cells: SpringCells, state: NaturalState):
         kept = np.arange(lattice.cell_areas.size)[lattice.kept]
         self._plan = np.tile(kept, len(cells) // len(kept))
         self._heights = lattice.positions[cells.nodes, 2].mean(axis=(1, 2))[:, None]

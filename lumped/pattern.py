@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from sheetbench.numerics.fronts import Cells
+from sheetbench.numerics.fronts import CoupledCells
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes.grid import Grid
 
@@ -15,13 +15,13 @@ SHARED_UP_TO = 3000  # masses up to which what is the same for all sheets on a g
 PATTERN_CACHE = 32  # sets of masses whose blocks a small pattern keeps
 
 
-class Pattern:
+class MassPattern:
     """Sorted pairs (row, column) of masses that act on each other, stored as in BSR.
 
     cells: the masses of every cell and its place in the grid, where no others act on each other.
     """
 
-    def __init__(self, size: int, rows: np.ndarray, columns: np.ndarray, cells: Cells | None = None):
+    def __init__(self, size: int, rows: np.ndarray, columns: np.ndarray, cells: CoupledCells | None = None):
         keys = rows.astype(np.int64) * size + columns
         keys.sort()
         keys = keys[np.append(True, keys[1:] != keys[:-1])]  # np.unique takes ten times as long
@@ -69,7 +69,7 @@ class Pattern:
 
 
 @kept(last=16, most=SHARED_UP_TO, size=lambda grid, present=None: math.prod(grid))
-def of_grid(grid: Grid, present: np.ndarray | None = None) -> Pattern:
+def of_grid(grid: Grid, present: np.ndarray | None = None) -> MassPattern:
     """The pattern of a lattice on a grid alone, without cells that are not `present`; that of a small one is
     the same object every time."""
     nx, ny, layers = grid
@@ -81,7 +81,9 @@ def of_grid(grid: Grid, present: np.ndarray | None = None) -> Pattern:
         rest, masses = np.setdiff1d(columns, masses[number]), masses[number]
     j, i = np.divmod(number, nx - 1)
     rows, others = (np.concatenate([part, rest]) for part in _pairs(masses))
-    return Pattern(columns.size, rows, others, Cells(masses, np.stack([i, j], axis=1).astype(float)))
+    return MassPattern(
+        columns.size, rows, others, CoupledCells(masses, np.stack([i, j], axis=1).astype(float))
+    )
 
 
 def neighbours(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.lattice import Lattice, mean_sides
-from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO, Pattern
+from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO, MassPattern
 from sheetbench.numerics.kept import kept
 
 
@@ -49,7 +49,7 @@ class Faces(NamedTuple):
 class Rest:
     """The springs of a lattice at rest. No array of it is to be written to."""
 
-    def __init__(self, lattice: Lattice, pattern: Pattern):
+    def __init__(self, lattice: Lattice, pattern: MassPattern):
         self._lattice, self._pattern = lattice, pattern
         self._found: dict[bytes, LinkRest] = {}
         self._cells: dict[str, CellRest] = {}
@@ -105,6 +105,6 @@ class Rest:
 
 
 @kept(last=16, most=SHARED_UP_TO, size=lambda lattice, pattern: lattice.mass_count)
-def rest_of(lattice: Lattice, pattern: Pattern) -> Rest:
+def rest_of(lattice: Lattice, pattern: MassPattern) -> Rest:
     """The springs of a lattice at rest, their blocks of this pattern; of a small one the same every time."""
     return Rest(lattice, pattern)

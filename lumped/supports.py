@@ -24,7 +24,7 @@ from lumped.actuators import Coupling
 from lumped.actuators.corners import Tie
 from lumped.coverage import Reach, held_columns, reached_parts
 from lumped.lattice import Lattice
-from lumped.pattern import SHARED_UP_TO, Pattern
+from lumped.pattern import SHARED_UP_TO, MassPattern
 from sheetbench.numerics.kept import frozen, kept
 from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.numerics.reduced import ReducedSystem, reduced
@@ -71,7 +71,7 @@ class Constraints:
             return lambda b: b / diagonal
         return splu(normal).solve
 
-    def reduced(self, pattern: Pattern, symmetric: bool) -> ReducedSystem:
+    def reduced(self, pattern: MassPattern, symmetric: bool) -> ReducedSystem:
         """The system of the free unknowns, without multipliers, over a pattern: the same one when requested
         again."""
         found = self._reduced.get((pattern, symmetric))
@@ -80,7 +80,7 @@ class Constraints:
         return found
 
     @cached_property
-    def _reduced(self) -> dict[tuple[Pattern, bool], ReducedSystem]:
+    def _reduced(self) -> dict[tuple[MassPattern, bool], ReducedSystem]:
         return {}
 
     def reactions(self, residual: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:

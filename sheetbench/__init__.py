@@ -82,7 +82,7 @@ _NAME_THERE = {"cell": "cell_of"}
 _REMOVED = {
     "advise": "tradeoff(scene, tolerance=0.01)",
     "homogenise": "calibrate(scene, cell=...)",
-    "linearise": "modes(scene, state_space=20).state_space",
+    "linearise": "modes(scene, state_space=20)",
     "suite": "score()",
     "schema": "check(schema=True)",
     "reproduce": 'study("reproduction")',

@@ -9,7 +9,7 @@ STUDIES = {
     "codes": "other people's codes with numbers in use and with ours, and our models: error and time",
     "master-curves": "the heavy cantilever and lateral buckling, without units: lattices and shells",
     "promises": "error bars, expected errors and advice beside the errors that there are",
-    "reference-set": "the reference set of suite and score, computed anew",
+    "reference-set": "the reference set of score, computed anew",
     "rubber": "laws and constants of measured rubbers, and the stretch from which a linear lattice is off",
     "stability": "where each model holds, degrades, refuses or breaks, on published and extreme scenes",
     "transfer": "every calibration on scenes that it was not made on, and on drawn sheets, by grid",

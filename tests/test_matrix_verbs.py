@@ -66,4 +66,4 @@ ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(di
 
 @pytest.mark.parametrize(("verb", "row"), ROWS, ids=[f"{verb} {named(row)}" for verb, row in ROWS])
 def test_verb(verb, row, ends):
-    ends(verb, *(part for one in row for part in one), *MORE.get(verb, ()))
+    ends(*verb.split(), *(part for one in row for part in one), *MORE.get(verb, ()))

@@ -138,7 +138,8 @@ OTHER_BASE = {  # where an option has an effect on something else alone
 PLACES = "where the answer goes, and how it looks"
 SAME = {  # no number of the answer is another with them, and why
     **dict.fromkeys(
-        ("--json", "--out", "--overwrite", "--figure", "--no-pictures", "--quiet", "--export"), PLACES
+        ("--json", "--out", "--overwrite", "--figure", "--no-pictures", "--quiet", "--verbose", "--export"),
+        PLACES,
     ),
     **dict.fromkeys(("--toml", "--animate"), PLACES),
     "--large": "lets a model be larger than memory",
@@ -212,7 +213,9 @@ def in_python(verb, arguments):
     function, command = getattr(sb, verb), verb_group((verb,)).commands[verb]
     asked = command.make_context(verb, list(arguments)).params
     known = signature(function).parameters
-    return json.loads(to_json(function(**{k: v for k, v in asked.items() if k in known}).document()))
+    return json.loads(
+        to_json(function(**{k: v for k, v in asked.items() if k in known and v != ()}).document())
+    )
 
 
 @pytest.fixture(scope="module")

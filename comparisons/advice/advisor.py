@@ -244,9 +244,7 @@ def _limit(trials: TrialSolves, chosen: SolvedHere | None) -> str:
     lattice = chosen.ask.spec if chosen is not None else None
     if not isinstance(lattice, Lattice):
         lattice = trials.lattice(MASSES - 1).but(**trials.springs)
-    return strain_law.limit(
-        resolve(trials.scene, lattice, "springs"), trials.reference.answer.stretch or 0.0
-    )
+    return strain_law.limit(resolve(trials.scene, lattice, "springs"), trials.reference.answer.stretch or 0.0)
 
 
 def _effects(

@@ -15,7 +15,7 @@ def command(
     scene: Scene,
     lattice: LatticeOptions,
     *,
-    count: Annotated[int | None, option("How many modes, lowest first. Default: 10.", "N")] = None,
+    count: Annotated[int, option("How many modes, lowest first.", "N")] = 10,
     masses: Annotated[
         str | None,
         option(
@@ -82,10 +82,10 @@ def command(
                 spectra(
                     loaded,
                     lattice.spec,
-                    count=10 if count is None else count,
+                    count=count,
                     masses=masses,
-                    reference=reference or REFERENCE,
-                    elements=parse_elements(elements or ELEMENTS),
+                    reference=REFERENCE if reference is None else reference,
+                    elements=parse_elements(elements),
                     about=about or "flat",
                     buckling=buckling,
                 )

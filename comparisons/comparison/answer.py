@@ -320,7 +320,8 @@ class Comparison(Answer):
             " · ".join(solution.label for solution in self.solutions),
             f"difference: |u − {ref}| / |{ref}| at the probe. "
             f"error: largest component of u − {ref} over the probes / largest component of {ref}."
-            + " ±: mesh or grid error of the model at the probe." * bool(self.bars),
+            + " ±: mesh or grid error of the model at the probe."
+            * bool(self.bars),
         ]
 
     def _bar_notes(self) -> list[str]:

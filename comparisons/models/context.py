@@ -11,8 +11,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from functools import wraps
-from inspect import Parameter, signature
-from typing import Any, ParamSpec, TypeVar, is_typeddict
+from typing import Any, ParamSpec, TypeVar
 
 from comparisons.pictures.work import Progress, silent
 from sheetbench.scenes import Solution
@@ -60,26 +59,9 @@ def large_in_context(function: Callable[Parameters, Result]) -> Callable[Paramet
 
 
 def _held(function: Callable[Parameters, Result], *names: str) -> Callable[Parameters, Result]:
-    """Return the function with these defaults; its flat keywords stand in its signature, one by one, for
-    help() to show."""
-    own = signature(function)
-    *fixed, last = own.parameters.values()
-    flat = function.__globals__.get(str(last.annotation).removeprefix("Unpack[").removesuffix("]"))
-    if is_typeddict(flat):
-        own = own.replace(
-            parameters=[
-                *fixed,
-                *(
-                    Parameter(name, Parameter.KEYWORD_ONLY, default=None, annotation=kind.__forward_arg__)
-                    for name, kind in flat.__annotations__.items()
-                ),
-            ]
-        )
-
     @wraps(function)
     def run(*values: Parameters.args, **named: Parameters.kwargs) -> Result:
         with running(**{name: named[name] for name in names if name in named}):
             return function(*values, **named)
 
-    run.__signature__ = own  # type: ignore[attr-defined]
     return run

@@ -14,6 +14,7 @@ from typing import Any, cast
 import numpy as np
 
 from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.discrete.shape import Shape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.discrete.static import Forces, State, Static
 from fem_reference.surface.actuator_forces import OnEdge, exerted
@@ -21,7 +22,8 @@ from fem_reference.surface.balance import left_over
 from fem_reference.surface.location import interpolate
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.path import Path
-from sheetbench.scenes import Solution, Status
+from sheetbench.scenes import FieldMesh, Solution, Status
+from sheetbench.scenes.contact import contact_notes
 
 EPSILON = float(np.finfo(float).eps)
 
@@ -73,18 +75,36 @@ def answer(
     wrenches, line = exerted(scene, edges, sheet.supports.moved, sheet.exerted(q, residual))
     reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(q)
     held = sheet.holding(q, residual, share)
+    shape = sheet.shape(q, share)
     for item in sheet.items:
-        for name, (places, forces) in item.holds(sheet.shape(q, share)).items():
+        for name, (places, forces) in item.holds(shape).items():
             reactions[name] = forces.reshape(-1, 3).sum(axis=0)
             held.append((places, forces))
+    reactions |= {each.name: each.exerted(shape) for each in sheet.contacts}
+    contacts = {each.name: each.report(shape) for each in sheet.contacts}
+    held += [pair for each in sheet.contacts for pair in each.on_points(shape)]
+    if contacts:
+        energies |= {"contact": sum(each.potential(shape) for each in sheet.contacts)}
+        own["remarks"] = (*own.get("remarks", ()), *contact_notes(contacts))
     return Solution(
         model=sheet.model,
         unknowns=sheet.unknowns,
         sample=partial(interpolate, plan.mesh, plan.elements, sheet.middles(sheet.displacement(q))),
         reactions=reactions,
         energies=energies | ({"rod": rods.energy(q, share)} if scene.actuators else {}),
-        mesh=sheet.drawn(q, line if scene.actuators else None),
+        mesh=with_pressure(sheet, shape, sheet.drawn(q, line if scene.actuators else None)),
+        contacts=contacts,
         actuators=wrenches,
         balance=left_over(scene, surface, edges, reactions, held, size, allowed, share) if balanced else None,
         **own,
     )
+
+
+def with_pressure(sheet: Discrete, shape: Shape, mesh: FieldMesh) -> FieldMesh:
+    """Return a mesh with the field "contact_pressure" [Pa] on it, where there are obstacles and it has the
+    plan's nodes."""
+    if sheet.contacts:
+        pressure = sum(one.pressure(shape) for one in sheet.contacts)
+        stacked = len(mesh.points) // len(np.asarray(pressure))
+        mesh.point_data["contact_pressure"] = np.repeat(pressure, stacked)
+    return mesh

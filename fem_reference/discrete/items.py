@@ -29,6 +29,10 @@ class Item(Protocol):
     def force(self, shape: Shape) -> np.ndarray:
         """On the coordinates (N,)."""
 
+    def mean_force(self, start: Shape, end: Shape, middle: Shape) -> np.ndarray:
+        """On the coordinates (N,) in a step of a conserving rule."""
+        return self.force(middle)
+
     def tangent(self, shape: Shape) -> Tangent | None:
         """Derivative of the force by the surface's vectors, None of one that does not depend on them."""
         return None

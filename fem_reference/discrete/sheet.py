@@ -23,6 +23,7 @@ from typing import Any, ClassVar
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
+from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.course import commands_of, loads_of
 from fem_reference.discrete.drag import Drag
 from fem_reference.discrete.items import Dead, Following, Item
@@ -42,6 +43,7 @@ from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
 from sheetbench.scenes.motion import NO_START, at_start, kinks, starts_flat
 from sheetbench.scenes.natural_state import sources_of
+from sheetbench.scenes.obstacles import obstacles_by_name
 from sheetbench.scenes.relaxation import Branches
 
 Binding = Callable[[Scene], BoundRods]
@@ -81,6 +83,7 @@ class Discrete(ABC):
         self.memory = Memory(material.branches if moving else Branches((), ()))
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
         self.items: list[Item] = []
+        self.contacts: list[Touching] = []
 
     def bind(
         self, bind: Binding, bound: BoundRods, rows: np.ndarray, places: np.ndarray | None = None
@@ -100,6 +103,13 @@ class Discrete(ABC):
             self.items += [Following(load, factor) for load in followers]
         if moving and scene.air:
             self.items.append(Drag(scene.air.coefficient))
+        if self.model != "plate":  # which is linear
+            solid = self.model == "solid"
+            self.contacts = [
+                Touching(scene, self.plan, name, one, moving, solid)
+                for name, one in obstacles_by_name(scene).items()
+            ]
+            self.items += self.contacts
 
     @property
     def nodes(self) -> int:
@@ -234,7 +244,10 @@ class Discrete(ABC):
         out = self.elements_mean_internal(start, end, h)
         for body in self.bodies:
             out = out + body.scatter(body.pull(q, body.mean_stress(start, end, h, time)))
-        return self._damped(out - self.external(self.shape(q, time, v)), v)
+        shapes = self.shape(start, time - 0.5 * h), self.shape(end, time + 0.5 * h), self.shape(q, time, v)
+        for item in self.items:
+            out = out - item.mean_force(*shapes)
+        return self._damped(out, v)
 
     def _damped(self, forces: np.ndarray, v: np.ndarray) -> np.ndarray:
         return forces + self.alpha * (self.sheet_mass @ v) if self.alpha else forces

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.motion.generalised_alpha import GeneralisedAlpha
+from fem_reference.motion.generalised_alpha import ConstrainedAlpha
 from fem_reference.motion.moving import Motion
 from sheetbench.numerics.time.method import StepFailed
 
@@ -23,7 +23,7 @@ CORRECTIONS = 30
 REUSED = 0.3  # a correction's share of the one before, up to which factors are kept
 
 
-class EnergyMomentum(GeneralisedAlpha):
+class EnergyMomentum(ConstrainedAlpha):
     """Steps of a reference, of a fixed length."""
 
     def _advanced(self, motion: Motion, h: float) -> Motion:

@@ -47,7 +47,7 @@ class Sampled(NamedTuple):
     work: np.ndarray
 
 
-class GeneralisedAlpha:
+class ConstrainedAlpha:
     """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried.
 
     late: the share of its end in the forces that a step balances. adapts, span, kinks: as

@@ -28,6 +28,7 @@ class ReferenceObserver:
             *(("energy", name, ()) for name in ENERGIES),
             *(("probe", name, (3,)) for name in scene.probes),
             *(("reaction", name, (3,)) for name in self._reactions),
+            *(("reaction", one.name, (3,)) for one in model.contacts),
         ]
 
     def rows(self, samples: Sampled) -> np.ndarray:
@@ -37,7 +38,9 @@ class ReferenceObserver:
             kinds = energies(model, motion.q, motion.v, motion.time)
             probes = model.sample(model.displacement(motion.q), self._points)
             reactions = model.reactions(motion.exerted)
-            forces = (reactions[name] for name in self._reactions)
+            forces = [reactions[name] for name in self._reactions]
+            shape = model.shape(motion.q, motion.time, motion.v)
+            forces += [one.exerted(shape) for one in model.contacts]
             rows.append(np.concatenate([[0.0, *kinds, 0.0, 0.0], probes.ravel(), *forces]))
         found = np.array(rows)
         found[:, 0], found[:, 4], found[:, 5] = samples.time, samples.dissipated, samples.work

@@ -17,7 +17,7 @@ import numpy as np
 
 from fem_reference.defaults import with_defaults
 from fem_reference.motion.energy_momentum import EnergyMomentum
-from fem_reference.motion.generalised_alpha import ERROR, GeneralisedAlpha
+from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
 from fem_reference.motion.moving import Motion, Moving
 from fem_reference.motion.observer import ReferenceObserver
 from fem_reference.motion.plate import MovingPlate
@@ -38,7 +38,7 @@ MODELS: dict[str, Callable[..., Moving]] = {
     "shell": MovingShell,
     "solid": MovingSolid,
 }
-INTEGRATORS = {"generalised-alpha": GeneralisedAlpha, "energy-momentum": EnergyMomentum}
+INTEGRATORS = {"generalised-alpha": ConstrainedAlpha, "energy-momentum": EnergyMomentum}
 STEPS_PER_PERIOD = 200
 
 
@@ -83,7 +83,8 @@ def simulate(
     require_error(error)
     began = now()
     requested = scene_of(scene)
-    require_no_obstacles(requested, f"the {model} in motion")
+    if model == "plate":
+        require_no_obstacles(requested, "the plate, which is linear,")
     require_choice("integrator", integrator, INTEGRATORS)
     options = with_defaults(requested, signature(MODELS[model]).parameters, options)
     moving = MODELS[model](requested, **options)

@@ -15,7 +15,8 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.discrete.answer import answered, judge
-from fem_reference.discrete.static import Forces, State, Static
+from fem_reference.discrete.static import Forces, State
+from fem_reference.discrete.tracing import trace
 from fem_reference.shell import coarse_start
 from fem_reference.shell.coarse_start import Shape
 from fem_reference.shell.discrete import DiscreteShell
@@ -35,7 +36,6 @@ from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.pseudo_transient import relax
-from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.scenes import Scene, Solution, Status, require_uniform
 from sheetbench.scenes.patches import require_flat_at_rest
 from sheetbench.scenes.rigid_motions import require_static
@@ -116,7 +116,7 @@ def _runs(
     buckled: bool = False,
 ) -> list[_Run]:
     """The run on a mesh of so many elements, then those on coarser ones that it has begun with."""
-    few = coarse_start.coarse(counts, scene)
+    few = None if scene.obstacles else coarse_start.coarse(counts, scene)
     rows = graded and has_lines(borders_of(scene))  # those along an outline are half of a coarse mesh
     begun = [] if few is None else _runs(scene, few, section, law, rows, progress, coarse_start.LIMITS)
     near = begun[0] if begun and coarse_start.plain(begun[0].path) else None
@@ -146,17 +146,14 @@ def _run(
     elif near is not None:
         begin_at = coarse_start.start(near.sheet, near.path.state.q, sheet)
     slenderness = scene.sheet.thickness / sheet.lever
-    path = trace_path(
-        Static(sheet), sheet.solver(), inspector(graded), relax, progress, begin_at, slenderness,
-        limits or LIMITS, buckled,
-    )  # fmt: skip
+    path = trace(sheet, inspector(graded), relax, progress, begin_at, slenderness, limits or LIMITS, buckled)
     path.factor = None  # a run is kept longer than that
     return _Run(sheet, path, ready - begin, now() - ready)
 
 
 def trace_on(sheet: DiscreteShell) -> tuple[np.ndarray, Status, list[str]]:
     """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
-    path = trace_path(Static(sheet), sheet.solver(), inspector(False), relax)
+    path = trace(sheet, inspector(False), relax)
     return path.state.q, *judge(sheet, path)
 
 

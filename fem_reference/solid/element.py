@@ -36,7 +36,7 @@ from skfem import ElementHex2
 from skfem.quadrature import get_quadrature
 from skfem.refdom import RefHex
 
-from fem_reference.solid.materials import PAIRS, Law
+from fem_reference.solid.materials import PAIRS, SolidLaw
 from fem_reference.surface.biquadratic import THREE, TYING, lagrange
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Constants, Material
@@ -106,13 +106,13 @@ class Bricks:
     """
 
     positions: np.ndarray
-    law: Law
+    law: SolidLaw
     material: Material | Constants
     to_strain: np.ndarray
     volumes: np.ndarray
 
     @classmethod
-    def build(cls, positions: np.ndarray, law: Law, material: Material | Constants) -> Bricks:
+    def build(cls, positions: np.ndarray, law: SolidLaw, material: Material | Constants) -> Bricks:
         """The elements with nodes at positions (m, 27, 3), in scikit-fem's order of `ElementHex2`."""
         ref = reference()
         _, slope = shape(ref.points)

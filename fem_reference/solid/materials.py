@@ -47,7 +47,7 @@ class Triad(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Law:
+class SolidLaw:
     """distortion: material and E → triad of W₀ [Pa]; volume: E → triad of ϑ; bulk: Λ [Pa] of a material;
     quadratic: whether W is quadratic in E; stands_any_strain: whether the law is meant for large strains."""
 
@@ -169,8 +169,8 @@ def _everywhere(constant: np.ndarray, strain: np.ndarray) -> np.ndarray:
     return np.broadcast_to(constant, strain.shape[:-1] + constant.shape)
 
 
-def _rubber(energy: Callable[[Material], Energy]) -> Law:
-    return Law(
+def _rubber(energy: Callable[[Material], Energy]) -> SolidLaw:
+    return SolidLaw(
         lambda material, strain: _rubber_distortion(energy(material), strain),
         _logarithmic_volume,
         lambda material: energy(material).volume(material.poisson),
@@ -179,7 +179,7 @@ def _rubber(energy: Callable[[Material], Energy]) -> Law:
 
 
 LAWS = {
-    "st-venant-kirchhoff": Law(_green_distortion, _green_volume, _green_bulk, quadratic=True),
-    "biot": Law(_stretch_distortion, _stretch_volume, lambda of: lame(of)[0]),
+    "st-venant-kirchhoff": SolidLaw(_green_distortion, _green_volume, _green_bulk, quadratic=True),
+    "biot": SolidLaw(_stretch_distortion, _stretch_volume, lambda of: lame(of)[0]),
     "neo-hookean": _rubber(lambda of: Energy(0.5 * lame(of)[1])),
 } | dict.fromkeys(WORDS, _rubber(lambda of: of.energy))

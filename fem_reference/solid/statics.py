@@ -21,7 +21,8 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.discrete.answer import answered, judge, sheet_of
-from fem_reference.discrete.static import Forces, State, Static
+from fem_reference.discrete.static import Forces, State
+from fem_reference.discrete.tracing import trace
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
@@ -32,7 +33,6 @@ from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.path import Fault, Path, Progress
-from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.scenes import (
     Constants,
     EdgeLoad,
@@ -97,7 +97,7 @@ def _solved(
     sheet = discretise(mesh, scene, layers, law, clamp)
     sheet.own = own
     ready = now()
-    path = trace_path(Static(sheet), sheet.solver(), inspected, progress=progress)
+    path = trace(sheet, inspected, None, progress)
     done = now()
     status, notes = judge(sheet, path)
     return answered(
@@ -115,7 +115,7 @@ def _solved(
 
 def trace_on(sheet: DiscreteSolid) -> tuple[np.ndarray, Status, list[str]]:
     """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
-    path = trace_path(Static(sheet), sheet.solver(), inspected)
+    path = trace(sheet, inspected, None)
     return path.state.q, *judge(sheet, path)
 
 

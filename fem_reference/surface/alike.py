@@ -24,7 +24,7 @@ FLIPS = [np.diag([x, y]) for x in (1.0, -1.0) for y in (1.0, -1.0)]
 TURNS = [flip @ swap for swap in (np.eye(2), np.eye(2)[::-1]) for flip in FLIPS]
 
 
-class Placed(NamedTuple):
+class CentredPlan(NamedTuple):
     """A plan about the origin, and what leads back from there: x = p turn + centre; mirrors: the axes across
     which it is its own image."""
 
@@ -85,7 +85,7 @@ class Placed(NamedTuple):
         return _mesh(moved(mesh.p.T), mesh.t.T if upright else mesh.t.T[:, ::-1]), moved(places)
 
 
-def placed(region: BaseGeometry, inner: BaseGeometry) -> Placed:
+def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
     """Return a plan in the last of its eight places."""
     import shapely
 
@@ -107,7 +107,7 @@ def placed(region: BaseGeometry, inner: BaseGeometry) -> Placed:
         return np.round(at - centre, DIGITS) @ turn.T + 0.0
 
     borders = shapely.multilinestrings(_ordered(lines, turn))
-    return Placed(shapely.normalize(shapely.transform(region, there)), borders, centre, turn, mirrors)
+    return CentredPlan(shapely.normalize(shapely.transform(region, there)), borders, centre, turn, mirrors)
 
 
 def _sides(lines: BaseGeometry) -> np.ndarray:

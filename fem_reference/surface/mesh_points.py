@@ -62,14 +62,14 @@ def borders_between_corners(region: BaseGeometry, inner: BaseGeometry) -> list[L
     return found
 
 
-class Size(NamedTuple):
+class SizeField(NamedTuple):
     """Sizes of triangles: those (k,) at places (k, 2) where they must be below 1; they grow from there."""
 
     places: np.ndarray
     sizes: np.ndarray
 
     @classmethod
-    def of(cls, region: BaseGeometry, borders: Sequence[LineString], coarse: float) -> Size:
+    def of(cls, region: BaseGeometry, borders: Sequence[LineString], coarse: float) -> SizeField:
         """By how borders turn, and how close across the sheet they are to others that they do not touch; both
         are divided more finely by finer meshes; coarse: how much larger elements are than usual ones, at
         most 1."""
@@ -123,7 +123,7 @@ def _radii(border: LineString) -> tuple[np.ndarray, np.ndarray]:
         return np.cumsum(lengths)[:-1], 0.5 * (lengths[1:] + lengths[:-1]) / turns
 
 
-def divided(borders: Sequence[LineString], size: Size) -> tuple[np.ndarray, Sides]:
+def divided(borders: Sequence[LineString], size: SizeField) -> tuple[np.ndarray, Sides]:
     """Points (n, 2) along the borders, one where several meet, and the sides between them."""
     import shapely
 
@@ -151,7 +151,7 @@ def on_borders(borders: Sequence[LineString], number: np.ndarray, along: np.ndar
     return shapely.get_coordinates(shapely.line_interpolate_point(np.array(borders)[number], along))
 
 
-def filling(region: BaseGeometry, borders: Sequence[LineString], sides: Sides, size: Size) -> np.ndarray:
+def filling(region: BaseGeometry, borders: Sequence[LineString], sides: Sides, size: SizeField) -> np.ndarray:
     """Inner points (n, 2): a row along borders, then corners of a quadtree's cells."""
     import shapely
 
@@ -181,7 +181,7 @@ def filling(region: BaseGeometry, borders: Sequence[LineString], sides: Sides, s
     return points[kept]
 
 
-def _quadtree(bounds: tuple[float, float, float, float], size: Size) -> np.ndarray:
+def _quadtree(bounds: tuple[float, float, float, float], size: SizeField) -> np.ndarray:
     """Corners (n, 2) of cells as small as requested."""
     low, lengths = np.array(bounds[:2]), np.array(bounds[2:]) - bounds[:2]
     counts = np.maximum(np.rint(lengths), 1.0).astype(int)

@@ -24,7 +24,7 @@ from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from fem_reference.surface.mesh_points import (
     NEAR,
     Sides,
-    Size,
+    SizeField,
     borders_between_corners,
     divided,
     filling,
@@ -67,7 +67,7 @@ def quadrilaterals(
     region, inner = plan.part
     borders = borders_between_corners(region, inner)
     across = np.min(np.ptp(np.reshape(plan.region.bounds, (2, 2)), axis=0))
-    size = Size.of(region, borders, min(1.0, USUAL / across))
+    size = SizeField.of(region, borders, min(1.0, USUAL / across))
     points, sides = divided(borders, size)
     points, triangles, sides = _triangles(
         region, borders, sides, points, filling(region, borders, sides, size)

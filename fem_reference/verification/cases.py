@@ -17,6 +17,7 @@ from fem_reference.verification import (
     patch,
     roll_up,
     round_shapes,
+    self_bending,
     settling_strip,
     slit_annulus,
     strain_laws,
@@ -51,6 +52,7 @@ CASES: dict[str, Case] = {
     "orthotropic-plate": Case("plate with fibres along x, simply supported", orthotropic.plate),
     "laminate": Case("laminate [0/90]s, simply supported", orthotropic.laminate),
     "off-axis": Case("strip with oblique fibres, pulled", orthotropic.off_axis),
+    "self-bending": Case("sheets that are not flat at rest", self_bending.rows),
     "patch": Case("patch tests on distorted meshes", patch.rows),
 }
 

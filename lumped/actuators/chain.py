@@ -35,7 +35,7 @@ from sheetbench.scenes import Chain as ChainData
 UP = np.array([0.0, 0.0, 1.0])
 
 
-class Chain:
+class BoundChain:
     """One or several chains on one edge. scale: σ [N/m], like the sheet's E h; held: its ends (0 the start, 1
     the end) where another edge holds position and director; shared: those where another chain shares the
     corner.

@@ -17,7 +17,7 @@ from itertools import pairwise
 import numpy as np
 
 from lumped.actuators.actuator import Acting, Drive
-from lumped.actuators.chain import Chain
+from lumped.actuators.chain import BoundChain
 from lumped.actuators.corners import SharedCorner, Tie, based_beside, held_ends, shared_corners, shared_ends
 from lumped.actuators.edge_motion import RigidMotion
 from lumped.coverage import held_columns, reached_parts
@@ -39,7 +39,7 @@ class Coupling:
         ends = np.cumsum([lattice.mass_count, *(chain.rows for chain in chains)])
         places = [slice(int(a), int(b)) for a, b in pairwise(ends)]
         self._motions: tuple[RigidMotion, ...] = motions
-        self._bodies: list[tuple[Chain, slice]] = list(zip(chains, places, strict=True))
+        self._bodies: list[tuple[BoundChain, slice]] = list(zip(chains, places, strict=True))
         begin = {chain.edge: (chain, place.start) for chain, place in zip(chains, places, strict=True)}
         self.ties = [_tie(corner, *(begin[edge] for edge in corner.edges)) for corner in shared]
         bases = {edge: next(iter(here.values())).held_as for edge, here in scene.chains().items()}
@@ -49,7 +49,7 @@ class Coupling:
             for end in chain.corners
             if (beside := based_beside(scene, chain.edge, end))
         }
-        by_edge: dict[str, tuple[Chain | RigidMotion, slice]] = {
+        by_edge: dict[str, tuple[BoundChain | RigidMotion, slice]] = {
             motion.edge: (motion, slice(0)) for motion in motions
         }
         by_edge |= {body.edge: (body, place) for body, place in self._bodies}
@@ -66,7 +66,7 @@ class Coupling:
         return len(self._all)
 
     @property
-    def bodies(self) -> tuple[Chain, ...]:
+    def bodies(self) -> tuple[BoundChain, ...]:
         """The actuators with rows of their own, in the order of these."""
         return tuple(body for body, _ in self._bodies)
 
@@ -105,7 +105,7 @@ class Coupling:
             if len(points := body.axis)
         }
 
-    def corners(self) -> list[tuple[Chain, slice, int, np.ndarray]]:
+    def corners(self) -> list[tuple[BoundChain, slice, int, np.ndarray]]:
         """Ends of bodies held at corners: body, its place, end (0 or 1), the corner's masses (layers,)."""
         return [
             (body, place, end, self._layers[body.edge][-end])
@@ -233,14 +233,16 @@ class Coupling:
             found.update(zip(actuator.names, actuator.wrenches(acting), strict=True))
         return found
 
-    def _acting(self, u: np.ndarray, exerted: np.ndarray) -> Iterator[tuple[Chain | RigidMotion, Acting]]:
+    def _acting(
+        self, u: np.ndarray, exerted: np.ndarray
+    ) -> Iterator[tuple[BoundChain | RigidMotion, Acting]]:
         for actuator, place in self._all:
             masses = actuator.masses
             positions = self._positions[masses] + u[masses]
             yield actuator, Acting(positions, exerted[masses], exerted[place], u[place])
 
 
-def _at_pairs(body: Chain, dense: np.ndarray) -> np.ndarray:
+def _at_pairs(body: BoundChain, dense: np.ndarray) -> np.ndarray:
     rows, columns = np.nonzero(body.pairs)
     return dense[rows, :, columns, :]
 
@@ -258,13 +260,13 @@ def _motions(scene: Scene, lattice: Lattice) -> tuple[RigidMotion, ...]:
     )
 
 
-def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[Chain], list[SharedCorner]]:
+def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[BoundChain], list[SharedCorner]]:
     taken = moved.copy()
     for support in scene.supports:
         taken[held_columns(lattice, support, reached_parts(scene))] = True
     shared = shared_corners(scene, lattice, taken)
     brought = shared_ends(scene, shared)
-    found: list[Chain] = []
+    found: list[BoundChain] = []
     for edge, here in scene.chains().items():
         columns = lattice.edge_columns(edge)
         others = taken.copy()
@@ -275,14 +277,14 @@ def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[Cha
         taken[masses] = True
         scale = scene.material.young * scene.sheet.thickness
         held = held_ends(scene, edge)
-        chain = Chain(
+        chain = BoundChain(
             list(here.values()), tuple(here), scene.sheet, lattice, masses, scale, held, brought[edge]
         )
         found.append(chain)
     return found, shared
 
 
-def _tie(corner: SharedCorner, first: tuple[Chain, int], second: tuple[Chain, int]) -> Tie:
+def _tie(corner: SharedCorner, first: tuple[BoundChain, int], second: tuple[BoundChain, int]) -> Tie:
     """Point and director of the second chain from those of the first; axes may lie at different heights."""
     rows = [
         begin + np.array([chain.frames.end_point(end), chain.frames.corner_row[end]])

@@ -25,17 +25,17 @@ from sheetbench.scenes.natural_state import sheet_at_rest
 
 
 @dataclass(frozen=True)
-class Method(choices.Method):
+class CalibrationMethod(choices.Method):
     """A method as `sheetbench.choices` describes it, and what carries it out:
     make(sheet, material, grid, **options)."""
 
     make: Callable[..., Calibration] = field(kw_only=True)
 
 
-def described(makers: Mapping[str, Callable[..., Calibration]]) -> dict[str, Method]:
+def described(makers: Mapping[str, Callable[..., Calibration]]) -> dict[str, CalibrationMethod]:
     """These makers as methods by name, in the order of `sheetbench.choices`."""
     return {
-        name: Method(**vars(choice), make=makers[name])
+        name: CalibrationMethod(**vars(choice), make=makers[name])
         for name, choice in choices.CALIBRATIONS.items()
         if name in makers
     }

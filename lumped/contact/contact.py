@@ -34,7 +34,7 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.contact.surface import At, Surface
+from lumped.contact.surface import At, ObstacleSurface
 from sheetbench.errors import BadInput
 from sheetbench.scenes import ContactState, Scene, free_rigid_motions
 from sheetbench.scenes.obstacles import SLIP_SPEED, AnyObstacle, obstacles_by_name
@@ -70,7 +70,7 @@ class Contact:
     nodes (m, q), weights (p, q) of each of the p points of a patch."""
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
-        self.name, self.obstacle, self.surface = name, obstacle, Surface(obstacle)
+        self.name, self.obstacle, self.surface = name, obstacle, ObstacleSurface(obstacle)
         self.moves = obstacle.motion is not None
         lattice = assembly.lattice
         columns, areas = lattice.columns(), lattice.cell_areas

@@ -27,7 +27,7 @@ class At(NamedTuple):
     normal: np.ndarray
 
 
-class Surface:
+class ObstacleSurface:
     """An obstacle's surface. radius [m], infinite of a plane."""
 
     def __init__(self, obstacle: AnyObstacle):

@@ -26,7 +26,7 @@ from sheetbench.scenes import Scene
 TINY = np.finfo(float).tiny ** 0.5
 
 
-class Drag(NamedTuple):
+class LatticeDrag(NamedTuple):
     """coefficient: ½ ρ c_d [kg/m³], 0 without air; positions: at rest (n, 3) [m]; cells: columns of masses
     at the corners of the mid-surface's cells (c, 4, layers); shares: of each that is on the sheet, (c,);
     weights: mass over tributary mass, (n,); area: where A (n, 3) [m²] is computed."""
@@ -39,7 +39,7 @@ class Drag(NamedTuple):
     area: np.ndarray
 
 
-def of_scene(scene: Scene, assembly: Assembly) -> Drag:
+def of_scene(scene: Scene, assembly: Assembly) -> LatticeDrag:
     """The drag on the masses of a scene's lattice."""
     lattice, cells = assembly.lattice, assembly.cells
     inert, tributary = (sheet_masses(scene, lattice, by, cells) for by in (assembly.inertia, "tributary"))
@@ -47,11 +47,11 @@ def of_scene(scene: Scene, assembly: Assembly) -> Drag:
     area = np.zeros_like(lattice.positions)
     weights = np.divide(inert, tributary, out=np.zeros_like(inert), where=tributary > 0.0)
     shares = cell_shares(scene, lattice, None)
-    return Drag(coefficient, lattice.positions, lattice.mid_cells, shares, weights, area)
+    return LatticeDrag(coefficient, lattice.positions, lattice.mid_cells, shares, weights, area)
 
 
 @njit(cache=True, error_model="numpy")
-def _to_areas(drag: Drag, u: np.ndarray) -> None:
+def _to_areas(drag: LatticeDrag, u: np.ndarray) -> None:
     """A of the masses displaced by u."""
     drag.area[:] = 0.0
     add_forces(drag.positions + u[: len(drag.area)], drag.cells, drag.shares, drag.area)
@@ -60,7 +60,7 @@ def _to_areas(drag: Drag, u: np.ndarray) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def add_drag(drag: Drag, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
+def add_drag(drag: LatticeDrag, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
     """Add the drag, signed as an internal force, at a displacement and velocity (size, 3); the power taken
     [W]."""
     power = 0.0
@@ -80,7 +80,7 @@ def add_drag(drag: Drag, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> flo
     return power
 
 
-def velocity_tangent(drag: Drag, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+def velocity_tangent(drag: LatticeDrag, u: np.ndarray, v: np.ndarray) -> np.ndarray:
     """Its derivative by each mass's own velocity, (n, 3, 3) [N·s/m]."""
     _to_areas(drag, u)
     area, size = drag.area, np.linalg.norm(drag.area, axis=1)

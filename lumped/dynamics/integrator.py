@@ -12,12 +12,12 @@ from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.system import State, System
 from sheetbench.numerics.time.method import Advance, StepFailed
 
-__all__ = ["Advance", "Integrator", "Samples", "StepFailed"]
+__all__ = ["Advance", "Integrator", "LatticeSamples", "StepFailed"]
 
 STEPS_PER_PERIOD = 200  # by default
 
 
-class Samples(NamedTuple):
+class LatticeSamples(NamedTuple):
     """States at k moments: times (k,) [s]; displacements, velocities, accelerations (k, size, 3); memories of
     the material's branches; energies (k,) [J] that dampers took and that were put in."""
 
@@ -30,7 +30,7 @@ class Samples(NamedTuple):
     work: np.ndarray
 
     @classmethod
-    def of(cls, state: State, dissipated: float = 0.0, work: float = 0.0) -> Samples:
+    def of(cls, state: State, dissipated: float = 0.0, work: float = 0.0) -> LatticeSamples:
         """Return one state, with the energies until then."""
         u, v, a = (np.ascontiguousarray(vector)[None] for vector in (state.u, state.v, state.a))
         return cls(np.array([state.time]), u, v, a, [state.memory], np.array([dissipated]), np.array([work]))
@@ -99,9 +99,9 @@ class Integrator(ABC):
         Raises StepFailed for the first of them."""
         return self.advance(state, step)
 
-    def at(self, times: np.ndarray, last: Advance[State]) -> Samples:
+    def at(self, times: np.ndarray, last: Advance[State]) -> LatticeSamples:
         """Return the last step's end."""
-        return Samples.of(last.state, last.dissipated, last.work)
+        return LatticeSamples.of(last.state, last.dissipated, last.work)
 
     def settings(self) -> dict[str, Any]:
         """Return the length of its steps."""

@@ -16,14 +16,14 @@ import numpy as np
 from numba import njit
 
 from lumped.lattice import Lattice
-from lumped.pattern import SHARED_UP_TO, Pattern
+from lumped.pattern import SHARED_UP_TO, MassPattern
 from lumped.rest import Rest, rest_of
 from lumped.spring_constants import Springs as Constants
 from lumped.spring_constants import of_edge_cells, of_rubber
 from lumped.springs import cells, links
 from lumped.springs.cell_laws import FACE, RUBBER, AreaAndStrains, measures
 from lumped.springs.cells import CellArrays
-from lumped.springs.families import Cells, DirectionalLinks, Family, Links
+from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.links import LinkArrays
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.errors import BadInput
@@ -32,7 +32,7 @@ from sheetbench.scenes import SpringSet
 from sheetbench.scenes.springs import DamperSet
 
 
-class Springs(NamedTuple):
+class SpringArrays(NamedTuple):
     """The springs of a lattice that have an energy."""
 
     links: LinkArrays
@@ -58,11 +58,11 @@ class AllFamilies:
     """Families of springs together. Displacements and forces are (n, 3) [m], [N]; stresses as `Springs`.
     single: the force is computed from displacements, rest geometry and stiffness in single precision."""
 
-    def __init__(self, families: Sequence[Family], pattern: Pattern, single: bool = False):
+    def __init__(self, families: Sequence[Family], pattern: MassPattern, single: bool = False):
         self.families = tuple(families)
         found = {_place(family): family for family in families}
         links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
-        self.springs = Springs(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_))
+        self.springs = SpringArrays(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_))
         self._found, self._pattern = found, pattern
         self._others = [family for place, family in found.items() if place < 0]
         rounded = [family.rounded() for family in families] if single else None
@@ -71,7 +71,7 @@ class AllFamilies:
         self.links = along[0]
         self.link_geometry = [(each.nodes, each.offset, each.rest_length) for each in along]
         self.conservative = all(family.conservative for family in families)
-        self.any_strain = any(isinstance(each, Cells) and each.law is RUBBER for each in families)
+        self.any_strain = any(isinstance(each, SpringCells) and each.law is RUBBER for each in families)
 
     @cached_property
     def link_stiffness(self) -> np.ndarray:
@@ -155,7 +155,7 @@ class AllFamilies:
 
 def _place(family: Family) -> int:
     """Which of the families in `Springs` it is; −1 if none."""
-    if isinstance(family, Cells):
+    if isinstance(family, SpringCells):
         return 3 if family.upright else 1 if family.nodes.shape[2] == 1 else 2
     return 0 if family.conservative else -1
 
@@ -171,7 +171,7 @@ def _no_cells() -> tuple[Any, ...]:
 
 
 @njit(cache=True, nogil=True)
-def force(u: np.ndarray, springs: Springs) -> tuple[float, np.ndarray]:
+def force(u: np.ndarray, springs: SpringArrays) -> tuple[float, np.ndarray]:
     """Return the energy [J] and the internal force (n, 3) [N]."""
     out = np.zeros_like(u)
     energy = links.add_forces(u, springs.links, out)
@@ -183,7 +183,7 @@ def force(u: np.ndarray, springs: Springs) -> tuple[float, np.ndarray]:
 
 @njit(cache=True, nogil=True)
 def advance(
-    u: np.ndarray, step: np.ndarray, predict: bool, springs: Springs
+    u: np.ndarray, step: np.ndarray, predict: bool, springs: SpringArrays
 ) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
     """Return where a step (n, 3) [m] leads, how far at most [m], the internal force (n, 3) [N] there, and the
     stresses that the linearisation at u predicts there, none unless asked to `predict`."""
@@ -212,7 +212,7 @@ def tangent(
     share: float,
     scale: float,
     inertia: np.ndarray,
-    springs: Springs,
+    springs: SpringArrays,
     where: Blocks,
 ) -> np.ndarray:
     """Return scale × blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
@@ -239,7 +239,7 @@ def tangent(
     return blocks
 
 
-def link_springs(lattice: Lattice, pattern: Pattern, springs: Constants) -> Iterator[Links]:
+def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[Links]:
     """Central links, first and even where there are none; then those of a per-direction law."""
     rest, names = rest_of(lattice, pattern), lattice.link_names
     each = [springs.of_links(family.name, family.direction) for family in lattice.links]
@@ -264,7 +264,7 @@ def _links(kind: type[Links], rest: Rest, which: np.ndarray, k: np.ndarray, name
     return kind(nodes, k[which], slots, offset, rest_length, number, names)
 
 
-def cell_springs(lattice: Lattice, pattern: Pattern, springs: Constants) -> Iterator[Cells]:
+def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
     """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
     edges = of_edge_cells(springs, lattice.grid, lattice.twisting)
     layers, rest, shape = lattice.grid[2], rest_of(lattice, pattern), lattice.cell_areas.shape
@@ -281,17 +281,17 @@ def cell_springs(lattice: Lattice, pattern: Pattern, springs: Constants) -> Iter
             squares, twist = (every_sides**2).sum(axis=2), edges[lattice.kept, 2]
             found = of_rubber(springs, squares, every_area, twist, kept_cells)
             stiffness, others = (np.concatenate([each] * every) for each in found)
-            yield Cells(nodes, stiffness, slots, sides, area, ("", "rubber"), False, RUBBER, others)
+            yield SpringCells(nodes, stiffness, slots, sides, area, ("", "rubber"), False, RUBBER, others)
             continue
         strains = kept_cells(springs.strains(family.name))
         strains = strains + (1 if family.name == "area" else -layers) * edges[lattice.kept]
         stiffness = np.column_stack([kept_cells(springs.along(family.name, 0)), strains])
         if stiffness.any():
             names = family.name, "strain" if family.name == "area" else "mid_strain"
-            yield Cells(nodes, np.concatenate([stiffness] * every), slots, sides, area, names)
+            yield SpringCells(nodes, np.concatenate([stiffness] * every), slots, sides, area, names)
 
 
-def face_springs(lattice: Lattice, pattern: Pattern, springs: Constants) -> Iterator[Cells]:
+def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
     """On the upright faces between the layers, against their shear."""
     if springs.of.keys() & {"face_shear", "face_diagonal_shear"}:
         rest = rest_of(lattice, pattern)
@@ -302,10 +302,10 @@ def face_springs(lattice: Lattice, pattern: Pattern, springs: Constants) -> Iter
         stiffness = np.zeros((len(nodes), 4))
         stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
         others = stiffness[:, 3:] / area[:, None]
-        yield Cells(nodes, stiffness, slots, sides, area, ("", "face_shear"), True, FACE, others)
+        yield SpringCells(nodes, stiffness, slots, sides, area, ("", "face_shear"), True, FACE, others)
 
 
-FAMILIES: tuple[Callable[[Lattice, Pattern, Constants], Iterator[Family]], ...] = (
+FAMILIES: tuple[Callable[[Lattice, MassPattern, Constants], Iterator[Family]], ...] = (
     link_springs,
     cell_springs,
     face_springs,
@@ -313,7 +313,7 @@ FAMILIES: tuple[Callable[[Lattice, Pattern, Constants], Iterator[Family]], ...] 
 
 
 @kept(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)
-def springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet, single: bool) -> AllFamilies:
+def springs_of(lattice: Lattice, pattern: MassPattern, springs: SpringSet, single: bool) -> AllFamilies:
     """The springs of a spring set on a lattice, the central links first; of a small one the same every
     time."""
     constants = Constants.read(springs)
@@ -321,7 +321,7 @@ def springs_of(lattice: Lattice, pattern: Pattern, springs: SpringSet, single: b
     return AllFamilies(found, pattern, single)
 
 
-def table_dampers(lattice: Lattice, pattern: Pattern, table: DamperSet) -> Links:
+def table_dampers(lattice: Lattice, pattern: MassPattern, table: DamperSet) -> Links:
     """The dampers of a scene's [dampers] table, along the links. Raises BadInput for x, y and z apart."""
     along_links, *others = link_springs(lattice, pattern, Constants.read(table))
     if others:

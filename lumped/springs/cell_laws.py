@@ -38,14 +38,14 @@ class Face(NamedTuple):
     constants: np.ndarray
 
 
-class NaturalStrains(NamedTuple):
+class StressFreeCells(NamedTuple):
     """constants: (c, 11) of every cell's `area_and_strains`, then δg₀ [m²] and the area [m²] at which it is
     free of stress."""
 
     constants: np.ndarray
 
 
-Tag = AreaAndStrains | Rubber | Face | NaturalStrains
+Tag = AreaAndStrains | Rubber | Face | StressFreeCells
 
 
 @njit(cache=True, error_model="numpy")
@@ -135,7 +135,7 @@ def _linear(stiffness: Callable[..., Any]) -> Callable[..., Any]:
 
 
 @dataclass(frozen=True)
-class Law:
+class CellLaw:
     """tag: of its loops; respond: (½, δg and s, g at rest, area, constants) → energy, what its stiffness
     takes, stress; stiffness: (δg and s, g, area, that, share, constants) → M + share (D − M) of g, 11 22 33
     12 13 23, and of s, 14 24 34 44; extrapolate: (δg and s, g, area, that, stress, constants, their rate) →
@@ -178,7 +178,7 @@ def _parts_of_rubber(_stiffness: np.ndarray, others: np.ndarray, area: np.ndarra
     }
 
 
-AREA_AND_STRAINS = Law(
+AREA_AND_STRAINS = CellLaw(
     AreaAndStrains,
     laws.area_and_strains,
     laws.stiffness_of_area_and_strains,
@@ -189,7 +189,7 @@ AREA_AND_STRAINS = Law(
     lambda k, _others, _area: {"area": k[:, :1], "strain": k[:, 1:4], "coupling": k[:, 4:]},
     ((-30.0, 200.0, 150.0, 80.0, 60.0, -50.0, 40.0),),
 )
-RUBBER = Law(
+RUBBER = CellLaw(
     Rubber,
     laws.rubber,
     laws.stiffness_of_rubber,
@@ -205,7 +205,7 @@ RUBBER = Law(
         (158.0, 132.0, 140.0, 87.0, 50.0, 0.0, 0.0, 0.0, 700.0, 3.0, 68.0, 60.0, -13.0),
     ),
 )
-FACE = Law(
+FACE = CellLaw(
     Face,
     face,
     stiffness_of_face,
@@ -216,8 +216,8 @@ FACE = Law(
     lambda _stiffness, others, area: {"face": others * area[:, None]},
     ((0.0, 0.0, 0.0, 25.0, 25.0),),
 )
-NATURAL = Law(  # whose stiffness takes g as it is now
-    NaturalStrains,
+NATURAL = CellLaw(  # whose stiffness takes g as it is now
+    StressFreeCells,
     natural_strains,
     laws.stiffness_of_area_and_strains,
     mean_natural_strains,

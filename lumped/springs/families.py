@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from lumped.springs import cells, laws, links
-from lumped.springs.cell_laws import AREA_AND_STRAINS, Law
+from lumped.springs.cell_laws import AREA_AND_STRAINS, CellLaw
 from lumped.springs.cells import CellArrays
 from lumped.springs.links import LinkArrays
 
@@ -190,7 +190,7 @@ class DirectionalLinks(Links):
 
 
 @dataclass(frozen=True, eq=False)
-class Cells(Family):
+class SpringCells(Family):
     """Springs on the cells of the layers, of the mid-surface or on upright faces: nodes (c, 4, p), stiffness
     (c, 4) of small strains, against the change of area and the Green strains ε1, ε2, γ of the mean sides, or
     (c, 7) with what couples these, which dampers in proportion resist; at rest sides (c, 2, 3) [m] and area
@@ -201,7 +201,7 @@ class Cells(Family):
     area: np.ndarray
     names: tuple[str, str]
     upright: bool = False  # faces between the layers
-    law: Law = AREA_AND_STRAINS
+    law: CellLaw = AREA_AND_STRAINS
     others: np.ndarray | None = None
     natural: np.ndarray | None = None
 
@@ -248,7 +248,7 @@ class Cells(Family):
         sums = zip(self.names, energies.sum(axis=0).tolist(), there, strict=True)
         return {name: energy for name, energy, has in sums if name and has}
 
-    def damped(self, time: float) -> Cells:
+    def damped(self, time: float) -> SpringCells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""
         own = None if self.natural is None else time * self.natural[:, :7]
         return replace(self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None, natural=own)

@@ -18,7 +18,7 @@ import numpy as np
 from lumped.lattice import Lattice
 from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO
 from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
-from lumped.springs.families import Cells, DirectionalLinks, Family, Links
+from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes.grid import Grid
@@ -157,7 +157,7 @@ def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
 
 def _kind(family: Family) -> int:
     """What the springs of a family are."""
-    if isinstance(family, Cells):
+    if isinstance(family, SpringCells):
         return next(kind for kind, law in OF_LAWS.items() if law is family.law)
     return DIRECTIONAL if isinstance(family, DirectionalLinks) else LINKS
 
@@ -170,7 +170,7 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
         constants = np.atleast_2d(family.stiffness.T)
         first = 4 if damped else 5
     else:
-        assert isinstance(family, Cells)
+        assert isinstance(family, SpringCells)
         a, b = family.sides[:, 0], family.sides[:, 1]
         rest = (*a.T, *b.T, *((x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))), family.area)
         constants = family.constants.T

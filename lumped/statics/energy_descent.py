@@ -17,13 +17,14 @@ from lumped.actuators import Drive
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.structure import LatticeForces, LatticeStructure
 from sheetbench.numerics.continuation.newton import Start, newton
-from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
 
 LatticePath = Path[LatticeState, LatticeForces]
 
 STEPS = 300
+DISTURBANCES = (0.1, 1.0, 4.0)  # layer distances, of which the first that leads away from a saddle serves
 PROJECTED_RUN = 4  # steps with the projected tangent before the true one is tried again
 
 
@@ -40,10 +41,14 @@ def settle(path: LatticePath, load_factor: float) -> LatticeState:
         factor = factor or path.factored(path.tangent(state, load_factor))
         if load_factor != path.load_factor and not factor.negative:
             return state
-        u = _disturbed(path, problem, state, factor)  # a saddle, as a flat sheet that has buckled
-        return _descend(path, problem, problem.project_to_supports(u, load_factor), load_factor)
+        for share in DISTURBANCES:  # of a saddle, as a flat sheet that has buckled
+            u = _disturbed(path, problem, state, factor, share)
+            found = _descend(path, problem, problem.project_to_supports(u, load_factor), load_factor)
+            if not problem.assembly.natural or not path.factored(path.tangent(found, load_factor)).negative:
+                break
+        return found
     except SingularMatrixError as error:
-        raise StepFailed(Status.SINGULAR, str(error), 0.0) from None
+        raise LoadStepFailed(Status.SINGULAR, str(error), 0.0) from None
 
 
 def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float) -> LatticeState:
@@ -55,7 +60,7 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
         if relative < path.limits.refine_below and wait == 0:
             try:
                 return newton(path, Start(LatticeState(u, load_factor, residual), load_factor, 1.0, 0.0))[0]
-            except StepFailed:
+            except LoadStepFailed:
                 pass
         gradient = -residual.reduced
         direction = factor.solve(-gradient)
@@ -79,14 +84,17 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
     raise _failed(f"no equilibrium in {STEPS} descent steps")
 
 
-def _failed(reason: str) -> StepFailed:
-    return StepFailed(Status.STEP_LIMIT, reason, 0.0)
+def _failed(reason: str) -> LoadStepFailed:
+    return LoadStepFailed(Status.STEP_LIMIT, reason, 0.0)
 
 
-def _disturbed(path: LatticePath, problem: Problem, state: LatticeState, factor: Factor) -> np.ndarray:
+def _disturbed(
+    path: LatticePath, problem: Problem, state: LatticeState, factor: Factor, share: float
+) -> np.ndarray:
     """Displacement beside an unstable equilibrium, moved along a direction of negative curvature.
 
-    The move is a tenth of the layer distance; of its two signs the one of lower energy (the first if even).
+    The move is this share of the layer distance; of its two signs the one of lower energy (if even the
+    first).
     """
     n, load_factor = problem.system.unknowns, state.load_factor
     blocks = path.tangent(state, load_factor)
@@ -98,7 +106,7 @@ def _disturbed(path: LatticePath, problem: Problem, state: LatticeState, factor:
     except ArpackNoConvergence:
         raise _failed("no direction of negative curvature found") from None
     move = problem.expand(vectors[:, 0])
-    move *= 0.1 * problem.assembly.lattice.spacing[2] / np.abs(move).max()
+    move *= share * problem.assembly.lattice.spacing[2] / np.abs(move).max()
     return min((state.u + move, state.u - move), key=lambda u: problem.potential(u, load_factor))
 
 

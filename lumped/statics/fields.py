@@ -16,7 +16,7 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
-from lumped.springs.families import Cells
+from lumped.springs.families import SpringCells
 from sheetbench.scenes import FieldMesh
 
 NO_FIELDS: Mapping[str, np.ndarray] = {}
@@ -59,7 +59,7 @@ def field_mesh(
     quads, masses = len(layer_cells), lattice.mass_count
     cell_energy = np.zeros(quads)
     for family in assembly.springs:
-        if isinstance(family, Cells):
+        if isinstance(family, SpringCells):
             energy = family.energies(small).sum(axis=1) / part**2
             if family.upright:
                 energy = _links_by_cell(lattice, family.nodes[:, ::2, 0], energy)  # from corner to corner

@@ -27,6 +27,7 @@ from lumped.supports import constrain
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_effect
 from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.stiffening import trace_stiffening
 from sheetbench.numerics.continuation.trace import trace_path
@@ -205,7 +206,7 @@ def solve_path(
     path = trace_stiffening(
         penalties, Path(structure, structure, structure.rest(), limits=structure.limits, progress=progress),
         lambda: trace(structure.limits.direct), structure.inspect, down,
-        lambda state: LatticeState(state.u, state.load_factor), buckled,
+        lambda state: Start(LatticeState(state.u, 1.0), 1.0, 1.0, 0.0), buckled,
     )  # fmt: skip
     return classify(scene, problem, path)
 

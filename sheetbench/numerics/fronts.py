@@ -17,7 +17,7 @@ from scipy.sparse import csr_array
 LEAF = 128  # unknowns of its cells, together, up to which a part of more than two is not halved
 
 
-class Cells(NamedTuple):
+class CoupledCells(NamedTuple):
     """What a matrix couples, and where: unknowns (m, k) of every cell, −1 for none; its place (m, 2)."""
 
     unknowns: np.ndarray
@@ -50,7 +50,7 @@ class Fronts(NamedTuple):
     waiting: int
 
 
-def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: Cells) -> Fronts:
+def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> Fronts:
     """The fronts of a symmetric matrix by compressed rows, both triangles and the whole diagonal. Raises
     ValueError where an entry of the diagonal is missing."""
     size, leaf = len(starts) - 1, max(2, LEAF // cells.unknowns.shape[1])
@@ -93,7 +93,7 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: Cells) -> Fronts:
     )  # fmt: skip
 
 
-def _dissected(cells: Cells, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _dissected(cells: CoupledCells, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Cells in line (m,), parts (F, 2) as ranges of the line, and every part's halves (F, 2), −1 for none;
     parts in the order of a walk that ends at each part after its halves. leaf: cells in a part that is not
     halved."""

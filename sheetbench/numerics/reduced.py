@@ -22,7 +22,7 @@ from sheetbench.numerics.direct import (
     SingularMatrixError,
     checked,
 )
-from sheetbench.numerics.fronts import Cells, Fronts, fronts_of
+from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
 from sheetbench.numerics.reduction import BlockPattern, Reduction, reduction
 from sheetbench.numerics.saddle_point import ROUNDED, Saddle, minimal_residual
@@ -123,7 +123,7 @@ class ReducedSystem:
         number[components[own]] = transform.indices[entries[own]]
         of_cells = number.reshape(-1, 3)[cells.unknowns].reshape(len(cells.unknowns), -1)
         found = self._reduction
-        return fronts_of(found.rows, found.pointers, Cells(of_cells, cells.places))
+        return fronts_of(found.rows, found.pointers, CoupledCells(of_cells, cells.places))
 
     @cached_property
     def _saddle(self) -> Saddle | None:

@@ -13,7 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 from numba import njit
 
-from sheetbench.numerics.fronts import Cells
+from sheetbench.numerics.fronts import CoupledCells
 
 LONG = 512  # entries of a column, from which on they are sorted at the end
 
@@ -26,7 +26,7 @@ class BlockPattern(Protocol):
     rows: np.ndarray
     indices: np.ndarray
     indptr: np.ndarray
-    cells: Cells | None
+    cells: CoupledCells | None
 
 
 class Reduction(NamedTuple):

@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 from scipy.sparse import csr_matrix
 
-from sheetbench.numerics.fronts import Cells, Fronts, fronts_of
+from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
 
 
@@ -52,7 +52,7 @@ class Pattern:
     def fronts(self) -> Fronts:
         """Where everything goes in Cholesky factors."""
         assert self._places is not None
-        return fronts_of(self._columns, self._starts, Cells(self.cells, self._places))
+        return fronts_of(self._columns, self._starts, CoupledCells(self.cells, self._places))
 
     @property
     def cells(self) -> np.ndarray:

@@ -12,7 +12,7 @@ import numpy as np
 
 from sheetbench.clock import now
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.numerics.time.method import Advance, AnyState, Method
+from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod
 from sheetbench.runs.columns import split, width
 from sheetbench.runs.run import Observer, Run
 from sheetbench.runs.schedule import Schedule
@@ -32,7 +32,7 @@ class Recipe(Generic[AnyState]):
     key: dict[str, Any]
     duration: float
     schedule: Schedule
-    method: Callable[[Schedule], Method[AnyState]]
+    method: Callable[[Schedule], MotionMethod[AnyState]]
     observer: Observer
     start: Callable[[Any], Advance[AnyState]]
     rows: int

@@ -16,7 +16,7 @@ import numpy as np
 
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.reduced import SingularMatrixError
-from sheetbench.numerics.time.method import Advance, AnyState, Method, StepFailed
+from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod, StepFailed
 from sheetbench.runs.columns import Part
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
@@ -59,7 +59,7 @@ class Run(Generic[AnyState]):
 
     def __init__(
         self,
-        method: Method[AnyState],
+        method: MotionMethod[AnyState],
         observer: Observer,
         schedule: Schedule,
         kept: FolderStore | MemoryStore,

@@ -15,7 +15,7 @@ from pydantic import Field, field_validator
 
 from sheetbench.errors import SceneError
 from sheetbench.scenes.quantities import Frozen, Length, NonNegative, Unit, Vector3
-from sheetbench.scenes.supports import Motion
+from sheetbench.scenes.supports import Clamped, Hinged, Motion
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
@@ -145,6 +145,26 @@ def conflicts(scene: Scene) -> Iterator[tuple[str, str | None]]:
         gap = flat_gap(scene, obstacle)
         inside = f"the flat sheet begins {-1e3 * gap:.4g} mm inside it, with half its thickness; move it away"
         yield f"{name}.position: ", inside if gap < -INSIDE * scene.sheet.thickness else None
+        if obstacle.motion is not None:
+            yield f"{name}.motion: ", _onto_held_edges(scene, obstacle)
+
+
+def _onto_held_edges(scene: Scene, obstacle: AnyObstacle) -> str | None:
+    """Return why an obstacle cannot come to its last place: an edge is held there."""
+    at, half = np.array(obstacle.position) + obstacle.displacement(1.0), 0.5 * scene.sheet.thickness
+    across = np.eye(3) - np.outer(obstacle.direction, obstacle.direction)
+    for support in scene.supports:
+        if isinstance(support, Clamped | Hinged) and support.where is None and support.motion is None:
+            start, end = (np.append(corner, 0.0) for corner in scene.sheet.edge_ends(support.edge))
+            places = start + np.linspace(0.0, 1.0, GRID)[:, None] * (end - start) - at
+            if isinstance(obstacle, Plane):
+                gap = float((places @ obstacle.direction).min()) - half
+            else:
+                gap = float(np.linalg.norm(places @ across, axis=1).min()) - obstacle.radius - half
+            if gap < -INSIDE * scene.sheet.thickness:
+                deep = f"{-1e3 * gap:.4g} mm inside it"
+                return f"in its last place edge {support.edge}, which is held, is {deep}; move it less far"
+    return None
 
 
 def require_no_obstacles(scene: Scene, who: str) -> None:

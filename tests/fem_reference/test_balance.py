@@ -234,6 +234,8 @@ def test_no_reference_leaves_a_reaction_out(monkeypatch, model):
 @pytest.mark.parametrize("name", catalogue())
 @pytest.mark.parametrize("model", REFERENCES)
 def test_the_references_are_in_balance_on_every_scene_of_the_catalogue(model, name):
+    if model == "plate" and load(name).obstacles:
+        pytest.skip("which it refuses")
     found = models.solve(load(name), model, elements=2)
     far = model == "plate" and name in ("gripper-finger", "ray-fin")  # bends farther than a linear plate may
     buckled = model == "plate" and name == "heated-plate"  # of which a linear plate says so

@@ -15,6 +15,7 @@ from sheetbench.scenes import (
     Layer,
     Material,
     Patch,
+    Point,
     Scene,
     Sheet,
     Symmetric,
@@ -156,3 +157,19 @@ def test_other_laws_of_strain_are_refused_by_name():
     for model in ("shell", "solid"):
         with pytest.raises(BadInput, match="law 'neo-hookean' is for sheets that are flat at rest"):
             fem_reference.solve(of, model=model, elements=2, law="neo-hookean")
+
+
+def test_a_free_dome_snaps_into_a_cylinder_at_the_same_curvature_in_both_models():
+    """Uniform curvatures lose stability at k0 = 2 κc/(1 + ν), κc = h/(a² √(12 (1 + ν) c)), c = 3.891e-4 of a
+    square (of a disc 8 h/R² (1 + ν)^1.5); the square itself, whose rims curl, at 0.97 of that. A quarter."""
+    a, h = 0.2, 0.002
+    limit = 2.0 * h / (a**2 * np.sqrt(12.0 * 1.3 * 3.891e-4)) / 1.3
+    rims = [Symmetric(edge="x0"), Symmetric(edge="y0"), Point(at=(0.0, 0.0), components=("z",))]
+    of = scene(0.1, 0.1, h, rims, natural=Natural(curvature=(1.5 * limit, 1.5 * limit, 0.0)))
+    shell = tip(of, "shell", 4)[1]
+    lattice = lumped.solve(of, lumped.calibrate(of.sheet, of.material, (9, 9, 2)))
+    assert lattice.succeeded and shell.snaps == pytest.approx([0.971 / 1.5], rel=5e-3)
+    assert lattice.snaps == pytest.approx(shell.snaps, rel=0.02)
+    for found, rel in ((shell, 0.02), (lattice, 0.1)):
+        rise = np.sort(np.abs(found.displacement([[0.1, 0.0], [0.0, 0.1]])[:, 2])) / h
+        assert rise[1] == pytest.approx(3.78, rel=rel) and rise[0] == pytest.approx(0.45, abs=0.06)

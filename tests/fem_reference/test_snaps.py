@@ -5,7 +5,7 @@ import pytest
 from one_unknown import Spring
 
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.continuation.path import StepFailed
+from sheetbench.numerics.continuation.path import LoadStepFailed
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Status
@@ -31,7 +31,7 @@ def foothold(path, load_factor, rise):
 
 
 def nothing(path, load_factor):
-    raise StepFailed(Status.STEP_LIMIT, "it creeps no further", 0.0)
+    raise LoadStepFailed(Status.STEP_LIMIT, "it creeps no further", 0.0)
 
 
 def test_snaps_are_bounded():

@@ -9,7 +9,7 @@ from comparisons.stability.limit import start, system
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import rectangle
 from lumped.dynamics.implicit.esdirk import Esdirk
-from lumped.dynamics.integrator import Samples
+from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.runs.observer import LatticeObserver
 from lumped.dynamics.system import State
 from lumped.statics import faults
@@ -106,7 +106,7 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem):
     state = start(equations, np.zeros_like(problem.loads.dead))
     v = np.zeros_like(state.v)
     v[equations.assembly.lattice.columns()[2, 4, 0], 2] = 1.0
-    moving = Samples.of(State(0.25, state.u, v, state.a))
+    moving = LatticeSamples.of(State(0.25, state.u, v, state.a))
     observer = LatticeObserver(equations)
     row = np.zeros((1, width(observer.columns)))
     row[0, :3] = 0.25, 1.0, 1.0  # time, kinetic, elastic

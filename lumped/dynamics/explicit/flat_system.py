@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.explicit.follower_loads import Followers
-from lumped.dynamics.explicit.steps import ExplicitArrays, Workspace, march
+from lumped.dynamics.explicit.steps import ExplicitArrays, MarchWorkspace, march
 from lumped.dynamics.system import State, System
 from lumped.springs.packing import pack, scratch
 from sheetbench.numerics.time.method import Advance, StepFailed
@@ -93,14 +93,14 @@ class FlatSystem:
         out[self._order] = flat.reshape(3, self._stride)[:, : self._count].T
         return out
 
-    def _workspace(self, u: np.ndarray) -> Workspace:
+    def _workspace(self, u: np.ndarray) -> MarchWorkspace:
         """Where steps of the displacement u (3 s,) are computed."""
         kind = self.arrays.packing.rest.dtype
         x = np.zeros(len(u), kind) if self.arrays.single else u
         w, d, force, damping = (np.zeros(len(u), kind) for _ in range(4))
         load, before, moved = (np.zeros(len(u)) for _ in range(3))
         tile = scratch(self.arrays.packing).tile
-        return Workspace(x, w, d, force, damping, tile, load, before, moved, np.zeros(len(self._driven)))
+        return MarchWorkspace(x, w, d, force, damping, tile, load, before, moved, np.zeros(len(self._driven)))
 
     def _factors(self, times: np.ndarray) -> np.ndarray:
         """Factors of the loads' histories at times (k,) [s], (k, parts)."""

@@ -42,7 +42,7 @@ class ExplicitArrays(NamedTuple):
     single: bool
 
 
-class Workspace(NamedTuple):
+class MarchWorkspace(NamedTuple):
     """What steps are computed in. In the precision of the forces: displacement x, predicted velocity w, its
     correction d, force and damping force, a tile. In double: loads at the end of a step and at its start,
     what the masses moved (3 s,), and what is exerted on the driven places."""
@@ -70,7 +70,7 @@ def march(
     u: np.ndarray,
     v: np.ndarray,
     a: np.ndarray,
-    workspace: Workspace,
+    workspace: MarchWorkspace,
 ) -> tuple[bool, int, float, float]:
     """Take u, v and a (3 s,) `steps` steps of h [s] on. factors: (steps + 1, parts) of the loads' histories;
     place and place_rate: (steps + 1, driven) [m], [m/s].
@@ -221,7 +221,7 @@ def exerted_on(arrays: ExplicitArrays, p: int, a: np.ndarray, force: np.ndarray,
 @njit(**OPTIONS)
 def work_of_supports(
     arrays: ExplicitArrays,
-    workspace: Workspace,
+    workspace: MarchWorkspace,
     driven: np.ndarray,
     at: tuple[np.ndarray, np.ndarray, np.ndarray],
     place: np.ndarray,

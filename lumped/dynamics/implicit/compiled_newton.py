@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.drag import Drag, add_drag
+from lumped.dynamics.drag import LatticeDrag, add_drag
 from lumped.dynamics.system import System
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
@@ -30,14 +30,14 @@ class Arrays(NamedTuple):
     packing: Packing
     scratch: Scratch
     rate: np.ndarray
-    drag: Drag
+    drag: LatticeDrag
     mass: Rows
     free: Rows
     place: np.ndarray
     width: int
 
 
-class Workspace(NamedTuple):
+class NewtonWorkspace(NamedTuple):
     """What the iteration is computed in: force and velocity, û and v̂ (n, 3), and the right side in the band's
     order, padded."""
 
@@ -68,7 +68,7 @@ class CompiledNewton:
         size = system.assembly.pattern.size
         force, velocity, base_u, base_v = np.zeros((4, size, 3))
         right = banded.padded_vector(len(band.order), band.width)
-        self.workspace = Workspace(force, velocity, base_u, base_v, right)
+        self.workspace = NewtonWorkspace(force, velocity, base_u, base_v, right)
         self.factors = np.empty((0, 0))
 
     @staticmethod
@@ -140,7 +140,7 @@ def iterate(
     corrections: int,
     arrays: Arrays,
     factors: np.ndarray,
-    workspace: Workspace,
+    workspace: NewtonWorkspace,
 ) -> tuple[int, int]:
     """Correct u in place; how that ended, and after how many corrections."""
     last, n = np.inf, len(arrays.place)

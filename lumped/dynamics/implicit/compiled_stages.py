@@ -17,7 +17,7 @@ from numba import njit
 from lumped.dynamics.implicit.compiled_newton import (
     CONVERGED,
     Arrays,
-    Workspace,
+    NewtonWorkspace,
     add_forces_and_dampers,
     iterate,
 )
@@ -64,7 +64,7 @@ def solve_stages(
     corrections: int,
     arrays: Arrays,
     factors: np.ndarray,
-    workspace: Workspace,
+    workspace: NewtonWorkspace,
 ) -> tuple[int, int, int, int]:
     """Solve the stages from the `first` on; that one is begun if it has corrections `left`. How that ended,
     the stage where it did, what corrections that one has left, and how many were made in all."""

@@ -33,7 +33,7 @@ from lumped.dynamics.implicit.energy_gain import EnergyGain
 from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.implicit.polynomial import polynomials
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
-from lumped.dynamics.integrator import Integrator, Samples
+from lumped.dynamics.integrator import Integrator, LatticeSamples
 from lumped.dynamics.system import State, System
 from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
@@ -254,7 +254,7 @@ class Esdirk(Integrator):
         missed = self._relaxed(h * ERRORS)[:, 1] / maxwell.times[:, None]
         return float(np.abs(missed).max()) / largest if largest else 0.0
 
-    def at(self, times: np.ndarray, last: Advance[State]) -> Samples:
+    def at(self, times: np.ndarray, last: Advance[State]) -> LatticeSamples:
         """Return the states at times (k,) [s] within the last step; energies since it began."""
         end = last.state
         if end.time == times[0]:
@@ -282,7 +282,7 @@ class Esdirk(Integrator):
                 put_in[i] += system.kinetic_of(rate) - system.kinetic_of(system.place_rate(began))
         if end.time == times[-1]:
             u[-1], v[-1], a[-1] = end.u, end.v, end.a
-        return Samples(times, u, v, a, memories, taken, put_in)
+        return LatticeSamples(times, u, v, a, memories, taken, put_in)
 
     def _within(self, stages: Stages, h: float, theta: np.ndarray) -> np.ndarray:
         """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step: polynomials,

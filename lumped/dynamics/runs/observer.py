@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.drag import Drag, add_drag
-from lumped.dynamics.integrator import Samples
+from lumped.dynamics.drag import LatticeDrag, add_drag
+from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.system import System
 from lumped.mid_surface import MidSurface
 from lumped.springs.all_forces import add_forces
@@ -38,7 +38,7 @@ class Observed(NamedTuple):
     scratch: Scratch
     mass: Rows
     rate: np.ndarray
-    drag: Drag
+    drag: LatticeDrag
     dead: np.ndarray
     probes: Rows
     supports: Rows
@@ -82,11 +82,11 @@ class LatticeObserver:
                 system.problem.constraints.summed,
             )
 
-    def broken(self, samples: Samples, count: int) -> tuple[int, Fault | None]:
+    def broken(self, samples: LatticeSamples, count: int) -> tuple[int, Fault | None]:
         """Return how many of the first samples mean something: `lumped.statics.faults`."""
         return broken(self._system.assembly, samples.u[:count])
 
-    def stretches(self, samples: Samples, count: int) -> Iterator[float]:
+    def stretches(self, samples: LatticeSamples, count: int) -> Iterator[float]:
         """Yield the largest strain of a link in each of the first samples."""
         assembly = self._system.assembly
         for time, u in zip(samples.time[:count].tolist(), samples.u[:count], strict=True):
@@ -99,15 +99,15 @@ class LatticeObserver:
         system = self._system
         return "" if system.assembly.any_strain else outside_model(system.scene, stretch, STRETCH)
 
-    def fastest(self, samples: Samples, i: int) -> str:
+    def fastest(self, samples: LatticeSamples, i: int) -> str:
         """Return the fastest mass's place."""
         return fastest(self._system.assembly.lattice, samples.v[i])
 
-    def frame(self, samples: Samples, i: int) -> np.ndarray:
+    def frame(self, samples: LatticeSamples, i: int) -> np.ndarray:
         """Return the drawn rows of a displacement."""
         return samples.u[i][self._drawn]
 
-    def rows(self, samples: Samples) -> np.ndarray:
+    def rows(self, samples: LatticeSamples) -> np.ndarray:
         """Return the numbers of samples, (k, width)."""
         system, rows = self._system, np.empty((len(samples.time), width(self.columns)))
         rows[:, 0], rows[:, 4], rows[:, 5] = samples.time, samples.dissipated, samples.work
@@ -124,7 +124,7 @@ class LatticeObserver:
         observe(samples.u, samples.v, samples.a, loads, self._observed, rows)
         return rows
 
-    def _fill(self, row: np.ndarray, samples: Samples, i: int) -> None:
+    def _fill(self, row: np.ndarray, samples: LatticeSamples, i: int) -> None:
         """Fill the row of sample i but for what it knows."""
         system, u = self._system, samples.u[i]
         energies, exerted = system.balance(samples.state(i))

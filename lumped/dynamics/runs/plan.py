@@ -20,7 +20,7 @@ MOST_STEPS = 10**10  # that any run takes: weeks
 
 
 @dataclass(frozen=True)
-class Plan(Schedule):
+class StepPlan(Schedule):
     """A schedule with so many steps between two samples, of which the first one's is only the first tried
     where the integrator `adapts` them."""
 
@@ -36,7 +36,7 @@ def plan_run(
     step: float | None,
     integrator: str,
     every: float | None,
-) -> Plan:
+) -> StepPlan:
     """How a run that begins is sampled and stepped; see `lumped.simulate` for the defaults. limit: of
     stability, of an explicit integrator.
 
@@ -69,6 +69,6 @@ def plan_run(
             f"step = {wanted:g} s: {duration / wanted:.1e} steps to {duration:g} s; {MOST_STEPS:.0e} at most"
         )
     steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
-    return Plan(
+    return StepPlan(
         samples=samples, every=spacing, first=samples, steps=steps, adapts=kind.adaptive and step is None
     )

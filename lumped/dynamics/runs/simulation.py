@@ -21,7 +21,7 @@ from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
 from lumped.dynamics.runs.initial import initial_state
 from lumped.dynamics.runs.observer import LatticeObserver
-from lumped.dynamics.runs.plan import Plan, plan_run
+from lumped.dynamics.runs.plan import StepPlan, plan_run
 from lumped.dynamics.system import System
 from lumped.lattice import Weights
 from lumped.mid_surface import MidSurface
@@ -149,7 +149,7 @@ def simulate(
 
 
 def _method(system: System, plan: Schedule, integrator: str, options: dict[str, Any]) -> Integrator:
-    assert isinstance(plan, Plan)
+    assert isinstance(plan, StepPlan)
     kind = INTEGRATORS[integrator]
     extra: dict[str, Any] = {"fixed": not plan.adapts} if kind.adaptive else {}
     return kind(system, plan.every / plan.steps, **options, **extra)

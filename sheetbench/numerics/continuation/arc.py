@@ -15,7 +15,7 @@ from typing import Generic, NamedTuple
 
 import numpy as np
 
-from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
@@ -54,11 +54,11 @@ def limit_point(path: Path[State, Forces]) -> tuple[float, float] | None:
         return None
     start = _Point(path.state, path.load_factor, factor, along)
     # a natural strain may move nothing before it buckles what is held
-    moves = structure.length(structure.rest(), path.state) > path.limits.idle
+    moves = not structure.prestrained or structure.length(structure.rest(), path.state) > path.limits.idle
     for _ in range(STEPS if factor.negative == 0 and moves else 0):
         try:
             end, predicted = _arc_step(path, start, arc)
-        except (StepFailed, SingularMatrixError):
+        except (LoadStepFailed, SingularMatrixError):
             arc /= 2.0
             continue
         if end.load_factor > start.load_factor and end.factor.negative == 0:
@@ -99,7 +99,7 @@ def _arc_step(path: Path[State, Forces], start: _Point[State], arc: float) -> tu
         correction = -float(start.along @ free) / float(start.along @ along)
         load_factor += correction
         state = moved(state, load_factor, free + correction * along)
-    raise StepFailed(Status.STEP_LIMIT, "no equilibrium at this arc length", arc)
+    raise LoadStepFailed(Status.STEP_LIMIT, "no equilibrium at this arc length", arc)
 
 
 def _per_load(

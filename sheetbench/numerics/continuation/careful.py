@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol, TypeVar
 
-from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.stability import stability
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
@@ -38,7 +38,7 @@ def careful_budget(path: Path[State, Forces]) -> int:
     return budget if unstable or taken > limits.careful_after else 0
 
 
-class UnknownInertia(StepFailed):
+class UnknownInertia(LoadStepFailed):
     """Nothing tells whether a load step has left its branch."""
 
 
@@ -64,14 +64,14 @@ def continuous(
     where they are at hand."""
     limits, miss = path.limits, path.structure.length(first.state, state)
     if miss > max(min(limits.continuous * first.length, limits.miss), max(limits.idle, limits.tolerance)):
-        raise StepFailed(Status.STEP_LIMIT, "the path folds", first.length)
+        raise LoadStepFailed(Status.STEP_LIMIT, "the path folds", first.length)
     try:
         found = found or path.factored(path.tangent(state, first.target))
     except SingularMatrixError as error:
-        raise StepFailed(Status.SINGULAR, str(error), first.length) from None
+        raise LoadStepFailed(Status.SINGULAR, str(error), first.length) from None
     short = first.length <= limits.branching and not path.structure.prestrained
     if negatives(found) > negative and not short:
-        raise StepFailed(Status.STEP_LIMIT, "the path loses stability", first.length)
+        raise LoadStepFailed(Status.STEP_LIMIT, "the path loses stability", first.length)
     longest = limits.growth * first.length
     if miss > 0.0:  # it grows with the square of the step
         square = first.length**2 / miss

@@ -14,7 +14,7 @@ from typing import Generic
 
 import numpy as np
 
-from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
@@ -49,7 +49,7 @@ class Predictor(Generic[State, Forces]):
             self.target = path.load_factor + (target - path.load_factor) * reach / self.length
             self._aim(path)
         if not self.length < path.limits.farthest:
-            raise StepFailed(Status.DIVERGED, "the first step has no end", path.limits.first_reach)
+            raise LoadStepFailed(Status.DIVERGED, "the first step has no end", path.limits.first_reach)
 
     def _aim(self, path: Path[State, Forces]) -> None:
         structure = path.structure
@@ -65,7 +65,7 @@ class Predictor(Generic[State, Forces]):
             assert self.factor is not None
             step = self.factor.solve(rows, SOLVED)
         except SingularMatrixError as error:
-            raise StepFailed(Status.SINGULAR, str(error), path.limits.first_reach) from None
+            raise LoadStepFailed(Status.SINGULAR, str(error), path.limits.first_reach) from None
         self.state = structure.advance(path.state, forces, self.target, step)
         self.length = structure.length(path.state, self.state)
         self.work = abs(float(step @ rows))
@@ -87,7 +87,7 @@ def newton(
         relative = imbalance / forces.size if forces.size > 0.0 else imbalance
         path.note(target, relative, lengths[-1])
         if not isfinite(relative):
-            raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
+            raise LoadStepFailed(Status.NON_FINITE, "a number overflowed", first.length)
         rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
         alike = factor is not None and max(off, blurred) <= path.alike
         settled = relative <= limits.tolerance or rounded
@@ -97,10 +97,10 @@ def newton(
             return state, factor if alike else None
         last, back = lengths[-1], limits.back
         if len(lengths) > back and last >= max(lengths[-1 - back], limits.shrinking * lengths[-2]):
-            raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
+            raise LoadStepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
         if path.factorisations >= path.limit:
             reason = f"{path.limit} factorisations were not enough"
-            raise StepFailed(Status.STEP_LIMIT, reason, first.length)
+            raise LoadStepFailed(Status.STEP_LIMIT, reason, first.length)
         refined = relative <= limits.refine_below
         serves = alike and refined and not (again and imbalance > STALE * before)
         try:
@@ -119,12 +119,14 @@ def newton(
                 else:
                     step, factor = found, near
         except SingularMatrixError as error:
-            raise StepFailed(Status.SINGULAR, str(error), first.length) from None
+            raise LoadStepFailed(Status.SINGULAR, str(error), first.length) from None
         following = structure.advance(state, forces, target, step)
         lengths.append(structure.length(state, following))
         off += lengths[-1]
         if not lengths[-1] < limits.farthest:
-            raise StepFailed(Status.DIVERGED, "the corrections have no end", first.length)
+            raise LoadStepFailed(Status.DIVERGED, "the corrections have no end", first.length)
         works.append(abs(float(step @ rows)))
         state, before = following, imbalance
-    raise StepFailed(Status.STEP_LIMIT, f"no equilibrium in {limits.corrections} corrections", first.length)
+    raise LoadStepFailed(
+        Status.STEP_LIMIT, f"no equilibrium in {limits.corrections} corrections", first.length
+    )

@@ -72,7 +72,7 @@ Inspect = Callable[[Path[State, Forces]], Fault | None]  # shown a path at an eq
 Settle = Callable[[Path[State, Forces], float], State]  # a stable state beyond a limit point
 
 
-class StepFailed(ArithmeticError):
+class LoadStepFailed(ArithmeticError):
     """A load step found no equilibrium. status: how it ended; length: of its first linear step."""
 
     def __init__(self, status: Status, reason: str, length: float):

@@ -24,7 +24,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from sheetbench.numerics.continuation.newton import Start, newton
-from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Creeping, Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
@@ -59,7 +59,7 @@ def relax(path: Path[State, Forces], load_factor: float) -> State:
     try:
         return _Creep(path, load_factor).end()
     except SingularMatrixError as error:
-        raise StepFailed(Status.SINGULAR, str(error), 0.0) from None
+        raise LoadStepFailed(Status.SINGULAR, str(error), 0.0) from None
     finally:
         path.limit = limit
 
@@ -90,7 +90,7 @@ class _Creep(Generic[State, Forces]):
             else:
                 inertia = self._factor(self.structure, state).inertia
                 if inertia is None:
-                    raise StepFailed(Status.STEP_LIMIT, "whether it is stable is not known", 0.0)
+                    raise LoadStepFailed(Status.STEP_LIMIT, "whether it is stable is not known", 0.0)
                 if inertia.negative == inertia.zero == 0:
                     return state
                 self._leave(state)
@@ -104,7 +104,7 @@ class _Creep(Generic[State, Forces]):
                 break
             self.drag, self.careful = FASTER * self.drag, CAUTION
             if self.drag > STIFFEST:
-                raise StepFailed(Status.STEP_LIMIT, "it creeps no further", 0.0)
+                raise LoadStepFailed(Status.STEP_LIMIT, "it creeps no further", 0.0)
         self.length = self.structure.length(self.state, state)
         self.state = self.structure.unextrapolated(state)
         self.careful -= 1
@@ -153,7 +153,7 @@ class _Creep(Generic[State, Forces]):
         start = Start(self.state, self.load_factor, self.length, released)
         try:
             state, _ = newton(self.path, start)
-        except StepFailed:
+        except LoadStepFailed:
             return None
         return self.structure.unextrapolated(state) if self._accepts(state) else None
 
@@ -182,7 +182,7 @@ class _Creep(Generic[State, Forces]):
                 self.drag, self.careful = drag, CAUTION
                 return
             push /= FASTER
-        raise StepFailed(Status.UNSTABLE, "it creeps to a saddle and does not leave it", 0.0)
+        raise LoadStepFailed(Status.UNSTABLE, "it creeps to a saddle and does not leave it", 0.0)
 
     def _pushed(self, state: State, step: np.ndarray) -> State:
         """A state moved by a step (unknowns,), its directors brought back to unit length."""
@@ -207,5 +207,5 @@ class _Creep(Generic[State, Forces]):
     def _counted(self, matrix: csr_matrix) -> Factor:
         """The factors of a matrix. Raises StepFailed where they are too many."""
         if self.path.factorisations >= self.path.limit:
-            raise StepFailed(Status.STEP_LIMIT, f"not at rest after {FACTORISATIONS} factorisations", 0.0)
+            raise LoadStepFailed(Status.STEP_LIMIT, f"not at rest after {FACTORISATIONS} factorisations", 0.0)
         return self.path.factored(matrix)

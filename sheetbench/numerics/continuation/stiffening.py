@@ -14,7 +14,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from sheetbench.numerics.continuation.newton import Start, newton
-from sheetbench.numerics.continuation.path import Fault, Inspect, Path, Settle, StepFailed
+from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Settle
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.continuation.trace import conclude
 from sheetbench.numerics.threads import one_blas_thread
@@ -41,28 +41,35 @@ def trace_stiffening(
     trace: Callable[[], Path[State, Forces]],
     inspect: Inspect[State, Forces],
     settle: Settle[State, Forces] | None,
-    renewed: Callable[[State], State],
+    restart: Callable[[State], Start[State]],
     buckled: bool = False,
 ) -> Path[State, Forces]:
     """Return the path to the equilibrium at full load and with stiff penalties, or to the last one on the
     way.
 
-    path: at rest; trace: the usual path, without a careful second run; renewed: a state without forces that
-    were computed with other penalties; settle, buckled: as of `trace_path`.
+    path: at rest; trace: the usual path, without a careful second run; restart: from a state, without
+    forces that were computed with other penalties; settle, buckled: as of `trace_path`.
     """
     soft = penalties.soft
     settles = settle is not None and path.structure.symmetric
-    ended: StepFailed | Fault | None = None
+    ended: LoadStepFailed | Fault | None = None
     if soft is not None or not settles:
-        penalties.soften(soft or 1.0)
-        path = trace()
-        penalties.soften(1.0)
-        ended = path.fault
+        share, spent = soft or 1.0, 0
+        while True:  # what leads through an obstacle is too soft, where nothing else is left
+            penalties.soften(share)
+            path = trace()
+            path.factorisations, spent = path.factorisations + spent, path.factorisations + spent
+            penalties.soften(1.0)
+            ended = path.fault
+            if ended is None or share == 1.0 or settles:
+                break
+            share = min(1.0, FIRST_FACTOR * share)
+        soft = share if soft is not None else None
     with one_blas_thread():
         if soft is not None and ended is None:
             path.snaps.clear()
             path.notes.clear()
-            ended = _stiffened(path, penalties, soft, inspect, renewed)
+            ended = _stiffened(path, penalties, soft, inspect, restart)
             penalties.soften(1.0)
         if settle is not None and settles and (soft is None or ended is not None):
             path.state, path.load_factor, path.factor = path.structure.rest(), 0.0, None
@@ -71,9 +78,9 @@ def trace_stiffening(
             path.notes.clear()
             try:
                 path.state, path.load_factor, path.factor, ended = settle(path, 1.0), 1.0, None, None
-            except StepFailed as failure:
+            except LoadStepFailed as failure:
                 ended = Fault(failure.status, f"descent with the contact as stiff as it is: {failure}")
-        if isinstance(ended, StepFailed):
+        if isinstance(ended, LoadStepFailed):
             ended = Fault(ended.status, f"contact could not be stiffened: {ended}")
         conclude(path, ended, settle, buckled)
         return path
@@ -84,18 +91,17 @@ def _stiffened(
     penalties: Penalties,
     share: float,
     inspect: Inspect[State, Forces],
-    renewed: Callable[[State], State],
-) -> StepFailed | Fault | None:
+    restart: Callable[[State], Start[State]],
+) -> LoadStepFailed | Fault | None:
     """Raise the penalties from a share to all of them: what has ended it before, if anything."""
     factor = FIRST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
-    path.state = renewed(path.state)
     while share < 1.0:
         target = min(1.0, share * factor)
         penalties.soften(target)
         try:
-            path.state, path.factor = newton(path, Start(renewed(path.state), 1.0, 1.0, 0.0))
-        except StepFailed as failure:
+            path.state, path.factor = newton(path, restart(path.state))
+        except LoadStepFailed as failure:
             factor **= 0.5
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:
                 return failure

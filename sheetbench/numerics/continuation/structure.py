@@ -9,7 +9,7 @@ import numpy as np
 from sheetbench.numerics.direct import Count, Factor
 
 
-class Balance(Protocol):
+class BalancedForces(Protocol):
     """Forces at a state. size: of those that balance [N], which residuals are measured against."""
 
     @property
@@ -17,7 +17,7 @@ class Balance(Protocol):
 
 
 State = TypeVar("State")
-Forces = TypeVar("Forces", bound=Balance)
+Forces = TypeVar("Forces", bound=BalancedForces)
 Matrix = Any  # what `Solver.factor` takes
 
 

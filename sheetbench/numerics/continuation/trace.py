@@ -29,10 +29,10 @@ from sheetbench.numerics.continuation.newton import Predictor, Start, newton
 from sheetbench.numerics.continuation.path import (
     Fault,
     Inspect,
+    LoadStepFailed,
     Path,
     Progress,
     Settle,
-    StepFailed,
 )
 from sheetbench.numerics.continuation.stability import stability
 from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
@@ -69,7 +69,7 @@ def trace_path(
         path = Path(
             structure, solver, structure.rest(), limits=limits or Limits(), progress=progress, alike=alike
         )
-        ended: StepFailed | Fault | None = None
+        ended: LoadStepFailed | Fault | None = None
         careful, reached = False, None
         if near is None or not _arrived(path, inspect, near):
             ended = _follow(path, inspect)
@@ -87,13 +87,13 @@ def trace_path(
                     careful = False
                 if reached is None:  # what is left of the path's own serves for snaps
                     path.limit = max(path.limit, path.limits.factorisations)
-        while isinstance(ended, StepFailed):
+        while isinstance(ended, LoadStepFailed):
             tried = ""
             if settle is not None and structure.symmetric and _at_limit_point(path, ended):
                 left_at, doubt = path.load_factor, _doubt(path)
                 try:
                     following = _snap(path, inspect, settle, careful)
-                except StepFailed as failure:
+                except LoadStepFailed as failure:
                     tried = f"; relaxed at a load factor {path.limits.snap_step:g} higher, {failure}"
                 else:
                     path.snaps.append(left_at)
@@ -129,7 +129,7 @@ def conclude(
             path.state, path.factor = settle(path, 1.0), None
             path.notes.append("begun along the buckling mode of an unstable equilibrium")
             path.status, note = stability(path)
-        except StepFailed as failure:
+        except LoadStepFailed as failure:
             note = f"{note}; beside it {failure}"
     path.notes.extend([note] if note else [])
 
@@ -139,7 +139,7 @@ def _arrived(path: Path[State, Forces], inspect: Inspect[State, Forces], near: S
     before = path.state, path.load_factor, path.factor
     try:
         state, factor = newton(path, near)
-    except StepFailed:
+    except LoadStepFailed:
         return False
     path.state, path.load_factor, path.factor = state, near.target, factor
     close = path.structure.length(near.state, state) <= path.limits.same_branch * near.length
@@ -151,7 +151,7 @@ def _arrived(path: Path[State, Forces], inspect: Inspect[State, Forces], near: S
 
 def _follow(
     path: Path[State, Forces], inspect: Inspect[State, Forces], careful: bool = False
-) -> StepFailed | Fault | None:
+) -> LoadStepFailed | Fault | None:
     """Lead a path on to load factor 1: what has ended it before, if anything. careful: no load step may leave
     the branch that it begins on."""
     limits, size = path.limits, 1.0
@@ -170,7 +170,7 @@ def _follow(
                 found, longest = continuous(path, first, state, negative, found)
         except UnknownInertia as failure:
             return failure
-        except StepFailed as failure:
+        except LoadStepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
             rested = path.load_factor == 0.0  # no limit point is there, however far the first step
             shortest = size < limits.smallest_step and (reach < limits.shortest or not (careful or rested))
@@ -200,13 +200,13 @@ def _refine(path: Path[State, Forces]) -> None:
         target = (1.0 - lower * path.limits.careful_tolerance) * path.load_factor
         try:
             path.state = newton(path, Start(path.state, target, 1.0, 0.0))[0]
-        except StepFailed:
+        except LoadStepFailed:
             continue
         path.load_factor = target
         return
 
 
-def _at_limit_point(path: Path[State, Forces], failure: StepFailed) -> bool:
+def _at_limit_point(path: Path[State, Forces], failure: LoadStepFailed) -> bool:
     """Whether a path that has ended may snap: it has left rest and has factorisations left."""
     stuck = failure.status is Status.STEP_LIMIT and path.load_factor > 0.0
     return stuck and path.factorisations < path.limit and len(path.snaps) < path.limits.snaps
@@ -226,7 +226,7 @@ def _snap(
     inspect: Inspect[State, Forces],
     settle: Settle[State, Forces],
     careful: bool,
-) -> StepFailed | Fault | None:
+) -> LoadStepFailed | Fault | None:
     """Lead a path past its limit point and on: what has ended it then. Raises StepFailed, the path as it was,
     if nothing stable was found."""
     limits = path.limits
@@ -237,7 +237,7 @@ def _snap(
     return inspect(path) or _follow(path, inspect, careful)
 
 
-def _give_up(path: Path[State, Forces], failure: StepFailed, tried: str) -> Fault:
+def _give_up(path: Path[State, Forces], failure: LoadStepFailed, tried: str) -> Fault:
     """Where the path ended, what was tried beyond and, from the last equilibrium's tangent, whether it had
     branched by then."""
     message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"

@@ -48,7 +48,7 @@ class Samples(Protocol):
     def work(self) -> np.ndarray: ...
 
 
-class Method(Protocol[AnyState]):
+class MotionMethod(Protocol[AnyState]):
     """An integrator of a model's motion.
 
     state: the class of its states; adapts: whether it chooses its steps by their error; span: samples after

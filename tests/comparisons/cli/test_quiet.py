@@ -32,7 +32,7 @@ def chatty(monkeypatch):
 
 @pytest.mark.parametrize("quiet", [False, True])
 def test_quiet_leaves_results_and_warnings(chatty, quiet, capsys):
-    chatty(quiet=quiet, no_pictures=False)
+    chatty(quiet=quiet, verbose=False, no_pictures=False)
     printed = capsys.readouterr()
     assert printed.out == "the result\n"
     progress = [] if quiet else ["1/2 a run: converged", "kernels are compiled first"]

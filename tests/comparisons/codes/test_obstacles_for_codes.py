@@ -28,5 +28,5 @@ def test_obstacles_are_written(code, tmp_path):
 
 
 def test_others_refuse_them():
-    note = " ".join(setup(bent_over(), "sofa", 2, best=False).notes())
-    assert "obstacle: SOFA" in note
+    note = " ".join(setup(bent_over(), "genesis", 2, best=False).notes())
+    assert "No files: obstacle: Genesis" in note

@@ -36,9 +36,7 @@ def said(first, finer, lattice=LATTICE, **known):
     """Of a lattice whose corner moves by `first` [m], where the shell's moves by −10 mm."""
     grid = {"settings": {"grid": [5, 3, 2]}}
     both = (solution(SCENE, size=first, **grid), solution(SCENE, "shell", **known.pop("shell", {})))
-    return far_apart_note(resolve(SCENE, lattice), both, known.pop("bar", None), lambda other: finer)[
-        0
-    ]
+    return far_apart_note(resolve(SCENE, lattice), both, known.pop("bar", None), lambda other: finer)[0]
 
 
 def fine(size, **changes):
@@ -89,9 +87,7 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
     settings = {"grid": [5, 3, 2], "calibration": calibration}
     both = (solution(SCENE, size=-0.005, settings=settings), solution(SCENE, "shell", stretch=stretch))
     lattice = LATTICE.but(calibration=calibration)
-    apart, other_branch = far_apart_note(
-        resolve(SCENE, lattice), both, 0.01, lambda other: fine(finer)
-    )
+    apart, other_branch = far_apart_note(resolve(SCENE, lattice), both, 0.01, lambda other: fine(finer))
     assert "50 % apart" in apart
     assert other_branch is known
 

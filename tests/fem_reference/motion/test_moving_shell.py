@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import fem_reference
-from fem_reference.motion.generalised_alpha import GeneralisedAlpha
+from fem_reference.motion.generalised_alpha import ConstrainedAlpha
 from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
 from fem_reference.verification import settling_strip
@@ -26,7 +26,7 @@ def test_a_sheet_let_go_swings_at_its_lowest_frequency(strip):
     mode = fem_reference.modes(strip, "shell", (4, 2), count=1, graded=False)
     period = 1.0 / mode.frequencies[0]
     model = MovingShell(light, (4, 2), graded=False)
-    method = GeneralisedAlpha(model, period / 200.0, 1e-6, 0.0)
+    method = ConstrainedAlpha(model, period / 200.0, 1e-6, 0.0)
     motion = method.begin(0.0, model.start(), np.zeros(model.mass.shape[0]))
     shape = np.zeros((2, *mode.shapes[0].shape))
     shape[0, :, 2] = mode.shapes[0][:, 2]
@@ -73,7 +73,7 @@ def momentum(model, v):
 
 def test_a_sheet_thrown_and_spinning_keeps_its_momentum(strip):
     model, q, v = spun(strip, np.array([3.0, -20.0, 5.0]), np.array([1.0, 0.5, -2.0]))
-    method = GeneralisedAlpha(model, 1e-3, 1e-8, 1e-3)
+    method = ConstrainedAlpha(model, 1e-3, 1e-8, 1e-3)
     motion = method.begin(0.0, q, v)
     before = momentum(model, motion.v)
     for _ in range(50):

@@ -5,7 +5,7 @@ import pytest
 from ring_down import damping_ratio
 from scipy.linalg import eigh
 
-from fem_reference.motion.generalised_alpha import GeneralisedAlpha
+from fem_reference.motion.generalised_alpha import ConstrainedAlpha
 from fem_reference.motion.simulation import MODELS
 from sheetbench.scenes import load
 
@@ -27,7 +27,7 @@ def test_modes_ring_down_at_their_poles(damped):
         shape = basis @ shapes[:, number]
         pole = material.branches.pole(np.sqrt(square[number]), material.dashpot_time, 0.0)
         step = 2.0 * np.pi / abs(pole.imag) / PER_PERIOD
-        method = GeneralisedAlpha(model, step, 1e-9, step)
+        method = ConstrainedAlpha(model, step, 1e-9, step)
         motion = method.begin(0.0, model.moved(flat, 1e-6 * shape / np.abs(shape).max()), still)
         swing = []
         for _ in range(100):

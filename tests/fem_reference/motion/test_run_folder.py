@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import fem_reference
-from fem_reference.motion.generalised_alpha import GeneralisedAlpha
+from fem_reference.motion.generalised_alpha import ConstrainedAlpha
 from sheetbench.numerics.time.method import StepFailed
 from sheetbench.scenes import Air, BadInput, Status, load
 from sheetbench.scenes.tables import FactorTable
@@ -52,7 +52,7 @@ def test_a_killed_run_goes_on_to_the_last_bit(tmp_path, options):
 
 
 def test_a_fixed_step_that_fails_is_halved_and_said(monkeypatch):
-    once = GeneralisedAlpha._advanced
+    once = ConstrainedAlpha._advanced
 
     def failing(self, motion, h):
         if h > 0.9e-3 and 4e-3 < motion.time < 5.5e-3:
@@ -61,7 +61,7 @@ def test_a_fixed_step_that_fails_is_halved_and_said(monkeypatch):
 
     scene = load("two-edges-settling")
     plain = fem_reference.simulate(scene, "shell", 0.01, elements=2, step=1e-3, every=2e-3)
-    monkeypatch.setattr(GeneralisedAlpha, "_advanced", failing)
+    monkeypatch.setattr(ConstrainedAlpha, "_advanced", failing)
     halved = fem_reference.simulate(scene, "shell", 0.01, elements=2, step=1e-3, every=2e-3)
     assert halved.status is Status.CONVERGED and halved.settings["failed_steps"] >= 1
     assert "failed_steps" not in plain.settings

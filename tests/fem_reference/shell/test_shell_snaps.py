@@ -18,7 +18,7 @@ from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.supports import Driven
 from sheetbench import scenes
 from sheetbench.numerics.continuation import pseudo_transient
-from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
@@ -157,7 +157,7 @@ def test_a_matrix_that_is_singular_ends_the_creep_with_that_status(arch, monkeyp
         raise SingularMatrixError("the matrix is singular")
 
     monkeypatch.setattr(DirectSolver, "factor", factor)
-    with pytest.raises(StepFailed) as caught:
+    with pytest.raises(LoadStepFailed) as caught:
         relax(Path(strip().from_state(arch), DirectSolver(), arch), 0.5)
     assert caught.value.status is Status.SINGULAR
 

@@ -10,13 +10,13 @@ from scipy.optimize import brentq
 
 import lumped
 from lumped.actuators import Drive
-from lumped.actuators.chain import Chain
+from lumped.actuators.chain import BoundChain
 from lumped.actuators.corners import SharedEnd
 from lumped.lattice import build
 from lumped.statics.solver import build_problem, solve_path
 from sheetbench import scenes
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Chain as ChainData
+from sheetbench.scenes import BoundChain as ChainData
 from sheetbench.scenes import Sheet
 
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)
@@ -37,7 +37,7 @@ ENDS = {base: (base,) for base in BASES} | {
 def chain_of(*ends, base="free", **common):
     data = ChainData(**{**ROD, **common, "base": base})
     masses = LATTICE.edge_columns(data.edge).ravel()
-    return Chain([data], ("x1",), SHEET, LATTICE, masses, 1e3, *ends)
+    return BoundChain([data], ("x1",), SHEET, LATTICE, masses, 1e3, *ends)
 
 
 def disturbed(chain, size=5e-3, seed=0):

@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
-from lumped.actuators.chain import Chain as LumpedChain
+from lumped.actuators.chain import BoundChain as LumpedChain
 from lumped.dynamics import INTEGRATORS
 from lumped.lattice import build
 from sheetbench.scenes import Chain, Sheet, Status

@@ -6,7 +6,7 @@ from dynamic_cases import ROD, run, scene, system
 
 from lumped.dynamics import INTEGRATORS, State
 from lumped.dynamics.implicit.compiled_newton import CONVERGED, STALE, CompiledNewton
-from lumped.dynamics.integrator import Samples
+from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.runs.observer import LatticeObserver
 from sheetbench import scenes
 from sheetbench.numerics import banded
@@ -81,9 +81,9 @@ def test_the_compiled_sample_is_the_general_one(asked):
     drawn = np.random.default_rng(0).standard_normal((3, *equations.lattice_mass.shape, 3))
     state = State(0.3, *(np.array([1e-3, 0.1, 10.0])[:, None, None] * drawn))
     sampling = LatticeObserver(equations)
-    one = Samples.of(state, 0.1, 0.2)
+    one = LatticeSamples.of(state, 0.1, 0.2)
     parts = [np.concatenate([part, 2.0 * part]) for part in one if not isinstance(part, list)]
-    samples = Samples(*parts[:4], [None] * 2, *parts[4:])
+    samples = LatticeSamples(*parts[:4], [None] * 2, *parts[4:])
     rows = sampling.rows(samples)
     assert sampling._observed is not None
     sampling._observed = None

@@ -4,7 +4,7 @@ import pytest
 from dynamic_cases import scene, springs, system
 
 import lumped
-from lumped.dynamics.runs.plan import Plan, plan_run
+from lumped.dynamics.runs.plan import StepPlan, plan_run
 
 
 @pytest.mark.parametrize("periods", [0.1, 3.0])
@@ -20,7 +20,7 @@ def test_the_lowest_period_has_a_hundred_samples(periods):
 
 def test_frames_are_the_first_and_the_last_sample_and_evenly_between():
     """A run that is made longer goes on with them at their distance, to its own last sample at most."""
-    plan = Plan(samples=10, every=1e-3, steps=1, adapts=False, first=10)
+    plan = StepPlan(samples=10, every=1e-3, steps=1, adapts=False, first=10)
     assert plan.shown(0) == [] and plan.shown(1) == [0] and plan.shown(2) == [0, 10]
     assert plan.shown(3) == [0, 5, 10] and plan.longer(0.02).shown(3) == [0, 5, 10, 15, 20]
     assert plan.shown(4) == [0, 3, 7, 10] and plan.longer(0.0125).shown(4) == [0, 3, 7, 10]

@@ -9,7 +9,7 @@ from lumped.statics.solver import build_problem
 from lumped.statics.structure import LIMITS, LatticeStructure
 from sheetbench import scenes
 from sheetbench.numerics.continuation.newton import newton
-from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.scenes import (
     Clamped,
     EdgeLoad,
@@ -271,7 +271,7 @@ def test_corrections_that_lead_far_away_end_at_once():
     problem = build_problem(heavy, lumped.calibrate(scene.sheet, scene.material, 5))
     structure = LatticeStructure(heavy, problem)
     path = Path(structure, structure, structure.rest())
-    with pytest.raises(StepFailed, match="no end"):
+    with pytest.raises(LoadStepFailed, match="no end"):
         newton(path, structure.start(path.state.u))
     assert path.factorisations == 1
 

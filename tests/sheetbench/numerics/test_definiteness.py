@@ -10,9 +10,9 @@ import lumped
 from lumped.statics import energy_descent
 from lumped.statics.structure import LatticeStructure
 from sheetbench.numerics import direct
-from sheetbench.numerics.continuation.path import Path, StepFailed
+from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.direct import DirectSolver, Factor, SymmetricPartFactor
-from sheetbench.numerics.fronts import Cells, fronts_of
+from sheetbench.numerics.fronts import CoupledCells, fronts_of
 from sheetbench.numerics.stability import nearest_to_zero, negative_real, odd_below_zero
 
 
@@ -36,7 +36,9 @@ def test_a_symmetric_part_that_has_no_factors_is_not_taken_for_stability(
         monkeypatch.setattr(direct, "rslab", None)
     for matrix, expected in ((indefinite, 1), (sp.csc_array(indefinite + 2.0 * sp.eye_array(60)), 0)):
         matrix.sort_indices()
-        fronts = fronts_of(matrix.indices, matrix.indptr, Cells(np.arange(60)[None, :], np.zeros((1, 2))))
+        fronts = fronts_of(
+            matrix.indices, matrix.indptr, CoupledCells(np.arange(60)[None, :], np.zeros((1, 2)))
+        )
         solver = DirectSolver(symmetric=False, fronts=(lambda of=fronts: of) if known else None)
         assert solver.factor(matrix).negative_real() == expected
 
@@ -71,7 +73,7 @@ def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
     structure = LatticeStructure(asked, problem)
     monkeypatch.setattr(factor, "solve", lambda b, of=factor.solve: -of(b))
     monkeypatch.setattr(energy_descent, "_definite_factor", lambda *given: (factor, 1))
-    with pytest.raises(StepFailed, match="not positive definite"):
+    with pytest.raises(LoadStepFailed, match="not positive definite"):
         energy_descent.settle(Path(structure, structure, structure.rest()), 1.0)
 
 

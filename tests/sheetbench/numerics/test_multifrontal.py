@@ -8,7 +8,7 @@ from scipy.sparse import csr_matrix
 
 from sheetbench.numerics import multifrontal
 from sheetbench.numerics.direct import CHOLESKY, DirectSolver
-from sheetbench.numerics.fronts import Cells, fronts_of
+from sheetbench.numerics.fronts import CoupledCells, fronts_of
 from sheetbench.numerics.sparsity import Pattern
 
 
@@ -23,7 +23,7 @@ def system(nx, ny, unknowns, seed=0):
     root = rng.normal(size=(len(corners), of_cells.shape[1], of_cells.shape[1]))
     pattern = Pattern(of_cells, size=int(free.sum()))
     matrix = pattern.matrix(root @ root.swapaxes(1, 2), diagonal=np.full(int(free.sum()), 0.1))
-    return matrix, Cells(pattern.cells, np.stack([x, y], axis=1) * rng.uniform(1.0, 3.0, 2))
+    return matrix, CoupledCells(pattern.cells, np.stack([x, y], axis=1) * rng.uniform(1.0, 3.0, 2))
 
 
 @pytest.mark.parametrize("shape", [(1, 1, 3), (2, 1, 1), (5, 4, 2), (1, 13, 5), (12, 12, 5), (7, 7, 31)])
@@ -63,7 +63,7 @@ def test_a_pivot_that_is_not_finite_is_told(value):
 
 def test_a_singular_matrix_has_no_factors():
     spring = np.array([[1.0, -1.0], [-1.0, 1.0]]) / 3.0
-    cells = Cells(np.array([[0, 1], [1, 2], [2, 3]]), np.array([[0.0, 0], [1, 0], [2, 0]]))
+    cells = CoupledCells(np.array([[0, 1], [1, 2], [2, 3]]), np.array([[0.0, 0], [1, 0], [2, 0]]))
     matrix = Pattern(cells.unknowns, size=4).matrix(np.array([spring, 7.0 * spring, spring]))
     with pytest.raises(multifrontal.NoFactorsError):
         multifrontal.SignedFactors(matrix.data, fronts_of(matrix.indices, matrix.indptr, cells))
@@ -108,7 +108,7 @@ def test_factors_with_signs_are_those_of_the_eigenvalues_or_refused(shape):
 
 def test_factors_that_grow_are_refused():
     """A first pivot of 1e-8 without a row exchange: the rest would be lost in its own rounding."""
-    cells = Cells(np.array([[0, 1]]), np.array([[0.0, 0.0]]))
+    cells = CoupledCells(np.array([[0, 1]]), np.array([[0.0, 0.0]]))
     pattern = Pattern(cells.unknowns, size=2)
     for small in (1e-8, -1e-8):
         matrix = pattern.matrix(np.array([[[small, 1.0], [1.0, -1.0]]]))
@@ -122,7 +122,7 @@ def test_factors_that_grow_are_refused():
 def test_a_pattern_without_its_whole_diagonal_is_refused():
     matrix = csr_matrix(np.array([[0.0, 1.0], [1.0, 2.0]]))
     with pytest.raises(ValueError, match="diagonal"):
-        fronts_of(matrix.indices, matrix.indptr, Cells(np.array([[0, 1]]), np.zeros((1, 2))))
+        fronts_of(matrix.indices, matrix.indptr, CoupledCells(np.array([[0, 1]]), np.zeros((1, 2))))
 
 
 def test_factors_of_a_definite_matrix_need_no_refinement():

@@ -17,7 +17,7 @@ GAPS = {
     "across": (Cylinder(position=(0.4, 7.0, -0.2), axis=(0, 2, 0), radius=0.1), 0.1),
     "along": (Cylinder(position=(3.0, 0.4, -0.4), axis=(1, 0, 0), radius=0.1), 0.4),
     "lifted": (
-        Plane(position=(0, 0, -0.2), motion=Motion(time=(0, 1), displacement=((0, 0, 0.1), (0, 0, 0.3)))),
+        Plane(position=(0, 0, -0.2), motion=Motion(time=(0, 1), displacement=((0, 0, 0.1), (0, 0, 0.15)))),
         0.1,
     ),
 }
@@ -32,6 +32,9 @@ def test_gap_of_the_flat_sheet(name):
 def test_what_no_obstacle_can_be():
     with pytest.raises(SceneError, match=r"obstacle 1.position: the flat sheet begins 10 mm inside it"):
         laid_strip(-0.01)
+    press = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.06)))
+    with pytest.raises(SceneError, match="edge x0, which is held, is 10 mm inside it"):
+        laid_strip(0.1, obstacles=(Plane(position=(0.0, 0.0, -0.0525), motion=press),))
     with pytest.raises(SceneError, match="needs a direction"):
         Plane(position=(0, 0, -1), normal=(0, 0, 0))
     with pytest.raises(SceneError, match="box"):

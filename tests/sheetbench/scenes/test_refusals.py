@@ -174,7 +174,7 @@ def test_whatever_is_put_in_its_place_the_refusal_is_ours():
 WITHOUT_UNIT = {"quads", 
     "grid", "grading", "graded_edges", "poisson", "factor", "components", "support", "load", "actuator",
     "x", "y", "z", "limit", "poisson_12", "poisson_13", "poisson_23", "loss_factor", "relaxation", "share",
-    "patch", "cutout", "layer", "drag",
+    "patch", "cutout", "layer", "drag", "friction", "normal", "axis",
 }  # fmt: skip
 
 
@@ -183,6 +183,6 @@ def test_every_key_says_what_it_is():
     for name, table in {"Scene": schema, **schema["$defs"]}.items():
         for key, facts in table["properties"].items():
             assert facts.get("description", "").endswith((".", ")")), f"{name}.{key}"
-            tables = "$ref" in facts.get("items", {})
+            tables = {"$ref", "oneOf"} & facts.get("items", {}).keys()
             if facts.get("type") in ("number", "array") and key not in WITHOUT_UNIT and not tables:
                 assert "unit" in facts, f"{name}.{key}"

@@ -1,0 +1,103 @@
+"""References that touch obstacles: derivatives, closed forms at rest, energy in motion."""
+
+import numpy as np
+import pytest
+from contact_cases import (
+    CYLINDER_FORCE,
+    GRAVITY,
+    WEIGHT,
+    bent_over,
+    draped_quarter,
+    heavy_elastica,
+    laid_strip,
+    lying_quarter,
+)
+
+import fem_reference
+from fem_reference.shell.statics import discretise
+from fem_reference.surface.mesh import divisions, mesh_of
+from sheetbench.scenes import Cylinder, Plane, SceneError, Sphere, Status
+
+OBSTACLES = {
+    "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),
+    "sphere": Sphere(position=(0.5, 0.05, -0.3), radius=0.28),
+    "cylinder": Cylinder(position=(0.4, 0, -0.1), axis=(0.1, 1, 0.05), radius=0.09),
+}
+
+
+@pytest.mark.parametrize("name", OBSTACLES)
+def test_force_is_the_potential_s_and_tangent_the_force_s_derivative(name):
+    scene = laid_strip(0.1, obstacles=(OBSTACLES[name],))
+    sheet = discretise(mesh_of(scene, divisions(scene.sheet, (6, 2)), False), scene)
+    item, rng = sheet.contacts[0], np.random.default_rng(1)
+    q, step, h = np.zeros(sheet.size), rng.normal(size=sheet.size), 1e-7
+    sheet.displacement(q)[:] = 0.01 * rng.normal(size=(sheet.nodes, 3)) - [0.0, 0.0, 0.02]
+
+    def at(q):
+        return sheet.shape(q, 1.0)
+
+    assert item.report(at(q)).points > 0
+    high, low = at(q + h * step), at(q - h * step)
+    slope = (item.potential(high) - item.potential(low)) / (2 * h)
+    assert slope == pytest.approx(-float(item.force(at(q)) @ step), rel=1e-7)
+    on, by = item.tangent(at(q))
+    found = sheet.of_surface(on, np.einsum("eicjd,ejd->eic", by, sheet.surface_change(step)[on]))
+    along = (item.force(high) - item.force(low)) / (2 * h)
+    assert np.linalg.norm(found - along) < 1e-7 * np.linalg.norm(along)
+    start, end = at(q), at(q + 1e-3 * step)
+    work = float(item.mean_force(start, end, at(q + 5e-4 * step)) @ (1e-3 * step))
+    assert work == pytest.approx(item.potential(start) - item.potential(end), rel=1e-9)
+
+
+@pytest.mark.parametrize("drop", [0.05, 0.2])
+def test_shell_that_lies_down_against_the_heavy_elastica(drop):
+    carried = heavy_elastica(drop)[1]
+    solution = fem_reference.solve(laid_strip(drop), "shell", elements=(20, 1), graded=False)
+    assert solution.status is Status.CONVERGED
+    assert solution.reactions["x0"][2] / WEIGHT == pytest.approx(carried, rel=1e-3)
+    assert sum(f[2] for f in solution.reactions.values()) == pytest.approx(WEIGHT, rel=1e-7)
+    assert solution.iterations <= 36  # soft first; along a path of stiff contact they would be hundreds
+    assert solution.contacts["obstacle 1"].penetration < 1e-4
+
+
+def test_solid_agrees_with_the_shell():
+    scene = laid_strip(0.2)
+    shell, solid = (fem_reference.solve(scene, name, elements=(10, 1)) for name in ("shell", "solid"))
+    assert solid.status is Status.CONVERGED
+    assert solid.reactions["x0"][2] == pytest.approx(shell.reactions["x0"][2], rel=5e-3)
+
+
+def test_sheet_that_lies_presses_evenly():
+    solution = fem_reference.solve(lying_quarter(), "shell", elements=4)
+    pressure = solution.mesh.point_data["contact_pressure"]
+    assert np.abs(pressure / (1e3 * 0.002 * GRAVITY) - 1.0).max() < 1e-8
+
+
+def test_shell_over_a_cylinder():
+    solution = fem_reference.solve(bent_over(), "shell", elements=(40, 1), graded=False)
+    assert np.linalg.norm(solution.reactions["obstacle 1"]) == pytest.approx(CYLINDER_FORCE, rel=1e-2)
+
+
+def test_shell_over_a_ball_folds_one_way():
+    u = fem_reference.solve(draped_quarter(), "shell", elements=8).displacement([[0.1, 0.0], [0.0, 0.1]])
+    assert np.sort(u[:, 2]) == pytest.approx([-0.0652, 0.0002], abs=1e-3)
+
+
+def test_the_plate_refuses_obstacles():
+    with pytest.raises(SceneError, match="the plate, which is linear, knows no contact"):
+        fem_reference.solve(laid_strip(0.1), "plate")
+
+
+@pytest.mark.parametrize(("integrator", "within"), [("generalised-alpha", 5e-3), ("energy-momentum", 1e-6)])
+def test_energy_of_a_shell_that_falls(integrator, within):
+    scene = laid_strip(0.05).replace(length_x=0.2, thickness=0.002, young=5e6)
+    scene = scene.replace(obstacles=(Plane(position=(0.0, 0.0, -0.011)),))
+    options = {"step": 1e-3} if integrator == "energy-momentum" else {}
+    history = fem_reference.simulate(
+        scene, "shell", 0.08, elements=(6, 1), integrator=integrator, every=2e-3, **options
+    )
+    parts = history.energies
+    whole = sum(parts[name] for name in ("kinetic", "elastic", "potential", "dissipated")) - parts["work"]
+    assert history.status is Status.CONVERGED
+    assert np.abs(whole - whole[0]).max() < within * 1e3 * 0.002 * 0.02 * GRAVITY * 0.01
+    assert history.reactions["obstacle 1"][:, 2].max() > 0.0

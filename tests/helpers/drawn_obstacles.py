@@ -1,0 +1,159 @@
+"""Drawn sheets over drawn obstacles, solved on the lattice, and what the geometry says of the answer.
+
+    python tests/helpers/drawn_obstacles.py [COUNT] [FIRST]
+
+prints a line a fault; nothing is asked of a solver that says it has found no equilibrium.
+"""
+
+from __future__ import annotations
+
+import sys
+import traceback
+import warnings
+from collections import Counter
+
+import numpy as np
+
+import lumped
+from sheetbench.errors import BadInput
+from sheetbench.scenes import (
+    Clamped,
+    Cylinder,
+    Gravity,
+    Hinged,
+    Material,
+    Motion,
+    Plane,
+    PointLoad,
+    Scene,
+    SceneError,
+    Sheet,
+    Solution,
+    Sphere,
+    Status,
+)
+
+INSIDE = 4  # points a side of a cell, that the sheet is looked at in
+
+
+def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
+    """Return a scene and a grid. Raises SceneError for one that makes no sense."""
+    rng = np.random.default_rng(number)
+    lengths = rng.uniform(0.08, 0.3, 2)
+    short, long = lengths.min(), lengths.max()
+    held = [("x0",), ("x0", "x1"), ("x0", "x1", "y0", "y1"), ("x0", "y0")][rng.integers(4)]
+    kind = Clamped if rng.random() < 0.7 else Hinged
+    if len(held) == 1:
+        kind = Clamped
+    depth = rng.uniform(0.0, 0.25) * long
+    at = [*(rng.uniform(0.2, 0.9, 2) * lengths), 0.0]
+    thickness = 10 ** rng.uniform(-2.7, -1.7) * short
+    radius = 10 ** rng.uniform(-1.3, 0.0) * short
+    below = [at[0], at[1], -depth - radius - thickness / 2]
+    turn, lean = rng.uniform(0.0, np.pi), rng.uniform(-0.3, 0.3, 2)
+    obstacle = [
+        lambda **more: Plane(position=(0.0, 0.0, -depth - 0.3 * long), normal=(*lean, 1.0), **more),
+        lambda **more: Sphere(position=tuple(below), radius=radius, **more),
+        lambda **more: Cylinder(
+            position=tuple(below), axis=(np.cos(turn), np.sin(turn), 0.0), radius=radius, **more
+        ),
+        lambda **more: Cylinder(position=tuple(below), axis=(0.0, 1.0, 0.0), radius=radius, **more),
+    ][rng.integers(4)]
+    rise = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, float(0.5 * depth))))
+    push = PointLoad(
+        at=tuple(rng.uniform(0.3, 1.0, 2) * lengths), force=(0.0, 0.0, -float(10 ** rng.uniform(-3, -0.5)))
+    )
+    scene = Scene(
+        name=f"drawn {number}",
+        sheet=Sheet(length_x=lengths[0], length_y=lengths[1], thickness=thickness),
+        material=Material(young=10 ** rng.uniform(5.7, 7.5), poisson=rng.uniform(0.0, 0.48), density=1100.0),
+        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
+        supports=tuple(kind(edge=edge) for edge in held),
+        loads=(push,) if rng.random() < 0.4 else (),
+        obstacles=(obstacle(**({"motion": rise} if rng.random() < 0.3 else {})),),
+    )
+    cells = rng.integers(4, 13)
+    grid = tuple(max(3, round(cells * length / short) + 1) for length in lengths)
+    return scene, (min(grid[0], 33), min(grid[1], 33), 2)
+
+
+def surface(solution: Solution, grid: tuple[int, int, int], scene: Scene) -> np.ndarray:
+    """Return places (m, n, 3) of points INSIDE a cell on the deformed mid-surface."""
+    axes = [
+        np.linspace(0.0, length, INSIDE * (n - 1) + 1)
+        for length, n in zip(scene.sheet.lengths, grid, strict=False)
+    ]
+    x, y = np.meshgrid(*axes, indexing="ij")
+    plan = np.column_stack([x.ravel(), y.ravel()])
+    return (np.column_stack([plan, np.zeros(len(plan))]) + solution.displacement(plan)).reshape(*x.shape, 3)
+
+
+def crossings(places: np.ndarray, start: np.ndarray, way: float) -> int:
+    """Return how often a ray from `start` (3,) up or down, way = ±1, crosses the sheet."""
+    a, b, c, d = places[:-1, :-1], places[1:, :-1], places[1:, 1:], places[:-1, 1:]
+    found = 0
+    for corners in (np.stack([a, b, c]), np.stack([a, c, d])):
+        first, u, v = corners[0], corners[1] - corners[0], corners[2] - corners[0]
+        area = u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
+        to = start - first
+        with np.errstate(divide="ignore", invalid="ignore"):
+            s = (to[..., 0] * v[..., 1] - to[..., 1] * v[..., 0]) / area
+            t = (u[..., 0] * to[..., 1] - u[..., 1] * to[..., 0]) / area
+        height = first[..., 2] + s * u[..., 2] + t * v[..., 2] - start[2]
+        found += int(((s >= 0.0) & (t >= 0.0) & (s + t < 1.0) & (way * height > 0.0)).sum())
+    return found
+
+
+def fault(scene: Scene, grid: tuple[int, int, int], solution: Solution) -> str:
+    """Return what is wrong with an answer, "" for nothing."""
+    if solution.status not in (Status.CONVERGED, Status.UNSTABLE) or solution.load_factor < 1.0:
+        return ""
+    places, (obstacle,) = surface(solution, grid, scene), scene.obstacles
+    centre = np.array(obstacle.position) + obstacle.displacement(1.0)
+    half = 0.5 * scene.sheet.thickness
+    if isinstance(obstacle, Plane):
+        deepest = half - float(((places[::INSIDE, ::INSIDE] - centre) @ obstacle.direction).min())
+        return f"{deepest:.3g} m below the plane" if deepest > 0.1 * half else ""
+    across = np.eye(3) - np.outer(obstacle.direction, obstacle.direction)
+    reach = np.linalg.norm((places - centre) @ across, axis=2).min()
+    if reach < 0.7 * obstacle.radius:
+        return f"a point is {reach:.3g} m from the middle, of radius {obstacle.radius:.3g} m"
+    held = {support.edge for support in scene.supports}
+    middles = [centre]
+    if isinstance(obstacle, Cylinder):
+        span = np.linspace(-1.0, 1.0, 21)[:, None] * max(scene.sheet.lengths) * obstacle.direction
+        middles = list(centre + span)
+    for middle in middles:
+        below, above = crossings(places, middle, -1.0), crossings(places, middle, 1.0)
+        if below and ({"x0", "x1"} <= held or not above):
+            return f"the sheet is below the middle {middle.round(4).tolist()}"
+    return ""
+
+
+def judged(number: int) -> tuple[str, str]:
+    """Return how the solve of a drawn scene ended, and its fault, "" for none."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            scene, grid = draw(number)
+            springs = lumped.calibrate(scene.sheet, scene.material, grid=grid)
+            solution = lumped.solve(scene, springs)
+    except (SceneError, BadInput) as error:
+        return "refused", "" if "\n" not in str(error) else str(error)
+    except Exception:  # that is what is looked for
+        return "traceback", traceback.format_exc()
+    return str(solution.status), fault(scene, grid, solution)
+
+
+def main(count: int = 300, first: int = 0) -> None:
+    ended: Counter[str] = Counter()
+    for number in range(first, first + count):
+        status, wrong = judged(number)
+        ended[status] += 1
+        if wrong:
+            print(number, status, wrong, flush=True)
+    print(dict(ended))
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))

@@ -79,7 +79,7 @@ def advise(
         failed = trials.reference.answer
         reason = f"the shell finds no stable equilibrium: {failed.status}: {failed.message}"
         return _advice(trials, tolerance, budget, None, reason)
-    linear = not scene.actuators and trials.scales.span_load_number <= LINEAR_LOAD_NUMBER
+    linear = not (scene.actuators or scene.obstacles) and trials.scales.span_load_number <= LINEAR_LOAD_NUMBER
     candidates = trials.candidates(linear)
     for candidate in candidates[:3]:
         trials.row(candidate)
@@ -261,8 +261,8 @@ def _effects(
             needs.append(name)
         else:
             left_out.append(f"{name}: {100 * share:.1g} % of the energy")
-    linear = trials.row(trials.elements("plate", 4))
-    off = trials.error(linear)
+    touching = bool(trials.scene.obstacles)  # which no linear model knows
+    off = float("inf") if touching else trials.error(trials.row(trials.elements("plate", 4)))
     if off > tolerance:
         needs.append("large displacements")
     elif chosen is not None and (

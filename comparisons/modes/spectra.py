@@ -94,10 +94,10 @@ def _buckling(own: Resolved[Lattice], models: Sequence[Resolved[Elements]], coun
 
 
 def _sag(scene: Scene, springs: Calibration) -> float | None:
-    """See `Spectra`. Actuators are left out, for small displacements know none."""
+    """See `Spectra`. Actuators and obstacles are left out, for small displacements know none."""
     import lumped
 
-    scene = scene.replace(actuators=())
+    scene = scene.replace(actuators=(), obstacles=())
     if free_rigid_motions(scene) or not (scene.loads or scene.gravity):
         return None
     solution = lumped.solve(scene, springs, linear=True)

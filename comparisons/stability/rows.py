@@ -12,6 +12,7 @@ VARIED = {
     "load": "loads, times the scene's",
     "slenderness": "thickness, times the scene's",
     "young": "E, times the scene's",
+    "obstacle": "distance of obstacles, times the scene's",
     "grid": "cells along the shorter side",
     "damping": "damping ratio of the lowest mode",
     "time-step": "time step [ms]",

@@ -148,6 +148,7 @@ SAME = {  # no number of the answer is another with them, and why
     "--repeats": "times alone",
 }
 SAME_OF = {
+    ("identify", "--refine"): "what is done unless it is declined",
     ("compare", "--uncertainty"): "for motions, and what is done at rest unless it is declined",
     ("compare", "--branch"): "a stable sheet has no other branch; a note says of what it tells",
     ("score", "--suite"): "a case is of one suite, and no other takes it",

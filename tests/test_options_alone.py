@@ -113,7 +113,7 @@ OF_VERB = {
 }
 SHELL = f"{SEED} --measured measured.csv --model shell --elements 2"
 MOVING = f"{SETTLING} --lumped 3,4 --plate= --shell 2 --solid= --elements 3 --workers 1 --duration 0.002"
-CELL = f"{ONE} --cell equilateral"
+CELL, STATE_SPACE = f"{ONE} --cell equilateral", f"{SETTLING} --lumped 3 --state-space 3"
 TENSILE = "--tensile tensile.csv --area 20mm2"
 OTHER_BASE = {  # where an option has an effect on something else alone
     ("compare", "--every"): f"{SETTLING} --lumped 3 --elements 2 --duration 0.004",
@@ -130,7 +130,7 @@ OTHER_BASE = {  # where an option has an effect on something else alone
     " --workers 1 --calibration consistent",
     ("identify", "--model"): SHELL,
     ("modes", "--buckling"): "edge.toml --lumped 3 --elements 2 --count 2",
-    **dict.fromkeys((("modes", "--state-space"), ("modes", "--reduce")), f"{ONE} --lumped 3 --state-space 3"),
+    **dict.fromkeys((("modes", "--state-space"), ("modes", "--reduce")), STATE_SPACE),
     **dict.fromkeys((("tradeoff", "--tolerance"), ("tradeoff", "--budget")), f"{ONE} --tolerance 0.2"),
     **{("calibrate", f"--{name}"): CELL for name in ("cell", "spacing", "hinge", "coefficient")},
     ("check", "--schema"): "",
@@ -148,6 +148,7 @@ SAME = {  # no number of the answer is another with them, and why
     "--repeats": "times alone",
 }
 SAME_OF = {
+    ("identify", "--refine"): "what is done unless it is declined",
     ("compare", "--uncertainty"): "for motions, and what is done at rest unless it is declined",
     ("compare", "--branch"): "a stable sheet has no other branch; a note says of what it tells",
     ("score", "--suite"): "a case is of one suite, and no other takes it",

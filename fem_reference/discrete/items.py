@@ -41,6 +41,10 @@ class Item(Protocol):
         """That by their rates."""
         return None
 
+    def holds(self, shape: Shape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Where, and with which forces (…, 3) [N], what is no load holds the sheet, by its name there."""
+        return {}
+
     def potential(self, shape: Shape) -> float:
         """Of a conservative item, 0 at the flat sheet [J]."""
         return 0.0

@@ -3,42 +3,25 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
 
-class ShapedSheet(Protocol):
-    """What a shape needs of its sheet (`discrete.sheet`, `discrete.elements`), and items of it."""
-
-    element: Any
-
-    def grow(self, at: float) -> None: ...
-
-    def frame(self, q: np.ndarray, at: float) -> Any: ...
-
-    def gather(self, q: np.ndarray) -> np.ndarray: ...
-
-    def on_surface(self, q: np.ndarray) -> np.ndarray: ...
-
-    def surface_change(self, change: np.ndarray) -> np.ndarray: ...
-
-    def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray: ...
-
-
 class Shape:
-    """Coordinates q and rates v (N,), 0 where None, at a load factor or time [s] `at`."""
+    """Coordinates q and rates v (N,), 0 where None, of a sheet (`discrete.sheet`), at a load factor or time
+    [s] `at`."""
 
-    def __init__(self, sheet: ShapedSheet, q: np.ndarray, at: float, v: np.ndarray | None = None):
+    def __init__(self, sheet: Any, q: np.ndarray, at: float, v: np.ndarray | None = None):
         self.sheet, self.q, self.at, self.v = sheet, q, at, v
 
     @cached_property
-    def vectors(self) -> np.ndarray:
+    def vectors(self) -> Any:
         """Position φ and director d at the nodes of the plan's elements, (m, 18, 3)."""
         return self.sheet.on_surface(self.q)
 
     @cached_property
-    def rates(self) -> np.ndarray:
+    def rates(self) -> Any:
         """Their rates (m, 18, 3)."""
         return self.sheet.surface_change(np.zeros_like(self.q) if self.v is None else self.v)
 
@@ -50,7 +33,7 @@ class Shape:
     # of a sheet of elements whose strains are quadratic in the coordinates
 
     @cached_property
-    def change(self) -> np.ndarray:
+    def change(self) -> Any:
         """Change of the elements' vectors (m, a, 3)."""
         return self.sheet.gather(self.q)
 

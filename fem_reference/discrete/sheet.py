@@ -17,9 +17,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
@@ -47,27 +46,7 @@ from sheetbench.scenes.natural_state import sources_of
 from sheetbench.scenes.obstacles import obstacles_by_name
 from sheetbench.scenes.relaxation import Branches
 
-
-@dataclass(frozen=True)
-class Motion:
-    """Coordinates, their rates, accelerations and the algorithm's (N,) at a time [s]; exerted: M a + g;
-    memory: of the material's branches."""
-
-    time: float
-    q: np.ndarray
-    v: np.ndarray
-    a: np.ndarray
-    algorithm: np.ndarray
-    exerted: np.ndarray
-    memory: np.ndarray = field(default_factory=lambda: np.zeros(0))
-
-
-class Energies(NamedTuple):
-    """Energies [J]; potential: of constant dead loads, and of items that store it."""
-
-    kinetic: float
-    elastic: float
-    potential: float
+Binding = Callable[[Scene], BoundRods]
 
 
 class Discrete(ABC):
@@ -83,7 +62,6 @@ class Discrete(ABC):
     norm: ClassVar[int]
     label: str
     settings: dict[str, Any]
-    element: Any = None
     conservative: bool
     any_strain: bool = False
     own: bool = False
@@ -97,11 +75,8 @@ class Discrete(ABC):
     def __init__(self, scene: Scene, moving: bool = False):
         self.scene, self.moving = scene, moving
         material = scene.material
-        if (
-            moving
-            and material.branches.times
-            and any(one.of.history is not None for one in sources_of(scene))
-        ):
+        relaxes = moving and material.branches.times
+        if relaxes and any(one.of.history is not None for one in sources_of(scene)):
             raise BadInput(
                 f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
             )
@@ -111,17 +86,13 @@ class Discrete(ABC):
         self.contacts: list[Touching] = []
 
     def bind(
-        self,
-        bind: Callable[[Scene], BoundRods],
-        bound: BoundRods,
-        rows: np.ndarray,
-        places: np.ndarray | None = None,
+        self, bind: Binding, bound: BoundRods, rows: np.ndarray, places: np.ndarray | None = None
     ) -> None:
         """Take up the chains and all loads, once the sheet has its plan and N coordinates."""
         scene, moving = self.scene, self.moving
         commands = commands_of(scene, moving) if bound.rods else ()
-        linear = self.model == "plate"
-        self.rods = rods = Rods(scene, bound, bind, rows, self.size, commands, places, linear)
+        flat = self.model == "plate"
+        self.rods = rods = Rods(scene, bound, bind, rows, self.size, commands, places, flat)
         self.bodies = [rods] if rods else []
         for alone, factor in loads_of(scene, moving):
             nodal, followers = loads.of_scene(alone, self.plan)
@@ -143,6 +114,11 @@ class Discrete(ABC):
     @property
     def nodes(self) -> int:
         return len(self.plan.nodes)
+
+    @cached_property
+    def flat(self) -> np.ndarray:
+        """Places of the nodes at rest (n, 3) [m]."""
+        return np.column_stack([self.plan.nodes, np.zeros(self.nodes)])
 
     @cached_property
     def lever(self) -> float:
@@ -205,10 +181,6 @@ class Discrete(ABC):
     @abstractmethod
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """u̇ (N,) with what is prescribed from a time on, tangential to the constraints."""
-
-    def gather(self, q: np.ndarray) -> np.ndarray:
-        """Changes of the elements' vectors (m, a, 3) of coordinates (N,)."""
-        raise NotImplementedError
 
     def frame(self, q: np.ndarray, at: float) -> Any:
         """What Z is made of, beside what is held."""
@@ -323,42 +295,6 @@ class Discrete(ABC):
     @abstractmethod
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         """Δeᵀ D Δe' [J] of the strains of a step (N,) from q and of another one."""
-
-    def energies(self, q: np.ndarray, v: np.ndarray, time: float) -> Energies:
-        """Energies of a state."""
-        self.memory.now = time
-        self.grow(time)
-        shape = self.shape(q, time, v)
-        potential = sum(item.stored(shape) for item in self.items)
-        elastic = self.elastic(q) + sum(body.energy(q, time) for body in self.bodies)
-        stored = self.memory.stored(self.strains(q)) if self.memory else 0.0
-        return Energies(0.5 * float(v @ (self.mass @ v)), elastic + stored, potential)
-
-    def spent(self, start: Motion, end: Motion, late: float) -> np.ndarray:
-        """Energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
-        forces times changes, of dampers those that the step balances. late: the end's share in them."""
-        h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
-        rate = (1.0 - late) * start.v + late * end.v
-        damped = self.tau * self.stiffness_of(middle, step, rate) if self.tau else 0.0
-        damped += self.alpha * float(step @ (self.sheet_mass @ rate))
-        self.memory.since(start.time, start.memory)
-        self.memory.now = end.time
-        self.grow(end.time)
-        damped += self.memory.dissipated(self.strains(end.q)) if self.memory else 0.0
-        exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
-        work = float(self.of_supports(exerted) @ step)
-        for body in self.bodies:
-            damped += body.dissipated(middle, step, rate)
-            for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
-                work += 0.5 * (body.energy(q, end.time) - body.energy(q, start.time))
-        for sign, time in ((1.0, end.time), (-1.0, start.time)) if self.grows else ():
-            self.grow(time)
-            work += 0.5 * sign * (self.elastic(start.q) + self.elastic(end.q))
-        shape = self.shape(middle, half_way, step / h)
-        for item in self.items:
-            taken, done = item.exchanged(shape, step)
-            damped, work = damped + taken, work + done
-        return np.array([damped, work])
 
     # where a motion starts, and when it means nothing
 

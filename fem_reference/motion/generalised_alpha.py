@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fem_reference.motion.moving import Motion, Moving
+from fem_reference.motion.moving import Motion, Moving, spent
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
@@ -122,7 +122,7 @@ class ConstrainedAlpha:
                 begun = self._begun(kink, model.placed(motion.q, kink), motion.v)
                 motion, work = begun.state, begun.work
         after = self.advance(motion, at_most)
-        self._step = motion, model.spent(motion, after, self.late), work
+        self._step = motion, spent(model, motion, after, self.late), work
         return Advance(after, float(self._step[1][0]), work + float(self._step[1][1]))
 
     def at(self, times: np.ndarray, last: Advance[Motion]) -> Sampled:

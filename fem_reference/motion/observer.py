@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from fem_reference.motion.generalised_alpha import Sampled
-from fem_reference.motion.moving import Moving
+from fem_reference.motion.moving import Moving, energies
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.runs.columns import Part
 from sheetbench.scenes import Scene, Status
@@ -35,13 +35,13 @@ class ReferenceObserver:
         """Return the numbers of samples, (k, width)."""
         model, rows = self._model, []
         for motion in samples.motions:
-            energies = model.energies(motion.q, motion.v, motion.time)
+            kinds = energies(model, motion.q, motion.v, motion.time)
             probes = model.sample(model.displacement(motion.q), self._points)
             reactions = model.reactions(motion.exerted)
             forces = [reactions[name] for name in self._reactions]
             shape = model.shape(motion.q, motion.time, motion.v)
             forces += [one.exerted(shape) for one in model.contacts]
-            rows.append(np.concatenate([[0.0, *energies, 0.0, 0.0], probes.ravel(), *forces]))
+            rows.append(np.concatenate([[0.0, *kinds, 0.0, 0.0], probes.ravel(), *forces]))
         found = np.array(rows)
         found[:, 0], found[:, 4], found[:, 5] = samples.time, samples.dissipated, samples.work
         return found

@@ -261,8 +261,7 @@ class DiscretePlate(Discrete):
 
     def surface(self, q: np.ndarray) -> Surface:
         """The flat one, on which everything acts."""
-        flat, up = np.pad(self.plan.nodes, ((0, 0), (0, 1))), np.tile([0.0, 0.0, 1.0], (self.nodes, 1))
-        return Surface(self.plan, flat, up, self.own)
+        return Surface(self.plan, self.flat, np.tile([0.0, 0.0, 1.0], (self.nodes, 1)), self.own)
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
         nodal = self._fields(exerted)  # of the tilts' forces f the couple is e_z × f

@@ -297,7 +297,9 @@ class DiscreteShell(DiscreteElements):
 
     def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
         """Dead forces turn no director."""
-        return np.pad(dead.ravel(), (0, self.size - dead.size))
+        out = np.zeros(self.size)
+        out[: dead.size] = dead.ravel()
+        return out
 
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
         return self.on_coordinates(np.concatenate([displacement, turn]))
@@ -333,8 +335,7 @@ class DiscreteShell(DiscreteElements):
         return field_mesh(self.plan.nodes, self.plan.elements, self.displacement(q), directors, **fields)
 
     def surface(self, q: np.ndarray) -> Surface:
-        position = np.pad(self.plan.nodes, ((0, 0), (0, 1))) + self.displacement(q)
-        return Surface(self.plan, position, self.directors(q)[: self.nodes], self.own)
+        return Surface(self.plan, self.flat + self.displacement(q), self.directors(q)[: self.nodes], self.own)
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
         surface, (force, turning) = self.surface(q), exerted[: 6 * self.nodes].reshape(2, -1, 3)

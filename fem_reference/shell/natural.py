@@ -28,6 +28,8 @@ class NaturalElement(Element):
     def of(cls, nodes: np.ndarray, section: Section, scene: Scene) -> Element:
         """Return the elements of a scene with nodes (m, 9, 2) [m], plain ones of a sheet that is flat at
         rest."""
+        if not scene.natural_by:
+            return Element.build(nodes, section)
         plain = Element.build(nodes, grown(section, scene, nodes))
         tables = [(component, *shape(*product_grid(*GRIDS[name]))) for name, component in COMPONENTS.items()]
         sites = np.concatenate([value for _, value, _ in tables]) @ nodes

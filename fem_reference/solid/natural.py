@@ -25,6 +25,8 @@ class NaturalBricks(Bricks):
     @classmethod
     def of(cls, plain: Bricks, scene: Scene) -> Bricks:
         """Return the bricks of a scene, plain ones of a sheet that is flat at rest."""
+        if not scene.natural_by:
+            return plain
         tables = [shape((np.array(sites).T + 1.0) / 2.0) for sites in SAMPLED]
         sites = np.concatenate([value.T for value, _ in tables]) @ plain.positions  # (m, k, 3)
         state = natural_at(scene, sites[..., :2])

@@ -31,6 +31,9 @@ COMPARED = (
     "bimetal-strip",
     "muscle-bands",
     "heated-plate",
+    "strip-on-table",
+    "napkin-on-ball",
+    "finger-on-cylinder",
 )
 RUBBER = {"rubber-inflated-square": 12, "rubber-strip": 6}  # scenes of examples/rubber, elements of the solid
 DPI = 170  # 1224 pixels wide

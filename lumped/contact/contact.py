@@ -34,6 +34,7 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
+from lumped.contact.law import rounded_law, side_rule
 from lumped.contact.surface import At, ObstacleSurface
 from sheetbench.errors import BadInput
 from sheetbench.scenes import ContactState, Scene, free_rigid_motions
@@ -96,7 +97,7 @@ class Contact:
             corners = columns[:-1, :-1], columns[:-1, 1:], columns[1:, :-1], columns[1:, 1:]
             self.nodes = np.concatenate(corners, axis=2).reshape(areas.size, -1)
             resting = bool(free_rigid_motions(scene))
-            (along_x, width), (along_y, height) = (_rule(parts, resting) for parts in per_side)
+            (along_x, width), (along_y, height) = (side_rule(parts, resting) for parts in per_side)
             bilinear = np.einsum("ja,ib->jiab", along_y, along_x).reshape(-1, 4)
             self.weights = np.repeat(bilinear, columns.shape[2], axis=1) / columns.shape[2]
             area = areas.reshape(-1, 1) * np.outer(height, width).ravel()
@@ -144,7 +145,7 @@ class Contact:
         thickness = self.thickness[which]
         depth = (0.5 + TOUCH) * thickness - at.distance
         stiffness = self.share * self.full[which] * self.area[which]
-        law = _law(depth, self.rounded * thickness)
+        law = rounded_law(depth, self.rounded * thickness)
         return _Touching(which, at, depth, stiffness, *(stiffness * part for part in law))
 
     def _spread(self, patches: np.ndarray, load: np.ndarray, out: np.ndarray) -> None:
@@ -187,7 +188,7 @@ class Contact:
         over = np.where(far, sunk, 1.0)
         _, load, slope = (
             after.stiffness * part
-            for part in _law(0.5 * (before.depth + after.depth), self.rounded * self.thickness)
+            for part in rounded_law(0.5 * (before.depth + after.depth), self.rounded * self.thickness)
         )
         mean = np.where(far, (after.energy - before.energy) / over, load)
         slope = np.where(far, (after.load - mean) / over, 0.5 * slope)
@@ -333,26 +334,6 @@ class Contact:
         np.add.at(load, self.nodes[found.patches], found.load @ self.weights)
         np.add.at(area, self.nodes, self.area @ self.weights)
         return np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
-
-
-def _law(depth: np.ndarray, rounded: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return ψ, p and p' over k at depths (m, p) [m] of a law that is rounded over δ (m, p) [m]."""
-    d = np.maximum(depth, 0.0)
-    over = np.where(rounded > 0.0, rounded, 1.0)
-    near = d < rounded
-    energy = np.where(near, d**3 / (6.0 * over), 0.5 * d * (d - rounded) + rounded**2 / 6.0)
-    pressure = np.where(near, 0.5 * d * d / over, d - 0.5 * rounded)
-    return energy, np.where(depth > 0.0, pressure, 0.0), np.where(near, d / over, depth > 0.0)
-
-
-def _rule(parts: int, ends: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return linear weights (n, 2) of a side's ends, and the weights (n,) of a rule, at the middles of its
-    parts or at their ends."""
-    at = np.arange(parts + 1) / parts if ends else (np.arange(parts) + 0.5) / parts
-    rule = np.full(len(at), 1.0 / parts)
-    if ends:
-        rule[[0, -1]] *= 0.5
-    return np.stack([1.0 - at, at], axis=1), rule
 
 
 def contact_pressure(problem: Problem, u: np.ndarray, drive: Drive) -> dict[str, np.ndarray]:

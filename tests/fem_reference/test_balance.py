@@ -162,8 +162,8 @@ def test_a_reaction_left_out_and_a_wrong_weight_are_found(monkeypatch):
     assert lumped.solve(asked, springs(asked)).status is Status.DIVERGED
     monkeypatch.undo()
     asked = SCENES["unequal chains"]
-    weight = lumped.actuators.chain.Chain.weight
-    monkeypatch.setattr("lumped.actuators.chain.Chain.weight", lambda self, g: 0.999 * weight(self, g))
+    weight = lumped.actuators.chain.BoundChain.weight
+    monkeypatch.setattr("lumped.actuators.chain.BoundChain.weight", lambda self, g: 0.999 * weight(self, g))
     found = lumped.solve(asked, springs(asked))
     assert found.status is Status.DIVERGED and "out of balance" in found.message
 

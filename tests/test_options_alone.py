@@ -133,7 +133,6 @@ OTHER_BASE = {  # where an option has an effect on something else alone
     **dict.fromkeys((("modes", "--state-space"), ("modes", "--reduce")), STATE_SPACE),
     **dict.fromkeys((("tradeoff", "--tolerance"), ("tradeoff", "--budget")), f"{ONE} --tolerance 0.2"),
     **{("calibrate", f"--{name}"): CELL for name in ("cell", "spacing", "hinge", "coefficient")},
-    ("check", "--schema"): "",
 }
 PLACES = "where the answer goes, and how it looks"
 SAME = {  # no number of the answer is another with them, and why
@@ -148,6 +147,7 @@ SAME = {  # no number of the answer is another with them, and why
     "--repeats": "times alone",
 }
 SAME_OF = {
+    ("check", "--schema"): "the language of scenes in place of a scene",
     ("identify", "--refine"): "what is done unless it is declined",
     ("compare", "--uncertainty"): "for motions, and what is done at rest unless it is declined",
     ("compare", "--branch"): "a stable sheet has no other branch; a note says of what it tells",
@@ -157,6 +157,7 @@ SAME_OF = {
 }
 TIMES = (
     "seconds",
+    "front",
     "memory",
     "timings",
     "settings",

@@ -202,7 +202,7 @@ def test_a_command_to_copy_is_one_line(kept, name):
 # ---- in Python
 PYTHON = [name for name in ANSWERED if not name.startswith("study")]
 CLOCK = ("seconds", "memory", "timings", "busy", "load_average", "spread", "compile", "reason", "probing")
-CLOCK += ("started", "finished")
+CLOCK += ("started", "finished", "front")  # the front is of errors and times
 
 
 def of_document(found, name=""):

@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from copy import copy
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -20,8 +20,10 @@ from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import Shape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.shell.element import Element, weighed
-from fem_reference.solid.element import Bricks
 from sheetbench.numerics.sparsity import Pattern, add_blocks
+
+if TYPE_CHECKING:
+    from fem_reference.solid.element import Bricks
 
 
 class DiscreteElements(Discrete):

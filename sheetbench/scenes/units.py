@@ -62,6 +62,7 @@ NAMES: dict[str, tuple[str, str]] = {  # by the SI unit: the quantity, and how o
     "kg·m²": ("moment of inertia", "20 g·cm²"),
     "1/m": ("curvature", "0.4 1/cm"),
     "1/s": ("rate", "0.5 1/s"),
+    "s/m": ("inverse speed", "0.2 s/m"),
     "Hz": ("frequency", "5 Hz"),
     "rad": ("angle", "2 deg"),
     "K": ("temperature difference", "20 K"),

@@ -178,7 +178,7 @@ def test_a_force_along_an_edge_is_shared_by_its_vertices():
 
 
 def test_the_verb_writes_a_scene_and_says_where_its_numbers_are_from(tmp_path, capsys):
-    options = ("--for", "newton", "--grid", "5", "--out", str(tmp_path / "n"))
+    options = ("--for", "newton", "--grid", "5", "--out", str(tmp_path / "n"), "--verbose")
     assert run("calibrate", "one-edge-clamped", *options) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "particle_vbd_kernels.py" in said and "least error in this scene" in said

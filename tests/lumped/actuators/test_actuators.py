@@ -16,7 +16,7 @@ from lumped.lattice import build
 from lumped.statics.solver import build_problem, solve_path
 from sheetbench import scenes
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import BoundChain as ChainData
+from sheetbench.scenes import Chain as ChainData
 from sheetbench.scenes import Sheet
 
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)

@@ -38,7 +38,7 @@ def test_a_sheet_divided_evenly_after_all_says_so_in_a_field(monkeypatch):
     scene = scenes.load("one-edge-clamped")
     even = statics.solve(scene, elements=4, graded=False)
 
-    def inspector(scene, structure, graded):
+    def inspector(graded):
         return lambda path: STRETCHED if graded else None
 
     monkeypatch.setattr(statics, "inspector", inspector)

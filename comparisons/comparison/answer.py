@@ -21,9 +21,9 @@ import numpy as np
 
 from comparisons.comparison import branches
 from comparisons.comparison.error_bar import ErrorBar
+from comparisons.comparison.notes import notes
 from comparisons.comparison.rows import CostRow, Difference, ProbeRow, ReactionRow
 from comparisons.models.expected_error import ExpectedError, NoEstimate
-from comparisons.models.grading import choice_notes
 from comparisons.pictures.plan import plan_mesh
 from comparisons.pictures.vtk import write_mesh
 from comparisons.sweep.differences import error, relative
@@ -37,10 +37,6 @@ from sheetbench.scenes.supports import named
 from sheetbench.scenes.words import sheet_in_words
 
 ROUND_OFF = 1e-9  # of the largest displacement at a probe
-BUCKLED = (
-    "branch buckled: a model whose equilibrium under the whole load is unstable leaves it along its lowest "
-    "mode; what is shown is the stable equilibrium that it comes to, one of several."
-)
 
 
 @dataclass(frozen=True, repr=False)
@@ -311,40 +307,7 @@ class Comparison(Answer):
     def notes(self) -> list[str]:
         """Return what to know of the errors first, then the models and what was chosen for them, and what the
         percentages mean."""
-        ref, first = f"u_{self.reference.model}", self.solutions[0].model
-        return [
-            *([BUCKLED] if self.reference.settings.get("branch") == "buckled" else []),
-            *([f"{first}: {self.expected}"] if self.expected else []),
-            *self._bar_notes(),
-            *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
-            " · ".join(solution.label for solution in self.solutions),
-            f"difference: |u − {ref}| / |{ref}| at the probe. "
-            f"error: largest component of u − {ref} over the probes / largest component of {ref}."
-            + " ±: mesh or grid error of the model at the probe."
-            * bool(self.bars),
-        ]
-
-    def _bar_notes(self) -> list[str]:
-        """Return the reference's error bar in words, the models that differ from it by less, and what is due
-        to laws of strain."""
-        notes, model = [self.laws] if self.laws else [], self.reference.model
-        for solution in self.solutions:
-            if solution.bar is not None:
-                own = few(100.0 * (self.bar_of(solution) or 0.0))
-                notes.append(f"{solution.model}: grid error ± {own} %, from its two grids.")
-        if self.bar is None:
-            return notes
-        notes.append(self.bar.note(model))
-        notes += [f"{model}: {left_out}."] if (left_out := str(self.model_error or "")) else []
-        for solution in self.solutions:
-            close = [
-                d.probe for d in self.differences if d.of == solution.model and d.distinguishable is False
-            ]
-            if self.distinguishable(solution) is False:
-                notes.append(f"{solution.model}: not distinguishable from {model}.")
-            elif close:
-                notes.append(f"{solution.model}: not distinguishable from {model} at {', '.join(close)}.")
-        return notes
+        return notes(self)
 
 
 def _named(letter: str, vector: np.ndarray) -> dict[str, float]:

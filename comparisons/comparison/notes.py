@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from comparisons.comparison.errors import Compared
 from comparisons.models.grading import choice_notes
 from sheetbench.scenes.summary import few
-
-if TYPE_CHECKING:
-    from comparisons.comparison.answer import Comparison
 
 BUCKLED = (
     "branch buckled: a model whose equilibrium under the whole load is unstable leaves it along its lowest "
@@ -16,7 +12,7 @@ BUCKLED = (
 )
 
 
-def notes(of: Comparison) -> list[str]:
+def notes(of: Compared) -> list[str]:
     """Return what to know of the errors first, then the models and what was chosen for them, and what the
     percentages mean."""
     ref, first = f"u_{of.reference.model}", of.solutions[0].model
@@ -33,7 +29,7 @@ def notes(of: Comparison) -> list[str]:
     ]
 
 
-def _bar_notes(of: Comparison) -> list[str]:
+def _bar_notes(of: Compared) -> list[str]:
     """Return the reference's error bar in words, the models that differ from it by less, and what is due to
     laws of strain."""
     found, model = [of.laws] if of.laws else [], of.reference.model

@@ -65,18 +65,14 @@ class Stage:
         middle = np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0])
         if isinstance(obstacle, Plane):
             foot = middle - ((middle - at) @ along) * along
-            body = pyvista.Plane(
-                center=foot, direction=along, i_size=1.3 * self.size, j_size=1.3 * self.size
-            )
+            body = pyvista.Plane(center=foot, direction=along, i_size=1.3 * self.size, j_size=1.3 * self.size)
         elif isinstance(obstacle, Cylinder):
             foot = at + ((middle - at) @ along) * along
             body = pyvista.Cylinder(
                 center=foot, direction=along, radius=obstacle.radius, height=1.2 * self.size, resolution=80
             )
         else:
-            body = pyvista.Sphere(
-                radius=obstacle.radius, center=at, theta_resolution=60, phi_resolution=60
-            )
+            body = pyvista.Sphere(radius=obstacle.radius, center=at, theta_resolution=60, phi_resolution=60)
         self.plotter.add_mesh(body, color=OBSTACLE, opacity=0.55, smooth_shading=True, split_sharp_edges=True)
         x0, x1, y0, y1, z0, z1 = body.bounds
         return np.array([[x, y, z] for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])

@@ -1,4 +1,4 @@
-"""The error and the relative difference of displacements, defined in `comparisons.comparison.answer`."""
+"""The error and the relative difference of displacements, defined in `comparisons.comparison.errors`."""
 
 from __future__ import annotations
 

@@ -61,6 +61,7 @@ class Touching(Item):
         self.area, self.thickness, self.full = area, thickness, stiffness
         self.share = SOFTER if moving else 1.0
         self._rounded = ROUNDED * thickness if moving else np.zeros(count)
+        self.resists = moving and bool(obstacle.friction or obstacle.contact_damping)
 
     def moved(self, at: float) -> np.ndarray:
         """How far the obstacle is (3,) [m] at a load factor or time."""
@@ -169,7 +170,7 @@ class Touching(Item):
     def _rubbed(self, shape: Shape, depth: np.ndarray, normal: np.ndarray) -> np.ndarray:
         """Return the forces (faces, n, 3) of the dashpot and of friction, in motion."""
         obstacle = self.obstacle
-        if not self.moving or not (obstacle.friction or obstacle.contact_damping):
+        if not self.resists:
             return np.zeros_like(normal)
         load = self._pressures(depth)[1]
         sinking, sliding = self._speeds(shape, normal)
@@ -180,7 +181,7 @@ class Touching(Item):
 
     def damping(self, shape: Shape) -> Tangent | None:
         obstacle = self.obstacle
-        if not self.moving or not (obstacle.friction or obstacle.contact_damping):
+        if not self.resists:
             return None
         depth, normal, _ = self._sunk(shape)
         load = self._pressures(depth)[1]

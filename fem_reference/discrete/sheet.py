@@ -15,7 +15,7 @@ Internal forces are those of the elements and of the rods (`discrete.rods`), ext
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import Any, ClassVar
@@ -27,20 +27,17 @@ from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.course import commands_of, loads_of
 from fem_reference.discrete.drag import Drag
 from fem_reference.discrete.items import Dead, Following, Item
+from fem_reference.discrete.output import Output
 from fem_reference.discrete.relaxation import Memory, Strained
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import Shape
 from fem_reference.surface import loads
-from fem_reference.surface.actuator_forces import Held, OnEdge
-from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import BoundRods
-from fem_reference.surface.location import interpolate
-from fem_reference.surface.mesh import Plan
 from fem_reference.surface.supports import Supports
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import FieldMesh, Scene, Status, outside_model
+from sheetbench.scenes import Scene, Status, outside_model
 from sheetbench.scenes.motion import NO_START, at_start, kinks, starts_flat
 from sheetbench.scenes.natural_state import sources_of
 from sheetbench.scenes.obstacles import obstacles_by_name
@@ -49,11 +46,11 @@ from sheetbench.scenes.relaxation import Branches
 Binding = Callable[[Scene], BoundRods]
 
 
-class Discrete(ABC):
+class Discrete(Output):
     """N coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
 
     norm: order of the norm that residuals are measured in. conservative: whether the law of strain is
-    linear in Green's strain; any_strain: whether it is meant for large strains. size: N; lever: the flat
+    linear in Green's strain; any_strain: whether it is meant for large strains. lever: the flat
     sheet's longer side [m]; scale: 1 of positions (N,), of directors the lever. own: whether the mesh has an
     outline of its own, in place of the scene's sheet. bodies: the rods, if there are any.
     """
@@ -65,11 +62,9 @@ class Discrete(ABC):
     conservative: bool
     any_strain: bool = False
     own: bool = False
-    plan: Plan
     supports: Supports
     rods: Rods
     unknowns: int
-    size: int
     scale: np.ndarray
 
     def __init__(self, scene: Scene, moving: bool = False):
@@ -325,47 +320,3 @@ class Discrete(ABC):
     def beyond(self, stretch: float) -> str:
         """A clause where the law of strain does not hold that far, else ""."""
         return "" if self.any_strain else outside_model(self.scene, stretch)
-
-    # what is shown
-
-    @abstractmethod
-    def displacement(self, q: np.ndarray) -> np.ndarray:
-        """Displacements (k, 3) [m] of the nodes, a view."""
-
-    def middles(self, displacement: np.ndarray) -> np.ndarray:
-        """Those (n, 3) [m] of the plan's nodes on the mid-surface."""
-        return displacement
-
-    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m], of nodal ones as `displacement`."""
-        return interpolate(self.plan.mesh, self.plan.elements, self.middles(displacement), points)
-
-    @abstractmethod
-    def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
-        """Forces (3,) [N] of what holds the sheet, of M ü + g (N,)."""
-
-    @abstractmethod
-    def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
-        """The sheet for drawing, and the line force (n, 3) [N/m] of actuators on it."""
-
-    def mesh(self, displacement: np.ndarray) -> FieldMesh:
-        """The sheet for drawing, of nodal displacements as `displacement`."""
-        q = np.zeros(self.size)
-        self.displacement(q)[:] = displacement
-        return self.drawn(q)
-
-    @abstractmethod
-    def surface(self, q: np.ndarray) -> Surface:
-        """The sheet as it lies."""
-
-    @abstractmethod
-    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
-        """Force and couple on the nodes of g (N,)."""
-
-    @abstractmethod
-    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
-        """What the rods exert, which pull at their sides' vectors (k, a, 3)."""
-
-    @abstractmethod
-    def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Where, and with which forces of g (N,), the sheet is held, pairs (…, 3), its nodes first."""

@@ -38,7 +38,8 @@ class NaturalPlate:
         if self.state is None:
             return out
         elements = self._elements
-        for operator, own, strain in zip(self._operators, self._parts, self.strains(factors), strict=True):
+        operators = elements.membrane, elements.curvature
+        for operator, own, strain in zip(operators, self._parts, self.strains(factors), strict=True):
             stress = elements.areas[..., None] * (own @ strain[..., None])[..., 0]
             np.add.at(out, elements.unknowns, np.einsum("mqic,mqi->mc", operator, stress))
         return out
@@ -48,7 +49,3 @@ class NaturalPlate:
         parts = zip(self._parts, self.strains(factors), strict=True)
         density = sum(np.einsum("mqi,mqi->mq", e, (own @ e[..., None])[..., 0]) for own, e in parts)
         return 0.5 * float(np.sum(self._elements.areas * density))
-
-    @property
-    def _operators(self) -> tuple[np.ndarray, np.ndarray]:
-        return self._elements.membrane, self._elements.curvature

@@ -18,24 +18,24 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
+from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.rods import components_of
 from fem_reference.discrete.shape import Shape
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents
+from fem_reference.shell.mass import mass_matrix, products
 from fem_reference.shell.validity import inverted, membrane_strain
-from fem_reference.surface import carried, rod
+from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, OnEdge, on_edges
 from fem_reference.surface.balance import Surface
-from fem_reference.surface.biquadratic import AT_GAUSS, cross
+from fem_reference.surface.biquadratic import cross
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
-from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan, field_mesh
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
+from sheetbench.numerics.sparsity import add_blocks, pattern_of
 from sheetbench.scenes import FieldMesh, Scene
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -92,28 +92,11 @@ class DiscreteShell(DiscreteElements):
 
     @cached_property
     def _products(self) -> tuple[np.ndarray, np.ndarray]:
-        """∫ ρh N_i N_j dA (m, 9, 9) [kg] and, of the directors' x, y and z, ∫ ρh³/12 N_i N_j dA (3, m, 9, 9)
-        [kg m²], with what the payloads add."""
-        value, of = AT_GAUSS[0], constants_of(self.scene, self.plan.corners)
-        by_place, by_turn = (
-            np.asarray(np.einsum("eg,gi,gj->eij", part * self.element.areas, value, value))
-            for part in (of.per_area, of.rotary_per_area)
-        )
-        payloads = carried.of_scene(self.scene, self.plan)
-        by_place[payloads.elements] += payloads.by_place
-        by_axis = np.tile(by_turn, (3, 1, 1, 1))
-        by_axis[:, payloads.elements] += payloads.by_turn
-        return by_place, by_axis
+        return products(self.scene, self.plan, self.element.areas)
 
     @cached_property
     def sheet_mass(self) -> csr_matrix:
-        pattern, none = (
-            Pattern(self.plan.elements, size=self.nodes),
-            csr_matrix((self.size - 6 * self.nodes,) * 2),
-        )
-        by_place, by_turn = self._products
-        turning = sum(kron(pattern.matrix(by_turn[axis]), np.diag(row)) for axis, row in enumerate(np.eye(3)))
-        return block_diag([kron(pattern.matrix(by_place), np.eye(3)), turning, none], format="csr")
+        return mass_matrix(self.plan, self._products, self.size)
 
     # what is prescribed, and the unknowns
 

@@ -45,6 +45,7 @@ from fem_reference.surface.biquadratic import (
     shape,
 )
 from fem_reference.surface.materials import Section
+from fem_reference.surface.natural import AtRest
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 
@@ -93,7 +94,7 @@ _OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are their
 
 
 @dataclass(frozen=True)
-class Element:
+class Element(AtRest):
     """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]."""
 
     reference: np.ndarray
@@ -117,19 +118,6 @@ class Element:
         across = self.reference[:, [5, 6], :2] - self.reference[:, [7, 4], :2]
         found: np.ndarray = np.linalg.norm(across, axis=2)
         return found
-
-    def grow(self, share: float = 1.0, time: float | None = None) -> None:
-        """Set the share of the sheet's natural strains at a time [s]; these elements have none."""
-
-    @property
-    def grows(self) -> bool:
-        """Whether they change over time."""
-        return False
-
-    @property
-    def prestrain(self) -> np.ndarray | None:
-        """Natural strains (m, 54) at that share; None of a sheet that is flat at rest."""
-        return None
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors: its product with

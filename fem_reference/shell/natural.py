@@ -6,7 +6,7 @@ at the sites where `element` samples membrane and bending strains; shear has non
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from sheetbench.scenes.natural_state import natural_at
 class NaturalElement(Element):
     """natural: their strains."""
 
-    natural: NaturalStrains
+    natural: NaturalStrains = field()  # no longer None by default
 
     @classmethod
     def of(cls, nodes: np.ndarray, section: Section, scene: Scene) -> Element:
@@ -49,17 +49,6 @@ class NaturalElement(Element):
             return np.concatenate([*parts, none], axis=1)
 
         return cls(plain.reference, plain.stiffness, plain.areas, NaturalStrains(state, sample))
-
-    def grow(self, share: float = 1.0, time: float | None = None) -> None:
-        self.natural.grow(share, time)
-
-    @property
-    def grows(self) -> bool:
-        return self.natural.state.moves
-
-    @property
-    def prestrain(self) -> np.ndarray:
-        return self.natural.now
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains less the natural ones."""

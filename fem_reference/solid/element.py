@@ -38,6 +38,7 @@ from skfem.refdom import RefHex
 
 from fem_reference.solid.materials import PAIRS, SolidLaw
 from fem_reference.surface.biquadratic import THREE, TYING, lagrange
+from fem_reference.surface.natural import AtRest
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Constants, Material
 
@@ -99,7 +100,7 @@ def reference() -> Reference:
 
 
 @dataclass(frozen=True)
-class Bricks:
+class Bricks(AtRest):
     """m elements of one material, or each of its own constants (m, 1). positions: X (m, 27, 3) [m].
 
     to_strain: (m, q, 6, k) Cartesian strain of the samples; volumes: (m, q) [m³].
@@ -130,19 +131,6 @@ class Bricks:
     def bulk(self) -> np.ndarray:
         """Λ [Pa], (1,) or (m, 1)."""
         return np.atleast_1d(self.law.bulk(self.material))
-
-    def grow(self, share: float = 1.0, time: float | None = None) -> None:
-        """Set the share of the sheet's natural strains at a time [s]; these bricks have none."""
-
-    @property
-    def grows(self) -> bool:
-        """Whether they change over time."""
-        return False
-
-    @property
-    def prestrain(self) -> np.ndarray | None:
-        """Natural strains (m, k) at that share; None of a sheet that is flat at rest."""
-        return None
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains (m, k) of displacements (m, 27, 3): ½ (x H x − X H X) = ½ u H (2X + u)."""

@@ -3,7 +3,7 @@ U(z) = 1 + e0 − z k0, which leaves the thickness alone; z is measured from the
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from sheetbench.scenes.patches import of_sheet
 class NaturalBricks(Bricks):
     """natural: their strains; area: det U at the Gauss points (m, q), by which volumes have grown."""
 
-    natural: NaturalStrains
+    natural: NaturalStrains = field()  # no longer None by default
     area: np.ndarray
 
     @classmethod
@@ -46,26 +46,8 @@ class NaturalBricks(Bricks):
             return twice * np.einsum("eki,ekij,ekj->ek", first, free, second)
 
         on, area = _of_natural_sides(plain, scene)
-        return cls(
-            plain.positions,
-            plain.law,
-            plain.material,
-            on,
-            area * plain.volumes,
-            NaturalStrains(state, sample),
-            area,
-        )
-
-    def grow(self, share: float = 1.0, time: float | None = None) -> None:
-        self.natural.grow(share, time)
-
-    @property
-    def grows(self) -> bool:
-        return self.natural.state.moves
-
-    @property
-    def prestrain(self) -> np.ndarray:
-        return self.natural.now
+        natural, volumes = NaturalStrains(state, sample), area * plain.volumes
+        return cls(plain.positions, plain.law, plain.material, on, volumes, natural, area)
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains less the natural ones."""

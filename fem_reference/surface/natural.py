@@ -44,6 +44,27 @@ class NaturalStrains:
             self.now = self._sample(*self.state.at(factors))
 
 
+class AtRest:
+    """Elements as they are at rest. natural: their strains from the flat sheet, None where there are none."""
+
+    natural: NaturalStrains | None = None
+
+    def grow(self, share: float = 1.0, time: float | None = None) -> None:
+        """Set the share of the natural strains at a time [s]."""
+        if self.natural is not None:
+            self.natural.grow(share, time)
+
+    @property
+    def grows(self) -> bool:
+        """Whether the natural strains change over time."""
+        return self.natural is not None and self.natural.state.moves
+
+    @property
+    def prestrain(self) -> np.ndarray | None:
+        """Natural strains (m, k) at the share set; None of a sheet that is flat at rest."""
+        return None if self.natural is None else self.natural.now
+
+
 def green(stretch: np.ndarray) -> np.ndarray:
     """½ (U² − 1) of U − 1 (…, 2, 2)."""
     return np.asarray(stretch + 0.5 * stretch @ stretch)

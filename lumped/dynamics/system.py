@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -22,18 +22,16 @@ from lumped.actuators import Drive
 from lumped.carried import pairs_of, rotary_masses
 from lumped.dynamics.damping import Damping
 from lumped.dynamics.maxwell import Maxwell
+from lumped.dynamics.prescribed_motion import PrescribedMotion
 from lumped.masses import masses
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, held_axes, holds_director
+from sheetbench.scenes import Scene
 from sheetbench.scenes.motion import kinks
-from sheetbench.scenes.supports import named
-from sheetbench.scenes.tables import PiecewiseCurve
 
-ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by, and of energies
-NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
+ROUNDED = 1e-9  # of the energy of a natural state on the flat sheet
 
 
 @dataclass(frozen=True)
@@ -106,11 +104,7 @@ class System:
             raise BadInput("precision = 'single': takes no Maxwell branches; leave it out")
         others = self.maxwell is not None or self.natural is not None
         self._elastic_separate = others or self.assembly.precision == "single"
-        # integrators ask for the same two moments several times a step
-        self.place, self.place_rate = lru_cache(16)(self._place), lru_cache(16)(self._place_rate)
-        self.motions = self._support_motions()
-        self.moving = bool(self.motions or (self.coupling is not None and self.coupling.moved.any()))
-        self._still = problem.constraints.turned(1.0)
+        self.prescribed = PrescribedMotion(scene, problem)
 
     @property
     def working(self) -> bool:
@@ -128,60 +122,9 @@ class System:
         """Whether there are multipliers."""
         return bool(self.algebraic.any())
 
-    @property
-    def driven(self) -> np.ndarray:
-        """Components (size, 3) bool that g(t) moves."""
-        driven = np.zeros(self._still.shape, dtype=bool)
-        for moved, axis, _ in self.motions:
-            driven[moved, axis] = True
-        if self.coupling is not None:
-            driven[: self.coupling.masses][self.coupling.moved] = True
-        return driven
-
     def drive(self, time: float) -> Drive:
         """The actuators' commands at a time."""
         return Drive(1.0, time)
-
-    def _place(self, time: float) -> np.ndarray:
-        """g(t), what supports and prescribed motions put in place, (size, 3) [m]; not to be written to."""
-        if not self.moving:
-            return self._still
-        g = self._still.copy()
-        for moved, axis, course in self.motions:
-            g[moved, axis] = self._still[moved, axis] + course.at(time)[axis]
-        if self.coupling is not None:
-            g += self.coupling.driven(self.drive(time))
-        return g
-
-    def _place_rate(self, time: float, before: bool = False) -> np.ndarray:
-        """Velocity of g from this moment on, or until then, (size, 3) [m/s]."""
-        g = np.zeros_like(self._still)
-        if not self.moving:
-            return g
-        for moved, axis, course in self.motions:
-            g[moved, axis] = course.slope(time, before)[axis]
-        if self.coupling is not None:
-            g += self.coupling.driven_velocity(time)
-        return g
-
-    def place_acceleration(self, time: float) -> np.ndarray:
-        """Acceleration of g from this moment on, of what supports move, (size, 3) [m/s²]."""
-        g = np.zeros_like(self._still)
-        for moved, axis, course in self.motions:
-            g[moved, axis] = course.bend(time)[axis]
-        return g
-
-    def _support_motions(self) -> list[tuple[np.ndarray, int, PiecewiseCurve]]:
-        """Masses, axis and displacement (3,) [m] of what supports move, an axis at a time."""
-        found = []
-        for name, support in named(self.scene.supports).items():
-            if support.motion is not None:
-                course = support.motion.course
-                row = self.problem.constraints.holders[name][0].ravel()
-                for axis in held_axes(support):
-                    free = ~self.problem.constraints.fixed[row, axis]
-                    found.append((row if holds_director(support) else row[free], axis, course))
-        return found
 
     def internal(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, float, np.ndarray]:
         """Elastic energy, power taken by the dampers, and both their forces, actuators with their multipliers
@@ -255,10 +198,10 @@ class System:
         if self.coupling is not None:
             self.coupling.add_average_force(start.u, end, self.drive(time), force)
         for item in self.items:
-            item.add_average_force(start.u, end, self._ends(start, time), force)
+            item.add_average_force(start.u, end, self.ends(start, time), force)
         return force
 
-    def _ends(self, start: State, middle: float) -> tuple[Drive, Drive]:
+    def ends(self, start: State, middle: float) -> tuple[Drive, Drive]:
         """The commands at both ends of a step."""
         return self.drive(start.time), self.drive(2.0 * middle - start.time)
 
@@ -300,7 +243,7 @@ class System:
             if ends is None:
                 item.add_tangent(u, self.drive(time), stiffness, blocks)
             else:
-                item.add_average_tangent(ends[0].u, ends[1], self._ends(ends[0], time), blocks)
+                item.add_average_tangent(ends[0].u, ends[1], self.ends(ends[0], time), blocks)
             item.add_resistance_tangent(u, v, self.drive(time), damping, blocks)
         return blocks
 
@@ -343,24 +286,6 @@ class System:
         """T M⁻¹ Tᵀ f, (size, 3) [m/s²]."""
         return self.expand(self.solve_mass(self.reduce(force)))
 
-    def pushed_between(self, start: State, end: np.ndarray, middle: float) -> float:
-        """Work [J] of what items are fixed to in a step of the conserving midpoint rule."""
-        done, ends = 0.0, self._ends(start, middle)
-        rate = (end - start.u) / (2.0 * (middle - start.time))
-        for item in self.items:
-            force = np.zeros_like(end)
-            item.add_average_force(start.u, end, ends, force)
-            item.add_resistance(0.5 * (start.u + end), rate, self.drive(middle), force)
-            done -= item.work(force.sum(axis=0), start.time, 2.0 * middle - start.time)
-        return done
-
-    def pushing(self, state: State) -> float:
-        """Power [W] of what items are fixed to, as it moves."""
-        return sum(
-            item.power(item.exerted(state.u, self.drive(state.time), state.v).sum(axis=0), state.time)
-            for item in self.items
-        )
-
     def balance(self, state: State) -> tuple[dict[str, float], np.ndarray]:
         """Kinetic, elastic and potential energy [J], of which only constant dead loads have the last; and
         M a + f_int + f_damp − f_ext, (size, 3): what supports and actuators exert on their masses."""
@@ -380,79 +305,13 @@ class System:
         """What supports and actuators exert on their masses, (size, 3)."""
         return self.balance(state)[1]
 
-    def jumps(self, time: float) -> bool:
-        """Whether what is prescribed changes its velocity at once."""
-        if not self.moving:
-            return False
-        after = self.place_rate(time)
-        jump = np.abs(after - self.place_rate(time, before=True)).max()
-        return bool(jump > ROUNDED * np.abs(after).max())
-
-    def kinetic_of(self, rate: np.ndarray) -> float:
-        """Kinetic energy [J] of what is prescribed, at its velocities (size, 3) [m/s]."""
-        return 0.5 * float(rate.ravel() @ (self.mass @ rate.ravel()))
-
-    def kinetic_of_placed(self, state: State) -> float:
-        """Kinetic energy [J] of what is prescribed, whose gain is work done on the masses: all but that of
-        the free unknowns, which is apart since Tᵀ M ġ = 0."""
-        momentum = self.mass @ state.v.ravel()
-        free = self.moving_part.T @ momentum
-        return 0.5 * float(state.v.ravel() @ momentum - free @ self.solve_mass(free))
-
-    def work(self, before: State, after: State) -> float:
-        """Work of moving supports, commands and loads without a potential in a step, by the trapezoidal rule
-        [J]."""
-        done = 0.0
-        if self.moving:
-            moved = self.place(after.time) - self.place(before.time)
-            done += 0.5 * float(np.sum((self.exerted(before) + self.exerted(after)) * moved))
-            done += self.kinetic_of_placed(after) - self.kinetic_of_placed(before)
-        if self.working:
-            mean = 0.5 * (self.external(before.u, before.time) + self.external(after.u, after.time))
-            done += float(np.sum((mean - self.problem.loads.dead) * (after.u - before.u)))
-        for item in self.items if self.pushed else ():
-            ends = (item.exerted(s.u, self.drive(s.time), s.v).sum(axis=0) for s in (before, after))
-            done += item.work(0.5 * sum(ends, np.zeros(3)), before.time, after.time)
-        if self.coupling is not None:
-            then, now = self.drive(before.time), self.drive(after.time)
-            for u in (before.u, after.u):
-                done += 0.5 * self.coupling.command_work(u, then, now)
-        for u in (before.u, after.u) if self.natural is not None else ():
-            done += 0.5 * self.natural_work(u, before.time, after.time)
-        return done
-
     @property
     def least_energy(self) -> float:
         """Energy [J] below which all is rounding: of a natural state, in whose shape there is none."""
         if self.natural is None:
             return 0.0
         self.assembly.grow()
-        return ROUNDED * self.assembly.force(np.zeros_like(self._still))[0]
-
-    def natural_work(self, u: np.ndarray, then: float, now: float) -> float:
-        """Work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""
-        if self.natural is None or not self.natural.state.moves:
-            return 0.0
-        energies = []
-        for time in (then, now):
-            self.assembly.grow(time=time)
-            energies.append(self.assembly.force(u)[0])
-        return energies[1] - energies[0]
-
-    def natural_power(self, u: np.ndarray, time: float, before: bool = False) -> float:
-        """Return its power [W] from a moment on, or until then: of a difference that is exact but for third
-        powers of the change."""
-        if self.natural is None or not self.natural.state.moves:
-            return 0.0
-        at, rate = self.natural.state.factors(time), self.natural.state.rates(time, before)
-        if not rate.any():
-            return 0.0
-        step = NATURAL_STEP / np.abs(rate).max()
-        energies = []
-        for sign in (1.0, -1.0):
-            self.natural.set(at + sign * step * rate)
-            energies.append(self.assembly.force(u)[0])
-        return (energies[0] - energies[1]) / (2.0 * step)
+        return ROUNDED * self.assembly.force(np.zeros((self.assembly.pattern.size, 3)))[0]
 
 
 def _mass_solver(mass: sp.csc_array) -> Callable[[np.ndarray], np.ndarray]:

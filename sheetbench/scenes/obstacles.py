@@ -98,11 +98,6 @@ def obstacles_by_name(scene: Scene) -> dict[str, AnyObstacle]:
     return {f"obstacle {n}": obstacle for n, obstacle in enumerate(scene.obstacles, start=1)}
 
 
-def flat_gap(scene: Scene, obstacle: AnyObstacle) -> float:
-    """Return the gap of `nearest`."""
-    return nearest(scene, obstacle)[0]
-
-
 def farther(scene: Scene, obstacle: AnyObstacle, factor: float) -> AnyObstacle:
     """Return an obstacle at so many times its distance from the flat sheet; one that it touches stays."""
     gap, away = nearest(scene, obstacle)
@@ -142,7 +137,7 @@ def nearest(scene: Scene, obstacle: AnyObstacle) -> tuple[float, np.ndarray]:
 def conflicts(scene: Scene) -> Iterator[tuple[str, str | None]]:
     """Yield what does not go together, key and reason, no reason where it does."""
     for name, obstacle in obstacles_by_name(scene).items():
-        gap = flat_gap(scene, obstacle)
+        gap, _ = nearest(scene, obstacle)
         inside = f"the flat sheet begins {-1e3 * gap:.4g} mm inside it, with half its thickness; move it away"
         yield f"{name}.position: ", inside if gap < -INSIDE * scene.sheet.thickness else None
         if obstacle.motion is not None:

@@ -13,7 +13,7 @@ from sheetbench.scenes.loads import AnyLoad, AreaLoad, PointLoad, Pressure
 from sheetbench.scenes.masses import Mass, carried
 from sheetbench.scenes.material import CONSTANTS, Material
 from sheetbench.scenes.natural_words import natural_in_words
-from sheetbench.scenes.obstacles import AnyObstacle, Plane, flat_gap, obstacles_by_name
+from sheetbench.scenes.obstacles import AnyObstacle, Plane, nearest, obstacles_by_name
 from sheetbench.scenes.orthotropy import Ply
 from sheetbench.scenes.patches import Patch, mass_of
 from sheetbench.scenes.quantities import PlanPoint
@@ -69,7 +69,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         sentences.append((where, f"{_support(support, sheet)}{inside}"))
     sentences += [(f"load {n}", _load(load, scene)) for n, load in enumerate(scene.loads, start=1)]
     sentences += [
-        (name, _obstacle(one, flat_gap(scene, one))) for name, one in obstacles_by_name(scene).items()
+        (name, _obstacle(one, nearest(scene, one)[0])) for name, one in obstacles_by_name(scene).items()
     ]
     sentences += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
     if scene.initial is not None:

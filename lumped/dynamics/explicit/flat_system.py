@@ -39,7 +39,7 @@ class FlatSystem:
         moving = self.flat(np.where(free, 1.0, 0.0)) > 0.0
         inverse[moving] = 1.0 / mass[moving]
         rate = self.flat(self._of_masses(system.damping.rate))
-        self._driven = np.argwhere(system.driven)
+        self._driven = np.argwhere(system.prescribed.components)
         springs = sum(map(len, assembly.springs))
         self.at_once = max(LEAST, round(CALL / (springs * PER_SPRING)))
         self.size = 3 * self._stride
@@ -114,7 +114,7 @@ class FlatSystem:
             return nothing, nothing
         system, (rows, axes) = self._system, self._driven.T
         place, rate = np.zeros((2, len(times), *self._shape))
-        for moved, axis, course in system.motions:
+        for moved, axis, course in system.prescribed.by_supports:
             place[:, moved, axis] += course.at(times)[:, axis, None]
             rate[:, moved, axis] += course.slope(times)[:, axis, None]
         if system.coupling is not None:

@@ -80,7 +80,7 @@ def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
 def soften_items(system: System) -> None:
     """Give a system's items the stiffness that they have in motion, by the springs' highest frequency."""
     if system.items:
-        rest = system.place(0.0)
+        rest = system.prescribed.place(0.0)
         springs = system.assembly.tangent(rest)
         squared = _largest(system, springs, rest)
         for item in system.items:

@@ -16,6 +16,7 @@ from lumped.dynamics.explicit.projection import Projection
 from lumped.dynamics.explicit.step_limit import StepLimit, step_limit
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
+from lumped.dynamics.work import work
 from sheetbench.numerics.time.method import Advance, StepFailed
 
 
@@ -49,9 +50,10 @@ class Verlet(Integrator):
     def advance(self, state: State, at_most: float) -> Advance[State]:
         """One explicit step. Raises StepFailed when a number overflows or constraints find no solution."""
         system, h, time = self.system.within(state, at_most), at_most, state.time + at_most
+        motion = system.prescribed
         moved = state.u + h * state.v + 0.5 * h * h * state.a
-        if system.moving:
-            held = system.place(time) - system.place(state.time) - h * system.place_rate(state.time)
+        if motion.moving:
+            held = motion.place(time) - motion.place(state.time) - h * motion.rate(state.time)
             moved = moved + held
         half = state.v + 0.5 * h * state.a
         projection = self._projection
@@ -60,8 +62,8 @@ class Verlet(Integrator):
             half = half + (u - moved) / h
         else:
             u = moved
-        if system.moving:
-            half = half + system.place_rate(time) - system.place_rate(state.time)
+        if motion.moving:
+            half = half + motion.rate(time) - motion.rate(state.time)
         _, elastic = system.elastic(u, time)
         force = system.external(u, time) - elastic
         damped = system.resists
@@ -89,7 +91,7 @@ class Verlet(Integrator):
         elif projection.active:
             acceleration = system.accelerate(force)
         after, relaxed = system.relaxed(state, State(time, u, v, acceleration))
-        return Advance(after, taken + relaxed, system.work(state, after))
+        return Advance(after, taken + relaxed, work(system, state, after))
 
     def _constrained(self, state: State, moved: np.ndarray, time: float) -> np.ndarray:
         try:

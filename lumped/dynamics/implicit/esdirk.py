@@ -35,6 +35,7 @@ from lumped.dynamics.implicit.polynomial import polynomials
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
 from lumped.dynamics.integrator import Integrator, LatticeSamples
 from lumped.dynamics.system import State, System
+from lumped.dynamics.work import kinetic_of, natural_power, obstacle_power
 from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
@@ -165,7 +166,7 @@ class Esdirk(Integrator):
             return state, at_most
         near = 1e-9 * at_most
         if np.any(np.abs(system.kinks - now) < near) and now > near:
-            if system.jumps(now):  # and dampers with the velocity: the steps begin as at the start
+            if system.prescribed.jumps(now):  # and so do dampers: the steps begin as at the start
                 self._control.step = min(self._control.step, self._first)
             force = system.within(state).unbalanced(state.u, state.v, now)
             state = replace(state, time=now, a=system.accelerate(force))
@@ -191,13 +192,13 @@ class Esdirk(Integrator):
     def _shifts(self, times: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray]:
         """How far supports are from where the stages' velocities lead, (7, n, 3) [m], and their velocities
         beside that at the start, (7, n, 3) [m/s]; both empty where none moves."""
-        system, began = self.system, float(times[0])
-        if not system.moving:
+        system, motion, began = self.system, self.system.prescribed, float(times[0])
+        if not motion.moving:
             nothing = np.empty((0, *system.problem.loads.dead.shape))
             return nothing, nothing
         later = [float(time) for time in times[1:]]
-        rates = np.array([system.place_rate(began), *(system.place_rate(t, before=True) for t in later)])
-        places = np.array([system.place(t) for t in (began, *later)])
+        rates = np.array([motion.rate(began), *(motion.rate(t, before=True) for t in later)])
+        places = np.array([motion.place(t) for t in (began, *later)])
         return places - places[0] - h * np.tensordot(STAGES, rates, 1), rates - rates[0]
 
     def _loads(self, times: np.ndarray) -> np.ndarray:
@@ -264,7 +265,7 @@ class Esdirk(Integrator):
         u, v, a = self._within(stages, h, theta)
         weights = h * (np.vander(theta, len(CUMULATIVE), increasing=True) @ CUMULATIVE)
         taken, put_in = (weights @ stages.power).T
-        system, start = self.system, self._memories[0]
+        system, motion, start = self.system, self.system.prescribed, self._memories[0]
         memories: list[np.ndarray | None] = [None] * len(times)
         began, c1 = float(stages.time[0]), 1.0 / (GAMMA * h)
         for i, time in enumerate(times.tolist()):
@@ -277,9 +278,9 @@ class Esdirk(Integrator):
                 memories[i] = memory = inside.maxwell.after(u[i])
                 branches = inside.maxwell.branches
                 taken[i] -= branches.stored(memory) - branches.stored(start)
-            if system.moving:
-                rate = system.place_rate(time, before=True)
-                put_in[i] += system.kinetic_of(rate) - system.kinetic_of(system.place_rate(began))
+            if motion.moving:
+                rate = motion.rate(time, before=True)
+                put_in[i] += kinetic_of(system, rate) - kinetic_of(system, motion.rate(began))
         if end.time == times[-1]:
             u[-1], v[-1], a[-1] = end.u, end.v, end.a
         return LatticeSamples(times, u, v, a, memories, taken, put_in)
@@ -288,25 +289,26 @@ class Esdirk(Integrator):
         """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step: polynomials,
         and what is prescribed as it is prescribed."""
         u, v, a = stages.u[[0, -1]], stages.v[[0, -1]], stages.a[[0, -1]]
-        if not self.system.moving:
+        motion = self.system.prescribed
+        if not motion.moving:
             return polynomials(u, v, a, h, theta)
         began, until = float(stages.time[0]), float(stages.time[-1])
-        system, times = self.system, (began + h * theta).tolist()
-        u -= np.array([system.place(began), system.place(until)])
-        v -= np.array([system.place_rate(began), system.place_rate(until, before=True)])
+        times = (began + h * theta).tolist()
+        u -= np.array([motion.place(began), motion.place(until)])
+        v -= np.array([motion.rate(began), motion.rate(until, before=True)])
         found = polynomials(u, v, a, h, theta)
-        found[0] += np.array([system.place(time) for time in times])
-        found[1] += np.array([system.place_rate(time, before=True) for time in times])
+        found[0] += np.array([motion.place(time) for time in times])
+        found[1] += np.array([motion.rate(time, before=True) for time in times])
         return found
 
     def _advance(self, start: State, stages: Stages, h: float) -> Advance[State]:
-        system, power = self.system, stages.power
+        system, motion, power = self.system, self.system.prescribed, stages.power
         if self._end[0] is start:
             power[0] = self._end[1]
         else:
             power[0] = self._power(start)
         end = self._stage(stages, -1)
-        if system.moving or system.working or system.pushed:
+        if motion.moving or system.working or system.pushed:
             for i in range(1, len(power)):
                 power[i, 1] = self._put_in(self._stage(stages, i), before=True)
         self._step = stages, h
@@ -314,11 +316,11 @@ class Esdirk(Integrator):
         if system.maxwell is not None and start.memory is not None and end.memory is not None:
             branches = system.maxwell.branches
             taken -= branches.stored(end.memory) - branches.stored(start.memory)
-        if system.moving:
-            rate = system.place_rate(end.time)
-            end = replace(end, v=end.v + rate - system.place_rate(end.time, before=True))
-            put_in += system.kinetic_of(rate) - system.kinetic_of(system.place_rate(start.time))
-        self._end = end, self._power(end) if system.jumps(end.time) else power[-1]
+        if motion.moving:
+            rate = motion.rate(end.time)
+            end = replace(end, v=end.v + rate - motion.rate(end.time, before=True))
+            put_in += kinetic_of(system, rate) - kinetic_of(system, motion.rate(start.time))
+        self._end = end, self._power(end) if motion.jumps(end.time) else power[-1]
         return Advance(end, float(taken), float(put_in))
 
     def _power(self, state: State) -> np.ndarray:
@@ -328,11 +330,11 @@ class Esdirk(Integrator):
     def _put_in(self, stage: State, before: bool = False) -> float:
         """Power [W] that moving supports, but for what speeds up their own masses, and loads without a
         potential put in from a moment on, or until then."""
-        system, put_in = self.system, 0.0
-        if system.moving:
-            put_in += float(np.sum(system.exerted(stage) * system.place_rate(stage.time, before=before)))
+        system, motion, put_in = self.system, self.system.prescribed, 0.0
+        if motion.moving:
+            put_in += float(np.sum(system.exerted(stage) * motion.rate(stage.time, before=before)))
         if system.working:
             force = system.external(stage.u, stage.time) - system.problem.loads.dead
             put_in += float(np.sum(force * stage.v))
-            put_in += system.natural_power(stage.u, stage.time, before)
-        return put_in + (system.pushing(stage) if system.pushed else 0.0)
+            put_in += natural_power(system, stage.u, stage.time, before)
+        return put_in + (obstacle_power(system, stage) if system.pushed else 0.0)

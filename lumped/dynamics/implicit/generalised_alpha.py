@@ -12,6 +12,7 @@ import numpy as np
 from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
+from lumped.dynamics.work import work
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
@@ -83,7 +84,7 @@ class GeneralisedAlpha(Integrator):
             self._taken = state, self.system.damping_force(state.u, state.v, state.time)[0]
         before, power = self._taken[1], self.system.damping_force(after.u, after.v, after.time)[0]
         self._taken = after, power
-        return Advance(after, 0.5 * h * (before + power) + relaxed, self.system.work(state, after))
+        return Advance(after, 0.5 * h * (before + power) + relaxed, work(self.system, state, after))
 
     def _old(self, state: State, h: float) -> np.ndarray:
         """The algorithm's acceleration at a step's start."""
@@ -99,8 +100,9 @@ class GeneralisedAlpha(Integrator):
         system, time = self.system, state.time + h
         am, af, gamma, beta, by_old, *_ = rule = self._rule
         old, by_a, by_v = self._old(state, h), rule.by_a(h), rule.by_v(h)
-        held = system.place(time) - system.place(state.time) - h * system.place_rate(state.time)
-        turn = system.place_rate(time) - system.place_rate(state.time)
+        motion = system.prescribed
+        held = motion.place(time) - motion.place(state.time) - h * motion.rate(state.time)
+        turn = motion.rate(time) - motion.rate(state.time)
         start = (af * state.a - am * old) / (1.0 - am)  # a'₁ with no acceleration at the end
         base_u = state.u + h * state.v + h * h * (by_old * old + beta * start) + held
         base_v = state.v + h * ((1.0 - gamma) * old + gamma * start) + turn

@@ -16,6 +16,7 @@ import numpy as np
 from lumped.dynamics.implicit.newton import Newton
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
+from lumped.dynamics.work import kinetic_of_placed, natural_work, obstacle_work
 from sheetbench.numerics.time.method import Advance
 
 STEP_TOLERANCE = 1e-13  # last correction relative to the sheet's side
@@ -41,8 +42,9 @@ class Midpoint(Integrator):
         coupling = system.coupling
         algebraic = coupling.algebraic if coupling is not None else np.zeros((1, 1), dtype=bool)
 
-        moved = system.place(time) - system.place(state.time)
-        jump = moved / h - system.place_rate(state.time)
+        motion = system.prescribed
+        moved = motion.place(time) - motion.place(state.time)
+        jump = moved / h - motion.rate(state.time)
 
         def mean(u: np.ndarray) -> np.ndarray:
             return np.where(algebraic, u, 0.5 * (state.u + u))
@@ -69,16 +71,16 @@ class Midpoint(Integrator):
             return np.where(algebraic, 0.5 * correction, correction)
 
         guess = state.u + moved
-        free = state.v - system.place_rate(state.time) + 0.5 * h * state.a
+        free = state.v - motion.rate(state.time) + 0.5 * h * state.a
         guess = guess + h * system.expand(system.contract(free))
         u = self._newton.solve(h, halved, blocks, guess, weigh)
         rate = velocity(u)
         v = 2.0 * rate - state.v
-        if system.moving:
-            v = v + system.place_rate(time) - system.place_rate(state.time) - 2.0 * jump
+        if motion.moving:
+            v = v + motion.rate(time) - motion.rate(state.time) - 2.0 * jump
         power, _ = system.damping_force(mean(u), rate, middle)
         after, relaxed = system.relaxed(state, State(time, u, v, (v - state.v) / h))
-        resisting = residual(u) if system.moving else u
+        resisting = residual(u) if motion.moving else u
         return Advance(after, h * power + relaxed, self._work(state, after, resisting, mean(u), moved))
 
     def _work(
@@ -86,17 +88,17 @@ class Midpoint(Integrator):
     ) -> float:
         """Work of moving supports, commands and loads without a potential as the step itself has it."""
         system, done = self.system, 0.0
-        if system.moving:
+        if system.prescribed.moving:
             done += float(np.sum(exerted * moved))
-            done += system.kinetic_of_placed(after) - system.kinetic_of_placed(before)
+            done += kinetic_of_placed(system, after) - kinetic_of_placed(system, before)
         middle = 0.5 * (before.time + after.time)
         if system.working:
             working = system.external(mean, middle) - system.problem.loads.dead
             done += float(np.sum(working * (after.u - before.u)))
         if system.pushed:
-            done += system.pushed_between(before, after.u, middle)
-        done += system.natural_work(before.u, before.time, middle)
-        done += system.natural_work(after.u, middle, after.time)
+            done += obstacle_work(system, before, after.u, middle)
+        done += natural_work(system, before.u, before.time, middle)
+        done += natural_work(system, after.u, middle, after.time)
         if system.coupling is not None:
             then, between, now = (system.drive(t) for t in (before.time, middle, after.time))
             done += system.coupling.command_work(before.u, then, between)

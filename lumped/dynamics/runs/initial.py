@@ -22,7 +22,7 @@ def initial_state(
 
     Raises NoEquilibrium where there is no stable one.
     """
-    u, scene = system.place(0.0), system.scene if scene is None else scene
+    u, scene = system.prescribed.place(0.0), system.scene if scene is None else scene
     if not starts_flat(scene):
         still = at_start(scene)
         try:
@@ -31,8 +31,8 @@ def initial_state(
             raise NoEquilibrium(f"{NO_START}: {error}") from None
     system.assembly.grow(time=0.0)
     memory = None if system.maxwell is None else system.maxwell.at_rest(u)
-    v = system.place_rate(0.0)
-    v = v if system.moving else np.zeros_like(u)
+    v = system.prescribed.rate(0.0)
+    v = v if system.prescribed.moving else np.zeros_like(u)
     a = system.accelerate(system.within(State(0.0, u, v, v, memory)).unbalanced(u, v, 0.0))
     projection = Projection(system)
     if projection.active:

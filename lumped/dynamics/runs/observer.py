@@ -111,8 +111,9 @@ class LatticeObserver:
         """Return the numbers of samples, (k, width)."""
         system, rows = self._system, np.empty((len(samples.time), width(self.columns)))
         rows[:, 0], rows[:, 4], rows[:, 5] = samples.time, samples.dissipated, samples.work
-        if system.motions:  # integrators have the accelerations beside what is prescribed
-            placed = np.array([system.place_acceleration(time) for time in samples.time.tolist()])
+        motion = system.prescribed
+        if motion.by_supports:  # integrators have the accelerations beside what is prescribed
+            placed = np.array([motion.support_acceleration(time) for time in samples.time.tolist()])
             samples = samples._replace(a=samples.a + placed)
         if self._observed is None:
             for i, row in enumerate(rows):

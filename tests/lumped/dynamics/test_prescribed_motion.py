@@ -39,8 +39,8 @@ MOVED = {
 @pytest.mark.parametrize("moved", MOVED)
 def test_the_components_that_are_driven_are_those_that_are_put_elsewhere(moved):
     equations, _ = system(scene(gravity=False, **MOVED[moved]), n=3)
-    places = [equations.place(time) for time in (0.0, 0.001, 0.0031, 0.007, 0.01)]
-    np.testing.assert_array_equal(equations.driven, np.ptp(places, axis=0) > 0.0)
+    places = [equations.prescribed.place(time) for time in (0.0, 0.001, 0.0031, 0.007, 0.01)]
+    np.testing.assert_array_equal(equations.prescribed.components, np.ptp(places, axis=0) > 0.0)
 
 
 @pytest.mark.parametrize("name", [name for name in INTEGRATORS if name != "esdirk"])

@@ -5,7 +5,7 @@ from contact_cases import THICKNESS, laid_strip
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Cylinder, Motion, Plane, Scene, SceneError, Sphere, load
-from sheetbench.scenes.obstacles import farther, flat_gap
+from sheetbench.scenes.obstacles import farther, nearest
 from sheetbench.scenes.parameters import parameter, put
 from sheetbench.scenes.words import in_words
 
@@ -26,7 +26,7 @@ GAPS = {
 @pytest.mark.parametrize("name", GAPS)
 def test_gap_of_the_flat_sheet(name):
     obstacle, gap = GAPS[name]
-    assert flat_gap(laid_strip(0.1), obstacle) == pytest.approx(gap - THICKNESS / 2, abs=1e-9)
+    assert nearest(laid_strip(0.1), obstacle)[0] == pytest.approx(gap - THICKNESS / 2, abs=1e-9)
 
 
 def test_what_no_obstacle_can_be():
@@ -60,4 +60,4 @@ def test_parameters_and_distances_of_an_obstacle():
             put(scene, unknown, 1.0)
     for obstacle, gap in GAPS.values():
         twice = farther(scene, obstacle, 2.0)
-        assert flat_gap(scene, twice) == pytest.approx(2.0 * (gap - THICKNESS / 2), abs=1e-8)
+        assert nearest(scene, twice)[0] == pytest.approx(2.0 * (gap - THICKNESS / 2), abs=1e-8)

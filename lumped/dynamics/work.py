@@ -1,0 +1,94 @@
+"""Work and power put into a lattice by moving supports, commands, loads without a potential, obstacles and
+natural states that change."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lumped.dynamics.system import State, System
+
+NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
+
+
+def work(system: System, before: State, after: State) -> float:
+    """Return the work [J] of moving supports, commands, obstacles, natural states and loads without a
+    potential in a step, by the trapezoidal rule."""
+    done, motion, coupling = 0.0, system.prescribed, system.coupling
+    if motion.moving:
+        moved = motion.place(after.time) - motion.place(before.time)
+        done += 0.5 * float(np.sum((system.exerted(before) + system.exerted(after)) * moved))
+        done += kinetic_of_placed(system, after) - kinetic_of_placed(system, before)
+    if system.working:
+        mean = 0.5 * (system.external(before.u, before.time) + system.external(after.u, after.time))
+        done += float(np.sum((mean - system.problem.loads.dead) * (after.u - before.u)))
+    for item in system.items if system.pushed else ():
+        ends = (item.exerted(s.u, system.drive(s.time), s.v).sum(axis=0) for s in (before, after))
+        done += item.work(0.5 * sum(ends, np.zeros(3)), before.time, after.time)
+    if coupling is not None:
+        then, now = system.drive(before.time), system.drive(after.time)
+        for u in (before.u, after.u):
+            done += 0.5 * coupling.command_work(u, then, now)
+    for u in (before.u, after.u) if system.natural is not None else ():
+        done += 0.5 * natural_work(system, u, before.time, after.time)
+    return done
+
+
+def kinetic_of(system: System, rate: np.ndarray) -> float:
+    """Return the kinetic energy [J] of what is prescribed, at its velocities (size, 3) [m/s]."""
+    return 0.5 * float(rate.ravel() @ (system.mass @ rate.ravel()))
+
+
+def kinetic_of_placed(system: System, state: State) -> float:
+    """Return the kinetic energy [J] of what is prescribed, whose gain is work done on the masses: all but
+    that of the free unknowns, which is apart since Tᵀ M ġ = 0."""
+    momentum = system.mass @ state.v.ravel()
+    free = system.moving_part.T @ momentum
+    return 0.5 * float(state.v.ravel() @ momentum - free @ system.solve_mass(free))
+
+
+def obstacle_work(system: System, start: State, end: np.ndarray, middle: float) -> float:
+    """Return the work [J] of what items are fixed to in a step of the conserving midpoint rule."""
+    done, ends = 0.0, system.ends(start, middle)
+    rate = (end - start.u) / (2.0 * (middle - start.time))
+    for item in system.items:
+        force = np.zeros_like(end)
+        item.add_average_force(start.u, end, ends, force)
+        item.add_resistance(0.5 * (start.u + end), rate, system.drive(middle), force)
+        done -= item.work(force.sum(axis=0), start.time, 2.0 * middle - start.time)
+    return done
+
+
+def obstacle_power(system: System, state: State) -> float:
+    """Return the power [W] of what items are fixed to, as it moves."""
+    return sum(
+        item.power(item.exerted(state.u, system.drive(state.time), state.v).sum(axis=0), state.time)
+        for item in system.items
+    )
+
+
+def natural_work(system: System, u: np.ndarray, then: float, now: float) -> float:
+    """Return the work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""
+    if system.natural is None or not system.natural.state.moves:
+        return 0.0
+    energies = []
+    for time in (then, now):
+        system.assembly.grow(time=time)
+        energies.append(system.assembly.force(u)[0])
+    return energies[1] - energies[0]
+
+
+def natural_power(system: System, u: np.ndarray, time: float, before: bool = False) -> float:
+    """Return its power [W] from a moment on, or until then: of a difference that is exact but for third
+    powers of the change."""
+    natural = system.natural
+    if natural is None or not natural.state.moves:
+        return 0.0
+    at, rate = natural.state.factors(time), natural.state.rates(time, before)
+    if not rate.any():
+        return 0.0
+    step = NATURAL_STEP / np.abs(rate).max()
+    energies = []
+    for sign in (1.0, -1.0):
+        natural.set(at + sign * step * rate)
+        energies.append(system.assembly.force(u)[0])
+    return (energies[0] - energies[1]) / (2.0 * step)

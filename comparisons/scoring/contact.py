@@ -13,6 +13,7 @@ from sheetbench.scenes import (
     Cylinder,
     EdgeLoad,
     Gravity,
+    Load,
     Material,
     Plane,
     Pressure,
@@ -64,8 +65,19 @@ def pressed() -> Scene:
 
 
 def _strip(
-    name: str, obstacle: AnyObstacle, young: float = 12.0 / STRIP.thickness**3, **more: object
+    name: str,
+    obstacle: AnyObstacle,
+    young: float = 12.0 / STRIP.thickness**3,
+    gravity: Gravity | None = None,
+    loads: tuple[Load, ...] = (),
 ) -> Scene:
-    values = {"supports": (Clamped(edge="x0"),), "obstacles": (obstacle,), "probes": PROBES} | more
-    material = Material(young=young, poisson=0.0, density=DENSITY)
-    return Scene(name=name, sheet=STRIP, material=material, **values)
+    return Scene(
+        name=name,
+        sheet=STRIP,
+        material=Material(young=young, poisson=0.0, density=DENSITY),
+        gravity=gravity,
+        supports=(Clamped(edge="x0"),),
+        loads=loads,
+        obstacles=(obstacle,),
+        probes=PROBES,
+    )

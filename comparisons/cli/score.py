@@ -25,8 +25,8 @@ def command(
     suite: Annotated[
         str | None,
         option(
-            "The suite answered or listed: statics, motion, modes or curves. Default: by the header and "
-            "cases of ANSWERS; all are listed.",
+            "The suite answered or listed: statics, motion, modes, curves, natural or contact. Default: by "
+            "the header and cases of ANSWERS; all are listed.",
             "NAME",
         ),
     ] = None,

@@ -1,13 +1,13 @@
 """Somebody's answers to a suite, from a CSV file (`comparisons.identification.columns`); SI units.
 
-statics  case,probe,ux,uy,uz[,seconds]; so have curves
+statics  case,probe,ux,uy,uz[,seconds]; so have curves, natural and contact
 motion   case,probe,time,ux,uy,uz[,seconds]: a sample at every time of the reference, for nothing is
          interpolated; those at other times are passed over
 modes    case,mode,frequency[,seconds]: modes count from 1, lowest first
 
-The header tells the suite, and the first case statics from curves. Where one case is requested the column
-`case` may be left out, as in the history that a run writes. A form may be filled in stages: a row whose
-numbers are all empty is open, and so is its case.
+The header tells the suite, and the first case the suites at rest apart. Where one case is requested the
+column `case` may be left out, as in the history that a run writes. A form may be filled in stages: a row
+whose numbers are all empty is open, and so is its case.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.identification.columns import Row, read_columns
+from comparisons.scoring.cases import AT_REST
 from comparisons.scoring.reference import Reference, reference, references
 from sheetbench.errors import BadInput
 
 HEADERS = {
-    "statics": ("case", "probe", "ux", "uy", "uz"),
+    **dict.fromkeys(AT_REST, ("case", "probe", "ux", "uy", "uz")),
     "motion": ("case", "probe", "time", "ux", "uy", "uz"),
     "modes": ("case", "mode", "frequency"),
-    "curves": ("case", "probe", "ux", "uy", "uz"),
 }
 PLACES = ("case", "probe", "time", "mode")  # columns that say where, not what
 SAME_TIME = 1e-6  # of the duration
@@ -78,7 +78,8 @@ def read_answers(
 
 
 def _suite_of(columns: Sequence[str], cases: Sequence[str]) -> str:
-    at_rest = "curves" if cases and cases[0] in references("curves") else "statics"
+    of_first = (suite for suite in AT_REST if cases and cases[0] in references(suite))
+    at_rest = next(of_first, "statics")
     return "motion" if "time" in columns else "modes" if "mode" in columns else at_rest
 
 

@@ -4,6 +4,8 @@ statics  displacement at the probes
 motion   displacement at the probes over time, from rest, weight and loads on at t = 0
 modes    the lowest natural frequencies about the flat, stress-free sheet
 curves   as statics: strips whose answer depends on one number alone (`comparisons.scoring.curves`)
+natural  as statics: sheets that are not flat at rest (`comparisons.scoring.natural`)
+contact  as statics: sheets that touch something (`comparisons.scoring.contact`)
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from dataclasses import dataclass
 from math import pi, sin
 from typing import Any
 
-from comparisons.scoring import curves
+from comparisons.scoring import contact, curves, natural
 from sheetbench.scenes import (
     Chain,
     Clamped,
@@ -33,7 +35,8 @@ from sheetbench.scenes import (
 )
 from sheetbench.scenes.supports import AnySupport, Motion
 
-SUITES = ("statics", "motion", "modes", "curves")
+AT_REST = ("statics", "curves", "natural", "contact")  # displacements without time
+SUITES = ("statics", "motion", "modes", "curves", "natural", "contact")
 FREQUENCIES = 6
 SEED = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
 NITRILE = Material(young=54.5e6, poisson=0.48, density=1678.0)
@@ -57,7 +60,7 @@ class Case:
 
 def cases(suite: str | None = None) -> tuple[Case, ...]:
     """All cases, or those of one suite."""
-    every = (*_statics(), *_motion(), *_modes(), *_curves())
+    every = (*_statics(), *_motion(), *_modes(), *_curves(), *_natural(), *_contact())
     return tuple(case for case in every if suite in (None, case.suite))
 
 
@@ -249,3 +252,13 @@ def _curves() -> Iterator[Case]:
 
 def _curve(scene: Scene, why: str) -> Case:
     return Case(scene.name, "curves", scene, why)
+
+
+def _natural() -> Iterator[Case]:
+    for scene, why in natural.scenes():
+        yield Case(scene.name, "natural", scene, why)
+
+
+def _contact() -> Iterator[Case]:
+    for scene, why in contact.scenes():
+        yield Case(scene.name, "contact", scene, why)

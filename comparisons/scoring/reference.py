@@ -15,7 +15,7 @@ from sheetbench.errors import require_choice
 from sheetbench.scenes import Scene
 
 FILE = Path(__file__).parent / "data" / "suite.json"
-VERSION = "2.1"
+VERSION = "2.2"
 LICENCE = "CC-BY-4.0"
 
 

@@ -98,7 +98,8 @@ def check(
     if status == 2:
         assert said.err.strip() and not answers and not said.out
         assert len(said.err.splitlines()[-1]) <= LONGEST, said.err
-        assert "No such" not in said.err, said.err  # the row means something
+        for what in ("option", "command"):  # the row means something
+            assert f"No such {what}" not in said.err, said.err
     elif "--json" in arguments:
         json.loads(said.out)
     for answer in answers:

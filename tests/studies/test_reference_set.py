@@ -14,7 +14,9 @@ from studies.reference_set.archive import archive
 
 def test_one_command_makes_it(monkeypatch):
     """On coarse meshes and one case of each suite, with the keys and cases of the file."""
-    chosen = [case for case in cases() if case.name in ("thick", "corner-struck", "modes-one-edge")]
+    chosen = [
+        case for case in cases() if case.name in ("thick", "corner-struck", "modes-one-edge", "quarter-turn")
+    ]
     monkeypatch.setattr(regenerate, "cases", lambda: chosen)
     for name, value in (("ELEMENTS", 4), ("SOLID", 2), ("OTHERS", {}), ("MOVING", (2, 1e-4)), ("GRID", 3)):
         monkeypatch.setattr(regenerate, name, value)

@@ -122,6 +122,8 @@ def test_a_model_that_is_merely_bad_has_no_fault(write):
         ("motion", lambda case, u: u[[0, 3, 2, 1]], "probes P2 and P4 look swapped"),
         ("modes", lambda case, f: 2.0 * np.pi * f, "rad/s for Hz"),
         ("curves", lambda case, u: 1e3 * u, "mm for m, in all 13 cases"),
+        ("natural", lambda case, u: 1e3 * u, "mm for m, in all 4 cases"),
+        ("contact", lambda case, u: -u, "opposite sign"),
     ],
 )
 def test_other_suites(write, suite, change, said):

@@ -71,7 +71,8 @@ class _Creep(Generic[State, Forces]):
         self.structure = structure = cast(Creeping[State, Forces], path.structure)
         self.path, self.load_factor = path, load_factor
         self.state = structure.unextrapolated(path.state)
-        self.size = structure.forces(self.state, load_factor).size
+        forces = structure.forces(self.state, load_factor)
+        self.size = forces.size or structure.imbalance(self.state, forces) or 1.0  # of a sheet without loads
         self.first = structure.potential(self.state, load_factor)[0]
         self.energy = np.inf  # nothing to compare with: supports may move in the first step
         self.drag, self.careful, self.length = FIRST_DRAG, 0, 0.0

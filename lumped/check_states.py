@@ -40,7 +40,13 @@ def check_states(
         ("rolled", f"rolled about y by {TURN:g} rad, the layers along", _rolled(assembly.lattice)),
     ]
     if touching:
-        shapes.append(("pressed", "stretched and moved into obstacle 1", pressed(shapes[0][2], assembly.lattice.positions, touching[0])))
+        shapes.append(
+            (
+                "pressed",
+                "stretched and moved into obstacle 1",
+                pressed(shapes[0][2], assembly.lattice.positions, touching[0]),
+            )
+        )
     why: tuple[str, ...] = ()
     if free := free_rigid_motions(scene):
         why = (f"no equilibrium to check by: nothing stops {', '.join(free)}",)

@@ -46,8 +46,8 @@ class LinkTable:
 class CellTable:
     """Springs of one kind of `lumped.springs.cell_laws.ENERGIES`: corners (c, 4, p), the masses whose mean
     each corner is; rest_area (c,) [m²]; natural (c, 3) [m²], A·A, B·B and A·B of the mean sides without
-    stress; stiffness (c, n) [N/m], of rubber its limit [-] too; damping (c, n) [N·s/m]; energy: the formula of
-    it."""
+    stress; stiffness (c, n) [N/m], of rubber its limit [-] too; damping (c, n) [N·s/m]; energy: its
+    formula."""
 
     kind: str
     corners: np.ndarray
@@ -84,8 +84,8 @@ class Couple:
 class Description:
     """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
     (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
-    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles; notes: what of the scene is not in here. Masses of no cell, which
-    an outline or cutouts leave, are left out."""
+    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles; notes: what of the scene is
+    not in here. Masses of no cell, which an outline or cutouts leave, are left out."""
 
     index: np.ndarray
     positions: np.ndarray

@@ -144,7 +144,8 @@ def stiffness(lattice, along, shared, u, force, h):
 def part_of(lattice, along, part, share):
     """The lattice with a part of its natural state and with a share of the stiffness of contact."""
     found = {**lattice, "contact_stiffness": share * lattice["contact_stiffness"]}
-    rest, flat = lattice["positions"], {"link_rest_length": np.linalg.norm(along["link"] @ lattice["positions"], axis=1)}
+    rest = lattice["positions"]
+    flat = {"link_rest_length": np.linalg.norm(along["link"] @ rest, axis=1)}
     for kind in ("area", "strain", "coupling"):
         first, second = (side @ rest for side in along[kind])
         a, b = (first - second) / 2, (first + second) / 2
@@ -183,15 +184,26 @@ def equilibrium(lattice, along, steps=1):
     u, push, h = np.zeros(3 * n), np.zeros(holds), 1e-7 * lattice["link_rest_length"].max()
     soft, *stiffer = shares(lattice)
     for part, share in [*((n / steps, soft) for n in range(1, steps + 1)), *((1, s) for s in stiffer)]:
-        now = part_of(lattice, along, part, share)
-        for _ in range(20):
+        now, damping = part_of(lattice, along, part, share), 0.0
+        moved = np.inf
+        for _ in range(300 if stiffer else 20):
             at = u.reshape(n, 3)
             force = gradient(now, along, at)[1]
             springs = stiffness(now, along, shared, at, force, h)
-            tangent = np.block([[springs, held.T], [held, np.zeros((holds, holds))]])
+            damped = springs + damping * np.eye(3 * n)
+            tangent = np.block([[damped, held.T], [held, np.zeros((holds, holds))]])
             unbalanced = part * lattice["load"].ravel() - force.ravel() - held.T @ push
             missing = part * lattice["hold_displacement"] - held @ u
             step = np.linalg.solve(tangent, np.concatenate([unbalanced, missing]))
+            if stiffer:  # Levenberg's damping, until a step lowers the energy
+                before, after = (
+                    gradient(now, along, v.reshape(n, 3))[0] - part * lattice["load"].ravel() @ v
+                    for v in (u, u + step[: 3 * n])
+                )
+                if not missing.any() and not after <= before + 1e-9 * abs(before):
+                    damping = max(8 * damping, 1e-8 * springs.max())
+                    continue
+                damping = damping / 4 if damping > 1e-9 * springs.max() else 0.0
             u, push = u + step[: 3 * n], push + step[3 * n :]
             moved = np.abs(step[: 3 * n]).max() / max(np.abs(u).max(), 1e-300)
             if not 1e-9 < moved < 1e3:

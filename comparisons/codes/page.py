@@ -104,8 +104,8 @@ Every mass is also dragged by {rate:g} 1/s × its mass × its velocity.
 
 {arrays}
 
-Programs that read this folder and solve it, of rubber the one in NumPy: `sheetbench calibrate SCENE --for
-numpy --out DIR`, likewise `cpp` and `matlab`.
+Programs that read this folder and solve it, of rubber and obstacles the one in NumPy: `sheetbench calibrate
+SCENE --for numpy --out DIR`, likewise `cpp` and `matlab`.
 """
 
 

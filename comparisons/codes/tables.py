@@ -17,7 +17,6 @@ from sheetbench.scenes.patches import composition_at, shares_of
 
 if TYPE_CHECKING:
     from lumped import Description
-    from lumped.contact.table import ContactTable
 
 AXES = "xyz"
 Row = Sequence[Any]
@@ -35,10 +34,10 @@ def tables(lattice: Description) -> dict[str, str]:
     beside = {}
     if len(lattice.contact.kind):
         beside = {
-            "obstacles.csv": _csv("kind,x,y,z,ax,ay,az,radius,stiffness", _obstacles(lattice.contact)),
+            "obstacles.csv": _csv("kind,x,y,z,ax,ay,az,radius,stiffness", _obstacles(lattice)),
             "contacts.csv": _csv(
                 f"obstacle,{corners},{corners.replace('corner', 'weight')},area,offset,stiffness",
-                _contacts(lattice.contact),
+                _contacts(lattice),
             ),
         }
     loaded = np.flatnonzero(lattice.dead.any(axis=1))
@@ -112,16 +111,18 @@ def natural(lattice: Description) -> str:
     return _csv("cell,aa,bb,ab", rows)
 
 
-def _obstacles(contact: ContactTable) -> Iterator[Row]:
+def _obstacles(lattice: Description) -> Iterator[Row]:
     """Yield kind, place, direction, radius and the largest stiffness of its points of every obstacle."""
+    contact = lattice.contact
     for number, kind in enumerate(contact.kind.tolist()):
         stiffness = contact.stiffness[contact.obstacle == number].max()
         place = [*contact.position[number].tolist(), *contact.direction[number].tolist()]
         yield [("plane", "sphere", "cylinder")[kind], *place, float(contact.radius[number]), float(stiffness)]
 
 
-def _contacts(contact: ContactTable) -> Iterator[Row]:
+def _contacts(lattice: Description) -> Iterator[Row]:
     """Return obstacle, corners, weights, area, offset and stiffness of every point that may touch."""
+    contact = lattice.contact
     corners = np.array([[*map(_joined, masses)] for masses in contact.corners.tolist()])
     numbers = (contact.weights, contact.area, contact.offset, contact.stiffness)
     return _rows(contact.obstacle, corners, *numbers)

@@ -158,10 +158,12 @@ def part_of(lattice, along, part, share):
 
 
 def shares(lattice):
-    """Shares of the stiffness of contact, from one with which the load leaves it 1/50 of the sheet deep."""
+    """Shares of the stiffness of contact, from one with which the load leaves points 1/50 of the sheet deep,
+    or of a fifth of the least radius."""
     if not len(lattice["contact_area"]):
         return [1.0]
-    depth = 0.02 * np.ptp(lattice["positions"], axis=0).max()
+    radii = lattice["obstacle_radius"][lattice["obstacle_kind"] > 0]
+    depth = 0.02 * min([np.ptp(lattice["positions"], axis=0).max(), *(0.2 * radii)])
     soft = np.abs(lattice["load"]).sum() / lattice["contact_area"].sum() / depth
     soft = np.clip(soft / lattice["contact_stiffness"].max(), 1e-6, 1)
     return np.geomspace(soft, 1, 1 + int(np.ceil(np.log10(1 / soft))))

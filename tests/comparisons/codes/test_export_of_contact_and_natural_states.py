@@ -39,7 +39,7 @@ def table(path):
         ("bimetal-strip", (7, 3), True),
         ("muscle-bands", (7, 3), True),
         ("strip-on-table", (9, 3), True),
-        ("finger-on-cylinder", (7, 3), False),
+        ("finger-on-cylinder", (7, 3), True),
         ("napkin-on-ball", (4, 4), False),
     ],
 )

@@ -13,21 +13,21 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
-from lumped.lattice import Lattice
+from lumped.check_states import CheckState, check_states
+from lumped.contact import contacts
+from lumped.contact.table import ContactTable, contact_table
 from lumped.loads import Loads
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
 from lumped.springs.cell_laws import AREA_AND_STRAINS, ENERGIES
 from lumped.springs.families import Links, SpringCells
 from lumped.statics.problem import Problem
-from lumped.statics.solver import build_problem, solve
+from lumped.statics.solver import build_problem
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, Status, free_rigid_motions, require_no_branches
-from sheetbench.scenes.obstacles import require_no_obstacles
-from sheetbench.scenes.patches import require_flat_at_rest
+from sheetbench.scenes import Scene, require_no_branches
+from sheetbench.scenes.natural_state import sources_of
+from sheetbench.scenes.obstacles import obstacles_by_name
 from sheetbench.scenes.supports import named
-
-STRETCH, WARP, TURN = 0.02, 0.05, 2.0  # of the imposed states: strain, height over length, rad in all
 
 
 @dataclass(frozen=True)
@@ -45,12 +45,14 @@ class LinkTable:
 @dataclass(frozen=True)
 class CellTable:
     """Springs of one kind of `lumped.springs.cell_laws.ENERGIES`: corners (c, 4, p), the masses whose mean
-    each corner is; rest_area (c,) [m²]; stiffness (c, n) [N/m], of rubber its limit [-] too; damping (c, n)
-    [N·s/m]; energy: the formula of it."""
+    each corner is; rest_area (c,) [m²]; natural (c, 3) [m²], A·A, B·B and A·B of the mean sides without
+    stress; stiffness (c, n) [N/m], of rubber its limit [-] too; damping (c, n) [N·s/m]; energy: its
+    formula."""
 
     kind: str
     corners: np.ndarray
     rest_area: np.ndarray
+    natural: np.ndarray
     stiffness: np.ndarray
     damping: np.ndarray
     energy: str
@@ -79,22 +81,11 @@ class Couple:
 
 
 @dataclass(frozen=True)
-class CheckState:
-    """A state to check by: displacement (n, 3) [m], gradient of the elastic energy (n, 3) [N], energy [J]."""
-
-    name: str
-    meaning: str
-    displacement: np.ndarray
-    force: np.ndarray
-    energy: float
-
-
-@dataclass(frozen=True)
 class Description:
     """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
     (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
-    `pressed` (c, 4, p) of the mid-surface; notes: what of the scene is not in here. Masses of no cell, which
-    an outline or cutouts leave, are left out."""
+    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles; notes: what of the scene is
+    not in here. Masses of no cell, which an outline or cutouts leave, are left out."""
 
     index: np.ndarray
     positions: np.ndarray
@@ -107,6 +98,7 @@ class Description:
     pressure: np.ndarray
     pressed: np.ndarray
     couples: tuple[Couple, ...]
+    contact: ContactTable
     states: tuple[CheckState, ...]
     notes: tuple[str, ...] = ()
 
@@ -120,14 +112,13 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     if scene.actuators:
         raise BadInput("export: actuators are not springs between masses; export a scene without them")
     require_no_branches(scene.material, "an exported lattice")
-    require_flat_at_rest(scene, "an exported lattice")
     if any(payload.inertia is not None for payload in scene.masses):
         raise BadInput("mass.inertia: an exported lattice has masses alone, which neighbours do not share")
     if scene.air is not None:
         raise BadInput("air: an exported lattice has no drag; leave [air] out")
-    require_no_obstacles(scene, "an exported lattice")
     problem = build_problem(scene, calibration)
     assembly, lattice = problem.assembly, problem.assembly.lattice
+    assembly.grow()
     if not assembly.conservative:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
     nx, ny, layers = lattice.grid
@@ -135,7 +126,8 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     moments, pressures = problem.loads.at_time(None)
     pressed = pressures != 0.0
     couples = tuple(c for edge, moment, turn in moments for c in _couples(edge, turn * moment))
-    states, why = _states(scene, calibration, assembly)
+    touching = contacts(scene, assembly)
+    states, why = check_states(scene, calibration, assembly, touching)
     found = Description(
         index=np.stack([i, j, k], axis=1),
         positions=lattice.positions,
@@ -148,6 +140,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         pressure=pressures[pressed],
         pressed=lattice.mid_cells[pressed],
         couples=couples,
+        contact=contact_table(touching, layers),
         states=states,
         notes=(*_left_out(scene), *why),
     )
@@ -170,6 +163,7 @@ def _without(found: Description, absent: np.ndarray) -> Description:
         cells=tuple(replace(table, corners=new[table.corners]) for table in found.cells),
         holds=tuple(replace(h, masses=several(h.masses)) for h in found.holds if there[h.masses[0]]),
         pressed=new[found.pressed],
+        contact=replace(found.contact, corners=new[found.contact.corners]),
         couples=tuple(
             replace(
                 c,
@@ -205,7 +199,7 @@ def _links(scene: Scene, assembly: Assembly) -> LinkTable:
 
 def _table(links: Links, stiffness: np.ndarray, damping: np.ndarray) -> LinkTable:
     names = np.array(links.names)[links.kind]
-    return LinkTable(links.nodes, names, links.rest_length, stiffness, damping)
+    return LinkTable(links.nodes, names, links.rest_length.copy(), stiffness, damping)
 
 
 def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
@@ -214,13 +208,31 @@ def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
     families = [family for family in assembly.springs if isinstance(family, SpringCells)]
     for kind, energy in ENERGIES.items():
         for family in families:
-            stiffness = family.law.parts(family.stiffness, family.others, family.area).get(kind)
-            damping = AREA_AND_STRAINS.parts(time * family.stiffness, None, family.area).get(kind)
+            own, natural, area = _without_stress(family)
+            stiffness = family.law.parts(own, family.others, area).get(kind)
+            damping = AREA_AND_STRAINS.parts(time * own, None, area).get(kind)
             pair = [np.zeros_like(damping) if stiffness is None else stiffness]
             pair.append(np.zeros_like(pair[0]) if damping is None else damping)
             if (on := np.any(pair[0], axis=-1) | np.any(pair[1], axis=-1)).any():
                 springs, dampers = (each[on] for each in pair)
-                yield CellTable(kind, family.nodes[on], family.area[on], springs, dampers, energy)
+                yield CellTable(kind, family.nodes[on], area[on], natural[on], springs, dampers, energy)
+
+
+def _without_stress(cells: SpringCells) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return stiffness (c, 4 or 7) [N/m] and A·A, B·B, A·B (c, 3) [m²] and area (c,) [m²] without stress.
+
+    The springs of a sheet with a natural state keep constants q of the sides grown by the strain alone; its
+    stiffness here is that of the same q with these sides and area, `lumped.springs.laws.of_stiffness` solved
+    for it.
+    """
+    a, b = cells.sides.swapaxes(0, 1)
+    flat = np.stack([(x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))], axis=1)
+    if cells.natural is None:
+        return cells.stiffness, flat, cells.area
+    natural, area = flat + cells.natural[:, 7:10], cells.natural[:, 10].copy()
+    one, other, turn = 2.0 * natural[:, 0], 2.0 * natural[:, 1], area
+    units = area**2, one**2, other**2, turn**2, one * other, one * turn, other * turn
+    return cells.natural[:, :7] * np.stack(units, axis=1) / area[:, None], natural, area
 
 
 def _holds(problem: Problem) -> tuple[Hold, ...]:
@@ -257,48 +269,6 @@ def _constant(loads: Loads) -> np.ndarray:
     return loads.force(rest) - loads.followers(rest)
 
 
-def _states(
-    scene: Scene, calibration: Calibration, assembly: Assembly
-) -> tuple[tuple[CheckState, ...], tuple[str, ...]]:
-    """Two imposed states and the equilibrium, and why there is none."""
-    shapes = [
-        ("stretched", f"stretched and warped by {STRETCH:g} and {WARP:g}", _stretched(assembly.lattice)),
-        ("rolled", f"rolled about y by {TURN:g} rad, the layers along", _rolled(assembly.lattice)),
-    ]
-    why: tuple[str, ...] = ()
-    if free := free_rigid_motions(scene):
-        why = (f"no equilibrium to check by: nothing stops {', '.join(free)}",)
-    else:
-        solution = solve(scene, calibration)
-        if solution.status is Status.CONVERGED:
-            found = solution.mesh.point_data["displacement"]
-            shapes.append(("equilibrium", "under supports and loads", found))
-        else:
-            why = (f"no equilibrium to check by: {solution.status}: {solution.message}",)
-    states = []
-    for name, meaning, displacement in shapes:
-        energy, force = assembly.force(displacement)
-        states.append(CheckState(name, meaning, displacement, force, energy))
-    return tuple(states), why
-
-
-def _stretched(lattice: Lattice) -> np.ndarray:
-    x, y, z = lattice.positions.T
-    lx, ly = (lines.at[-1] for lines in lattice.lines)
-    a, b = x / lx, y / ly
-    along = STRETCH * np.stack([lx * (a + 0.5 * a * b), ly * (0.3 * a**2 - 0.4 * b)])
-    lift = WARP * min(lx, ly) * (a * b + a**2) + STRETCH * z * (1.0 - a)
-    return np.stack([*along, lift], axis=1)
-
-
-def _rolled(lattice: Lattice) -> np.ndarray:
-    x, y, z = lattice.positions.T
-    radius = lattice.lines[0].at[-1] / TURN
-    turn = x / radius
-    rolled = np.stack([(radius - z) * np.sin(turn), y, radius - (radius - z) * np.cos(turn)], axis=1)
-    return rolled - lattice.positions
-
-
 def _left_out(scene: Scene) -> tuple[str, ...]:
     """What of the scene these arrays do not say."""
     moving = [
@@ -306,8 +276,11 @@ def _left_out(scene: Scene) -> tuple[str, ...]:
         for name, support in named(scene.supports).items()
         if support.motion is not None
     ]
+    moving += [name for name, each in obstacles_by_name(scene).items() if each.motion is not None]
     courses = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
     changes = [f"{name} moves over time; here it is where it ends" for name in moving]
     if any(load.history is not None for load in courses):
         changes.append("loads change over time in this scene; here they have their last values")
+    if any(source.of.history is not None for source in sources_of(scene)):
+        changes.append("the natural state changes over time; here it has its last value")
     return tuple(changes)

@@ -30,10 +30,12 @@ NAMES = {  # and what they are
     "area_damping": "(a,) [N s/m]",
     "strain_corners": "(s, 4, p) as area_corners",
     "strain_rest": "(s,) rest area [m2]",
+    "strain_natural": "(s, 3) A.A, B.B, A.B of mean sides without stress [m2]",
     "strain_stiffness": "(s, 3) of e1, e2, g [N/m]",
     "strain_damping": "(s, 3) [N s/m]",
     "coupling_corners": "(f, 4, p) as area_corners",
     "coupling_rest": "(f,) rest area [m2]",
+    "coupling_natural": "(f, 3) A.A, B.B, A.B of mean sides without stress [m2]",
     "coupling_stiffness": "(f, 3) of e1 e2, e1 g, e2 g [N/m]",
     "coupling_damping": "(f, 3) [N s/m]",
     "rubber_corners": "(r, 4, p) as area_corners",
@@ -52,11 +54,23 @@ NAMES = {  # and what they are
     "couple_before": "(e, p) masses of the column before it",
     "couple_after": "(e, p) of the one after it",
     "couple_moment": "(e,) [N m]",
+    "obstacle_kind": "(o,) 0 plane, 1 sphere, 2 cylinder",
+    "obstacle_position": "(o, 3) of a plane's point, a centre, a point of an axis, where it is at last [m]",
+    "obstacle_direction": "(o, 3) unit normal or axis, 0 of a sphere",
+    "obstacle_radius": "(o,) [m], 0 of a plane",
+    "contact_obstacle": "(t,) obstacle that a point may touch, from 0",
+    "contact_corners": "(t, 4, p) masses whose mean is a corner",
+    "contact_weights": "(t, 4) of the corners",
+    "contact_area": "(t,) [m2]",
+    "contact_offset": "(t,) distance at which it touches [m]",
+    "contact_stiffness": "(t,) k of the pressure k d [N/m3]",
     "state_name": "(q,) names",
     "state_displacement": "(q, n, 3) [m]",
-    "state_force": "(q, n, 3) gradient of the elastic energy [N]",
-    "state_energy": "(q,) elastic energy [J]",
+    "state_force": "(q, n, 3) gradient of the energy of springs and contact [N]",
+    "state_energy": "(q,) energy of springs and contact [J]",
 }
+OBSTACLE = ("kind", "position", "direction", "radius")
+POINT = ("obstacle", "corners", "weights", "area", "offset", "stiffness")
 
 
 def arrays(lattice: Description) -> dict[str, np.ndarray]:
@@ -78,6 +92,8 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
         "couple_before": _repeated([couple.before for couple in lattice.couples], layers),
         "couple_after": _repeated([couple.after for couple in lattice.couples], layers),
         "couple_moment": np.array([couple.moment for couple in lattice.couples]),
+        **{f"obstacle_{name}": getattr(lattice.contact, name) for name in OBSTACLE},
+        **{f"contact_{name}": getattr(lattice.contact, name) for name in POINT},
         "state_name": np.array([state.name for state in lattice.states]),
         **{
             f"state_{name}": np.array([getattr(state, name) for state in lattice.states])
@@ -89,6 +105,7 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
         corners = [np.repeat(t.corners, layers // t.corners.shape[2], axis=2) for t in cells]
         found[f"{kind}_corners"] = np.concatenate([np.empty((0, 4, layers), dtype=int), *corners])
         found[f"{kind}_rest"] = np.concatenate([np.empty(0), *(table.rest_area for table in cells)])
+        found[f"{kind}_natural"] = np.concatenate([np.empty((0, 3)), *(table.natural for table in cells)])
         for name in ("stiffness", "damping"):
             values = np.concatenate([np.empty((0, components)), *(getattr(table, name) for table in cells)])
             found[f"{kind}_{name}"] = values[:, 0] if components == 1 else values

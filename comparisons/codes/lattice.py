@@ -15,12 +15,14 @@ from comparisons.codes.arrays import arrays
 from comparisons.codes.mujoco import to_mjcf
 from comparisons.codes.page import page
 from comparisons.codes.sofa import to_sofa
-from comparisons.codes.tables import plan, tables
+from comparisons.codes.tables import natural, plan, tables
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.runs.folder import Folder
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.scenes import Scene
+from sheetbench.scenes.obstacles import require_no_obstacles
+from sheetbench.scenes.patches import require_flat_at_rest
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -40,6 +42,11 @@ def lattice_files(
     """
     import lumped
 
+    if code in MODELS:
+        require_flat_at_rest(scene, f"--for {code}")
+        require_no_obstacles(scene, f"--for {code}")
+    if code in ("cpp", "matlab"):
+        require_no_obstacles(scene, f"the reader of --for {code}")
     lattice = lumped.describe(scene, calibration)
     own = {}
     if code in MODELS:
@@ -49,6 +56,8 @@ def lattice_files(
         name = READERS[code]
         own[name] = (resources("comparisons.codes") / "scripts" / name).read_text(encoding="utf-8")
     differing = {} if scene.uniform and not scene.pierced else {"plan.csv": plan(lattice, scene)}
+    if scene.natural_by:
+        differing["natural.csv"] = natural(lattice)
     texts = {**tables(lattice), **differing, "README.md": page(lattice, scene, calibration, own), **own}
     values = arrays(lattice)
     found: dict[str, Write] = {name: partial(write_text, text=text) for name, text in texts.items()}

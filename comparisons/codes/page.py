@@ -20,6 +20,25 @@ PLAN = (
 )
 OWN = ("material", "layer", "patch", "cutout")  # lines of a scene in words
 MISSING = "Masses beyond the outline and in cutouts are left out; `i`, `j`, `k` number lines and layers.\n"
+NATURAL = """
+The sheet is not flat and free of stress at rest; all that is without stress is in the files. Of links that
+is L; of cells a0, and `natural.csv`: of rows of `cells.csv`, counted from 0, aa, bb and ab in place of |A0|²,
+|B0|² and A0·B0, so that e1 = (|A|² − aa)/(2 aa), e2 = (|B|² − bb)/(2 bb), g = (A·B − ab)/a0, and in P and Q
+aa and bb in place of |A0|² and |B0|². Stiffness and damping are of these sides. The masses of `nodes.csv` are
+on the flat sheet, where these springs pull.
+"""
+CONTACT = """
+## Obstacles
+
+- `obstacles.csv`: rigid bodies where they are at last, in `a` a plane's unit normal, towards the sheet, or a
+  cylinder's axis; `stiffness` k in N/m³, the largest of its points.
+- `contacts.csv`: points of the mid-surface that may touch an obstacle, numbered from 0: on a plane the mean
+  of every column of masses with its area, on others points in cells. A point is at X = Σ weight × corner, a
+  corner being the mean of its masses. With y = X − position, φ = y·n on a plane, n its normal; |y| − radius
+  and n = y/|y| on a sphere; the same on a cylinder with y less its part along the axis. Depth d = offset −
+  φ; where d > 0, E = ½ k d² area, and the gradient by X is −k d area n, weight times that on each corner. The
+  offset is half the thickness and 1e-9 of it. The energy of `states.csv` is that of springs and contact.
+"""
 PAGE = """\
 # {title}
 
@@ -60,7 +79,7 @@ supports and loads balance at rest.
   γ (B/(|A| |B0|) − γ A/|A|²), Q = a0 k1 γ A/(|A| |B0|).
 - What acts on a corner is shared equally by the masses it is the mean of. A stiffness may be negative: the
   energy of all springs together is positive all the same.
-
+{natural}
 ## Motion
 
 `nodes.csv` has the masses. Dampers resist the rates of what the springs resist: force c d|r|/dt along a
@@ -78,15 +97,15 @@ Every mass is also dragged by {rate:g} 1/s × its mass × its velocity.
   columns a top mass, a bottom mass, and the columns before and after them: with D from bottom to top and t
   the unit vector from the mean of the one before to that of the one after, F = M (t × D)/|D|² on the top
   and −F on the bottom mass.
-{plan}{notes}
+{plan}{notes}{contact}
 ## The same as arrays
 
 `lattice.npz` (NumPy) and `lattice.mat` (MATLAB, Octave: add 1 to numbers of masses), p = {layers}:
 
 {arrays}
 
-Programs that read this folder and solve it, of rubber the one in NumPy: `sheetbench calibrate SCENE --for
-numpy --out DIR`, likewise `cpp` and `matlab`.
+Programs that read this folder and solve it, of rubber and obstacles the one in NumPy: `sheetbench calibrate
+SCENE --for numpy --out DIR`, likewise `cpp` and `matlab`.
 """
 
 
@@ -109,6 +128,8 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
         rate=lattice.damping_rate,
         layers=layers,
         plan="" if scene.uniform and not scene.pierced else PLAN,
+        natural=NATURAL if scene.natural_by else "",
+        contact=CONTACT if scene.obstacles else "",
         notes=notes + "".join(f"\nFor one code: `{name}`.\n" for name in others),
         arrays="\n".join(f"- `{name}` {markdown(note)}" for name, note in NAMES.items()),
     )

@@ -31,6 +31,15 @@ def tables(lattice: Description) -> dict[str, str]:
         "kind", corners, "rest_area", *(f"stiffness_{n}" for n in range(1, width + 1)),
         *(f"damping_{n}" for n in range(1, 4)),
     ]  # fmt: skip
+    beside = {}
+    if len(lattice.contact.kind):
+        beside = {
+            "obstacles.csv": _csv("kind,x,y,z,ax,ay,az,radius,stiffness", _obstacles(lattice)),
+            "contacts.csv": _csv(
+                f"obstacle,{corners},{corners.replace('corner', 'weight')},area,offset,stiffness",
+                _contacts(lattice),
+            ),
+        }
     loaded = np.flatnonzero(lattice.dead.any(axis=1))
     return {
         "nodes.csv": _csv(
@@ -56,6 +65,7 @@ def tables(lattice: Description) -> dict[str, str]:
             ),
         ),
         "states.csv": _csv("state,energy,meaning", ([s.name, s.energy, s.meaning] for s in lattice.states)),
+        **beside,
     }
 
 
@@ -87,6 +97,35 @@ def _cells(lattice: Description, width: int) -> Iterator[Row]:
         stiffness, damping = _wide(table.stiffness, width), _wide(table.damping[:, :3], 3)
         kind, energy = ([text] * len(corners) for text in (table.kind, table.energy))
         yield from _rows(kind, corners, table.rest_area, stiffness, damping, energy)
+
+
+def natural(lattice: Description) -> str:
+    """Return the table of A·A, B·B and A·B without stress [m²] of rows of cells.csv, from 0, with sides."""
+    places = np.cumsum([0, *(len(table.corners) for table in lattice.cells)])
+    rows = (
+        row
+        for first, table in zip(places, lattice.cells, strict=False)
+        if table.kind in ("strain", "coupling")
+        for row in _rows(first + np.arange(len(table.corners)), table.natural)
+    )
+    return _csv("cell,aa,bb,ab", rows)
+
+
+def _obstacles(lattice: Description) -> Iterator[Row]:
+    """Yield kind, place, direction, radius and the largest stiffness of its points of every obstacle."""
+    contact = lattice.contact
+    for number, kind in enumerate(contact.kind.tolist()):
+        stiffness = contact.stiffness[contact.obstacle == number].max()
+        place = [*contact.position[number].tolist(), *contact.direction[number].tolist()]
+        yield [("plane", "sphere", "cylinder")[kind], *place, float(contact.radius[number]), float(stiffness)]
+
+
+def _contacts(lattice: Description) -> Iterator[Row]:
+    """Return obstacle, corners, weights, area, offset and stiffness of every point that may touch."""
+    contact = lattice.contact
+    corners = np.array([[*map(_joined, masses)] for masses in contact.corners.tolist()])
+    numbers = (contact.weights, contact.area, contact.offset, contact.stiffness)
+    return _rows(contact.obstacle, corners, *numbers)
 
 
 def _wide(values: np.ndarray, width: int) -> np.ndarray:

@@ -11,7 +11,7 @@ using Field = std::valarray<double>;              // x, y, z of every mass
 using Sum = std::vector<std::pair<int, double>>;  // some masses and their weights
 struct V { double x = 0, y = 0, z = 0; };
 struct Hold { Sum mean; int axis; double place; };
-struct Spring { std::string kind; Sum a, b, q; double rest; std::array<double, 8> k; double largest; };
+struct Spring { std::string kind; Sum a, b, q; double rest; std::array<double, 8> k; double largest; V free; };
 Sum operator+(Sum a, Sum b) { a.insert(a.end(), b.begin(), b.end()); return a; }
 V operator+(V a, V b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 V operator*(double s, V a) { return {s * a.x, s * a.y, s * a.z}; }
@@ -42,10 +42,10 @@ Field gradient(const std::vector<Spring>& springs, const Field& start, const Fie
   Field g(u.size()), now = start + u;
   for (auto& s : springs) {
     auto [k1, k2, k3, k4, k5, k6, k7, k8] = s.k;
-    V a = of(now, s.a), b = of(now, s.b), q = of(now, s.q), a0 = of(start, s.a), b0 = of(start, s.b), c = cross(a, b);
+    V a = of(now, s.a), b = of(now, s.b), q = of(now, s.q), c = cross(a, b);
     V by_a, by_b, by_q;
-    double aa = dot(a0, a0), bb = dot(b0, b0), cc = dot(c, c);
-    double e1 = (dot(a, a) / aa - 1) / 2, e2 = (dot(b, b) / bb - 1) / 2, e3 = dot(a, b) / s.rest;
+    double aa = s.free.x, bb = s.free.y, cc = dot(c, c);
+    double e1 = (dot(a, a) / aa - 1) / 2, e2 = (dot(b, b) / bb - 1) / 2, e3 = (dot(a, b) - s.free.z) / s.rest;
     double sides = sqrt(dot(a, a) * bb), sheared = s.rest * k1 * dot(a, b) / (sides * sides);  // of a face
     if (s.kind == "link") by_a = k1 * (1 - s.rest / sqrt(dot(a, a))) * a;
     if (s.kind == "area") c = k1 / 2 * (0.5 / s.rest - 1 / sqrt(cc)) * c, by_a = cross(b, c), by_b = cross(c, a);
@@ -63,6 +63,7 @@ Field gradient(const std::vector<Spring>& springs, const Field& start, const Fie
 }
 std::stringstream open(std::string path, std::string all = "", std::string part = "") {
   for (std::ifstream file(path); std::getline(file, part, ',');) all += part + " ";
+  if (all.empty()) return std::stringstream();  // no such file
   return std::stringstream(all.substr(all.find('\n')));  // without the names of the columns
 }
 Sum mean(std::string masses, double weight = 1, Sum sum = {}) {  // of "4+5" half of each
@@ -76,13 +77,15 @@ int main(int count, char** words) {
   double x, y, z, rest, k1, k2, k3, moved = 1;
   std::vector<double> places; std::vector<Spring> springs; std::vector<Hold> holds;
   if (open(at + "followers.csv") >> kind) return std::cerr << "knows dead loads only\n", 2;
+  if (open(at + "contacts.csv") >> kind) return std::cerr << "knows no obstacles\n", 2;
   for (auto in = open(at + "nodes.csv"); in >> kind >> c[0] >> c[1] >> c[2] >> x >> y >> z >> kind;)
     places.insert(places.end(), {x, y, z});
   Field start(places.data(), places.size()), u(start.size()), v = u, load = u, truth = u, before = u, mass = u;
   for (auto in = open(at + "links.csv"); in >> c[0] >> c[1] >> kind >> rest >> k1 >> x;)
-    springs.push_back({"link", mean(c[1]) + mean(c[0], -1), {}, {}, rest, {k1}, k1});
+    springs.push_back({"link", mean(c[1]) + mean(c[0], -1), {}, {}, rest, {k1}, k1, {}});
+  size_t n, links = springs.size();
   for (auto in = open(at + "cells.csv"); in >> kind >> c[0] >> c[1] >> c[2] >> c[3] >> rest;) {
-    Spring s{kind, mean(c[2]) + mean(c[0], -1), mean(c[3]) + mean(c[1], -1), {}, rest, {}, 0};  // area: diagonals
+    Spring s{kind, mean(c[2]) + mean(c[0], -1), mean(c[3]) + mean(c[1], -1), {}, rest, {}, 0, {}};  // area: diagonals
     if (kind != "area") s.a = mean(c[1] + "+" + c[2]) + mean(c[0] + "+" + c[3], -1);  // others: mean sides
     if (kind != "area") s.b = mean(c[2] + "+" + c[3]) + mean(c[0] + "+" + c[1], -1);
     if (kind == "rubber") s.q = mean(c[0]) + mean(c[1], -1) + mean(c[2]) + mean(c[3], -1);
@@ -92,9 +95,11 @@ int main(int count, char** words) {
     for (double k : {s.k[0], s.k[1], s.k[2]}) s.largest = std::max(s.largest, fabs(k));
     if (s.kind == "rubber") s.largest = 16 * (s.k[0] + s.k[1]) + s.k[6] + s.k[7];
     V a = of(start, s.a), b = of(start, s.b);
+    s.free = {dot(a, a), dot(b, b), 0};
     if (s.kind == "face") s.largest *= rest * std::max(1 / dot(a, a), 1 / dot(b, b));
     springs.push_back(s);
   }
+  for (auto in = open(at + "natural.csv"); in >> n >> x >> y >> z;) springs[links + n].free = {x, y, z};
   for (auto& s : springs)  // masses with which steps of 1 are stable: what is at rest does not know them
     for (auto [n, w] : s.a + s.b + s.q) add(std::abs(w) * s.largest * V{1, 1, 1}, n, mass);
   for (auto in = open(at + "supports.csv"); in >> kind >> c[0] >> c[1] >> x;) holds.push_back({mean(c[0]), c[1][0] - 'x', x});

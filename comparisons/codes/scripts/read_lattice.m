@@ -6,6 +6,7 @@ function read_lattice(folder, steps)
   if nargin < 2, steps = 1; end
   lattice = load([folder '/lattice.mat']);
   if ~isempty(lattice.pressure) || ~isempty(lattice.couple_moment), error('dead loads only'); end
+  if ~isempty(lattice.obstacle_kind), error('this reader knows no obstacles'); end
   along = differences(lattice);
   largest = 0;
   for state = 1:numel(lattice.state_energy)
@@ -51,8 +52,9 @@ function g = gradient_of(lattice, along, u)
     k = lattice.([kind{1} '_stiffness']);
     if isempty(k), continue; end
     [over_a, over_b, a0] = deal(along.(kind{1}){3:4}, lattice.([kind{1} '_rest']));
-    [a, b, aa, bb] = deal(over_a * x, over_b * x, sum((over_a * rest) .^ 2, 2), sum((over_b * rest) .^ 2, 2));
-    e = [(sum(a .^ 2, 2) ./ aa - 1) / 2, (sum(b .^ 2, 2) ./ bb - 1) / 2, sum(a .* b, 2) ./ a0];
+    free = lattice.([kind{1} '_natural']);  % what sides have without stress
+    [a, b, aa, bb] = deal(over_a * x, over_b * x, free(:, 1), free(:, 2));
+    e = [(sum(a .^ 2, 2) ./ aa - 1) / 2, (sum(b .^ 2, 2) ./ bb - 1) / 2, (sum(a .* b, 2) - free(:, 3)) ./ a0];
     t = k .* e;
     if strcmp(kind{1}, 'coupling'), t = k(:, [1 1 2]) .* e(:, [2 1 1]) + k(:, [2 3 3]) .* e(:, [3 3 2]); end
     g = g + over_a' * (t(:, 1) .* a0 ./ aa .* a + t(:, 3) .* b);

@@ -18,6 +18,8 @@ def differences(lattice):
         corner = of[lattice[f"{kind}_corners"]].mean(axis=2)  # of one mass or several
         found[kind] = corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]
         found[f"{kind}_warp"] = corner[:, 0] - corner[:, 1] + corner[:, 2] - corner[:, 3]
+    corner = of[lattice["contact_corners"]].mean(axis=2)
+    found["contact"] = np.einsum("pc,pcn->pn", lattice["contact_weights"], corner)
     return found
 
 
@@ -26,8 +28,8 @@ def dot(a, b):
 
 
 def gradient(lattice, along, u):
-    """Energy [J] of all springs and its gradient (n, 3) [N] at displacements u (n, 3) [m]."""
-    rest, x = lattice["positions"], lattice["positions"] + u
+    """Energy [J] of springs and contact and its gradient (n, 3) [N] at displacements u (n, 3) [m]."""
+    x = lattice["positions"] + u
     k, r = lattice["link_stiffness"][:, None], along["link"] @ x
     stretch = np.sqrt(dot(r, r)) - lattice["link_rest_length"][:, None]
     energy = 0.5 * np.sum(k * stretch**2)
@@ -41,15 +43,30 @@ def gradient(lattice, along, u):
     for kind in ("strain", "coupling"):
         k, a0, (first, second) = lattice[f"{kind}_stiffness"], lattice[f"{kind}_rest"][:, None], along[kind]
         over_a, over_b = (first - second) / 2, (first + second) / 2
-        a, b, aa, bb = over_a @ x, over_b @ x, *(dot(side @ rest, side @ rest) for side in (over_a, over_b))
-        e = np.hstack([(dot(a, a) / aa - 1) / 2, (dot(b, b) / bb - 1) / 2, dot(a, b) / a0])
+        a, b, (aa, bb, ab) = over_a @ x, over_b @ x, np.hsplit(lattice[f"{kind}_natural"], 3)
+        e = np.hstack([(dot(a, a) / aa - 1) / 2, (dot(b, b) / bb - 1) / 2, (dot(a, b) - ab) / a0])
         t = k * e
         if kind == "coupling":
             t = k[:, [0, 0, 1]] * e[:, [1, 0, 0]] + k[:, [1, 2, 2]] * e[:, [2, 2, 1]]
         energy += 0.5 * np.sum(t * e * a0)
         t1, t2, t3 = np.hsplit(t, 3)
         g += over_a.T @ (t1 * a0 / aa * a + t3 * b) + over_b.T @ (t2 * a0 / bb * b + t3 * a)
-    return energy + rubber(lattice, along, x, g) + faces(lattice, along, x, g), g
+    energy += rubber(lattice, along, x, g) + faces(lattice, along, x, g) + contact(lattice, along, x, g)
+    return energy, g
+
+
+def contact(lattice, along, x, g):
+    """Energy [J] of points that touch obstacles; its gradient is added to g."""
+    which = lattice["contact_obstacle"]
+    normal, curved = lattice["obstacle_direction"][which], lattice["obstacle_kind"][which, None] > 0
+    y = along["contact"] @ x - lattice["obstacle_position"][which]
+    y = y - curved * dot(y, normal) * normal
+    length = np.where(curved, np.sqrt(dot(y, y)), dot(y, normal))
+    normal = np.where(curved, y / length, normal)
+    depth = np.maximum(lattice["contact_offset"] - length[:, 0] + lattice["obstacle_radius"][which], 0)
+    pull = lattice["contact_stiffness"] * lattice["contact_area"] * depth
+    g -= along["contact"].T @ (pull[:, None] * normal)
+    return 0.5 * np.sum(pull * depth)
 
 
 def rubber(lattice, along, x, g):
@@ -96,7 +113,7 @@ def faces(lattice, along, x, g):
 def neighbours(along):
     """Which masses (n, n) share a spring, and groups of masses of which no two have one in common."""
     pairs = [
-        abs(each) if kind == "link" else sum(map(abs, each))
+        abs(each) if kind in ("link", "contact") else sum(map(abs, each))
         for kind, each in along.items()
         if not kind.endswith("_warp")
     ]
@@ -124,10 +141,38 @@ def stiffness(lattice, along, shared, u, force, h):
     return found.reshape(3 * n, 3 * n)
 
 
+def part_of(lattice, along, part, share):
+    """The lattice with a part of its natural state and with a share of the stiffness of contact."""
+    found = {**lattice, "contact_stiffness": share * lattice["contact_stiffness"]}
+    rest = lattice["positions"]
+    flat = {"link_rest_length": np.linalg.norm(along["link"] @ rest, axis=1)}
+    for kind in ("area", "strain", "coupling"):
+        first, second = (side @ rest for side in along[kind])
+        a, b = (first - second) / 2, (first + second) / 2
+        flat[f"{kind}_rest"] = np.linalg.norm(np.cross(a, b), axis=1)
+        flat[f"{kind}_natural"] = np.hstack([dot(a, a), dot(b, b), dot(a, b)])
+    for name, values in flat.items():
+        if name in found:
+            found[name] = values + part * (lattice[name] - values)
+    return found
+
+
+def shares(lattice):
+    """Shares of the stiffness of contact, from one with which the load leaves points 1/50 of the sheet deep,
+    or of a fifth of the least radius."""
+    if not len(lattice["contact_area"]):
+        return [1.0]
+    radii = lattice["obstacle_radius"][lattice["obstacle_kind"] > 0]
+    depth = 0.02 * min([np.ptp(lattice["positions"], axis=0).max(), *(0.2 * radii)])
+    soft = np.abs(lattice["load"]).sum() / lattice["contact_area"].sum() / depth
+    soft = np.clip(soft / lattice["contact_stiffness"].max(), 1e-6, 1)
+    return np.geomspace(soft, 1, 1 + int(np.ceil(np.log10(1 / soft))))
+
+
 def equilibrium(lattice, along, steps=1):
     """Displacements (n, 3) at rest: Newton, the tangent by differences, supports by multipliers.
 
-    The load comes in `steps`, in twice as many where Newton does not converge.
+    The load comes in `steps`, in twice as many where Newton does not converge; then contact stiffens.
     """
     if len(lattice["positions"]) > LARGEST:
         sys.exit(f"dense tangents, for {LARGEST} masses at most: write a lattice of a smaller --grid")
@@ -139,15 +184,28 @@ def equilibrium(lattice, along, steps=1):
         np.add.at(held, (row, masses, lattice["hold_axis"][row]), 1 / len(masses))
     held = held.reshape(holds, 3 * n)
     u, push, h = np.zeros(3 * n), np.zeros(holds), 1e-7 * lattice["link_rest_length"].max()
-    for part in np.arange(1, steps + 1) / steps:
-        for _ in range(20):
+    soft, *stiffer = shares(lattice)
+    for part, share in [*((n / steps, soft) for n in range(1, steps + 1)), *((1, s) for s in stiffer)]:
+        now, damping = part_of(lattice, along, part, share), 0.0
+        moved = np.inf
+        for _ in range(300 if stiffer else 20):
             at = u.reshape(n, 3)
-            force = gradient(lattice, along, at)[1]
-            springs = stiffness(lattice, along, shared, at, force, h)
-            tangent = np.block([[springs, held.T], [held, np.zeros((holds, holds))]])
+            force = gradient(now, along, at)[1]
+            springs = stiffness(now, along, shared, at, force, h)
+            damped = springs + damping * np.eye(3 * n)
+            tangent = np.block([[damped, held.T], [held, np.zeros((holds, holds))]])
             unbalanced = part * lattice["load"].ravel() - force.ravel() - held.T @ push
             missing = part * lattice["hold_displacement"] - held @ u
             step = np.linalg.solve(tangent, np.concatenate([unbalanced, missing]))
+            if stiffer:  # Levenberg's damping, until a step lowers the energy
+                before, after = (
+                    gradient(now, along, v.reshape(n, 3))[0] - part * lattice["load"].ravel() @ v
+                    for v in (u, u + step[: 3 * n])
+                )
+                if not missing.any() and not after <= before + 1e-9 * abs(before):
+                    damping = max(8 * damping, 1e-8 * springs.max())
+                    continue
+                damping = damping / 4 if damping > 1e-9 * springs.max() else 0.0
             u, push = u + step[: 3 * n], push + step[3 * n :]
             moved = np.abs(step[: 3 * n]).max() / max(np.abs(u).max(), 1e-300)
             if not 1e-9 < moved < 1e3:

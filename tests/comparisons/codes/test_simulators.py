@@ -11,6 +11,7 @@ from commands import run
 from sheetbench_mujoco import relax
 
 import lumped
+from comparisons.codes.arrays import arrays
 from comparisons.codes.lattice import CODES, MODELS, READERS
 from comparisons.codes.mujoco import to_mjcf
 from comparisons.codes.sofa import to_sofa
@@ -127,6 +128,10 @@ def test_sofas_scene_holds_the_lattice():
         ):  # SOFA has no such springs
             found[f"{kind}_corners"] = np.zeros((0, 4, 1), int)
             found |= {f"{kind}_rest": np.zeros(0), f"{kind}_stiffness": np.zeros(constants)}
+        own = arrays(lattice)  # nor obstacles, nor sheets that are not flat at rest
+        found |= {name: own[name] for name in own if name.startswith(("contact_", "obstacle_"))}
+        found |= {f"{kind}_natural": np.zeros((0, 3)) for kind in ("strain", "coupling")}
+        assert not len(found["contact_area"]) and not len(found["strain_rest"])
         u = READER["equilibrium"](found, READER["differences"](found), 1)
         truth = lattice.states[-1].displacement
         assert np.abs(u - truth).max() < 1e-6 * np.abs(truth).max()

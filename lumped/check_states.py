@@ -1,0 +1,82 @@
+"""States that a program which reads an exported lattice can check itself by (`lumped.description`)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lumped.actuators import Drive
+from lumped.assembly import Assembly
+from lumped.calibration import Calibration
+from lumped.contact import Contact
+from lumped.contact.table import pressed
+from lumped.lattice import Lattice
+from lumped.statics.solver import solve
+from sheetbench.scenes import Scene, Status, free_rigid_motions
+
+STRETCH, WARP, TURN = 0.02, 0.05, 2.0  # of the imposed states: strain, height over length, rad in all
+
+
+@dataclass(frozen=True)
+class CheckState:
+    """A state to check by: displacement (n, 3) [m], the energy [J] of springs and contact and its gradient
+    (n, 3) [N]."""
+
+    name: str
+    meaning: str
+    displacement: np.ndarray
+    force: np.ndarray
+    energy: float
+
+
+def check_states(
+    scene: Scene, calibration: Calibration, assembly: Assembly, touching: Sequence[Contact]
+) -> tuple[tuple[CheckState, ...], tuple[str, ...]]:
+    """Return two imposed states, with obstacles three, and the equilibrium, and why there is none."""
+    shapes = [
+        ("stretched", f"stretched and warped by {STRETCH:g} and {WARP:g}", _stretched(assembly.lattice)),
+        ("rolled", f"rolled about y by {TURN:g} rad, the layers along", _rolled(assembly.lattice)),
+    ]
+    if touching:
+        shapes.append(
+            (
+                "pressed",
+                "stretched and moved into obstacle 1",
+                pressed(shapes[0][2], assembly.lattice.positions, touching[0]),
+            )
+        )
+    why: tuple[str, ...] = ()
+    if free := free_rigid_motions(scene):
+        why = (f"no equilibrium to check by: nothing stops {', '.join(free)}",)
+    else:
+        solution = solve(scene, calibration)
+        if solution.status is Status.CONVERGED:
+            found = solution.mesh.point_data["displacement"]
+            shapes.append(("equilibrium", "under supports and loads", found))
+        else:
+            why = (f"no equilibrium to check by: {solution.status}: {solution.message}",)
+    states = []
+    for name, meaning, displacement in shapes:
+        energy, force = assembly.force(displacement)
+        energy += sum(each.add_force(displacement, Drive(), force) for each in touching)
+        states.append(CheckState(name, meaning, displacement, force, energy))
+    return tuple(states), why
+
+
+def _stretched(lattice: Lattice) -> np.ndarray:
+    x, y, z = lattice.positions.T
+    lx, ly = (lines.at[-1] for lines in lattice.lines)
+    a, b = x / lx, y / ly
+    along = STRETCH * np.stack([lx * (a + 0.5 * a * b), ly * (0.3 * a**2 - 0.4 * b)])
+    lift = WARP * min(lx, ly) * (a * b + a**2) + STRETCH * z * (1.0 - a)
+    return np.stack([*along, lift], axis=1)
+
+
+def _rolled(lattice: Lattice) -> np.ndarray:
+    x, y, z = lattice.positions.T
+    radius = lattice.lines[0].at[-1] / TURN
+    turn = x / radius
+    rolled = np.stack([(radius - z) * np.sin(turn), y, radius - (radius - z) * np.cos(turn)], axis=1)
+    return rolled - lattice.positions

@@ -22,7 +22,7 @@ from docutils import nodes
 from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
 
-COLUMNS = 100
+COLUMNS = 82
 ROWS = 45  # of one command's output; what is longer is cut, and says so
 
 

@@ -47,7 +47,8 @@ def test_commands_and_python_of_a_page_run_as_written(page, tmp_path, monkeypatc
             continue
         for words in commands(text):
             if not set(words) & GIVEN_BY_THE_READER and words[0] not in SERVERS:
-                assert run(*words, "--no-pictures") == 0, words
+                plain = [] if {"--figure", "--animate"} & set(words) else ["--no-pictures"]
+                assert run(*words, *plain) == 0, words
 
 
 @pytest.mark.parametrize("page", [*PAGES, ROOT / "README.md"], ids=lambda page: page.stem)

@@ -3,7 +3,7 @@
 Along a load path of stiff penalties row after row of points comes to act, each a few corrections: Newton's
 method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. With soft
 ones the usual path leads to the full load, where they are raised, each stage Newton's method from the last
-shape: 33 factorisations in place of 292 on a strip of 41 masses laid on a plane. Only the last stage is
+shape: 30 factorisations in place of 292 on a strip of 41 masses laid on a plane. Only the last stage is
 brought to the tolerance; one that fails takes the square root of its factor. What is said of the end is that
 of the last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins again from rest
 with stiff ones, in so many load steps that no obstacle moves by more than a quarter of its radius in one.
@@ -29,7 +29,7 @@ from sheetbench.scenes import Status
 FIRST_FACTOR, SMALLEST_FACTOR = 1e3, 1.05  # of the penalties, from stage to stage
 EASIER = 10.0  # by which a stage's factor grows after one that went well
 CLOSE = 0.03  # residual at which a stage ends, but for the last
-DEPTH = 0.01  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
+DEPTH = 0.015  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
 class Penalty(Protocol):

@@ -21,6 +21,7 @@ from sheetbench.choices import CALIBRATION, ELEMENTS
 from sheetbench.errors import Implausible
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
 from sheetbench.scenes.grid import elements_of
+from sheetbench.scenes.motion import kinks
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.words import in_words
 
@@ -76,8 +77,10 @@ class Check(Answer):
         return scene_file(self.called)
 
     def notes(self) -> list[str]:
-        solve = f"Solve it with:\nsheetbench compare {shlex.quote(self.called)}"
-        return [] if self.free else [solve]
+        called, until = shlex.quote(self.called), max(kinks(self.scene), default=0.0)
+        statics = [] if self.free else [f"Solve it with:\nsheetbench compare {called}"]
+        motion = [f"Its motion:\nsheetbench compare {called} --duration {until:g}"] if until > 0.0 else []
+        return [*statics, *motion]
 
     def complaints(self) -> list[str]:
         floats = "the sheet can move as a rigid body: only `modes` and `simulate` can answer"

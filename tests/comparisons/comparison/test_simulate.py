@@ -10,8 +10,8 @@ from commands import json_of, run
 from dynamic_cases import make_scene, springs
 
 import lumped
-from comparisons.motion import history as histories
-from comparisons.motion.frames import frames
+from comparisons.comparison import measured as histories
+from comparisons.comparison.frames import frames
 from sheetbench.scenes import load
 from sheetbench.scenes.measured_history import Measured
 from sheetbench.scenes.toml import to_toml

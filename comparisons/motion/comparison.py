@@ -28,8 +28,9 @@ from comparisons.motion.comparison_answer import MotionComparison
 from comparisons.motion.measures import largest
 from comparisons.motion.run import refusal, require_motion
 from comparisons.pictures.work import Pace, Progress, Work, silent
+from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE
-from sheetbench.scenes import AnyScene, History, Scene, scene_of
+from sheetbench.scenes import AnyScene, Scene, scene_of
 
 ELEMENTS = 8  # of a moving reference along the shorter side
 LONGER = 8.0  # error of a step: steps twice as long

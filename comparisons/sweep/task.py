@@ -21,7 +21,8 @@ from comparisons.models.spec import Elements, spec_of
 from comparisons.runs import load
 from comparisons.runs.peak_memory import with_peak_memory
 from comparisons.sweep.columns import COLUMNS
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import Scene
 
 SETTLED, MOST = 0.1, 25
 

@@ -37,10 +37,11 @@ from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow
 from comparisons.tradeoff.statics import finest_shell
 from fem_reference.uncertainty import coarser
+from sheetbench.answers.solution import Status
 from sheetbench.choices import INTEGRATORS
 from sheetbench.errors import NoEquilibrium
-from sheetbench.scenes import Scene, SceneError, Status
-from sheetbench.scenes.quantities import require_positive
+from sheetbench.scenes import Scene, SceneError
+from sheetbench.scenes.objects.quantities import require_positive
 
 if TYPE_CHECKING:
     from lumped import Calibration

@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.scenes.actuators import Chain
-from sheetbench.scenes.loads import Pressure
-from sheetbench.scenes.masses import carried
-from sheetbench.scenes.patches import mass_of
-from sheetbench.scenes.region import edge_length, resultant
+from sheetbench.scenes.meaning.composition import mass_of
+from sheetbench.scenes.meaning.payloads import carried
+from sheetbench.scenes.meaning.region import edge_length, resultant
+from sheetbench.scenes.objects.actuators import Chain
+from sheetbench.scenes.objects.loads import Pressure
+from sheetbench.scenes.objects.sheet import EDGES
 from sheetbench.scenes.scene import Scene
-from sheetbench.scenes.sheet import EDGES
 
 
 @dataclass(frozen=True)

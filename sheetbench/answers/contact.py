@@ -7,7 +7,8 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from sheetbench.answers.table import NUMBER
-from sheetbench.scenes.obstacles import SLIP_SPEED, obstacles_by_name
+from sheetbench.scenes.meaning.distances import obstacles_by_name
+from sheetbench.scenes.objects.obstacles import SLIP_SPEED
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene

@@ -14,11 +14,11 @@ import numpy as np
 
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
+from sheetbench.answers.measured_history import COMPONENTS, Measured
 from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.solution import Status
 from sheetbench.answers.table import MILLIMETRES, PERCENT, Column, Table, number
 from sheetbench.errors import BadInput
-from sheetbench.scenes.measured_history import COMPONENTS, Measured
-from sheetbench.scenes.solution import Status
 
 if TYPE_CHECKING:
     import pandas
@@ -127,7 +127,7 @@ class History(Answer):
 
     def figures(self) -> tuple[Picture, ...]:
         """Probes and energies over time."""
-        return (Picture("history", "sheetbench.scenes.history_figure:compose", (self, self.label, {})),)
+        return (Picture("history", "sheetbench.answers.history_figure:compose", (self, self.label, {})),)
 
     def files(self) -> dict[str, Write]:
         """All samples as CSV, and those of the probes a row each, as measured histories are read."""

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.history import History
+from sheetbench.answers.measured_history import Measured
 from sheetbench.answers.style import COMPONENTS, MOST, plain
-from sheetbench.scenes.history import History
-from sheetbench.scenes.measured_history import Measured
 
 DASHES: Any = {"uy": (0, (4, 2))}  # of a symmetric sheet it lies on ux
 ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}

@@ -12,9 +12,9 @@ import numpy as np
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import HERTZ, NUMBER, Table
 from sheetbench.errors import BadInput
-from sheetbench.scenes.kinematics import bent_or_tilted
-from sheetbench.scenes.loads import EdgeLoad, Pressure
-from sheetbench.scenes.obstacles import require_no_obstacles
+from sheetbench.scenes.meaning.distances import require_no_obstacles
+from sheetbench.scenes.meaning.kinematics import bent_or_tilted
+from sheetbench.scenes.objects.loads import EdgeLoad, Pressure
 from sheetbench.scenes.scene import Scene
 
 STILL = 1e-9  # displacement over the sheet's side within which what is loaded does not move

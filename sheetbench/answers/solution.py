@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 import numpy as np
 
 from sheetbench.answers.answer import Answer
+from sheetbench.answers.balance import Balance
+from sheetbench.answers.contact import ContactState
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NEWTONS, NUMBER, Table
 from sheetbench.errors import BadInput, NoEquilibrium
-from sheetbench.scenes import summary
-from sheetbench.scenes.balance import Balance
-from sheetbench.scenes.contact import ContactState
-from sheetbench.scenes.quantities import PlanPoint
+from sheetbench.scenes.language import summary
+from sheetbench.scenes.objects.quantities import PlanPoint
 
 if TYPE_CHECKING:
     import meshio
@@ -287,7 +287,7 @@ class Solution(Answer):
 
     def figures(self) -> tuple[Picture, ...]:
         """Heights over the plan."""
-        compose = "sheetbench.scenes.solution_figure:compose"
+        compose = "sheetbench.answers.solution_figure:compose"
         return (Picture("solution", compose, (self,), formats=RASTER),)
 
     def files(self) -> dict[str, Write]:

@@ -10,8 +10,8 @@ from matplotlib.tri import Triangulation
 
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.report import NoPicture
+from sheetbench.answers.solution import Solution
 from sheetbench.answers.style import DARK, plain
-from sheetbench.scenes.solution import Solution
 
 CELLS = 64  # along each side
 

@@ -15,9 +15,9 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes.limits import wish
-from sheetbench.scenes.schema import branches, json_schema, kind
-from sheetbench.scenes.units import quantity
+from sheetbench.scenes.language.limits import wish
+from sheetbench.scenes.language.schema import branches, json_schema, kind
+from sheetbench.scenes.language.units import quantity
 
 SHOWN = 3  # faults
 LONGEST = 60  # characters of a key or a value

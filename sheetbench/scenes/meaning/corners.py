@@ -2,7 +2,7 @@
 
 An edge has one support, one motion, or chains that agree. Where two edges meet, a support holds components of
 the corner, and one that holds the director that of the corner too; bent rods, tilted clamps and motions move
-both (`sheetbench.scenes.kinematics`). Two that hold the same must agree on it at every moment, for what is
+both (`scenes.meaning.kinematics`). Two that hold the same must agree on it at every moment, for what is
 left out is not the same in every model: at the samples of both tables, and between them at two points that no
 periodic motion takes for samples. A corner that a motion agrees on belongs to the motion; a chain goes where
 its corner goes, unless its base stands there.
@@ -24,11 +24,11 @@ from itertools import combinations, pairwise, product
 
 import numpy as np
 
-from sheetbench.scenes.actuators import Chain, EdgeMotion
-from sheetbench.scenes.kinematics import UP, BentEdge, MovedEdge, Placed, TiltedEdge, bent_or_tilted
-from sheetbench.scenes.quantities import PlanPoint
-from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import (
+from sheetbench.scenes.meaning.kinematics import UP, BentEdge, MovedEdge, Placed, TiltedEdge, bent_or_tilted
+from sheetbench.scenes.objects.actuators import Chain, EdgeMotion
+from sheetbench.scenes.objects.quantities import PlanPoint
+from sheetbench.scenes.objects.sheet import EDGES, Sheet
+from sheetbench.scenes.objects.supports import (
     AnySupport,
     Clamped,
     Curved,

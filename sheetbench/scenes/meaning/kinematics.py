@@ -22,11 +22,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sheetbench.scenes.actuators import EdgeMotion
-from sheetbench.scenes.quantities import Vector3
-from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, named
-from sheetbench.scenes.tables import PiecewiseLinear
+from sheetbench.scenes.objects.actuators import EdgeMotion
+from sheetbench.scenes.objects.quantities import Vector3
+from sheetbench.scenes.objects.sheet import EDGES, Sheet
+from sheetbench.scenes.objects.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, named
+from sheetbench.scenes.objects.tables import PiecewiseLinear
 
 UP = np.array([0.0, 0.0, 1.0])
 _CROSS = np.cross(np.eye(3)[:, None], np.eye(3)[None]).swapaxes(1, 2).reshape(3, 9)  # [e]× of the axes

@@ -10,21 +10,21 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from sheetbench.scenes.actuators import Chain, EdgeMotion
-from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
-from sheetbench.scenes.natural import Natural
-from sheetbench.scenes.obstacles import AnyObstacle
-from sheetbench.scenes.patches import Patch
-from sheetbench.scenes.scene import Scene
-from sheetbench.scenes.supports import AnySupport, Motion
-from sheetbench.scenes.tables import FactorTable, Loading, OverTime, PiecewiseLinear
+from sheetbench.scenes.meaning.kinematics import MovedEdge, bent_or_tilted
+from sheetbench.scenes.objects.actuators import Chain, EdgeMotion
+from sheetbench.scenes.objects.fields import AScene, SceneFields
+from sheetbench.scenes.objects.natural import Natural
+from sheetbench.scenes.objects.obstacles import AnyObstacle
+from sheetbench.scenes.objects.patches import Patch
+from sheetbench.scenes.objects.supports import AnySupport, Motion
+from sheetbench.scenes.objects.tables import FactorTable, Loading, OverTime, PiecewiseLinear
 
 Loaded = TypeVar("Loaded", bound=Loading)
 Held = TypeVar("Held", bound=AnySupport | AnyObstacle)
 NO_START = "the motion would start from no stable equilibrium"
 
 
-def kinks(scene: Scene) -> list[float]:
+def kinks(scene: SceneFields) -> list[float]:
     """The times [s] at which a history, a command or a motion has a sample, increasing: between them all that
     is prescribed is smooth."""
     natural = (scene.natural, scene.temperature, *(patch.natural for patch in scene.patches))
@@ -37,17 +37,17 @@ def kinks(scene: Scene) -> list[float]:
     return sorted({time for table in tables if table is not None for time in table.time})
 
 
-def let_go(scene: Scene) -> Scene:
+def let_go(scene: AScene) -> AScene:
     """The scene without the loads that hold the sheet until the motion starts."""
     return scene.replace(loads=tuple(load for load in scene.loads if not load.hold))
 
 
-def starts_flat(scene: Scene) -> bool:
+def starts_flat(scene: SceneFields) -> bool:
     """Whether no equilibrium has to be found for the start."""
     return scene.initial is None and not bent_or_tilted(scene.supports, scene.sheet)
 
 
-def at_start(scene: Scene) -> Scene:
+def at_start(scene: AScene) -> AScene:
     """The statics in whose equilibrium a motion starts: supports and moved edges where they are at t = 0;
     with `[initial]` loads, commands and natural states as they are then, else none."""
     static = scene.initial is not None
@@ -96,6 +96,6 @@ def _bent(chain: Chain, static: bool) -> Chain:
     return chain.replace(curvature=float(chain.curvatures().at(0.0)[0]))
 
 
-def _moved(motion: EdgeMotion, scene: Scene) -> EdgeMotion:
+def _moved(motion: EdgeMotion, scene: SceneFields) -> EdgeMotion:
     displacement, rotation = MovedEdge(motion, scene.sheet).pose(0.0)
     return motion.replace(time=(0.0,), displacement=(displacement,), rotation=(rotation,))

@@ -10,17 +10,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sheetbench.scenes.layers import plane_stress, resultants
-from sheetbench.scenes.natural import Natural, Temperature
-from sheetbench.scenes.orthotropy import Ply
-from sheetbench.scenes.patches import boxes_of, of_sheet, shares_in
-from sheetbench.scenes.tables import PiecewiseLinear
+from sheetbench.scenes.meaning.composition import boxes_of, of_sheet, shares_in
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.layers import plane_stress, resultants
+from sheetbench.scenes.objects.natural import Natural, Temperature
+from sheetbench.scenes.objects.orthotropy import Ply
+from sheetbench.scenes.objects.sheet import Sheet
+from sheetbench.scenes.objects.tables import PiecewiseLinear
 
 if TYPE_CHECKING:
     from shapely import Polygon
-
-    from sheetbench.scenes.scene import Scene
-    from sheetbench.scenes.sheet import Sheet
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +78,7 @@ def _matrix(parts: np.ndarray) -> np.ndarray:
     return np.array([[parts[0], parts[2]], [parts[2], parts[1]]])
 
 
-def natural_at(scene: Scene, points: np.ndarray) -> NaturalState | None:
+def natural_at(scene: SceneFields, points: np.ndarray) -> NaturalState | None:
     """Return the state at plan points (…, 2) [m], None of a sheet that is flat at rest."""
     import shapely
 
@@ -87,20 +86,20 @@ def natural_at(scene: Scene, points: np.ndarray) -> NaturalState | None:
     return _state(scene, x.shape, lambda area: np.asarray(shapely.intersects_xy(area, x, y), dtype=float))
 
 
-def natural_of_cells(scene: Scene, x: np.ndarray, y: np.ndarray) -> NaturalState | None:
+def natural_of_cells(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> NaturalState | None:
     """Return the state of the cells between lines at x and at y [m], (rows, columns): a cell that several
     parts share has their mean; None of a sheet that is flat at rest."""
     return _state(scene, (len(y) - 1, len(x) - 1), lambda area: shares_in(area, boxes_of(x, y)))
 
 
 def _state(
-    scene: Scene, shape: tuple[int, ...], share: Callable[[Polygon], np.ndarray]
+    scene: SceneFields, shape: tuple[int, ...], share: Callable[[Polygon], np.ndarray]
 ) -> NaturalState | None:
     sources = list(sources_of(scene))
     return NaturalState(sources, shape, share) if sources else None
 
 
-def sources_of(scene: Scene) -> Iterator[Source]:
+def sources_of(scene: SceneFields) -> Iterator[Source]:
     """Yield what makes a scene's sheet other than flat at rest."""
     import shapely
 
@@ -117,7 +116,7 @@ def sources_of(scene: Scene) -> Iterator[Source]:
         yield Source(scene.temperature, *thermal(scene, scene.temperature))
 
 
-def sheet_at_rest(scene: Scene) -> Sheet:
+def sheet_at_rest(scene: SceneFields) -> Sheet:
     """Return the sheet as long and as wide as it is where nothing holds it, which its stiffness is that of:
     of what is alike all over; a mesh keeps its size."""
     if scene.sheet.mesh is not None:
@@ -133,7 +132,7 @@ def sheet_at_rest(scene: Scene) -> Sheet:
     return scene.sheet.replace(length_x=float(lx), length_y=float(ly), outline=drawn)
 
 
-def _own(scene: Scene, natural: Natural) -> tuple[np.ndarray, np.ndarray]:
+def _own(scene: SceneFields, natural: Natural) -> tuple[np.ndarray, np.ndarray]:
     strain, curvature = np.array(natural.strain), np.array(natural.curvature)
     if natural.pretension is not None:
         section = plies_of(scene)
@@ -143,12 +142,12 @@ def _own(scene: Scene, natural: Natural) -> tuple[np.ndarray, np.ndarray]:
     return strain, curvature
 
 
-def plies_of(scene: Scene) -> tuple[Ply, ...]:
+def plies_of(scene: SceneFields) -> tuple[Ply, ...]:
     """Return the plies of a scene's sheet, or the one that all of it is."""
-    return of_sheet(scene).plies or (Ply.of(scene.material),)
+    return of_sheet(scene).plies or (scene.material.ply,)
 
 
-def expansion_of(scene: Scene, number: int) -> np.ndarray:
+def expansion_of(scene: SceneFields, number: int) -> np.ndarray:
     """Return the thermal expansion (3,) [1/K] of a ply along x, along y and the shear, 2xy."""
     own = scene.layers[number].expansions if scene.layers else None
     along, across = own or scene.material.expansions or (0.0, 0.0)
@@ -158,7 +157,7 @@ def expansion_of(scene: Scene, number: int) -> np.ndarray:
     return np.array([along * c * c + across * s * s, along * s * s + across * c * c, mixed])
 
 
-def thermal(scene: Scene, temperature: Temperature) -> tuple[np.ndarray, np.ndarray]:
+def thermal(scene: SceneFields, temperature: Temperature) -> tuple[np.ndarray, np.ndarray]:
     """Return natural strain and curvature (3,) of a temperature, all over the sheet."""
     h, found = scene.sheet.thickness, plies_of(scene)
     stretch, bend = np.zeros(3), np.zeros(3)

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sheetbench.scenes.layers import plane_stress
-from sheetbench.scenes.natural import Temperature
-from sheetbench.scenes.natural_state import Source, expansion_of, plies_of, sources_of
-
-if TYPE_CHECKING:
-    from sheetbench.scenes.scene import Scene
+from sheetbench.scenes.meaning.natural_state import Source, expansion_of, plies_of, sources_of
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.layers import plane_stress
+from sheetbench.scenes.objects.natural import Temperature
 
 NONE = 1e-12  # of the largest, for what is rounding
 
 
-def natural_in_words(scene: Scene) -> Iterator[tuple[str, str]]:
+def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
     """Yield name and meaning of each of what makes a sheet other than flat at rest."""
     names = {id(patch.natural): f"patch {n}" for n, patch in enumerate(scene.patches, start=1)}
     for source in sources_of(scene):
@@ -41,7 +38,7 @@ def _without_rounding(parts: np.ndarray) -> np.ndarray:
     return np.where(np.abs(parts) > NONE * np.abs(parts).max(initial=0.0), parts, 0.0)
 
 
-def _stresses(scene: Scene, source: Source) -> tuple[float, float]:
+def _stresses(scene: SceneFields, source: Source) -> tuple[float, float]:
     """The least and the largest normal stress [Pa] along x and y in the faces of the layers, held flat."""
     found, h = plies_of(scene), scene.sheet.thickness
     free = [source.strain, source.curvature]

@@ -24,11 +24,11 @@ from math import inf, pi
 from typing import Any
 
 from sheetbench.errors import BadInput, SceneError
-from sheetbench.scenes.actuators import Chain
-from sheetbench.scenes.natural import LARGEST_STRAIN
-from sheetbench.scenes.patches import CONSTANTS
-from sheetbench.scenes.scene import Scene
-from sheetbench.scenes.supports import LARGEST_TILT, Clamped, Curved
+from sheetbench.scenes.objects.actuators import Chain
+from sheetbench.scenes.objects.fields import AScene, SceneFields
+from sheetbench.scenes.objects.natural import LARGEST_STRAIN
+from sheetbench.scenes.objects.patches import CONSTANTS
+from sheetbench.scenes.objects.supports import LARGEST_TILT, Clamped, Curved
 
 MATERIAL = ("young", "poisson", "density", "damping_time", "damping_rate", "loss_factor")
 FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23", "angle")
@@ -64,7 +64,7 @@ class Parameter:
     high: float
 
 
-def parameter(scene: Scene, name: str) -> Parameter:
+def parameter(scene: SceneFields, name: str) -> Parameter:
     """Return the parameter of this name. Raises BadInput where the scene has none."""
     path = _paths(scene, name)[0]
     key = [part for part in path if isinstance(part, str)][-1]
@@ -77,7 +77,7 @@ def parameter(scene: Scene, name: str) -> Parameter:
     return Parameter(name, UNITS.get(key, ""), float(_value(scene, path) or 0.0), low, high)
 
 
-def put(scene: Scene, name: str, value: float) -> Scene:
+def put(scene: AScene, name: str, value: float) -> AScene:
     """Return the scene with a parameter at another value. Raises BadInput where it has none of this name, and
     SceneError where the value cannot be."""
     paths = _paths(scene, name)
@@ -89,7 +89,7 @@ def put(scene: Scene, name: str, value: float) -> Scene:
         raise SceneError(f"{name} = {value:g}: {error}") from None
 
 
-def _paths(scene: Scene, name: str) -> list[Path]:
+def _paths(scene: SceneFields, name: str) -> list[Path]:
     """Return the places in a scene that a parameter's value is at. Raises BadInput where there are none."""
     material = scene.material
     fibres = [key for key in FIBRES if getattr(material, key) is not None]
@@ -150,7 +150,7 @@ def _paths(scene: Scene, name: str) -> list[Path]:
     raise BadInput(f"'{name}': not a parameter of a scene; choose from {', '.join(NAMES)}")
 
 
-def _natural(scene: Scene, name: str, patch: str | None, kind: str, component: str) -> Path:
+def _natural(scene: SceneFields, name: str, patch: str | None, kind: str, component: str) -> Path:
     """Return the place of a component of a natural strain or curvature."""
     path: Path = ("natural",)
     if patch is not None:
@@ -162,14 +162,14 @@ def _natural(scene: Scene, name: str, patch: str | None, kind: str, component: s
     return (*path, {"e": "strain", "k": "curvature"}[kind], ("xx", "yy", "xy").index(component))
 
 
-def _holders(scene: Scene, kind: Any, edge: str) -> list[Path]:
+def _holders(scene: SceneFields, kind: Any, edge: str) -> list[Path]:
     """Return the places of an edge's supports and actuators of a kind."""
     lists = {"supports": scene.supports, "actuators": scene.actuators}
     every = ((key, i, one) for key, ones in lists.items() for i, one in enumerate(ones))
     return [(key, i) for key, i, one in every if isinstance(one, kind) and one.edge == edge]
 
 
-def _value(scene: Scene, path: Path) -> Any:
+def _value(scene: SceneFields, path: Path) -> Any:
     of: Any = scene
     for part in path:
         of = of[part] if isinstance(part, int) else getattr(of, part)
@@ -188,7 +188,7 @@ def _replaced(of: Any, path: Path, value: Any) -> Any:
     return of.replace(**{part: inside})
 
 
-def _with_thickness(scene: Scene, factor: float) -> Scene:
+def _with_thickness(scene: AScene, factor: float) -> AScene:
     """Return the scene with its sheet so many times as thick, tapers and layers too."""
     sheet = scene.sheet
     given = {key: getattr(sheet, key) for key in ("taper_x", "taper_y")}

@@ -10,18 +10,15 @@ sheet, and a sheet that nothing moves.
 from __future__ import annotations
 
 from math import hypot
-from typing import TYPE_CHECKING
 
-from sheetbench.scenes.masses import weights
-from sheetbench.scenes.material import Material
-from sheetbench.scenes.patches import mass_of
-from sheetbench.scenes.region import resultant
-from sheetbench.scenes.sheet import Gravity, Sheet
-from sheetbench.scenes.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
-from sheetbench.scenes.summary import few
-
-if TYPE_CHECKING:
-    from sheetbench.scenes.scene import Scene
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.meaning.composition import mass_of
+from sheetbench.scenes.meaning.payloads import weights
+from sheetbench.scenes.meaning.region import resultant
+from sheetbench.scenes.meaning.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.material import Material
+from sheetbench.scenes.objects.sheet import Gravity, Sheet
 
 SOFTEST, STIFFEST = 1e3, 1e10  # Pa: agar, and the stiffest polymers
 STIFFEST_FIBRE = 1e12  # Pa: of a ply of carbon fibres 3e11
@@ -34,7 +31,7 @@ LAYERS = 5.0  # times thicker or thinner than the sheet
 BURDEN = 100.0  # a payload's mass over the sheet's
 
 
-def slips(scene: Scene) -> tuple[str, ...]:
+def slips(scene: SceneFields) -> tuple[str, ...]:
     """Sentences about what was hardly meant; for most scenes none."""
     warnings = [*sheet_slips(scene.sheet), *material_slips(scene.material)]
     if scene.gravity is not None:
@@ -92,7 +89,7 @@ def material_slips(material: Material) -> list[str]:
     return warnings
 
 
-def _payloads(scene: Scene) -> list[str]:
+def _payloads(scene: SceneFields) -> list[str]:
     """Payloads that are not in kilograms."""
     heaviest = BURDEN * mass_of(scene) if scene.masses else 0.0
     return [
@@ -112,7 +109,7 @@ def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> l
     return [f"{key} = {distance:g} m is {times}; lengths are in metres"]
 
 
-def _strains(scene: Scene) -> list[str]:
+def _strains(scene: SceneFields) -> list[str]:
     """A weight or loads that would tear the sheet."""
     warnings = []
     sheet, young, law = scene.sheet, scene.material.young, scene.material.law
@@ -148,7 +145,7 @@ def _gravity(gravity: Gravity) -> list[str]:
     ]
 
 
-def _unmoved(scene: Scene) -> bool:
+def _unmoved(scene: SceneFields) -> bool:
     """Whether nothing whatever moves the sheet; its modes are all there is to ask for."""
     weight = scene.gravity is not None and any(scene.gravity.acceleration)
     bent = any(

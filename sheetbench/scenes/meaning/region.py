@@ -1,93 +1,26 @@
-"""The part of the plan in which there is a sheet: its outline without its cutouts; and where it is held.
-
-What lies on a shape's boundary belongs to it. A region is one piece that is connected by more than points.
-"""
+"""Parts of a scene's plan: lengths, areas, resultants of loads there, and what lies where there is no sheet."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sheetbench.errors import Impossible
-from sheetbench.scenes.grading import Places
-from sheetbench.scenes.loads import AnyLoad, AreaLoad, EdgeLoad, PointLoad
-from sheetbench.scenes.quantities import Frozen, PlanPoint
-from sheetbench.scenes.shapes import COINCIDENT, Shape, straight_sides
-from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import Point, named, place
+from sheetbench.scenes.objects.cutouts import NECK, common
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.grading import Places
+from sheetbench.scenes.objects.loads import AnyLoad, AreaLoad, EdgeLoad, PointLoad
+from sheetbench.scenes.objects.quantities import PlanPoint
+from sheetbench.scenes.objects.shapes import COINCIDENT, Shape, straight_sides
+from sheetbench.scenes.objects.sheet import EDGES
+from sheetbench.scenes.objects.supports import Point, named, place
 
 if TYPE_CHECKING:
-    from shapely import Polygon
-
-    from sheetbench.scenes.scene import Scene
-
-NECK = 1e-6  # of the shorter side, that connects a sheet: less is a point
+    pass
 
 
-class Cutout(Frozen):
-    """A part of the rectangle or the outline where there is no sheet."""
-
-    shape: Shape
-    """Where: a rectangle, a circle or a polygon; it may reach over the rim."""
-
-
-def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
-    """The sheet's plan [m]: a polygon with holes. Raises ValueError for a sheet without area or in pieces."""
-    import shapely
-
-    plan: Any = shapely.box(0.0, 0.0, *sheet.lengths)
-    if sheet.outline is not None:
-        plan = shapely.Polygon(sheet.outline)
-    elif sheet.mesh is not None:
-        if cutouts:
-            raise ValueError("cutout 1: beside sheet.mesh; the holes of a sheet with a mesh are the mesh's")
-        plan = sheet.mesh.area
-    neck = NECK * min(sheet.lengths)
-    if (number := _idle(plan, cutouts)) is not None:
-        words = f"cutout {number + 1}.shape: {cutouts[number].shape.in_words()}"
-        raise ValueError(f"{words}: no part of it is on what is left of the sheet")
-    if cutouts:
-        plan = plan.difference(shapely.union_all([cutout.shape.area for cutout in cutouts]))
-    inner = plan.buffer(-0.5 * neck)
-    if (count := 0 if inner.is_empty else shapely.get_num_geometries(inner)) != 1:
-        drawn = "sheet.mesh: it covers" if sheet.mesh is not None else "sheet.outline: it encloses"
-        what = "cutout: they leave" if cutouts else drawn
-        parts = f"{count} parts that are connected at points at most" if count else "no part"
-        raise ValueError(f"{what} {parts}; a sheet is one piece")
-    if plan.geom_type != "Polygon":  # slivers beside it
-        plan = max(plan.geoms, key=lambda part: part.area)
-    return plan
-
-
-def _idle(plan: Polygon, cutouts: Sequence[Cutout]) -> int | None:
-    """Return the first cutout, from 0, that takes nothing from what those before it leave of a plan."""
-    import shapely
-
-    areas = np.array([cutout.shape.area for cutout in cutouts])
-    tree = shapely.STRtree(areas)
-    for number, area in enumerate(areas):
-        taken = plan.intersection(area)
-        before = tree.query(area)
-        before = np.sort(before[before < number])
-        # from the last on: it is the nearest of a row, and leaves few others to be asked
-        while len(before := before[shapely.intersects(taken, areas[before])]):
-            taken, before = taken.difference(areas[before[-1]]), before[:-1]
-        if taken.area <= COINCIDENT * plan.area:
-            return number
-    return None
-
-
-def nearest(plan: Polygon, point: PlanPoint) -> PlanPoint:
-    """The point of a plan that is nearest to one [m]: itself where it lies there."""
-    import shapely
-
-    x, y = (float(c) for c in shapely.shortest_line(plan, shapely.Point(point)).coords[0])
-    return x, y
-
-
-def edge_parts(scene: Scene, edge: str, where: Shape | None = None) -> list[tuple[float, float]]:
+def edge_parts(scene: SceneFields, edge: str, where: Shape | None = None) -> list[tuple[float, float]]:
     """From where to where along an edge [m] the sheet reaches it: the sides of the plan on that line, or the
     part of them in a shape."""
     (normal, along, _), at = EDGES[edge], scene.sheet.edge_at(edge)
@@ -107,7 +40,7 @@ def edge_parts(scene: Scene, edge: str, where: Shape | None = None) -> list[tupl
     return [(each[along], each[along + 2]) for each in bounds]
 
 
-def sides_of_shapes(scene: Scene) -> Places:
+def sides_of_shapes(scene: SceneFields) -> Places:
     """x and y [m], rising, of the sides along the axes of the rim and of shapes that hold or load the sheet,
     and of the ends of its sides at the edges; those within the edges."""
     shapes = [place(support) for support in scene.supports if not isinstance(support, Point)]
@@ -125,29 +58,21 @@ def sides_of_shapes(scene: Scene) -> Places:
     return x, y
 
 
-def edge_length(scene: Scene, edge: str, where: Shape | None = None) -> float:
+def edge_length(scene: SceneFields, edge: str, where: Shape | None = None) -> float:
     """Length [m] of the part of an edge that the sheet reaches; where: of that in a shape."""
     if where is None and not scene.pierced:
         return scene.sheet.lengths[EDGES[edge].along_axis]
     return sum(stop - start for start, stop in edge_parts(scene, edge, where))
 
 
-def common(plan: Polygon, area: Any) -> Any:
-    """The part of a plan in an area; of a plan with many holes it is soon known where that is all of it."""
-    import shapely
-
-    shapely.prepare(plan)
-    return area if plan.contains(area) else plan.intersection(area)
-
-
-def area_in(scene: Scene, shape: Shape | None) -> float:
+def area_in(scene: SceneFields, shape: Shape | None) -> float:
     """Area [m²] of the sheet in a shape, or of all of it."""
     if not scene.pierced and shape is None:
         return scene.sheet.length_x * scene.sheet.length_y
     return float((scene.region if shape is None else common(scene.region, shape.area)).area)
 
 
-def resultant(scene: Scene, load: AnyLoad, length: float | None = None) -> np.ndarray:
+def resultant(scene: SceneFields, load: AnyLoad, length: float | None = None) -> np.ndarray:
     """The force (3,) [N] of a load in full, a pressure's on the flat sheet; length: of its edge [m] as a
     model has it."""
     if isinstance(load, PointLoad):
@@ -160,7 +85,7 @@ def resultant(scene: Scene, load: AnyLoad, length: float | None = None) -> np.nd
     return area_in(scene, load.where) * np.array(per_area)
 
 
-def marked(scene: Scene) -> dict[str, PlanPoint]:
+def marked(scene: SceneFields) -> dict[str, PlanPoint]:
     """Plan points [m] of probes, point loads, payloads and held points, by their keys."""
     loads = {f"load {n}.at": each.at for n, each in enumerate(scene.loads, 1) if isinstance(each, PointLoad)}
     payloads = {f"mass {n}.at": each.at for n, each in enumerate(scene.masses, 1) if each.at is not None}
@@ -168,7 +93,7 @@ def marked(scene: Scene) -> dict[str, PlanPoint]:
     return {f"probes.{name}": point for name, point in scene.probes.items()} | loads | payloads | pins
 
 
-def share_of(scene: Scene, corners: np.ndarray) -> np.ndarray:
+def share_of(scene: SceneFields, corners: np.ndarray) -> np.ndarray:
     """What share of quadrilaterals with corners (n, 4, 2) [m] is on the sheet, (n,); 1 of other cells."""
     import shapely
 
@@ -178,14 +103,14 @@ def share_of(scene: Scene, corners: np.ndarray) -> np.ndarray:
     return np.asarray(shapely.area(shapely.intersection(cells, scene.region)) / shapely.area(cells))
 
 
-def off_sheet(scene: Scene, point: PlanPoint) -> bool:
+def off_sheet(scene: SceneFields, point: PlanPoint) -> bool:
     """Whether there is no sheet at a plan point [m]."""
     from shapely import Point
 
     return bool(scene.region.distance(Point(point)) > COINCIDENT * max(scene.sheet.lengths))
 
 
-def misplaced(scene: Scene) -> str:
+def misplaced(scene: SceneFields) -> str:
     """Why something is held, loaded or probed where there is no sheet; "" where nothing is."""
     for key, point in marked(scene).items():
         if off_sheet(scene, point):
@@ -217,7 +142,7 @@ def misplaced(scene: Scene) -> str:
     return _disconnected(scene)
 
 
-def _disconnected(scene: Scene) -> str:
+def _disconnected(scene: SceneFields) -> str:
     """Why supports that hold the same part of the sheet cannot both be obeyed; "" where all can."""
     import shapely
 
@@ -244,7 +169,7 @@ def _disconnected(scene: Scene) -> str:
     return ""
 
 
-def require_rectangle(scene: Scene, who: str, instead: str = "") -> None:
+def require_rectangle(scene: SceneFields, who: str, instead: str = "") -> None:
     """Raise Impossible for a sheet that is no whole rectangle, held and loaded at edges, points and all over,
     if `who` knows no other: a verb, a model or a file; instead: what does."""
     if words := scene.shaped_by:

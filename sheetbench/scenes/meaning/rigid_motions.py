@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from sheetbench.errors import SceneError
-from sheetbench.scenes.actuators import Chain
-from sheetbench.scenes.obstacles import require_frictionless
-from sheetbench.scenes.region import Cutout, common, region
-from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import Held, Point, Support, held_axes, holds_tilt, place
-
-if TYPE_CHECKING:
-    from sheetbench.scenes.scene import Scene
+from sheetbench.scenes.meaning.distances import require_frictionless
+from sheetbench.scenes.objects.actuators import Chain
+from sheetbench.scenes.objects.cutouts import Cutout, common, region
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.sheet import EDGES, Sheet
+from sheetbench.scenes.objects.supports import Held, Point, Support, held_axes, holds_tilt, place
 
 ROUND_OFF = 1e-9
 
 
-def free_rigid_motions(scene: Scene) -> list[str]:
+def free_rigid_motions(scene: SceneFields) -> list[str]:
     """Names of the rigid motions that supports and actuators leave free, as many as there are independent
     ones (empty: a static answer can exist).
 
@@ -80,7 +77,7 @@ def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
     return ""
 
 
-def require_static(scene: Scene) -> None:
+def require_static(scene: SceneFields) -> None:
     """Raise SceneError unless the supports stop every rigid motion, or obstacles those out of the plane; and
     for friction."""
     require_frictionless(scene)

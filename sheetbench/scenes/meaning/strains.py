@@ -10,18 +10,15 @@ One rule for every model; where a model looks is its own affair.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
-from sheetbench.scenes.patches import mass_over_stiffness
-
-if TYPE_CHECKING:
-    from sheetbench.scenes.scene import Scene
+from sheetbench.scenes.meaning.composition import mass_over_stiffness
+from sheetbench.scenes.objects.fields import SceneFields
 
 WEIGHT_LIMIT = 0.05
 STRETCH_LIMIT = 0.5
 
 
-def weight_strain(scene: Scene) -> float:
+def weight_strain(scene: SceneFields) -> float:
     """ρ g a/E under the last of the weight."""
     if scene.gravity is None:
         return 0.0
@@ -29,7 +26,7 @@ def weight_strain(scene: Scene) -> float:
     return mass_over_stiffness(scene) * pull
 
 
-def outside_model(scene: Scene, stretch: float, what: str = "the mid-surface stretched by") -> str:
+def outside_model(scene: SceneFields, stretch: float, what: str = "the mid-surface stretched by") -> str:
     """A clause that says so where a sheet is strained beyond the limits, else nothing; what: the words before
     the stretch."""
     weight = weight_strain(scene)

@@ -4,31 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import degrees, hypot
-from typing import TYPE_CHECKING
 
-from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
-from sheetbench.scenes.air import Air
-from sheetbench.scenes.layers import Layer
-from sheetbench.scenes.loads import AnyLoad, AreaLoad, PointLoad, Pressure
-from sheetbench.scenes.masses import Mass, carried
-from sheetbench.scenes.material import CONSTANTS, Material
-from sheetbench.scenes.natural_words import natural_in_words
-from sheetbench.scenes.obstacles import AnyObstacle, Plane, nearest, obstacles_by_name
-from sheetbench.scenes.orthotropy import Ply
-from sheetbench.scenes.patches import Patch, mass_of
-from sheetbench.scenes.quantities import PlanPoint
-from sheetbench.scenes.region import area_in, resultant
-from sheetbench.scenes.rigid_motions import free_rigid_motions
-from sheetbench.scenes.shapes import Shape
-from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Held, Hinged, Point, named, place
-from sheetbench.scenes.tables import FactorTable
+from sheetbench.scenes.meaning.composition import mass_of
+from sheetbench.scenes.meaning.distances import nearest, obstacles_by_name
+from sheetbench.scenes.meaning.natural_words import natural_in_words
+from sheetbench.scenes.meaning.payloads import carried
+from sheetbench.scenes.meaning.region import area_in, resultant
+from sheetbench.scenes.meaning.rigid_motions import free_rigid_motions
+from sheetbench.scenes.objects.actuators import Actuator, Chain, CurvatureTable
+from sheetbench.scenes.objects.air import Air
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.layers import Layer
+from sheetbench.scenes.objects.loads import AnyLoad, AreaLoad, PointLoad, Pressure
+from sheetbench.scenes.objects.masses import Mass
+from sheetbench.scenes.objects.material import CONSTANTS, Material
+from sheetbench.scenes.objects.obstacles import AnyObstacle, Plane
+from sheetbench.scenes.objects.patches import Patch
+from sheetbench.scenes.objects.quantities import PlanPoint
+from sheetbench.scenes.objects.shapes import Shape
+from sheetbench.scenes.objects.sheet import EDGES, Sheet
+from sheetbench.scenes.objects.supports import AnySupport, Clamped, Curved, Held, Hinged, Point, named, place
+from sheetbench.scenes.objects.tables import FactorTable
 
-if TYPE_CHECKING:
-    from sheetbench.scenes.scene import Scene
 
-
-def in_words(scene: Scene) -> list[tuple[str, str]]:
+def in_words(scene: SceneFields) -> list[tuple[str, str]]:
     """What each part of the scene means: pairs of a part's name and a sentence."""
     sheet, material = scene.sheet, scene.material
     shorter = min(sheet.lengths)
@@ -106,7 +105,7 @@ def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
     )
 
 
-def _outline(scene: Scene) -> str:
+def _outline(scene: SceneFields) -> str:
     """Return a clause on the outline and the area of a sheet that is no whole rectangle, "" for one."""
     if not scene.pierced:
         return ""
@@ -129,7 +128,7 @@ def _elasticity(material: Material) -> str:
     """Return E and ν, or the constants of fibres."""
     if material.kind == "isotropic":
         return f"E = {_pascals(material.young)}, ν = {material.poisson:g}"
-    ply = Ply.of(material)
+    ply = material.ply
     moduli = ", ".join(
         f"{name} = {_pascals(value)}"
         for name, value in (("E₁", ply.young_1), ("E₂", ply.young_2), ("G₁₂", ply.shear_12))
@@ -194,7 +193,7 @@ def _payload(payload: Mass, sheet: Sheet) -> str:
     return f"{1e3 * payload.mass:.3g} g at {place}{turning}"
 
 
-def _weight(scene: Scene, mass: float) -> str:
+def _weight(scene: SceneFields, mass: float) -> str:
     whole = f", of {1e3 * mass:.3g} g in all" if scene.masses else ""
     if scene.gravity is None:
         return f"none: weightless{whole}"
@@ -243,7 +242,7 @@ def _bent(curvature: float, sheet: Sheet, edge: str) -> str:
     return f"bent to a radius of {_mm(1.0 / abs(curvature))} mm, {turned:.3g}° in all, its ends {way}"
 
 
-def _load(load: AnyLoad, scene: Scene) -> str:
+def _load(load: AnyLoad, scene: SceneFields) -> str:
     history, whole = _over_time(load.history), hypot(*resultant(scene, load))
     if isinstance(load, PointLoad):
         return f"{_vector(load.force, 'N')} at {_point(load.at)} mm{_on_edges(load.at, scene.sheet)}{history}"

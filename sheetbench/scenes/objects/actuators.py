@@ -6,7 +6,7 @@ angle curvature × ds between them. The chain alone carries its own weight and i
 tilt about the rod. A curvature is a number, a list with one value a joint (in the order of the edge's axis; a
 held base adds the half-length joints beside it), or a table {time, value}, of which statics take the last
 value, as of a motion. A motion is no chain and has no forces of its own. What neighbouring edges must agree
-on: `sheetbench.scenes.corners`.
+on: `sheetbench.scenes.meaning.corners`.
 
 An actuator's name is its edge, or, where an edge has several, its edge and its number in the scene: "x1.2".
 What holds it is named among the reactions: a motion as its edge, the base of an edge's chains as "EDGE base".
@@ -23,7 +23,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from sheetbench.scenes.quantities import (
+from sheetbench.scenes.objects.quantities import (
     A_LIST,
     A_NUMBER,
     A_TABLE,
@@ -36,8 +36,8 @@ from sheetbench.scenes.quantities import (
     Unit,
     Vector3,
 )
-from sheetbench.scenes.sheet import EdgeName
-from sheetbench.scenes.tables import OverTime, PiecewiseLinear
+from sheetbench.scenes.objects.sheet import EdgeName
+from sheetbench.scenes.objects.tables import OverTime, PiecewiseLinear
 
 Plane = Literal["normal", "inplane", "spatial"]
 Base = Literal["free", "start", "middle", "end"]

@@ -16,8 +16,8 @@ from __future__ import annotations
 
 from math import pi
 
-from sheetbench.scenes.quantities import Density, Frozen, Positive
-from sheetbench.scenes.sheet import Sheet
+from sheetbench.scenes.objects.quantities import Density, Frozen, Positive
+from sheetbench.scenes.objects.sheet import Sheet
 
 
 class Air(Frozen):

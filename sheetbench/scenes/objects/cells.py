@@ -8,10 +8,10 @@ from typing import Any, Self
 import numpy as np
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.material import Material
-from sheetbench.scenes.orthotropy import Ply
-from sheetbench.scenes.sheet import Sheet
+from sheetbench.scenes.objects.grid import Grid
+from sheetbench.scenes.objects.material import Material
+from sheetbench.scenes.objects.orthotropy import Ply
+from sheetbench.scenes.objects.sheet import Sheet
 
 NUMBERS = ("thickness", "young", "poisson", "density")
 
@@ -30,7 +30,7 @@ class Constants:
     @classmethod
     def of(cls, sheet: Sheet, material: Material) -> Self:
         """Return the table of a sheet that is the same all over."""
-        plies = (Ply.of(material),) if material.kind == "orthotropic" else ()
+        plies = (material.ply,) if material.kind == "orthotropic" else ()
         return cls(sheet.thickness, material.young, material.poisson, material.density, plies)
 
     def arrays(self, shape: tuple[int, ...]) -> Self:

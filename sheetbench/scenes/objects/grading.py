@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes.sheet import EDGES
+from sheetbench.scenes.objects.sheet import EDGES
 
 THINNEST, ROUNDING = 0.1, 1e-9
 ALIKE = 1e-5  # weight of how alike cells are beside how near lines are to places; its square: to the middle

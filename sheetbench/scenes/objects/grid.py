@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes.sheet import Sheet
+from sheetbench.scenes.objects.sheet import Sheet
 
 Grid = tuple[int, int, int]
 LAYERS = 2

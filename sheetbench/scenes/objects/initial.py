@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from sheetbench.scenes.quantities import Frozen
+from sheetbench.scenes.objects.quantities import Frozen
 
 
 class Initial(Frozen):

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 from pydantic import Field, model_validator
 
-from sheetbench.scenes import orthotropy
-from sheetbench.scenes.material import Material
-from sheetbench.scenes.orthotropy import Fibres, Ply, in_own_axes
-from sheetbench.scenes.quantities import Angle, Density, Length, Modulus, PoissonRatio
-from sheetbench.scenes.sheet import Sheet
+from sheetbench.scenes.objects import orthotropy
+from sheetbench.scenes.objects.material import Material
+from sheetbench.scenes.objects.orthotropy import Fibres, Ply, in_own_axes
+from sheetbench.scenes.objects.quantities import Angle, Density, Length, Modulus, PoissonRatio
+from sheetbench.scenes.objects.sheet import Sheet
 
 ROUNDING = 1e-9  # of the thickness
 LARGEST_COUPLING = 0.01  # of the bending stiffness, that is left of what a pull bends
@@ -62,7 +62,7 @@ def plies(layers: tuple[Layer, ...], material: Material) -> tuple[Ply, ...]:
     """Return the plies of a sheet's layers. Heights are from the plane in which a pull does not bend the
     sheet: its middle, but of a laminate that is not symmetric about that."""
     ends = np.cumsum([0.0, *(layer.thickness for layer in layers)])
-    base = Ply.of(material)
+    base = material.ply
     found = tuple(
         base._replace(**{**in_own_axes(layer.own), **_angle(layer), "low": low, "high": high})
         for layer, (low, high) in zip(layers, pairwise((ends / ends[-1] - 0.5).tolist()), strict=True)

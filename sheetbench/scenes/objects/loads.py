@@ -8,10 +8,10 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.quantities import Number, PlanPoint, Unit, Vector3
-from sheetbench.scenes.shapes import Shape
-from sheetbench.scenes.sheet import EdgeName
-from sheetbench.scenes.tables import Loading
+from sheetbench.scenes.objects.quantities import Number, PlanPoint, Unit, Vector3
+from sheetbench.scenes.objects.shapes import Shape
+from sheetbench.scenes.objects.sheet import EdgeName
+from sheetbench.scenes.objects.tables import Loading
 
 
 class _Load(Loading):

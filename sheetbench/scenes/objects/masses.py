@@ -13,18 +13,13 @@ the kinetic energy of a rigid body; e.g. Wittenburg, Dynamics of Multibody Syste
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.loads import AreaLoad, PointLoad
-from sheetbench.scenes.quantities import Frozen, NonNegative, PlanPoint, Positive, Unit
-from sheetbench.scenes.region import area_in
-from sheetbench.scenes.shapes import Shape
-
-if TYPE_CHECKING:
-    from sheetbench.scenes.scene import Scene
+from sheetbench.scenes.objects.quantities import Frozen, NonNegative, PlanPoint, Positive, Unit
+from sheetbench.scenes.objects.shapes import Shape
 
 
 class Mass(Frozen):
@@ -55,24 +50,3 @@ class Mass(Frozen):
         """What resists the components of ḋ, (3,) [kg m²]."""
         x, y, _ = self.inertia or (0.0, 0.0, 0.0)
         return np.array([y, x, max(x, y)])
-
-
-def carried(scene: Scene) -> float:
-    """Return the mass [kg] of all payloads."""
-    return sum(payload.mass for payload in scene.masses)
-
-
-def weights(scene: Scene) -> tuple[PointLoad | AreaLoad, ...]:
-    """Return the payloads' weight as loads, with gravity's history; none without gravity."""
-    if scene.gravity is None:
-        return ()
-    found: list[PointLoad | AreaLoad] = []
-    for payload in scene.masses:
-        x, y, z = (payload.mass * np.array(scene.gravity.acceleration)).tolist()
-        if payload.at is not None:
-            found.append(PointLoad(at=payload.at, force=(x, y, z), history=scene.gravity.history))
-            continue
-        area = area_in(scene, payload.where)
-        spread = AreaLoad(force_per_area=(x / area, y / area, z / area), where=payload.where)
-        found.append(spread.replace(history=scene.gravity.history))
-    return tuple(found)

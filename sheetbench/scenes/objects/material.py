@@ -14,7 +14,7 @@ given at small strains. By `law`:
     gent            f = −½ shear · limit · ln(1 − x/limit)
 
 `young` is the long-time modulus, which everything at rest has; in motion Maxwell branches add to it
-(`sheetbench.scenes.relaxation`). All moduli relax alike, Poisson's ratio stays.
+(`sheetbench.scenes.objects.relaxation`). All moduli relax alike, Poisson's ratio stays.
 
 Sources: Mooney (1940), Rivlin (1948), Yeoh (1990), Gent (1996); ln J as in Bonet and Wood, Nonlinear
 Continuum Mechanics (2008), 6.4.
@@ -31,9 +31,10 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes import orthotropy
-from sheetbench.scenes.orthotropy import Fibres
-from sheetbench.scenes.quantities import (
+from sheetbench.scenes.language.units import numbers
+from sheetbench.scenes.objects import orthotropy
+from sheetbench.scenes.objects.orthotropy import Fibres, Ply
+from sheetbench.scenes.objects.quantities import (
     Angle,
     Density,
     Finite,
@@ -44,8 +45,7 @@ from sheetbench.scenes.quantities import (
     Positive,
     Unit,
 )
-from sheetbench.scenes.relaxation import Branches, Relaxation, constant_loss
-from sheetbench.scenes.units import numbers
+from sheetbench.scenes.objects.relaxation import Branches, Relaxation, constant_loss
 
 RubberLaw = Literal["neo-hookean", "mooney-rivlin", "yeoh", "gent"]
 
@@ -105,7 +105,7 @@ def _constants_in_schema(schema: dict[str, Any]) -> None:
 
 class Material(Fibres):
     """Elasticity, density, viscous damping and relaxation; of rubber a law with its constants, of a sheet
-    with fibres those along and across them (`sheetbench.scenes.orthotropy`)."""
+    with fibres those along and across them (`sheetbench.scenes.objects.orthotropy`)."""
 
     model_config = ConfigDict(json_schema_extra=_constants_in_schema)
 
@@ -246,6 +246,12 @@ class Material(Fibres):
         if (total := sum(branch.share for branch in self.relaxation)) >= 1.0:
             raise ValueError(f"relaxation: shares add up to {total:g}; the rest, below 1, is young's")
         return self
+
+    @property
+    def ply(self) -> Ply:
+        """Return the ply that a sheet of this material alone is."""
+        given = {key: getattr(self, key) for key in (*orthotropy.KEYS, "young", "poisson", "density")}
+        return Ply(-0.5, 0.5, **orthotropy.in_own_axes(given))
 
     @property
     def dashpot_time(self) -> float:

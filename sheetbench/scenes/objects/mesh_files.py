@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from sheetbench.process import ONE_THREAD, run
-from sheetbench.scenes import mesh_reader
-from sheetbench.scenes.reading import LARGEST
+from sheetbench.scenes.language.reading import LARGEST
+from sheetbench.scenes.objects import mesh_reader
 
 FORMATS = {  # meshio's names by the endings of files: those that hold meshes of surfaces
     **dict.fromkeys((".bdf", ".fem", ".nas"), "nastran"),

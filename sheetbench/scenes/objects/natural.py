@@ -19,8 +19,8 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.quantities import Number, Unit, Vector3
-from sheetbench.scenes.tables import Loading
+from sheetbench.scenes.objects.quantities import Number, Unit, Vector3
+from sheetbench.scenes.objects.tables import Loading
 
 LARGEST_STRAIN = 0.5
 NOTHING = (0.0, 0.0, 0.0)

@@ -13,16 +13,13 @@ Source: R. M. Jones, Mechanics of Composite Materials (1999), 2.3 and 2.4.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from pydantic import Field
 
-from sheetbench.scenes.quantities import Frozen, Modulus, Number, Unit
-from sheetbench.scenes.units import numbers
-
-if TYPE_CHECKING:
-    from sheetbench.scenes.material import Material
+from sheetbench.scenes.language.units import numbers
+from sheetbench.scenes.objects.quantities import Frozen, Modulus, Number, Unit
 
 NEEDED = ("young_1", "young_2", "poisson_12", "shear_12")
 MODULI = ("young_1", "young_2", "young_3", "shear_12", "shear_13", "shear_23")
@@ -75,12 +72,6 @@ class Ply(NamedTuple):
     shear_23: Any
     angle: Any
     density: Any
-
-    @classmethod
-    def of(cls, material: Material) -> Ply:
-        """Return the ply that a sheet of one material is."""
-        given = {key: getattr(material, key) for key in (*KEYS, "young", "poisson", "density")}
-        return cls(-0.5, 0.5, **in_own_axes(given))
 
 
 def in_own_axes(own: Mapping[str, Any]) -> dict[str, Any]:

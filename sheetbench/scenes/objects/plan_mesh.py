@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.mesh_files import read_cells
-from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
+from sheetbench.scenes.objects.mesh_files import read_cells
+from sheetbench.scenes.objects.quantities import Frozen, PlanPoint, Unit
 
 if TYPE_CHECKING:
     from shapely import Polygon

@@ -29,9 +29,9 @@ from pydantic_core import CoreSchema, PydanticCustomError
 from pydantic_core.core_schema import no_info_before_validator_function
 
 from sheetbench.errors import BadInput, SceneError
-from sheetbench.scenes.refusals import in_one_line
-from sheetbench.scenes.schema import sentences
-from sheetbench.scenes.units import converted
+from sheetbench.scenes.language.refusals import in_one_line
+from sheetbench.scenes.language.schema import sentences
+from sheetbench.scenes.language.units import converted
 
 SMALLEST, LARGEST = 1e-12, 1e15  # E of a diamond is 1e12 Pa
 
@@ -83,7 +83,7 @@ A_NUMBER, A_LIST, A_TABLE = Tag("a number"), Tag("a list"), Tag("a table")
 class Unit:
     """The SI unit of a number or of every number in a list; it stands as `unit` in the JSON Schema.
 
-    The number may be text with a unit of its own, as "2 mm" (`sheetbench.scenes.units`).
+    The number may be text with a unit of its own, as "2 mm" (`sheetbench.scenes.language.units`).
     """
 
     symbol: str

@@ -30,7 +30,7 @@ import numpy as np
 from pydantic import Field
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes.quantities import Finite, Frozen, Positive, Unit
+from sheetbench.scenes.objects.quantities import Finite, Frozen, Positive, Unit
 
 A_DECADE = 2  # branches
 HELD_WITHIN = 0.1  # of the loss factor, over the band

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 
-from sheetbench.scenes.quantities import Frozen, Number, PlanPoint, Positive, Unit
+from sheetbench.scenes.objects.quantities import Frozen, Number, PlanPoint, Positive, Unit
 
 if TYPE_CHECKING:
     from shapely import Polygon as Area

@@ -11,10 +11,10 @@ from typing import Annotated, Literal, NamedTuple
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
-from sheetbench.scenes.plan_mesh import PlanMesh, read_mesh
-from sheetbench.scenes.quantities import Frozen, Length, PlanPoint, Positive, Unit, Vector3
-from sheetbench.scenes.shapes import COINCIDENT, crossing
-from sheetbench.scenes.tables import Loading
+from sheetbench.scenes.objects.plan_mesh import PlanMesh, read_mesh
+from sheetbench.scenes.objects.quantities import Frozen, Length, PlanPoint, Positive, Unit, Vector3
+from sheetbench.scenes.objects.shapes import COINCIDENT, crossing
+from sheetbench.scenes.objects.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
 MeshLike = Annotated[PlanMesh, BeforeValidator(read_mesh, json_schema_input_type=str | PlanMesh)]

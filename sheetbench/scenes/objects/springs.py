@@ -23,8 +23,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, Strict, model_validator
 
-from sheetbench.scenes.grading import Graded, through, towards
-from sheetbench.scenes.quantities import (
+from sheetbench.scenes.objects.grading import Graded, through, towards
+from sheetbench.scenes.objects.quantities import (
     A_LIST,
     A_NUMBER,
     A_TABLE,
@@ -36,7 +36,7 @@ from sheetbench.scenes.quantities import (
     Positive,
     Unit,
 )
-from sheetbench.scenes.sheet import EdgeName
+from sheetbench.scenes.objects.sheet import EdgeName
 
 ByCell = tuple[tuple[Number, ...], ...]
 PositiveByCell = tuple[tuple[NonNegative, ...], ...]

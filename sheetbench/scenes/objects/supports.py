@@ -18,10 +18,10 @@ from typing import Annotated, Literal, Self
 
 from pydantic import ConfigDict, Field, field_validator, model_validator
 
-from sheetbench.scenes.quantities import Angle, Frozen, Number, PlanPoint, Unit, Vector3
-from sheetbench.scenes.shapes import Rectangle, Shape
-from sheetbench.scenes.sheet import EDGES, EdgeName
-from sheetbench.scenes.tables import CURVES, Interpolation, OverTime, PiecewiseCurve
+from sheetbench.scenes.objects.quantities import Angle, Frozen, Number, PlanPoint, Unit, Vector3
+from sheetbench.scenes.objects.shapes import Rectangle, Shape
+from sheetbench.scenes.objects.sheet import EDGES, EdgeName
+from sheetbench.scenes.objects.tables import CURVES, Interpolation, OverTime, PiecewiseCurve
 
 Component = Literal["x", "y", "z"]
 LARGEST_TILT = pi / 2.0  # rad, of a clamp

@@ -15,7 +15,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.quantities import Frozen, Number, Unit
+from sheetbench.scenes.objects.quantities import Frozen, Number, Unit
 
 INSTANT = 1e-9  # of a table's span, that a sum of time steps may lack of the moment it stands for
 

@@ -5,9 +5,9 @@ import pytest
 import sheetbench as sb
 from sheetbench.errors import SceneError
 from sheetbench.scenes import PointLoad, load
-from sheetbench.scenes.masses import weights
-from sheetbench.scenes.parameters import parameter, put
-from sheetbench.scenes.words import in_words
+from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.meaning.payloads import weights
+from sheetbench.scenes.meaning.words import in_words
 
 DISC = "where = {{ circle = {{ centre = [{}, 0.05], radius = 0.01 }} }}".format
 BASE = """name = "tip"

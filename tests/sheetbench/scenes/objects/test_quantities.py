@@ -10,12 +10,12 @@ from scene_files import GOOD, written
 
 import sheetbench as sb
 from sheetbench.scenes import Implausible
-from sheetbench.scenes.limits import PAGE, WISHES
-from sheetbench.scenes.schema import for_editors
-from sheetbench.scenes.supports import Motion
-from sheetbench.scenes.units import NAMES, quantity
+from sheetbench.scenes.language.limits import PAGE, WISHES
+from sheetbench.scenes.language.schema import for_editors
+from sheetbench.scenes.language.units import NAMES, quantity
+from sheetbench.scenes.objects.supports import Motion
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 SHEET, MATERIAL = sb.Sheet(0.12, 0.04, 0.002), sb.Material(0.6e6, 0.45, 1100.0)
 
 

@@ -5,9 +5,9 @@ from contact_cases import THICKNESS, laid_strip
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Cylinder, Motion, Plane, Scene, SceneError, Sphere, load
-from sheetbench.scenes.obstacles import farther, nearest
-from sheetbench.scenes.parameters import parameter, put
-from sheetbench.scenes.words import in_words
+from sheetbench.scenes.meaning.distances import farther, nearest
+from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.meaning.words import in_words
 
 GAPS = {
     "below": (Plane(position=(0, 0, -0.05)), 0.05),

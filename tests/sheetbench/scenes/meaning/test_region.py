@@ -3,19 +3,11 @@
 import numpy as np
 import pytest
 
-from sheetbench.scenes import (
-    BadInput,
-    Clamped,
-    Scene,
-    SceneError,
-    Sheet,
-    dead_force,
-    free_rigid_motions,
-    load,
-)
-from sheetbench.scenes.patches import mass_of, shares_of
-from sheetbench.scenes.region import edge_length
-from sheetbench.scenes.words import in_words
+from sheetbench.answers.balance import dead_force
+from sheetbench.scenes import BadInput, Clamped, Scene, SceneError, Sheet, free_rigid_motions, load
+from sheetbench.scenes.meaning.composition import mass_of, shares_of
+from sheetbench.scenes.meaning.region import edge_length
+from sheetbench.scenes.meaning.words import in_words
 
 FIN = [(0.0, 0.0), (0.2, 0.02), (0.2, 0.08), (0.0, 0.1)]
 HOLE = {"shape": {"circle": {"centre": (0.1, 0.05), "radius": 0.02}}}

@@ -10,7 +10,7 @@ from scene_files import GOOD, written
 
 from sheetbench import scenes
 from sheetbench.scenes import Implausible
-from sheetbench.scenes.plausibility import slips
+from sheetbench.scenes.meaning.plausibility import slips
 
 SPRINGS = """[springs]
 axial = 1.0
@@ -60,7 +60,7 @@ def test_what_is_plausible_is_not_remarked_on():
         warnings.simplefilter("error")
         for name in scenes.catalogue():
             assert slips(scenes.load(name)) == ()
-        for path in (Path(__file__).parents[3] / "examples" / "rubber").glob("*.toml"):  # to λ = 2
+        for path in (Path(__file__).parents[4] / "examples" / "rubber").glob("*.toml"):  # to λ = 2
             assert slips(scenes.load(path)) == ()
 
 

@@ -6,8 +6,8 @@ import pytest
 
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Scene, SceneError, Sheet, load
-from sheetbench.scenes.grid import elements_of
-from sheetbench.scenes.words import in_words
+from sheetbench.scenes.meaning.words import in_words
+from sheetbench.scenes.objects.grid import elements_of
 
 SCENE = """
 name = "own"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sheetbench.scenes import Patch, Scene, SceneError, Sheet, load
-from sheetbench.scenes.patches import constants_at, mass_of, parts_between, sides_of
+from sheetbench.scenes.meaning.composition import constants_at, mass_of, parts_between, sides_of
 
 GRAVITY = {"acceleration": (0.0, 0.0, -9.81)}
 ROOT = {"rectangle": {"x": (0.0, 0.05), "y": (0.0, 0.1)}}

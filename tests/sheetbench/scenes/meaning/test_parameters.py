@@ -5,7 +5,7 @@ import pytest
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Curved, Scene, SceneError, Symmetric
-from sheetbench.scenes.parameters import parameter, put
+from sheetbench.scenes.meaning.parameters import parameter, put
 
 SCENE = scenes.load("one-edge-clamped")
 CHAIN = {"edge": "x1", "segments": 4, "bending_stiffness": 0.01, "line_density": 0.05, "radius": 1e-3}

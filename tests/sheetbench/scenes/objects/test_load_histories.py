@@ -15,7 +15,8 @@ from comparisons.models.symmetry import half, planes
 from lumped.dynamics import INTEGRATORS
 from lumped.loads import Loads
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, EdgeLoad, FactorTable, Pressure, Scene, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, EdgeLoad, FactorTable, Pressure, Scene
 
 TIP = (0.188, 0.094)
 RAMP = {"time": [0.0, 0.02, 0.05], "factor": [0.0, 1.0, -0.4]}

@@ -5,11 +5,11 @@ import pytest
 
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes import Clamped, FactorTable, Layer, Material, Patch, Scene, Sheet
-from sheetbench.scenes.natural import Natural, Temperature
-from sheetbench.scenes.natural_state import natural_at, natural_of_cells, sheet_at_rest, thermal
-from sheetbench.scenes.natural_words import natural_in_words
-from sheetbench.scenes.parameters import parameter, put
-from sheetbench.scenes.patches import require_plain
+from sheetbench.scenes.meaning.composition import require_plain
+from sheetbench.scenes.meaning.natural_state import natural_at, natural_of_cells, sheet_at_rest, thermal
+from sheetbench.scenes.meaning.natural_words import natural_in_words
+from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.objects.natural import Natural, Temperature
 
 MATERIAL = Material(young=1e6, poisson=0.3, density=1e3, expansion=1e-4)
 

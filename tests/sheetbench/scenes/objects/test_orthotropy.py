@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sheetbench.scenes import Material, Scene, SceneError, Sheet, load
-from sheetbench.scenes.patches import constants_at
+from sheetbench.scenes.meaning.composition import constants_at
 
 FIBRES = {"kind": "orthotropic", "young_1": 5e7, "young_2": 5e6, "poisson_12": 0.3, "shear_12": 3e6}
 DISC = {"circle": {"centre": (0.05, 0.05), "radius": 0.02}}

@@ -8,7 +8,7 @@ import pytest
 
 from sheetbench import scenes
 from sheetbench.scenes import SceneError
-from sheetbench.scenes.schema import json_schema
+from sheetbench.scenes.language.schema import json_schema
 
 pytestmark = pytest.mark.smoke
 

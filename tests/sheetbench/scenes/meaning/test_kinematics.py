@@ -16,8 +16,8 @@ from sheetbench.scenes import (
     Sheet,
     Symmetric,
 )
-from sheetbench.scenes.kinematics import UP, BentEdge, MovedEdge, TiltedEdge, bent_or_tilted
-from sheetbench.scenes.tables import SmoothCurve
+from sheetbench.scenes.meaning.kinematics import UP, BentEdge, MovedEdge, TiltedEdge, bent_or_tilted
+from sheetbench.scenes.objects.tables import SmoothCurve
 
 SHEET = Sheet(length_x=0.3, length_y=0.2, thickness=0.003)
 TIME, DISPLACEMENT = (0.1, 0.5, 0.7), ((0.0, 0.01, 0.0), (0.02, 0.0, -0.01), (0.0, 0.0, 0.03))

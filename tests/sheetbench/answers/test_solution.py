@@ -9,7 +9,7 @@ from comparisons.cli.app import verb_group
 from fem_reference.shell import statics
 from fem_reference.shell.validity import STRETCHED
 from sheetbench import scenes
-from sheetbench.scenes import Status
+from sheetbench.answers.solution import Status
 
 
 def test_the_message_is_fallback_snaps_and_notes_in_a_line():

@@ -5,7 +5,8 @@ from time import perf_counter
 import pytest
 
 from comparisons.cli import main
-from sheetbench.scenes import SceneError, load, mesh_files
+from sheetbench.scenes import SceneError, load
+from sheetbench.scenes.objects import mesh_files
 
 SCENE = """
 name = "own"

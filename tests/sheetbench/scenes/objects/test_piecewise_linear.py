@@ -2,7 +2,7 @@
 
 import pytest
 
-from sheetbench.scenes.tables import PiecewiseLinear
+from sheetbench.scenes.objects.tables import PiecewiseLinear
 
 
 @pytest.mark.parametrize("span", [1e-9, 1.0, 1e6])

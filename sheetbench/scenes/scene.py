@@ -1,7 +1,7 @@
 """A scene: the question to a model, in raw physics (E, ν, ρ, geometry, supports, loads, probes; SI).
 
 A scene knows no solver. It is read from TOML (`sheetbench.scenes.files`) or built as `Scene(…)`, validated
-once, and frozen; its keys are those of `SceneFields`; see `scenes.objects.supports` and `scenes.objects.loads` for what the words mean.
+once, and frozen. Its keys are in `scenes.objects.fields`; what they mean, in the other files there.
 """
 
 from __future__ import annotations

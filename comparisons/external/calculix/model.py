@@ -34,8 +34,8 @@ from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
 from sheetbench.process import Failed, output_of
 from sheetbench.scenes import Scene
-from sheetbench.scenes.objects.orthotropy import FIBRES, impossible_in_space
 from sheetbench.scenes.objects.fields import SHAPED
+from sheetbench.scenes.objects.orthotropy import FIBRES, impossible_in_space
 
 _HEADING = re.compile(r"^ *displacements .* and time +(\S+) *$", re.MULTILINE)
 PROGRAM, JOB = "ccx", "sheet"

@@ -1,4 +1,4 @@
-"""Parts of a scene's plan: lengths, areas, resultants of loads there, and what lies where there is no sheet."""
+"""Parts of a scene's plan: lengths, areas and resultants there, and what lies where there is no sheet."""
 
 from __future__ import annotations
 

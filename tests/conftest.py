@@ -9,8 +9,8 @@ from matrix_options import scene_files
 from matrix_rows import check, tally
 from verbs import few_runs, run_here, undraw
 
-from comparisons.runs.campaign import campaign
 from comparisons.sweep import here as table
+from comparisons.sweep.campaign import campaign
 from sheetbench.answers import style
 from sheetbench.answers.solution import Solution
 

@@ -76,7 +76,7 @@ def command(
     named = reference if isinstance(reference, str) else reference.label
     models = {"--reference": named, **({"--model": " ".join(map(str, model))} if model else {})}
     if duration is not None:
-        from comparisons.motion.comparison import compare_motion
+        from comparisons.comparison.motion import compare_motion
 
         moving = scenes.scene_of(scene)
         chosen = None if elements is None else parse_elements(elements)

@@ -124,8 +124,8 @@ def command(
     from comparisons.tradeoff.choices import trade
 
     if tolerance is not None or budget is not None:
-        from comparisons.advice.advisor import advise
         from comparisons.comparison.comparison import load_static
+        from comparisons.tradeoff.advisor import advise
         from sheetbench.errors import require_effect
 
         lists = {"lumped": grid, "plate": plate, "shell": shell, "solid": solid}

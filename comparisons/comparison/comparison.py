@@ -20,10 +20,10 @@ from comparisons.models.keywords import StaticKeywords
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
 from comparisons.pictures.work import Progress, silent
-from comparisons.runs.load import average
-from comparisons.runs.load import warnings as doubts
 from comparisons.sweep.differences import error as error  # where others take it from
 from comparisons.sweep.here import here, with_room
+from comparisons.sweep.load import average
+from comparisons.sweep.load import warnings as doubts
 from fem_reference.uncertainty import coarser
 from sheetbench.answers.solution import Status
 from sheetbench.choices import REFERENCE

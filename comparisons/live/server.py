@@ -39,7 +39,7 @@ from comparisons.live.guard import LOOPBACK, Guard
 from comparisons.live.panel import Panel, Question
 from comparisons.models.resolve import resolve
 from comparisons.pages import viewer
-from comparisons.runs.executors import Processes, single_threaded
+from comparisons.sweep.executors import Processes, single_threaded
 from sheetbench.errors import BadInput
 from sheetbench.scenes.language.toml import to_toml
 

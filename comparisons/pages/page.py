@@ -26,7 +26,7 @@ from comparisons.pages.stage import stage
 from comparisons.pages.studies import FolderContents, Study
 from comparisons.pages.tables import tables
 from comparisons.pictures.amounts import memory
-from comparisons.runs.manifest import made_with
+from comparisons.sweep.manifest import made_with
 from sheetbench.answers.escape import terminal
 from sheetbench.answers.files import plain
 from sheetbench.answers.table import number, quantity

@@ -15,8 +15,8 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from comparisons.comparison.frames import write_frames
 from comparisons.models.grids import Elements
-from comparisons.motion.frames import write_frames
 from comparisons.pictures.vtk import write_mesh
 from comparisons.pictures.work import Work, silent
 from comparisons.reproduction import findings, nearest, printed_errors

@@ -27,15 +27,13 @@ import lumped
 from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
-from comparisons.runs.campaign import CampaignKeywords
-from comparisons.runs.store import Store
 from comparisons.stability.answer import Stability
 from comparisons.stability.limit import DefaultSteps
 from comparisons.stability.rows import Row
+from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.differences import error
 from comparisons.sweep.solved import Ask, Solved, sweep
-from comparisons.tradeoff.motion import explicit_limit, shortest_period
-from sheetbench.answers.solution import Status
+from comparisons.sweep.store import Store
 from sheetbench.choices import INTEGRATORS, REFERENCE
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene
@@ -88,7 +86,7 @@ def stability(
     kinds = dict.fromkeys(("plate", "shell", reference))
     models = {lattice.model: lattice, **{kind: Elements(kind, elements) for kind in kinds}}
     moving = not {"damping", "time-step"}.isdisjoint(varied)
-    period = shortest_period(scene, resolve(scene, lattice).springs) if moving else 0.0
+    period = lumped.shortest_period(scene, resolve(scene, lattice).springs) if moving else 0.0
     truth = models[reference]
     makers: dict[str, Callable[[], Iterator[Cell]]] = {
         **{name: partial(_scaled, scene, name, models, truth) for name in FACTORS},
@@ -166,7 +164,7 @@ def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
     for name in INTEGRATORS:
         steps = [period / n for n in DIVISIONS]
         if lumped.INTEGRATORS[name].explicit:
-            limit = explicit_limit(name, scene, resolve(scene, lattice).springs)
+            limit = lumped.explicit_limit(name, scene, resolve(scene, lattice).springs)
             steps = [share * limit for share in SHARES]
         yield from ((ask(name, step), against) for step in steps)
 

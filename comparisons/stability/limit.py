@@ -17,7 +17,7 @@ import numpy as np
 import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from comparisons.runs.campaign import Run
+from comparisons.sweep.campaign import Run
 from comparisons.sweep.solved import Ask
 from lumped import Calibration, State, StepFailed, System
 from sheetbench.scenes import Clamped, Held, Hinged, Scene

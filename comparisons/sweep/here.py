@@ -15,7 +15,7 @@ from comparisons.models.sizes import has_room
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from comparisons.pictures.work import silent
-from comparisons.runs import load
+from comparisons.sweep import load
 from comparisons.sweep.solved import Ask, Solved
 from sheetbench.answers.solution import Solution
 from sheetbench.scenes import Scene

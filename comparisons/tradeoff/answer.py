@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, replace
 from math import inf
 from typing import Annotated, Any
 
-from comparisons.runs import load
+from comparisons.sweep import load
 from comparisons.sweep.front import cheapest, error_order, front, grouped, order
 from comparisons.sweep.model_error import share_of_tolerance
 from comparisons.tradeoff.row import MotionRow, TradeoffRow

@@ -20,12 +20,12 @@ import numpy as np
 from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Spec
-from comparisons.runs.campaign import CampaignKeywords
-from comparisons.runs.store import Store
+from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.columns import field_points
 from comparisons.sweep.differences import error
 from comparisons.sweep.limits import limit
 from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.sweep.store import Store
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from fem_reference.uncertainty import coarser

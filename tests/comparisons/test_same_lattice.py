@@ -9,14 +9,13 @@ from commands import run
 
 import lumped
 import sheetbench as sb
-from comparisons.advice.trials import TrialSolves
 from comparisons.live import server
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from comparisons.runs.campaign import function
 from comparisons.sweep import solved, task
-from comparisons.tradeoff import motion
+from comparisons.sweep.campaign import function
+from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.scenes import SpringTable
 
 CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe", "build_problem")
@@ -59,8 +58,8 @@ def caught(monkeypatch):
     for name in CONSUMERS:
         monkeypatch.setattr(lumped, name, used)
     monkeypatch.setattr(solved, "carry_out", carried_out)
-    monkeypatch.setattr(motion, "shortest_period", lambda *_: 1.0)
-    monkeypatch.setattr(motion, "explicit_limit", lambda *_: 1.0)
+    monkeypatch.setattr(lumped, "shortest_period", lambda *_: 1.0)
+    monkeypatch.setattr(lumped, "explicit_limit", lambda *_: 1.0)
     for module in (solvers, task):
         monkeypatch.setattr(module, "warm", lambda _: None)
     monkeypatch.setattr(server, "run", lambda panel, *_: used(panel.scene, _of_panel(panel)))

@@ -9,7 +9,6 @@ from matplotlib.pyplot import subplots
 
 import fem_reference
 import lumped
-from comparisons.advice import trials
 from comparisons.cli import modes
 from comparisons.models.spec import spec_of
 from comparisons.modes.spectra import spectra
@@ -17,6 +16,7 @@ from comparisons.modes.state_space import Linearisation
 from comparisons.reproduction import figure, nearest
 from comparisons.stability import tiles as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure
+from comparisons.tradeoff import trials
 from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from lumped.calibration.tables import moduli

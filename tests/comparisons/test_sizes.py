@@ -13,7 +13,7 @@ from comparisons.external import memory
 from comparisons.models import sizes
 from comparisons.models.spec import spec_of
 from comparisons.pictures import amounts
-from comparisons.runs.campaign import campaign
+from comparisons.sweep.campaign import campaign
 from comparisons.tradeoff.statics import tradeoff
 from fem_reference.footprint import footprint as of_reference
 from sheetbench import scenes
@@ -40,7 +40,7 @@ PEAK = """
 import json, sys
 import sheetbench as sb
 from comparisons.models.solve import warm
-from comparisons.runs.peak_memory import with_peak_memory
+from comparisons.sweep.peak_memory import with_peak_memory
 from sheetbench.heap import keep_freed_memory
 
 keep_freed_memory()  # as the command line does

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from commands import one_line, run
 
-from comparisons.runs.folder import Folder
+from comparisons.sweep.folder import Folder
 from sheetbench.answers.files import folder
 from sheetbench.answers.report import Report
 from sheetbench.files import only_writer, require_file, whole, writing

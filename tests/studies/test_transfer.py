@@ -8,7 +8,7 @@ import pytest
 from commands import one_line, run
 
 import lumped  # noqa: F401  (rslab is to be imported by the thread that lives longest)
-from comparisons.runs.campaign import campaign
+from comparisons.sweep.campaign import campaign
 from lumped.calibration.central_table import ROWS
 from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Clamped, EdgeLoad, Held

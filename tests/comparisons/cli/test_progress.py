@@ -24,7 +24,7 @@ from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
 from comparisons.pictures import amounts, work
 from comparisons.pictures.work import Pace, Work
-from comparisons.runs.campaign import GOING, Progress, campaign, carry_out
+from comparisons.sweep.campaign import GOING, Progress, campaign, carry_out
 from sheetbench.answers.size import Size
 from sheetbench.answers.solution import Iteration
 

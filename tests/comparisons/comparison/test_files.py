@@ -14,7 +14,7 @@ import pyvista
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
 from comparisons.pictures import offscreen as rendering
-from comparisons.runs.folder import Folder
+from comparisons.sweep.folder import Folder
 from sheetbench import scenes
 from sheetbench.answers import style
 from sheetbench.scenes import Scene

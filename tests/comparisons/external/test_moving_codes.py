@@ -7,9 +7,9 @@ import pytest
 from commands import one_line, run
 from sheetbench_felupe import MODEL as FELUPE
 
+from comparisons.comparison.motion import compare_motion
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
-from comparisons.motion.comparison import compare_motion
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Air, BadInput, EdgeMotion, FactorTable, Gravity, Relaxation, load
 

@@ -18,7 +18,7 @@ from comparisons.pages import studies as pages
 from comparisons.pages.page import page, pictures, question, whole_words
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
-from comparisons.runs.folder import Folder
+from comparisons.sweep.folder import Folder
 from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow
 from sheetbench.answers.report import Report

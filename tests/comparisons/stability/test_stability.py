@@ -78,7 +78,7 @@ def test_the_largest_stable_steps_are_those_measured(store, monkeypatch):
         assert measured >= 0.99 * computed and advised == pytest.approx(0.9 * computed)
         assert damping != "0 of critical" or measured <= 1.02 * computed
     springs = resolve(SETTLING, Lattice(3)).springs
-    known = extremes.explicit_limit("verlet", SETTLING, springs)
+    known = lumped.explicit_limit("verlet", SETTLING, springs)
     assert steps["verlet", "the scene's"][2] == pytest.approx(known)
     implicit = [row for row in found.rows if row["cell"]["integrator"] == "midpoint"]
     assert [row["status"] for row in implicit] == ["converged"] * 2

@@ -10,9 +10,9 @@ import pytest
 from cases import relative
 
 import fem_reference
-from comparisons.advice.advisor import advise
 from comparisons.comparison.comparison import compare
 from comparisons.sweep.model_error import ModelError, model_error
+from comparisons.tradeoff.advisor import advise
 from fem_reference.pulled_strip import pulled
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Clamped, Gravity, Hinged, Material, Pressure, Scene, Sheet, load

@@ -28,9 +28,9 @@ from dynamic_cases import scene, springs
 
 import fem_reference
 import lumped
-from comparisons.runs.campaign import campaign, carry_out
-from comparisons.runs.manifest import made_with
-from comparisons.runs.store import FILE
+from comparisons.sweep.campaign import campaign, carry_out
+from comparisons.sweep.manifest import made_with
+from comparisons.sweep.store import FILE
 from fuzz import record
 from sheetbench.files import LOCK
 

@@ -25,7 +25,7 @@ from typing import Any
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
-from comparisons.runs.manifest import made_with
+from comparisons.sweep.manifest import made_with
 from fuzz import record, trials
 from fuzz.grammar import command_lines, measured, shaped, sound, texts
 

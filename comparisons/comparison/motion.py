@@ -16,6 +16,9 @@ from typing import Any, Unpack
 
 import numpy as np
 
+from comparisons.comparison.measures import largest
+from comparisons.comparison.motion_answer import MotionComparison
+from comparisons.comparison.moving import refusal, require_motion
 from comparisons.external import plugins
 from comparisons.models import sizes
 from comparisons.models.context import context, in_context
@@ -24,9 +27,6 @@ from comparisons.models.keywords import LatticeKeywords
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unlike
-from comparisons.motion.comparison_answer import MotionComparison
-from comparisons.motion.measures import largest
-from comparisons.motion.run import refusal, require_motion
 from comparisons.pictures.work import Pace, Progress, Work, silent
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE

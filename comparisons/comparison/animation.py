@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from comparisons.comparison.figure import HEIGHTS, colour_bar
-from comparisons.motion.frames import Frame, frames
+from comparisons.comparison.frames import Frame, frames
 from comparisons.pictures import offscreen
 from comparisons.pictures.plan import plan_mesh
 from comparisons.pictures.stage import Stage

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.motion.comparison_answer import MotionComparison
+from comparisons.comparison.motion_answer import MotionComparison
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, SERIES, plain
 

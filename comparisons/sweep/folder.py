@@ -17,7 +17,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from comparisons.runs.manifest import made_with, record
+from comparisons.sweep.manifest import made_with, record
 from sheetbench.answers.files import folder, plain, to_json, write_text
 from sheetbench.answers.report import Report, Write
 from sheetbench.errors import BadInput

@@ -11,7 +11,6 @@ from answers import once
 from commands import json_of, run
 
 import fem_reference
-from comparisons.advice.advisor import advise
 from comparisons.comparison.comparison import error
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
@@ -19,6 +18,7 @@ from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice, Spec, spec_of
 from comparisons.sweep import here as table
 from comparisons.sweep.front import cheapest
+from comparisons.tradeoff.advisor import advise
 from fem_reference.pulled_strip import pulled
 from fem_reference.verification.strain_laws import stress
 from sheetbench import scenes
@@ -86,7 +86,7 @@ def test_the_load_number_is_of_the_length_that_hangs():
 
 def test_a_busy_machine_and_all_digits_are_shown(monkeypatch):
     """An error of 1.04 % is not the "1" that a tolerance of 1 % would let pass."""
-    monkeypatch.setattr("comparisons.runs.load.average", lambda: 100.0)
+    monkeypatch.setattr("comparisons.sweep.load.average", lambda: 100.0)
     advice = advise("one-edge-clamped", 0.2)
     assert len(advice.warnings) == 1 or "scatter" in advice.warnings[1]
     assert "(load 100 on" in advice.warnings[0]

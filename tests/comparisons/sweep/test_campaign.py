@@ -14,9 +14,9 @@ import pytest
 from campaigns import Here, alive, interrupt_when, rows_in, task, wait_for
 from limits import at_most
 
-from comparisons.runs import campaign as runs_campaign
-from comparisons.runs.campaign import TASKS, Progress, Run, campaign, carry_out, execute, function
-from comparisons.runs.store import FILE, Finished
+from comparisons.sweep import campaign as runs_campaign
+from comparisons.sweep.campaign import TASKS, Progress, Run, campaign, carry_out, execute, function
+from comparisons.sweep.store import FILE, Finished
 from sheetbench.errors import BadInput
 from sheetbench.sources import digest, source
 
@@ -127,7 +127,7 @@ def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path):
     script = (
         f"import sys; sys.path.insert(0, {str(HERE)!r})\n"
         "from pathlib import Path\n"
-        "from comparisons.runs.campaign import Run, campaign, carry_out\n"
+        "from comparisons.sweep.campaign import Run, campaign, carry_out\n"
         "if __name__ == '__main__':\n"
         f"    folder = {str(tmp_path)!r}\n"
         "    runs = [Run('campaign_tasks:gated', {'x': x, 'folder': folder}) for x in range(8)]\n"

@@ -10,10 +10,10 @@ import pytest
 from campaigns import interrupt_when, rows_in, task
 from distributed import LocalCluster
 
-from comparisons.runs import campaign as runs_campaign
-from comparisons.runs import executors
-from comparisons.runs.campaign import carry_out
-from comparisons.runs.executors import Cluster, pool_of
+from comparisons.sweep import campaign as runs_campaign
+from comparisons.sweep import executors
+from comparisons.sweep.campaign import carry_out
+from comparisons.sweep.executors import Cluster, pool_of
 from sheetbench.errors import BadInput
 
 HERE = Path(campaign_tasks.__file__).parent

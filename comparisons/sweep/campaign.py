@@ -27,9 +27,9 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any, TypedDict
 
-from comparisons.runs import interrupts
-from comparisons.runs.executors import Pool, Watched, processes, single_threaded
-from comparisons.runs.store import FILE, Finished, Store
+from comparisons.sweep import interrupts
+from comparisons.sweep.executors import Pool, Watched, processes, single_threaded
+from comparisons.sweep.store import FILE, Finished, Store
 from sheetbench.answers.files import plain
 from sheetbench.errors import BadInput
 from sheetbench.files import only_writer

@@ -9,9 +9,9 @@ import pytest
 from commands import json_of, run
 
 import sheetbench as sb
+from comparisons.comparison.measures import difference, extrema, measured_alike
+from comparisons.comparison.motion import compare_motion
 from comparisons.models.spec import Lattice
-from comparisons.motion.comparison import compare_motion
-from comparisons.motion.measures import difference, extrema, measured_alike
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
 from sheetbench.answers.history import ENERGIES, History
@@ -134,7 +134,7 @@ def test_the_command_prints_and_writes_a_motion(tmp_path, capsys):
 
 
 def test_its_picture_has_a_panel_a_probe():
-    from comparisons.motion.comparison_figure import compose
+    from comparisons.comparison.motion_figure import compose
 
     both = sb.compare("two-edges-settling", duration=0.01, uncertainty=False, grid=3, elements=1)
     assert len(compose(both).axes) == 5

@@ -10,9 +10,8 @@ from commands import json_of, run
 from dynamic_cases import scene, springs
 
 import lumped
-from comparisons.motion import history as histories
-from comparisons.motion.frames import frames
-from sheetbench.answers.measured_history import Measured
+from comparisons.comparison import measured as histories
+from comparisons.comparison.frames import frames
 from sheetbench.scenes import load
 from sheetbench.scenes.language.toml import to_toml
 

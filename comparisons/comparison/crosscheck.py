@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Unpack
 
-from comparisons.crosscheck.answer import Crosscheck
+from comparisons.comparison.crosscheck_answer import Crosscheck
 from comparisons.external.installed import InstalledCode
 from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Spec
-from comparisons.runs.campaign import CampaignKeywords
-from comparisons.runs.store import Store
+from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.limits import Limit
 from comparisons.sweep.solved import Ask, sweep
+from comparisons.sweep.store import Store
 from sheetbench.scenes import Scene
 
 

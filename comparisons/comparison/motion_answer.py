@@ -9,9 +9,9 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from comparisons.comparison import frames
+from comparisons.comparison.measures import Measures, difference, leading, measured_alike
 from comparisons.models.spec import Lattice
-from comparisons.motion import frames
-from comparisons.motion.measures import Measures, difference, leading, measured_alike
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.history import History
@@ -161,9 +161,9 @@ class MotionComparison(Answer):
         return _measures(self), _differences(self), _runs(self)
 
     def figures(self) -> tuple[Picture, ...]:
-        drawn = Picture("motion", "comparisons.motion.comparison_figure:compose", (self,))
+        drawn = Picture("motion", "comparisons.comparison.motion_figure:compose", (self,))
         moving = [*self._with_frames.values()]
-        film = Film("both", "comparisons.motion.animation:animate", (self.scene, moving))
+        film = Film("both", "comparisons.comparison.animation:animate", (self.scene, moving))
         return (drawn, film) if self.animate else (drawn,)
 
     def result(self) -> str:

@@ -1,7 +1,7 @@
 """The cheapest model that is accurate enough for a scene, or the most accurate one in a given time.
 
 Scales (`comparisons.models.scales`) decide what may be left out; a few quick solves
-(`comparisons.advice.trials`) decide the rest. A model is adequate if its distance from the reference, the
+(`comparisons.tradeoff.trials`) decide the rest. A model is adequate if its distance from the reference, the
 reference's error bar and what the reference leaves out on every mesh (`comparisons.sweep.model_error`)
 are together within the tolerance; where the bar leaves that open the reference is refined. Where the last
 alone is above the tolerance, the choice meets it against a converged shell only, and the advice says so.
@@ -18,17 +18,17 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import Unpack
 
-from comparisons.advice.answer import Advice, TrialRow
-from comparisons.advice.trials import TrialSolves
 from comparisons.comparison import strain_law
 from comparisons.models.context import in_context
 from comparisons.models.keywords import SpringKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, items
 from comparisons.pictures.work import Progress, silent
-from comparisons.runs import load
+from comparisons.sweep import load
 from comparisons.sweep.here import SolvedHere
 from comparisons.sweep.model_error import left_for_grid
+from comparisons.tradeoff.advice import Advice, TrialRow
+from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, require_static, scene_of

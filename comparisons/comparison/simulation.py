@@ -8,11 +8,9 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
+from comparisons.comparison.frames import write_frames
+from comparisons.comparison.measured import left_out
 from comparisons.models.grading import choice_notes
-from comparisons.motion.frames import write_frames
-from comparisons.motion.history import left_out
-from sheetbench.answers.history import History
-from sheetbench.answers.measured_history import Measured
 from sheetbench.answers.report import Film, Picture, Write
 from sheetbench.answers.table import Table, quantity
 from sheetbench.scenes import Scene
@@ -53,7 +51,7 @@ class Simulation(History):
         pictures = [Picture("history", "sheetbench.answers.history_figure:compose", of)]
         if self.animate:
             formats = ("gif", "mp4") if shutil.which("ffmpeg") else ("gif",)
-            film = "comparisons.motion.animation:animate"
+            film = "comparisons.comparison.animation:animate"
             pictures.append(Film("animation", film, (self.subject, [self]), formats=formats))
         return tuple(pictures)
 

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from comparisons.runs import manifest
+from comparisons.sweep import manifest
 from sheetbench import sources
 
 SCATTER = 2.0  # largest over smallest sample of one time

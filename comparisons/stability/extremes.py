@@ -34,6 +34,7 @@ from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.differences import error
 from comparisons.sweep.solved import Ask, Solved, sweep
 from comparisons.sweep.store import Store
+from sheetbench.answers.solution import Status
 from sheetbench.choices import INTEGRATORS, REFERENCE
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene

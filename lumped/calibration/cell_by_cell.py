@@ -68,6 +68,8 @@ def each_cell(
             lambda part: part[None, None] if even else np.broadcast_to(part, (*shape, *part.shape))
         )
     sides = np.stack(np.meshgrid(*widths), axis=-1)
+    if cells is not None and cells.growth is not None:
+        sides = sides * cells.growth
     return EachCell(grid, grading, lines, cells, sides, section, section.bending[..., 0, 0] > 0.0)
 
 

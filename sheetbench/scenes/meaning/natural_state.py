@@ -116,17 +116,24 @@ def sources_of(scene: SceneFields) -> Iterator[Source]:
         yield Source(scene.temperature, *thermal(scene, scene.temperature))
 
 
+def growth_of_cells(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> np.ndarray | None:
+    """Return how many times as long and as wide cells are at rest, (rows, columns, 2); None where all are
+    alike (`sheet_at_rest`)."""
+    if all(patch.natural is None for patch in scene.patches):
+        return None
+    state = natural_of_cells(scene, x, y)
+    assert state is not None
+    strain = state.at(state.factors())[0]
+    return 1.0 + np.diagonal(strain, axis1=-2, axis2=-1) if strain.any() else None
+
+
 def sheet_at_rest(scene: SceneFields) -> Sheet:
-    """Return the sheet as long and as wide as it is where nothing holds it, which its stiffness is that of:
-    of what is alike all over; a mesh keeps its size."""
-    if scene.sheet.mesh is not None:
+    """Return the sheet as long and as wide as it is where nothing holds it, which its stiffness is that of,
+    if it has grown alike all over (else `growth_of_cells`); a mesh keeps its size."""
+    sources = list(sources_of(scene))
+    if scene.sheet.mesh is not None or any(source.where is not None for source in sources):
         return scene.sheet
-    along = np.zeros(2)
-    for source in sources_of(scene):
-        if source.where is None:
-            along += source.of.last_factor * source.strain[:2]
-    if not along.any():
-        return scene.sheet
+    along = sum((source.of.last_factor * source.strain[:2] for source in sources), np.zeros(2))
     (lx, ly), outline = (1.0 + along) * scene.sheet.lengths, scene.sheet.outline
     drawn = outline and tuple((x * (1.0 + along[0]), y * (1.0 + along[1])) for x, y in outline)
     return scene.sheet.replace(length_x=float(lx), length_y=float(ly), outline=drawn)

@@ -138,7 +138,11 @@ def _elasticity(material: Material) -> str:
 
 def _layer(layer: Layer) -> str:
     """Return a layer's thickness, angle and other constants of its own."""
-    own = ", ".join(f"{name} = {value:g}" for name, value in layer.own.items() if name != "angle")
+    own = ", ".join(
+        f"{name} = {[*map(float, value)] if isinstance(value, tuple) else f'{value:g}'}"
+        for name, value in layer.own.items()
+        if name != "angle"
+    )
     at = "" if layer.angle is None else f", fibres at {degrees(layer.angle):.4g}°"
     return f"{_mm(layer.thickness)} mm thick{at}{f', {own}' if own else ''}"
 

@@ -1,6 +1,7 @@
 """`make kills`: campaigns, runs in time and trade-offs, killed at drawn instants and resumed to their end.
 
-    python -m fuzz.kills FOLDER [--campaign 45] [--run 30] [--reference 15] [--tradeoff 15] [--seed 1]
+    python -m fuzz.kills FOLDER [--campaign 45] [--run 30] [--reference 15] [--muscles 15]
+                         [--tradeoff 15] [--seed 1]
 
 A process writes into a folder and gets SIGKILL at an instant drawn between its start and somewhat beyond the
 time that it takes undisturbed; the next process goes on in the same folder, and is killed in turn, until one
@@ -33,6 +34,7 @@ from comparisons.sweep.manifest import made_with
 from comparisons.sweep.store import FILE
 from fuzz import record
 from sheetbench.files import LOCK
+from sheetbench.scenes import load
 
 TREE = Path(__file__).resolve().parents[3]
 Kept = dict[str, Any]  # what a folder holds and must go on holding, by name
@@ -60,6 +62,12 @@ def run_of_reference(folder: Path) -> None:
     fem_reference.simulate(
         "two-edges-settling", "shell", 0.04, elements=2, store=folder, every=2e-4, frames=20
     )
+
+
+def run_of_muscles(folder: Path) -> None:
+    """A motion of a lattice whose natural curvature grows, from the equilibrium in which it hangs."""
+    scene = load("muscle-bands")
+    lumped.simulate(scene, springs(scene, 5), 0.3, store=folder, every=2e-3, frames=20)
 
 
 def run_tradeoff(folder: Path) -> None:
@@ -117,6 +125,7 @@ KINDS = {
     "campaign": Kind("campaigns of forty runs", run_campaign, rows, answers, 45),
     "run": Kind("runs in time of a lattice", run_in_time, checkpointed, contents, 30),
     "reference": Kind("runs in time of a reference", run_of_reference, checkpointed, contents, 15),
+    "muscles": Kind("runs in time of muscle bands", run_of_muscles, checkpointed, contents, 15),
     "tradeoff": Kind("the verb tradeoff with a worker", run_tradeoff, rows, answers, 15),
 }
 

@@ -5,6 +5,7 @@ import pytest
 from rubbers import LAWS, rubber
 
 import sheetbench as sb
+from sheetbench.scenes.meaning.words import in_words
 
 
 def stored(material, stretches):
@@ -42,7 +43,7 @@ def test_a_rubber_comes_back_from_its_file(law, tmp_path):
     scene = sb.load("two-edges-clamped").replace(material=rubber(law))
     scene.save(tmp_path / "scene.toml")
     assert sb.load(tmp_path / "scene.toml") == scene
-    assert law in dict(sb.scenes.words.in_words(scene))["material"]
+    assert law in dict(in_words(scene))["material"]
 
 
 @pytest.mark.parametrize("law", LAWS)

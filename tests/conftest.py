@@ -12,7 +12,7 @@ from verbs import few_runs, run_here, undraw
 from comparisons.sweep import here as table
 from comparisons.sweep.campaign import campaign
 from sheetbench.answers import style
-from sheetbench.scenes import Solution
+from sheetbench.answers.solution import Solution
 
 
 def pytest_configure():

@@ -19,7 +19,7 @@ from comparisons.cli.app import verb_group
 from sheetbench.answers.files import to_json
 from sheetbench.errors import BadInput
 from sheetbench.scenes import load
-from sheetbench.scenes.toml import to_toml
+from sheetbench.scenes.language.toml import to_toml
 
 SPRINGS = {
     "--lumped": "4",

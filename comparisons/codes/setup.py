@@ -42,8 +42,8 @@ from sheetbench.scenes import (
     require_uniform,
     scene_of,
 )
-from sheetbench.scenes.patches import require_flat_at_rest
-from sheetbench.scenes.words import sheet_in_words
+from sheetbench.scenes.meaning.composition import require_flat_at_rest
+from sheetbench.scenes.meaning.words import sheet_in_words
 
 SQUARES = 8  # along the shorter side
 LAYERED = "tetrahedra"

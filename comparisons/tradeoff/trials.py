@@ -27,8 +27,8 @@ from comparisons.sweep.model_error import ModelError, model_error
 from sheetbench.choices import CALIBRATION
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene
-from sheetbench.scenes.grading import Graded, amount
-from sheetbench.scenes.grid import MASSES, near_square
+from sheetbench.scenes.objects.grading import Graded, amount
+from sheetbench.scenes.objects.grid import MASSES, near_square
 
 MESHES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
 FIRST = 3  # of them are always solved

@@ -15,7 +15,7 @@ from lumped.spring_constants import COUPLINGS, MID_COUPLINGS, Springs
 from sheetbench.answers.table import number
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet, SpringSet
-from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.objects.grid import Grid
 
 ALIKE = 1e-9
 

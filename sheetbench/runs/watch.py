@@ -14,8 +14,8 @@ from typing import Self
 
 import numpy as np
 
+from sheetbench.answers.solution import Status
 from sheetbench.answers.table import number
-from sheetbench.scenes import Status
 
 GROWN = 0.1
 TOLD = 0.01

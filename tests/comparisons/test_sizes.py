@@ -17,8 +17,8 @@ from comparisons.sweep.campaign import campaign
 from comparisons.tradeoff.statics import tradeoff
 from fem_reference.footprint import footprint as of_reference
 from sheetbench import scenes
+from sheetbench.answers.size import factors
 from sheetbench.errors import BadInput
-from sheetbench.scenes.size import factors
 
 GB = 10**9
 SCENE = "two-edges-clamped"

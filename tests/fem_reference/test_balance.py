@@ -11,7 +11,9 @@ from numpy.testing import assert_allclose
 import lumped
 from fem_reference.surface.mesh import rectangle
 from sheetbench import face as models
-from sheetbench.scenes import Balance, SceneError, Status, catalogue, dead_force, load
+from sheetbench.answers.balance import Balance, dead_force
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import SceneError, catalogue, load
 
 pytestmark = pytest.mark.smoke
 

@@ -6,8 +6,9 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
-from sheetbench.scenes import Clamped, EdgeMotion, Gravity, Held, Hinged, Material, Scene, Sheet, Status
-from sheetbench.scenes.supports import Motion
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, EdgeMotion, Gravity, Held, Hinged, Material, Scene, Sheet
+from sheetbench.scenes.objects.supports import Motion
 
 SHEET = Sheet(length_x=0.1, length_y=0.04, thickness=0.002)
 RUBBER = Material(young=1e6, poisson=0.3, density=1100.0)

@@ -11,8 +11,9 @@ from fem_reference.discrete.static import Static
 from fem_reference.shell.statics import discretise
 from fem_reference.solid import statics as solid
 from fem_reference.surface.mesh import mesh_of
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.direct import SymmetricPartFactor
-from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Status
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet
 
 EDGES = ("x0", "x1", "y0", "y1")
 CLAMPED = [{"edge": edge, "kind": "clamped"} for edge in EDGES]

@@ -23,10 +23,11 @@ from fem_reference.surface.materials import plane_stress, section_of, shear_modu
 from fem_reference.verification import run as rows_of
 from fem_reference.verification.rows import EXACT
 from fem_reference.verification.strain_laws import LARGE, RUBBERS, STRAINS, WAYS, stress
+from sheetbench.answers.solution import Status
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Clamped, Hinged, Material, Pressure, Scene, Sheet, Status, Symmetric
-from sheetbench.scenes.material import WORDS
+from sheetbench.scenes import Clamped, Hinged, Material, Pressure, Scene, Sheet, Symmetric
+from sheetbench.scenes.objects.material import WORDS
 
 PLAN = np.array([[0, 0], [2, 0.1], [2.1, 1.2], [-0.1, 1], [1, 0.05], [2.05, 0.65], [1, 1.1], [-0.05, 0.5]])
 NODES = np.concatenate([PLAN, PLAN[4:].mean(axis=0, keepdims=True)])[None]

@@ -7,18 +7,8 @@ from cases import GRAVITY, OBLONG, SILICONE, relative
 import fem_reference
 import lumped
 from sheetbench import scenes
-from sheetbench.scenes import (
-    EDGES,
-    Clamped,
-    Curved,
-    EdgeMotion,
-    Held,
-    Hinged,
-    Scene,
-    SceneError,
-    Status,
-    Symmetric,
-)
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import EDGES, Clamped, Curved, EdgeMotion, Held, Hinged, Scene, SceneError, Symmetric
 
 CUTS = (Symmetric(edge="y0"), Symmetric(edge="y1"))
 SEED = scenes.load("one-edge-clamped")

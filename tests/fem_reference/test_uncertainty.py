@@ -14,7 +14,7 @@ from fem_reference.edge_layer import Missed, missed_by
 from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
-from sheetbench.scenes import Status
+from sheetbench.answers.solution import Status
 
 SIZES = [1 / 16, 1 / 12, 1 / 8]
 

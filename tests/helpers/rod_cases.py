@@ -6,7 +6,8 @@ import numpy as np
 from cases import GRAVITY, RUBBER, SHEET
 
 import fem_reference
-from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet, Solution
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet
 
 STRIP = Sheet(length_x=0.02, length_y=1.0, thickness=0.0005)
 FLOPPY = Material(young=1e2, poisson=0.0, density=1e-3)  # a sheet that the rod does not feel

@@ -13,7 +13,7 @@ from lumped.grid_lines import grid_lines
 from lumped.spring_constants import of_edge_cells
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, load
-from sheetbench.scenes.grading import Grading, as_settings, of_settings, towards
+from sheetbench.scenes.objects.grading import Grading, as_settings, of_settings, towards
 from studies.transfer.scenes import transfer_scenes
 from studies.transfer.tasks import points
 

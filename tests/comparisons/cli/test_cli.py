@@ -15,7 +15,7 @@ from scene_files import written
 from comparisons.cli import interruption
 from comparisons.sweep import here as table
 from sheetbench import scenes
-from sheetbench.scenes import Status
+from sheetbench.answers.solution import Status
 
 pytestmark = pytest.mark.smoke
 

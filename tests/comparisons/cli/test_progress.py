@@ -25,8 +25,8 @@ from comparisons.models.training import training_scenes
 from comparisons.pictures import amounts, work
 from comparisons.pictures.work import Pace, Work
 from comparisons.sweep.campaign import GOING, Progress, campaign, carry_out
-from sheetbench.scenes import Iteration
-from sheetbench.scenes.size import Size
+from sheetbench.answers.size import Size
+from sheetbench.answers.solution import Iteration
 
 SCENE = "two-edges-clamped"
 SMALL = ("compare", SCENE, "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")

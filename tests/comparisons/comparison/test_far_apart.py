@@ -8,7 +8,8 @@ from comparisons.comparison.comparison import compare
 from comparisons.comparison.far_apart import far_apart_note, reasons
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet
 
 SCENE = Scene(
     name="arch",

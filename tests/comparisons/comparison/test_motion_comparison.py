@@ -14,9 +14,10 @@ from comparisons.comparison.motion import compare_motion
 from comparisons.models.spec import Lattice
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
+from sheetbench.answers.history import ENERGIES, History
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History, Status, load
-from sheetbench.scenes.history import ENERGIES
+from sheetbench.scenes import load
 
 SMALL = {"grid": 5, "elements": 2}
 

@@ -12,9 +12,9 @@ from dynamic_cases import make_scene, springs
 import lumped
 from comparisons.comparison import measured as histories
 from comparisons.comparison.frames import frames
+from sheetbench.answers.measured_history import Measured
 from sheetbench.scenes import load
-from sheetbench.scenes.measured_history import Measured
-from sheetbench.scenes.toml import to_toml
+from sheetbench.scenes.language.toml import to_toml
 
 RUN = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1"]
 

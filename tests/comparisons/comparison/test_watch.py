@@ -5,9 +5,10 @@ import pytest
 
 import fem_reference
 import lumped
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
 from sheetbench.runs.watch import Watch
-from sheetbench.scenes import Scene, Status, load
+from sheetbench.scenes import Scene, load
 
 MODELS = ("lumped", "plate", "shell", "solid")
 SOFT = {

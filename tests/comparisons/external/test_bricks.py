@@ -11,7 +11,7 @@ from comparisons.external.kratos.problem import Triangles, problem
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.mesh import nodes_of
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Hinged, PointLoad, Pressure, Sheet, load
-from sheetbench.scenes.patches import mass_of
+from sheetbench.scenes.meaning.composition import mass_of
 
 SEED = load("two-edges-clamped")
 BELOW = [(0, 1), (1, 2), (2, 3), (3, 0)]  # corners between which the mid-edge nodes lie

@@ -18,6 +18,7 @@ from comparisons.external.calculix.deck import LAWS as CALCULIX_LAWS
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
 from fem_reference.verification.strain_laws import RUBBERS
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
 from sheetbench.process import Failed, output_of
 from sheetbench.scenes import (
@@ -32,7 +33,6 @@ from sheetbench.scenes import (
     Pressure,
     Scene,
     Sheet,
-    Status,
     Symmetric,
     load,
 )

@@ -10,7 +10,8 @@ from sheetbench_felupe import MODEL as FELUPE
 from comparisons.comparison.motion import compare_motion
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
-from sheetbench.scenes import Air, BadInput, EdgeMotion, FactorTable, Gravity, Relaxation, Status, load
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Air, BadInput, EdgeMotion, FactorTable, Gravity, Relaxation, load
 
 SWING = load("one-edge-clamped")
 UP = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.01))

@@ -17,8 +17,9 @@ from comparisons.sweep import task
 from comparisons.sweep.solved import Ask
 from sheetbench import face as models
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad, Status
+from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad
 
 DOCS = Path(__file__).parents[3] / "docs"
 ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"

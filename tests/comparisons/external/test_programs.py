@@ -17,8 +17,8 @@ from commands import json_of, one_line, run
 from comparisons.external import plugins
 from comparisons.models.spec import parse
 from sheetbench import face, scenes
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Status
 
 STRIP = Path(__file__).parents[3] / "docs" / "strip.sh"
 SCENE = scenes.load("one-edge-clamped")

@@ -27,8 +27,8 @@ from comparisons.models.spec import Lattice
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.face import solve
-from sheetbench.scenes.grading import of_settings
-from sheetbench.scenes.parameters import put
+from sheetbench.scenes.meaning.parameters import put
+from sheetbench.scenes.objects.grading import of_settings
 
 SEED = scenes.load("two-edges-clamped")
 TRUE = 1.23e6

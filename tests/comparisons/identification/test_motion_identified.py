@@ -13,7 +13,7 @@ from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, read
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Air, Relaxation, load
-from sheetbench.scenes.parameters import parameter, put
+from sheetbench.scenes.meaning.parameters import parameter, put
 
 TRUTH = load("one-edge-clamped").replace(loss_factor=0.12, frequency=3.0)
 GUESS = TRUTH.replace(young=40e6, loss_factor=0.05)

@@ -23,7 +23,8 @@ from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from comparisons.modes.spectra import spectra
-from sheetbench.scenes import Pressure, Status, load
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Pressure, load
 from studies.promises.expected import stored
 
 SCENE = load("two-edges-clamped")

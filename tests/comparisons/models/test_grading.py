@@ -11,7 +11,7 @@ from comparisons.models.spec import Lattice
 from fem_reference.verification import settling_strip
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, Clamped, load
-from sheetbench.scenes.grading import amount, as_settings, towards
+from sheetbench.scenes.objects.grading import amount, as_settings, towards
 from studies.transfer.scenes import transfer_scenes
 
 VERBS = {

@@ -12,7 +12,7 @@ from comparisons.models.grids import parse_grid, scene_grid
 from fem_reference.surface.mesh import divisions
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, Clamped, Scene, Sheet, SpringTable, load
-from sheetbench.scenes.grid import grid_of, near_square
+from sheetbench.scenes.objects.grid import grid_of, near_square
 
 LONG = Sheet(length_x=0.2, length_y=0.1, thickness=0.003)
 SCENE = Scene(name="long", sheet=LONG, material=RUBBER, gravity=GRAVITY, support=(Clamped(edge="x0"),))

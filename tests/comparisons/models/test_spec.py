@@ -10,7 +10,7 @@ import sheetbench as sb
 from comparisons.models.context import context, running
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Spec, parse, spec_of
-from sheetbench.scenes.grading import Grading
+from sheetbench.scenes.objects.grading import Grading
 
 SPECS: dict[str, Spec] = {
     "lumped": sb.Lattice(),

@@ -8,6 +8,7 @@ import fem_reference
 from comparisons.models.symmetry import half, planes, whole
 from sheetbench import face as models
 from sheetbench import scenes
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
 from sheetbench.scenes import (
     Clamped,
@@ -21,8 +22,6 @@ from sheetbench.scenes import (
     Scene,
     SceneError,
     Sheet,
-    Solution,
-    Status,
     Symmetric,
 )
 

@@ -11,8 +11,9 @@ from commands import run
 import fem_reference
 import lumped
 from comparisons.modes.spectra import spectra
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, NoEquilibrium
-from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, Status, load
+from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, load
 
 
 def hanging():

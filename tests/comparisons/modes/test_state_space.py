@@ -15,8 +15,8 @@ from comparisons.modes.linear import linearise
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
-from sheetbench.scenes.parameters import parameter, put
-from sheetbench.scenes.supports import Motion
+from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.objects.supports import Motion
 
 TAU, RATE = 2e-3, 0.5  # s, 1/s
 DAMPED = with_material(scenes.load("two-edges-clamped"), damping_time=TAU, damping_rate=RATE)

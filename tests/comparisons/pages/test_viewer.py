@@ -11,7 +11,8 @@ from browser import browser, colours, opened, pixels  # noqa: F401
 
 from comparisons.pages import sheets, viewer
 from comparisons.pictures.plan import plan_mesh
-from sheetbench.scenes import EdgeLoad, FieldMesh, PointLoad, Pressure, load
+from sheetbench.answers.solution import FieldMesh
+from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, load
 
 SOURCE = Path(viewer.__file__).parent / "source"
 

@@ -26,12 +26,12 @@ from fem_reference.uncertainty import Uncertainty
 from fem_reference.verification import locking_figure as locking
 from fem_reference.verification.rows import relatively
 from sheetbench import scenes
+from sheetbench.answers import history_figure as moving
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
+from sheetbench.answers.history import ENERGIES, History
+from sheetbench.answers.solution import Status
 from sheetbench.answers.style import STYLE, save
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History, Status
-from sheetbench.scenes import history_figure as moving
-from sheetbench.scenes.history import ENERGIES
 
 Compose = Callable[[FigureStyle], Figure]
 

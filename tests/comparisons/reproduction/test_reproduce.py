@@ -14,9 +14,9 @@ from comparisons.reproduction.printed_errors import Cell, cells, means
 from comparisons.reproduction.published import published, scene
 from comparisons.reproduction.reproduction import Reproduction, reproduce
 from comparisons.reproduction.settling import settling
+from sheetbench.answers.habibi import published_inputs
 from sheetbench.answers.report import Report
-from sheetbench.scenes import Status
-from sheetbench.scenes.habibi import published_inputs
+from sheetbench.answers.solution import Status
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
 from fem_reference.motion.solid import MovingSolid
 from sheetbench.scenes import load
-from sheetbench.scenes.actuators import CurvatureTable
+from sheetbench.scenes.objects.actuators import CurvatureTable
 
 MODELS = {"plate": MovingPlate, "shell": MovingShell, "solid": MovingSolid}
 RAMP = CurvatureTable(time=(0.0, 0.3), value=(0.0, 3.0))

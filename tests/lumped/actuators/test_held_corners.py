@@ -7,7 +7,8 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
-from sheetbench.scenes import Chain, Clamped, Curved, Gravity, Material, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Chain, Clamped, Curved, Gravity, Material, Scene, Sheet
 
 OWN = 0.05 * 0.188 * 9.81  # N, of a chain
 POINTS = np.random.default_rng(0).uniform(0.0, 0.188, (60, 2))

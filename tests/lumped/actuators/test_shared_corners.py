@@ -6,7 +6,8 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
-from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, SceneError, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, SceneError, Sheet
 
 WEIGHT = Gravity(acceleration=(0.0, 0.0, -9.81))
 RUBBER = Material(young=20e6, poisson=0.0, density=1200.0)

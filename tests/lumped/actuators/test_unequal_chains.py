@@ -10,7 +10,8 @@ import lumped
 from lumped.actuators.chain import BoundChain as LumpedChain
 from lumped.dynamics import INTEGRATORS
 from lumped.lattice import build
-from sheetbench.scenes import Chain, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Chain, Sheet
 
 SIDE, THICKNESS = 0.188, 0.003
 LIGHT, HEAVY = 0.02, 0.07  # kg/m

@@ -13,7 +13,7 @@ from lumped.calibration.central import coefficients
 from lumped.calibration.central_table import ROWS
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes.toml import to_toml
+from sheetbench.scenes.language.toml import to_toml
 from studies.transfer.training import POINTS, bent_scenes
 
 SEED = scenes.load("two-edges-clamped")

@@ -11,7 +11,8 @@ from lumped.dynamics import INTEGRATORS
 from lumped.dynamics.explicit.step_limit import step_limit, turn_limit
 from lumped.dynamics.implicit.esdirk import ERROR
 from lumped.dynamics.integrator import StepFailed
-from sheetbench.scenes import DamperSet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import DamperSet
 
 
 def largest(values):

@@ -9,8 +9,8 @@ from dynamic_cases import ROD, make_scene, run, springs, system
 import lumped
 from lumped.dynamics.implicit.esdirk import Esdirk
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, STAGES, WEIGHTS
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Status
 
 
 def conditions(weights, order):

@@ -15,7 +15,8 @@ from comparisons.modes.damping import mode_damping
 from lumped.dynamics.implicit.esdirk import Esdirk
 from lumped.dynamics.runs.initial import initial_state
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, Held, Material, Motion, PerDirection, Relaxation, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Held, Material, Motion, PerDirection, Relaxation, Scene, Sheet
 
 BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
 

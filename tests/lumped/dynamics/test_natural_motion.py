@@ -6,7 +6,7 @@ import pytest
 import lumped
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, FactorTable, Material, Patch, Scene, Sheet
-from sheetbench.scenes.natural import Natural
+from sheetbench.scenes.objects.natural import Natural
 
 RAMP = FactorTable(time=(0.0, 0.1), factor=(0.0, 1.0))
 MATERIAL = Material(young=1e6, poisson=0.3, density=1e3)

@@ -10,9 +10,9 @@ from scene_files import GOOD, written
 import lumped
 from sheetbench import face as models
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Status
-from sheetbench.scenes.quantities import LARGEST, SMALLEST
+from sheetbench.scenes.objects.quantities import LARGEST, SMALLEST
 
 SEED, SETTLING = "two-edges-clamped", "two-edges-settling"
 COMPARE = ("compare", SEED, "--lumped", "3", "--elements", "2", "--no-uncertainty")

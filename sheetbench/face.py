@@ -18,8 +18,9 @@ from comparisons.models.context import in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, parse, spec_of
 from comparisons.pictures.work import silent
+from sheetbench.answers.solution import Solution
 from sheetbench.errors import BadInput
-from sheetbench.scenes import AnyScene, Solution, scene_of
+from sheetbench.scenes import AnyScene, scene_of
 
 
 def verb(name: str) -> Callable[..., Any]:

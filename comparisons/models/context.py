@@ -14,7 +14,7 @@ from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
 from comparisons.pictures.work import Progress, silent
-from sheetbench.scenes import Solution
+from sheetbench.answers.solution import Solution
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")

@@ -17,8 +17,8 @@ from comparisons.comparison.comparison import compare
 from comparisons.models.grids import Elements
 from comparisons.pictures.work import Progress, Work, silent
 from comparisons.reproduction.published import scene
-from sheetbench.scenes import Solution
-from sheetbench.scenes.habibi import published_inputs
+from sheetbench.answers.habibi import published_inputs
+from sheetbench.answers.solution import Solution
 
 SETS = ((1, 0), (2, 1), (2, -1))  # tests, and the sense of the rod
 

@@ -32,8 +32,8 @@ from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, require_static, scene_of
-from sheetbench.scenes.grid import MASSES
-from sheetbench.scenes.units import amount
+from sheetbench.scenes.language.units import amount
+from sheetbench.scenes.objects.grid import MASSES
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
 LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
@@ -68,9 +68,9 @@ def advise(
     scene = scene_of(scene)
     require_static(scene)
     tolerance, budget = _limits(tolerance, budget)
-    asked = Lattice.given(lattice, keywords)
-    asked = asked if calibration is None else asked.but(calibration=calibration)
-    trials = TrialSolves(scene, asked, items(models) if isinstance(models, str) else models)
+    extra = Lattice.given(lattice, keywords)
+    extra = extra if calibration is None else extra.but(calibration=calibration)
+    trials = TrialSolves(scene, extra, items(models) if isinstance(models, str) else models)
     for _ in range(3):
         trials.refine()
     while not trials.reference.stable and trials.refine():

@@ -15,10 +15,11 @@ from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.models.spec import Lattice
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
+from sheetbench.answers.history import ENERGIES, History
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History, Status, load
-from sheetbench.scenes.history import ENERGIES
-from sheetbench.scenes.supports import Motion
+from sheetbench.scenes import load
+from sheetbench.scenes.objects.supports import Motion
 
 SMALL = {"grid": 5, "elements": 2}
 
@@ -179,8 +180,8 @@ def test_what_cannot_be_compared_is_refused(options, said):
 
 def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
     """A second time every run goes on from its last checkpoint, to the same answer to the last bit."""
-    asked = {"duration": 0.02, "every": 2e-4, "grid": 5, "elements": 2, "store": tmp_path}
-    first, second = (compare_motion(load("two-edges-settling"), **asked) for _ in range(2))
+    settings = {"duration": 0.02, "every": 2e-4, "grid": 5, "elements": 2, "store": tmp_path}
+    first, second = (compare_motion(load("two-edges-settling"), **settings) for _ in range(2))
     assert all(history.resumed_from > 0.0 for history in second.histories.values())
     assert any("went on from" in note for note in second.report().notes)
     for name, history in first.histories.items():
@@ -222,5 +223,5 @@ def test_an_undamped_sheet_is_said_not_to_settle():
 
 def test_samples_lie_as_far_apart_as_requested(capsys):
     motion = ["compare", "two-edges-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty"]
-    told = json_of(capsys, *motion, "--duration", "0.02", "--every", "0.005")
-    assert told["motion"]["time"] == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02])
+    document = json_of(capsys, *motion, "--duration", "0.02", "--every", "0.005")
+    assert document["motion"]["time"] == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02])

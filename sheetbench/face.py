@@ -17,8 +17,9 @@ from comparisons.models import solve as solvers
 from comparisons.models.context import running
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, parse, spec_of
+from sheetbench.answers.solution import Solution
 from sheetbench.errors import BadInput
-from sheetbench.scenes import AnyScene, Solution, scene_of
+from sheetbench.scenes import AnyScene, scene_of
 
 
 def verb(name: str) -> Callable[..., Any]:

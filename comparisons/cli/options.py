@@ -43,7 +43,7 @@ def quantity_in(unit: str) -> Callable[[str], float]:
 
     def parse(text: str) -> float:
         from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
-        from sheetbench.scenes.units import quantity
+        from sheetbench.scenes.language.units import quantity
 
         try:
             return quantity(str(text), unit)

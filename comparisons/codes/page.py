@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from comparisons.codes.arrays import NAMES
 from sheetbench.answers.escape import markdown
 from sheetbench.scenes import Scene
-from sheetbench.scenes.words import in_words
+from sheetbench.scenes.meaning.words import in_words
 from sheetbench.sources import version
 
 if TYPE_CHECKING:

@@ -23,8 +23,9 @@ from comparisons.sweep.here import here, with_room
 from comparisons.sweep.load import average
 from comparisons.sweep.load import warnings as doubts
 from fem_reference.uncertainty import coarser
+from sheetbench.answers.solution import Status
 from sheetbench.choices import REFERENCE
-from sheetbench.scenes import AnyScene, Scene, SceneError, Status, require_static, scene_of
+from sheetbench.scenes import AnyScene, Scene, SceneError, require_static, scene_of
 
 COMPANION = "lumped-uniform"
 

@@ -16,7 +16,7 @@ from comparisons.models.grids import Elements as Count
 from comparisons.models.spec import Elements, counted
 from comparisons.sweep.limits import limit
 from comparisons.sweep.solved import Solved
-from sheetbench.scenes.summary import few
+from sheetbench.scenes.language.summary import few
 
 if TYPE_CHECKING:
     from fem_reference.uncertainty import Uncertainty

@@ -20,8 +20,8 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from sheetbench.answers.history import History
 from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NUMBER
-from sheetbench.scenes import History
 
 STANDS_OUT = 0.05  # of the range of a component
 

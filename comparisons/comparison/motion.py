@@ -27,8 +27,9 @@ from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unlike
 from comparisons.pictures.work import Pace, Work
+from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE
-from sheetbench.scenes import AnyScene, History, Scene, scene_of
+from sheetbench.scenes import AnyScene, Scene, scene_of
 
 ELEMENTS = 8  # of a moving reference along the shorter side
 LONGER = 8.0  # error of a step: steps twice as long

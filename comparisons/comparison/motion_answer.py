@@ -14,11 +14,13 @@ from comparisons.comparison.measures import Measures, difference, leading, measu
 from comparisons.models.spec import Lattice
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
+from sheetbench.answers.history import History
+from sheetbench.answers.measured_history import COMPONENTS
 from sheetbench.answers.report import Film, Picture, Write
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.answers.table import NUMBER, PERCENT, SECONDS, Column, Table, number
-from sheetbench.scenes import FieldMesh, History, Scene
-from sheetbench.scenes.measured_history import COMPONENTS
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
 
 DOUBTFUL, SHARE = 0.1, 1.0 / 3.0  # bars of no judge: of itself, of a difference
 WHOLE = ("of", "largest", "rms", "peak", "period", "phase", "decay")  # of two motions' difference

@@ -49,7 +49,7 @@ from lumped import identifiability
 from sheetbench.choices import REFERENCES
 from sheetbench.errors import BadInput, require_choice, require_effect
 from sheetbench.scenes import AnyScene, Scene, SpringTable, require_static, scene_of
-from sheetbench.scenes.region import off_sheet
+from sheetbench.scenes.meaning.region import off_sheet
 
 __all__ = ["NotReached", "identify"]
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold

@@ -21,7 +21,8 @@ from comparisons.pages.sheets import packed, viewer_sheet
 from comparisons.pictures.plan import on_sheet, plan_mesh
 from comparisons.sweep.differences import error
 from sheetbench.answers.files import plain
-from sheetbench.scenes import FieldMesh, Scene, Solution, Status
+from sheetbench.answers.solution import FieldMesh, Solution, Status
+from sheetbench.scenes import Scene
 
 SAME = 1e-6  # of the largest displacement: what two answers of one equilibrium may differ by
 SHELL_CELLS = 24  # along the shorter side, of the picture of the shell

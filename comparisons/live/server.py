@@ -40,7 +40,7 @@ from comparisons.models.resolve import resolve
 from comparisons.pages import viewer
 from comparisons.sweep.executors import Processes, single_threaded
 from sheetbench.errors import BadInput
-from sheetbench.scenes.toml import to_toml
+from sheetbench.scenes.language.toml import to_toml
 
 MESSAGE = 4096  # bytes of a question at most
 CONNECTIONS = 32  # open at once

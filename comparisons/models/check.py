@@ -1,6 +1,6 @@
 """A scene in words: its parts, whether it can rest, and what the models do with it by default.
 
-Nothing is solved. What is hardly meant (`sheetbench.scenes.plausibility`) stands among the complaints.
+Nothing is solved. What is hardly meant (`scenes.meaning.plausibility`) stands among the complaints.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from sheetbench.answers.table import Column, Table
 from sheetbench.choices import CALIBRATION, ELEMENTS
 from sheetbench.errors import Implausible
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
-from sheetbench.scenes.grid import elements_of
-from sheetbench.scenes.plausibility import slips
-from sheetbench.scenes.words import in_words
+from sheetbench.scenes.meaning.plausibility import slips
+from sheetbench.scenes.meaning.words import in_words
+from sheetbench.scenes.objects.grid import elements_of
 
 
 @dataclass(frozen=True)

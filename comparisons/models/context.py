@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from comparisons.pictures.work import Progress, silent
-from sheetbench.scenes import Solution
+from sheetbench.answers.solution import Solution
 
 
 @dataclass(frozen=True)

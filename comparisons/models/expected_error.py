@@ -38,10 +38,11 @@ from comparisons.models.grids import scene_grid
 from comparisons.models.layers import layers
 from comparisons.models.spec import Lattice
 from comparisons.pictures.plan import inside
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.choices import EXTRAPOLATED
-from sheetbench.scenes import Scene, Solution, Status
-from sheetbench.scenes.grid import LAYERS, Grid
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.objects.grid import LAYERS, Grid
 
 FINER = 1.5  # times as many cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least

@@ -7,8 +7,8 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes.refusals import in_one_line
-from sheetbench.scenes.units import amount, quantity
+from sheetbench.scenes.language.refusals import in_one_line
+from sheetbench.scenes.language.units import amount, quantity
 
 Quantities = TypeVar("Quantities", bound=BaseModel)
 

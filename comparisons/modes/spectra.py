@@ -23,12 +23,13 @@ from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
 from comparisons.modes.pairing import expected_errors, on_cells
 from comparisons.pictures.work import Work
+from sheetbench.answers.modes import Buckling
+from sheetbench.answers.solution import About
 from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice
-from sheetbench.scenes import About, AnyScene, Scene, free_rigid_motions, scene_of
-from sheetbench.scenes.grading import as_settings
-from sheetbench.scenes.modes import Buckling
+from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
+from sheetbench.scenes.objects.grading import as_settings
 
 if TYPE_CHECKING:
     from lumped import Calibration

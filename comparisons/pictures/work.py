@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from comparisons.pictures.amounts import count, duration
 
 if TYPE_CHECKING:
-    from sheetbench.scenes.size import Size
+    from sheetbench.answers.size import Size
 
 Progress = Callable[["Work | str"], None]
 LONG = 2.0  # s, from which on people want to know

@@ -19,8 +19,8 @@ from comparisons.models.grids import Elements
 from comparisons.models.spec import Lattice
 from comparisons.pictures.work import Work
 from comparisons.reproduction.published import scene
-from sheetbench.scenes import Solution
-from sheetbench.scenes.habibi import published_inputs
+from sheetbench.answers.habibi import published_inputs
+from sheetbench.answers.solution import Solution
 
 SETS = ((1, 0), (2, 1), (2, -1))  # tests, and the sense of the rod
 

@@ -25,12 +25,12 @@ from comparisons.reproduction.published import SOURCES, published, scene
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling, settling
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
+from sheetbench.answers.habibi import KNOWN_FAULTS, PROBES, published_inputs
 from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.solution import Status
 from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Column, Table, percent
 from sheetbench.choices import ELEMENTS
-from sheetbench.scenes import Status
-from sheetbench.scenes.habibi import KNOWN_FAULTS, PROBES, published_inputs
-from sheetbench.scenes.words import sheet_in_words
+from sheetbench.scenes.meaning.words import sheet_in_words
 
 PARTS = ("errors", "tables", "settling", "nearest")
 SEED = (

@@ -21,8 +21,9 @@ from comparisons.reproduction.answers import (
     published_lattice,
     published_springs,
 )
-from sheetbench.scenes import History, Scene, load
-from sheetbench.scenes.habibi import published_inputs
+from sheetbench.answers.habibi import published_inputs
+from sheetbench.answers.history import History
+from sheetbench.scenes import Scene, load
 
 SCENE, PROBE = "two-edges-settling", "P4"
 DURATION = 2.0  # s

@@ -88,7 +88,7 @@ def suite(suite: str | None = None) -> Suite:
 
 
 def _toml(case: Reference) -> str:
-    from sheetbench.scenes.toml import to_toml
+    from sheetbench.scenes.language.toml import to_toml
 
     return to_toml(case.scene)
 

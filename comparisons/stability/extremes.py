@@ -33,15 +33,16 @@ from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.differences import error
 from comparisons.sweep.solved import Ask, Solved, sweep
 from comparisons.sweep.store import Store
+from sheetbench.answers.solution import Status
 from sheetbench.choices import INTEGRATORS, REFERENCE
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.layers import Layer
-from sheetbench.scenes.obstacles import farther
-from sheetbench.scenes.orthotropy import MODULI
-from sheetbench.scenes.parameters import put
-from sheetbench.scenes.patches import Patch
-from sheetbench.scenes.tables import FactorTable, Loading
+from sheetbench.scenes import Scene
+from sheetbench.scenes.meaning.distances import farther
+from sheetbench.scenes.meaning.parameters import put
+from sheetbench.scenes.objects.layers import Layer
+from sheetbench.scenes.objects.orthotropy import MODULI
+from sheetbench.scenes.objects.patches import Patch
+from sheetbench.scenes.objects.tables import FactorTable, Loading
 
 Cell = tuple[Ask, Ask | str | None]  # a run, and what its error is against, or why it is refused
 FACTORS = {

@@ -15,7 +15,7 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import MILLISECONDS, PERCENT, Column, Table, number, quantity
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Scene
-from sheetbench.scenes.summary import few
+from sheetbench.scenes.language.summary import few
 
 
 @dataclass(frozen=True)

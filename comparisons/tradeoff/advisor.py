@@ -28,8 +28,8 @@ from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, require_static, scene_of
-from sheetbench.scenes.grid import MASSES
-from sheetbench.scenes.units import amount
+from sheetbench.scenes.language.units import amount
+from sheetbench.scenes.objects.grid import MASSES
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
 LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying

@@ -35,9 +35,10 @@ from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow
 from comparisons.tradeoff.statics import finest_shell
 from fem_reference.uncertainty import coarser
+from sheetbench.answers.solution import Status
 from sheetbench.choices import INTEGRATORS
-from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.quantities import require_positive
+from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.quantities import require_positive
 
 DIVISIONS = (20, 40, 100, 200, 400)  # steps in the lowest period
 SHARES = (0.9, 0.45)  # of the explicit integrator's limit

@@ -20,10 +20,10 @@ from fem_reference.discrete.static import Forces, State, Static
 from fem_reference.surface.actuator_forces import OnEdge, exerted
 from fem_reference.surface.balance import left_over
 from fem_reference.surface.location import interpolate
+from sheetbench.answers.contact import contact_notes
+from sheetbench.answers.solution import FieldMesh, Solution, Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.path import Path
-from sheetbench.scenes import FieldMesh, Solution, Status
-from sheetbench.scenes.contact import contact_notes
 
 EPSILON = float(np.finfo(float).eps)
 

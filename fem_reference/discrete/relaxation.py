@@ -1,11 +1,11 @@
-"""Maxwell branches of a reference in motion: what its stresses remember (`sheetbench.scenes.relaxation`)."""
+"""Maxwell branches of a reference in motion: what its stresses remember (`scenes.objects.relaxation`)."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from sheetbench.scenes import Branches
-from sheetbench.scenes.relaxation import BranchStep
+from sheetbench.scenes.objects.relaxation import BranchStep
 
 Strained = tuple[np.ndarray, np.ndarray]  # strains and their elastic stresses, of any shape
 

@@ -34,14 +34,15 @@ from fem_reference.discrete.shape import Shape
 from fem_reference.surface import loads
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.supports import Supports
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import Scene, Status, outside_model
-from sheetbench.scenes.motion import NO_START, at_start, kinks, starts_flat
-from sheetbench.scenes.natural_state import sources_of
-from sheetbench.scenes.obstacles import obstacles_by_name
-from sheetbench.scenes.relaxation import Branches
+from sheetbench.scenes import Scene, outside_model
+from sheetbench.scenes.meaning.distances import obstacles_by_name
+from sheetbench.scenes.meaning.motion import NO_START, at_start, kinks, starts_flat
+from sheetbench.scenes.meaning.natural_state import sources_of
+from sheetbench.scenes.objects.relaxation import Branches
 
 Binding = Callable[[Scene], BoundRods]
 
@@ -294,7 +295,7 @@ class Discrete(Output):
     # where a motion starts, and when it means nothing
 
     def start(self) -> np.ndarray:
-        """q (N,) at t = 0: flat, or the equilibrium to start from (`sheetbench.scenes.motion`). Raises
+        """q (N,) at t = 0: flat, or the equilibrium to start from (`scenes.meaning.motion`). Raises
         NoEquilibrium where there is no stable one."""
         if starts_flat(self.scene):
             return self.placed(np.zeros(self.size), 0.0)

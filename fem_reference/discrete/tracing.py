@@ -8,12 +8,12 @@ import numpy as np
 from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.static import Forces, State, Static
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Inspect, Path, Progress, Settle
 from sheetbench.numerics.continuation.stiffening import trace_stiffening
 from sheetbench.numerics.continuation.trace import trace_path
-from sheetbench.scenes import Status
 
 
 class Softness:

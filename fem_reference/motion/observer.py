@@ -9,10 +9,11 @@ import numpy as np
 
 from fem_reference.motion.generalised_alpha import Sampled
 from fem_reference.motion.moving import Moving, energies
+from sheetbench.answers.history import ENERGIES
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.runs.columns import Part
-from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.history import ENERGIES
+from sheetbench.scenes import Scene
 
 
 class ReferenceObserver:

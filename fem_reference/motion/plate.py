@@ -9,8 +9,9 @@ import numpy as np
 from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.plate.statics import equilibrium
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeMotion, Scene, Status
+from sheetbench.scenes import EdgeMotion, Scene
 
 
 class MovingPlate(DiscretePlate):

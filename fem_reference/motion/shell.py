@@ -9,8 +9,9 @@ import numpy as np
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.statics import discretise, elements_of, trace_on
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, plan_of
+from sheetbench.answers.solution import Status
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.scenes import Scene, Status
+from sheetbench.scenes import Scene
 
 
 class MovingShell(DiscreteShell):

@@ -30,8 +30,9 @@ from fem_reference.surface.biquadratic import GAUSS, integrated, shape
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.materials import Section, constants_of, section_at
 from fem_reference.surface.mesh import field_mesh, on_boundary, plan_of, require_upright
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import EDGES, FieldMesh, Scene, outside_model
+from sheetbench.scenes import EDGES, Scene, outside_model
 
 PARTS = ("membrane", "bending", "shear")
 

@@ -10,13 +10,13 @@ from collections.abc import Mapping, Sequence
 from textwrap import wrap
 from typing import Any
 
-from sheetbench.scenes.loads import Pressure
-from sheetbench.scenes.material import Material
+from sheetbench.scenes.language.schema import branches, json_schema, kind
+from sheetbench.scenes.language.toml import keys, line
+from sheetbench.scenes.objects.loads import Pressure
+from sheetbench.scenes.objects.material import Material
+from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
+from sheetbench.scenes.objects.supports import Clamped
 from sheetbench.scenes.scene import Scene
-from sheetbench.scenes.schema import branches, json_schema, kind
-from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
-from sheetbench.scenes.supports import Clamped
-from sheetbench.scenes.toml import keys, line
 
 WIDTH = 100  # of a comment
 SCHEMA = "scene.schema.json"  # beside the file, for editors

@@ -14,7 +14,7 @@ from fem_reference.edge_layer import Missed, missed_by
 from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
-from sheetbench.scenes import Status
+from sheetbench.answers.solution import Status
 
 SIZES = [1 / 16, 1 / 12, 1 / 8]
 
@@ -194,13 +194,13 @@ def test_compare_says_what_its_mesh_cannot_tell_apart(by_mesh, lumped, told_apar
 
 
 def test_it_is_off_when_not_wanted_and_for_the_solid_unless_wanted(by_mesh):
-    def asked(**settings):
+    def wanted(**settings):
         return compare("one-edge-clamped", Lattice(calibration="consistent"), **settings).bar is not None
 
-    assert asked() and asked(reference="plate")
-    assert not asked(uncertainty=False)
-    assert not asked(reference="solid") and asked(reference="solid", uncertainty=True)
-    assert not asked(elements=1)
+    assert wanted() and wanted(reference="plate")
+    assert not wanted(uncertainty=False)
+    assert not wanted(reference="solid") and wanted(reference="solid", uncertainty=True)
+    assert not wanted(elements=1)
     without = compare("one-edge-clamped", Lattice(calibration="consistent"), uncertainty=False)
     assert "uncertainty" not in without.document()["solutions"][1]
     assert {d.distinguishable for d in without.differences} == {None}

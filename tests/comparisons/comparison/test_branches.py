@@ -5,7 +5,8 @@ import pytest
 
 from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Lattice
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet
 
 BENT = Scene(
     name="bent", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),

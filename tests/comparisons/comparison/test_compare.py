@@ -17,7 +17,8 @@ from comparisons.sweep.differences import error, relative
 from fem_reference.uncertainty import estimate
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
-from sheetbench.scenes import Scene, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Scene
 
 pytestmark = pytest.mark.smoke
 

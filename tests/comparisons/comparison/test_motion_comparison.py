@@ -14,9 +14,10 @@ from comparisons.comparison.motion import compare_motion
 from comparisons.models.spec import Lattice
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
+from sheetbench.answers.history import ENERGIES, History
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History, Status, load
-from sheetbench.scenes.history import ENERGIES
+from sheetbench.scenes import load
 
 SMALL = {"grid": 5, "elements": 2}
 
@@ -193,5 +194,5 @@ def test_an_undamped_sheet_is_said_not_to_settle():
 
 def test_samples_lie_as_far_apart_as_requested(capsys):
     motion = ["compare", "two-edges-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty"]
-    told = json_of(capsys, *motion, "--duration", "0.02", "--every", "0.005")
-    assert told["motion"]["time"] == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02])
+    document = json_of(capsys, *motion, "--duration", "0.02", "--every", "0.005")
+    assert document["motion"]["time"] == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02])

@@ -17,9 +17,9 @@ from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
 from sheetbench import scenes
+from sheetbench.answers.habibi import published_displacements
 from sheetbench.errors import BadInput
-from sheetbench.scenes.habibi import published_displacements
-from sheetbench.scenes.parameters import put
+from sheetbench.scenes.meaning.parameters import put
 
 SCENE = scenes.load("two-edges-clamped")
 TRUE = 40e6

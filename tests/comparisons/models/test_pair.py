@@ -7,10 +7,11 @@ from comparisons.comparison.comparison import compare, error
 from comparisons.models.spec import Lattice, pairs, spec_of
 from comparisons.scoring.reference import reference
 from comparisons.tradeoff.row import TradeoffRow
+from sheetbench.answers.solution import Status
 from sheetbench.choices import CALIBRATIONS, EXTRAPOLATED
 from sheetbench.errors import BadInput
 from sheetbench.face import solve
-from sheetbench.scenes import Status, load
+from sheetbench.scenes import load
 
 # Where the cells of 9 × 9 masses are seen, and where they hardly are (less than 0.5 % off, with errors that
 # are no l²: there a pair is no better, and its bar has to say so).

@@ -12,8 +12,9 @@ import fem_reference
 import lumped
 from comparisons.models.spec import Lattice
 from comparisons.modes.spectra import spectra
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, NoEquilibrium
-from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, Status, load
+from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, load
 
 
 def hanging():
@@ -94,9 +95,9 @@ def test_no_equilibrium_nothing_about_it(answer):
 
 
 def test_the_verb_warns_of_a_sheet_that_is_not_flat(capsys):
-    asked = ["modes", "two-edges-clamped", "--lumped", "5", "--elements", "2", "--count", "1"]
+    arguments = ["modes", "two-edges-clamped", "--lumped", "5", "--elements", "2", "--count", "1"]
     for more, warned in (([], True), (["--about", "deformed"], False)):
-        assert run(*asked, *more, "--json") == 0
+        assert run(*arguments, *more, "--json") == 0
         said = capsys.readouterr()
         assert ("--about deformed" in said.err) is warned
         assert json.loads(said.out)["about"] == ("flat" if warned else "deformed")

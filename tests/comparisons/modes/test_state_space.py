@@ -16,8 +16,8 @@ from comparisons.modes.linear import linearise
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
-from sheetbench.scenes.parameters import parameter, put
-from sheetbench.scenes.supports import Motion
+from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.objects.supports import Motion
 
 TAU, RATE = 2e-3, 0.5  # s, 1/s
 DAMPED = with_material(scenes.load("two-edges-clamped"), damping_time=TAU, damping_rate=RATE)
@@ -148,8 +148,8 @@ def test_what_has_no_linear_form_is_refused():
 
 
 def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
-    asked = ["one-edge-clamped", "--lumped", "4", "--state-space", "5", "--out", str(tmp_path), "--json"]
-    assert run("modes", *asked) == 0
+    arguments = ["one-edge-clamped", "--lumped", "4", "--state-space", "5", "--out", str(tmp_path), "--json"]
+    assert run("modes", *arguments) == 0
     document = json.loads(capsys.readouterr().out)["state_space"]
     assert len(document["poles"]) == 10 and document["unknowns"] == 72
     arrays, other = dict(np.load(tmp_path / "linear.npz")), loadmat(tmp_path / "linear.mat")

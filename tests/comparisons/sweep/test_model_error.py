@@ -15,7 +15,8 @@ from comparisons.models.spec import Lattice
 from comparisons.sweep.model_error import ModelError, model_error
 from comparisons.tradeoff.advisor import advise
 from fem_reference.pulled_strip import pulled
-from sheetbench.scenes import Clamped, Gravity, Hinged, Material, Pressure, Scene, Sheet, Status, load
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Gravity, Hinged, Material, Pressure, Scene, Sheet, load
 
 THICK = Scene(
     name="thick-three",

@@ -8,7 +8,7 @@ from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
 from fem_reference.motion.solid import MovingSolid
 from sheetbench.scenes import load
-from sheetbench.scenes.actuators import CurvatureTable
+from sheetbench.scenes.objects.actuators import CurvatureTable
 
 MODELS = {"plate": MovingPlate, "shell": MovingShell, "solid": MovingSolid}
 RAMP = CurvatureTable(time=(0.0, 0.3), value=(0.0, 3.0))
@@ -25,8 +25,8 @@ def driven(**chain):
 def test_a_chain_thrown_has_its_own_mass(model):
     scene = driven(face="top")
     energies = []
-    for asked in (scene, scene.replace(actuators=())):
-        moving = MODELS[model](asked, (2, 2))
+    for case in (scene, scene.replace(actuators=())):
+        moving = MODELS[model](case, (2, 2))
         v = np.zeros(moving.mass.shape[0])
         moving.displacement(v)[:] = 0.0, 0.0, 2.0
         energies.append(0.5 * v @ (moving.mass @ v))
@@ -39,8 +39,8 @@ def test_a_chain_that_spins_about_the_edge_has_its_rotary_inertia():
     scene, omega = driven(face="top"), 3.0
     (chain,) = scene.actuators
     energies = []
-    for asked in (scene, scene.replace(actuators=())):
-        moving = MovingShell(asked, (2, 2))
+    for case in (scene, scene.replace(actuators=())):
+        moving = MovingShell(case, (2, 2))
         v = np.zeros((moving.mass.shape[0] // 3, 3))
         v[moving.nodes : 2 * moving.nodes, 0], v[2 * moving.nodes :, 2] = omega, -omega
         energies.append(0.5 * v.ravel() @ (moving.mass @ v.ravel()))

@@ -12,9 +12,10 @@ from fem_reference.solid.element import reference, shape
 from fem_reference.solid.materials import lame
 from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.choices import STRAIN_LAWS
 from sheetbench.numerics.direct import solve_free
-from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Status
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet
 
 
 def with_poisson(name, poisson):

@@ -17,7 +17,7 @@ from comparisons.modes.answer import Spectra, Spectrum
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
-from sheetbench.scenes.history import ENERGIES
+from sheetbench.answers.history import ENERGIES
 
 SCENE = scenes.load("two-edges-clamped")
 HISTORY = scenes.History(

@@ -12,16 +12,18 @@ longer lets them double. As Rannacher 1984 (Numer. Math. 43, 309–327) begins C
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.motion.moving import Motion, Moving, spent
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
-from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted
+from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted, step_of
 
 RADIUS = 0.8
 ERROR = 1e-5  # of a step, relative to the largest displacement so far
@@ -35,6 +37,7 @@ SMALLEST = 1e-9  # step, relative to the run
 EULER = 2  # steps behind a jump whose length does not double
 TAKEN = 1e-3  # of the kinetic energy, that the first of them may take
 
+Linear = tuple[csc_matrix, Callable[[], csr_matrix], np.ndarray]  # Z, the matrix of x, and what is left of x
 REMEMBERED = ("_before", "_largest", "_local", "_euler", "failed")
 
 
@@ -67,10 +70,8 @@ class ConstrainedAlpha:
         self._before, self._taken = 0.0, 0.0  # the last step, and the one that factors are of
         self._factor: Factor | None = None
         self._solver = model.solver()
-        self._largest, self._local = (
-            LEAST * model.longest,
-            1.0,
-        )  # displacement [m], and the last step's error over that allowed
+        self._largest = LEAST * model.longest  # displacement [m]
+        self._local = 1.0  # the last step's error over that allowed
         self._euler = 0  # steps to come by backward Euler
         self.failed = 0
 
@@ -210,44 +211,65 @@ class ConstrainedAlpha:
         return after
 
     def _advanced(self, motion: Motion, h: float) -> Motion:
-        model, time = self._model, motion.time + h
+        model, time, rule = self._model, motion.time + h, self._rule
         model.memory.since(motion.time, motion.memory)
-        am, af, gamma, beta, by_old, *_ = rule = self._rule
-        self.late = 1.0 - af
+        self.late = 1.0 - rule.af
         old = shifted(motion.a, motion.algorithm, h, self._before)
-        by_a, by_v = rule.by_a(h), rule.by_v(h)
-        start = motion.q + h * motion.v + h * h * by_old * old
+        step = step_of(rule, h, motion.q, motion.v, motion.a, old)
 
         def at(q: np.ndarray) -> Motion:
-            new = (q - start) / (beta * h * h)
-            v = motion.v + h * ((1.0 - gamma) * old + gamma * new)
-            a = ((1.0 - am) * new + am * old - af * motion.a) / (1.0 - af)
-            return Motion(time, q, v, a, new, model.mass @ a + model.forces(q, v, time))
+            v, a = step.velocity(q), step.acceleration(q)
+            exerted = model.mass @ a + model.forces(q, v, time)
+            return Motion(time, q, v, a, step.algorithm(a), exerted)
 
-        found = at(model.placed(start + h * h * beta * old, time))
+        def linear(found: Motion) -> Linear:
+            basis = model.basis(found.q)
+            return (
+                basis,
+                lambda: model.tangent(found.q, found.v, time, found.exerted, step.by_a, step.by_v),
+                basis.T @ found.exerted,
+            )
+
+        def solved(length: float, share: float, largest: float) -> bool:
+            enough = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
+            return length * min(share, 1.0) <= enough
+
+        found = self._solved(h, at(model.placed(step.guess, time)), at, linear, solved, QUICK)
+        if model.memory:
+            return replace(found, memory=model.memory.after(model.strains(found.q)))
+        return found
+
+    def _solved(
+        self,
+        h: float,
+        found: Motion,
+        at: Callable[[np.ndarray], Motion],
+        linear: Callable[[Motion], Linear],
+        solved: Callable[[float, float, float], bool],
+        quick: float,
+        corrections: int = CORRECTIONS,
+    ) -> Motion:
+        """Return the end of a step of h [s] by Newton's iteration from a guess, factors kept as long as
+        corrections shrink to the share `quick`. at: the motion at q; solved: whether it ends by the length
+        of a correction, its share of the one before and the largest displacement. Raises StepFailed."""
+        model = self._model
         largest = max(self._largest, float(np.abs(model.displacement(found.q)).max()))
-        enough = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
         if self._taken != h:
             self._factor = None
         last: float | None = None
-        for _ in range(CORRECTIONS):
-            basis = model.basis(found.q)
+        for _ in range(corrections):
+            basis, matrix, left = linear(found)
             if self._factor is None:
-                matrix = model.tangent(found.q, found.v, time, found.exerted, by_a, by_v)
-                self._factor, self._taken = self._solver.factor(matrix), h
-            step = basis @ self._factor.solve_unrefined(-(basis.T @ found.exerted))
+                self._factor, self._taken = self._solver.factor(matrix()), h
+            step = basis @ self._factor.solve_unrefined(-left)
             length = float(np.abs(model.displacement(step)).max())
             if not np.isfinite(length):
                 raise StepFailed("a number overflowed")
             found = at(model.moved(found.q, step))
-            share = length / last if last is not None else 1.0
-            if length * min(share, 1.0) <= enough:
-                return (
-                    replace(found, memory=model.memory.after(model.strains(found.q)))
-                    if model.memory
-                    else found
-                )
-            if last is not None and share > QUICK:
+            share = length / last if last else 1.0
+            if solved(length, share, largest):
+                return found
+            if last is not None and share > quick:
                 self._factor = None
             last = length
         raise StepFailed("the corrections do not shrink")

@@ -24,7 +24,7 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.discrete.contact import Touching
-from fem_reference.discrete.course import commands_of, loads_of
+from fem_reference.discrete.course import Factor, commands_of, factor_at, loads_of
 from fem_reference.discrete.drag import Drag
 from fem_reference.discrete.items import Dead, Following, Item
 from fem_reference.discrete.output import Output
@@ -32,6 +32,7 @@ from fem_reference.discrete.relaxation import Memory, Strained
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import Shape
 from fem_reference.surface import loads
+from fem_reference.surface.actuator_forces import OnEdge, exerted
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import Status
@@ -80,6 +81,7 @@ class Discrete(Output):
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
         self.items: list[Item] = []
         self.contacts: list[Touching] = []
+        self._weights: list[tuple[np.ndarray, Factor]] = []
 
     def bind(
         self, bind: Binding, bound: BoundRods, rows: np.ndarray, places: np.ndarray | None = None
@@ -94,7 +96,8 @@ class Discrete(Output):
             nodal, followers = loads.of_scene(alone, self.plan)
             dead = self.on_coordinates(nodal)
             for body in self.bodies:
-                dead = dead + body.scatter(body.weight(alone))
+                self._weights.append((body.weight(alone), factor))
+                dead = dead + body.scatter(self._weights[-1][0])
             self.items += [Dead(dead, factor)] if dead.any() else []
             self.items += [Following(load, factor) for load in followers]
         if moving and scene.air:
@@ -226,6 +229,21 @@ class Discrete(Output):
         for body in self.bodies:
             out = out + body.scatter(body.pull(shape.q, body.stress(shape)))
         return out
+
+    def wrenches(
+        self, shape: Shape, residual: np.ndarray, a: np.ndarray | None = None
+    ) -> tuple[list[OnEdge], dict[str, np.ndarray], np.ndarray]:
+        """What the rods exert on their edges; the force and moment (segments, 6) [N, N·m] of every actuator's
+        segments on the sheet; the line force (n, 3) [N/m]. residual: M ü + g (N,); a: ü (N,), 0 unless given.
+        """
+        edges = list[OnEdge]()
+        for body in self.bodies:
+            pull = body.pull(shape.q, body.stress(shape))
+            for weight, factor in self._weights:
+                pull = pull - factor_at(factor, shape.at) * weight
+            edges += self.on_edges(shape.q, pull if a is None else pull + body.inertial(a))
+        held = self.exerted(shape.q, residual)
+        return edges, *exerted(self.scene, edges, self.supports.moved, held)
 
     def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """g (N,): internal and viscous less external forces."""

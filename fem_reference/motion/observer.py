@@ -1,5 +1,5 @@
-"""What a run says of its samples: energies, probes and reactions as rows of numbers; strains, and elements
-that turn inside out."""
+"""What a run says of its samples: energies, probes, reactions and forces of actuators as rows of numbers;
+strains, and elements that turn inside out."""
 
 from __future__ import annotations
 
@@ -23,13 +23,16 @@ class ReferenceObserver:
 
     def __init__(self, model: Moving, scene: Scene):
         self._model, self._points = model, scene.probe_points()
-        self._reactions = list(model.reactions(np.zeros(model.mass.shape[0])))
+        nothing = np.zeros(model.size)
+        self._reactions = list(model.reactions(nothing))
+        wrenches = model.wrenches(model.shape(nothing, 0.0), nothing)[1]
         self.columns: list[Part] = [
             ("time", "", ()),
             *(("energy", name, ()) for name in ENERGIES),
             *(("probe", name, (3,)) for name in scene.probes),
             *(("reaction", name, (3,)) for name in self._reactions),
             *(("reaction", one.name, (3,)) for one in model.contacts),
+            *(("actuator", name, wrench.shape) for name, wrench in wrenches.items()),
         ]
 
     def rows(self, samples: Sampled) -> np.ndarray:
@@ -42,6 +45,8 @@ class ReferenceObserver:
             forces = [reactions[name] for name in self._reactions]
             shape = model.shape(motion.q, motion.time, motion.v)
             forces += [one.exerted(shape) for one in model.contacts]
+            wrenches = model.wrenches(shape, motion.exerted, motion.a)[1]
+            forces += [wrench.ravel() for wrench in wrenches.values()]
             rows.append(np.concatenate([[0.0, *kinds, 0.0, 0.0], probes.ravel(), *forces]))
         found = np.array(rows)
         found[:, 0], found[:, 4], found[:, 5] = samples.time, samples.dissipated, samples.work

@@ -14,8 +14,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from fem_reference.discrete.energies import Motion
 from fem_reference.motion.generalised_alpha import ConstrainedAlpha, Linear
-from fem_reference.motion.moving import Motion
 from sheetbench.numerics.time.rule import MidpointStep
 
 SOLVED = 1e-13  # last correction, relative to the displacement
@@ -37,10 +37,10 @@ class EnergyMomentum(ConstrainedAlpha):
 
         def linear(found: Motion) -> Linear:
             middle, rate = rule.place(found.q), rule.rate(found.q)
-            basis = model.basis(middle)
+            basis, shape = model.basis(middle), model.shape(middle, half_way, rate)
             return (
                 basis,
-                lambda: model.tangent(middle, rate, half_way, found.exerted, 4.0 / h**2, 2.0 / h),
+                lambda: model.tangent(shape, found.exerted, 4.0 / h**2, 2.0 / h),
                 2.0 * (basis.T @ found.exerted),
             )
 

@@ -19,11 +19,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
-from fem_reference.motion.moving import Motion, Moving, spent
+from fem_reference.discrete.energies import Motion, spent
+from fem_reference.discrete.relaxation import remembered
+from fem_reference.motion.moving import Moving
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
 from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted, step_of
+from sheetbench.scenes.objects.relaxation import BranchStep
 
 RADIUS = 0.8
 ERROR = 1e-5  # of a step, relative to the largest displacement so far
@@ -107,9 +110,16 @@ class ConstrainedAlpha:
         q = self._model.start()
         return self._begun(0.0, q, np.zeros_like(q))
 
-    def _begun(self, time: float, q: np.ndarray, v: np.ndarray) -> Advance[Motion]:
+    def _branches(self, motion: Motion, time: float) -> BranchStep | None:
+        """The step of the branches from a motion to a time [s], if there are any."""
+        branches = self._model.branches
+        return branches.step(motion.memory, time - motion.time) if branches.times else None
+
+    def _begun(
+        self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None
+    ) -> Advance[Motion]:
         """The motion from a time on, with the work of what changes its velocity at once."""
-        motion, mass = self.begin(time, q, v), self._model.mass
+        motion, mass = self.begin(time, q, v, branches), self._model.mass
         work = 0.5 * float(motion.v @ (mass @ motion.v) - v @ (mass @ v))
         return Advance(motion, 0.0, work)
 
@@ -119,8 +129,8 @@ class ConstrainedAlpha:
         model, work = self._model, 0.0
         for kink in self.kinks[np.abs(self.kinks - motion.time) < 1e-9 * self.kinks].tolist():
             if model.jumps(kink):
-                model.memory.since(motion.time, motion.memory)
-                begun = self._begun(kink, model.placed(motion.q, kink), motion.v)
+                branches = self._branches(motion, kink)
+                begun = self._begun(kink, model.placed(motion.q, kink), motion.v, branches)
                 motion, work = begun.state, begun.work
         after = self.advance(motion, at_most)
         self._step = motion, spent(model, motion, after, self.late), work
@@ -133,19 +143,26 @@ class ConstrainedAlpha:
             return Sampled(times, [end], np.array([last.dissipated]), np.array([last.work]))
         start, spent, work = self._step
         motions = [between(start, end, time) for time in times.tolist()]
+        if self._model.branches.times:
+            motions = [
+                replace(m, memory=self._remembered(m.q, self._branches(start, m.time))) for m in motions
+            ]
         share = np.array([(m.time - start.time) / (end.time - start.time) for m in motions])
         return Sampled(times, motions, share * spent[0], work + share * spent[1])
 
-    def begin(self, time: float, q: np.ndarray, v: np.ndarray) -> Motion:
+    def _remembered(self, q: np.ndarray, branches: BranchStep | None) -> np.ndarray:
+        return remembered(self._model.branches, self._model.strains(q), branches)
+
+    def begin(self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None) -> Motion:
         """The motion from a time on, its velocities as motions have them and with the accelerations of its
-        forces."""
+        forces. branches: their step until then; at rest without one."""
         model = self._model
         basis = model.basis(q)
         rate = model.rate_placed(q, v, time)
         factor = model.solver().factor((basis.T @ model.mass @ basis).tocsr())
         rate = rate - basis @ factor.solve(basis.T @ (model.mass @ (rate - v)))
         a = model.centripetal(q, rate)
-        forces = model.forces(q, rate, time)
+        forces = model.forces(model.shape(q, time, rate, branches))
         a = a - basis @ factor.solve(basis.T @ (model.mass @ a + forces))
         self._before, self._factor = 0.0, None
         self._euler = EULER if np.any(rate != v) else 0
@@ -157,8 +174,7 @@ class ConstrainedAlpha:
             twice_kinetic = max(float(u @ (model.mass @ u)) for u in (v, rate))
             taken = float(a @ (model.mass @ a))  # h² times half of it
             self._control.step = min(self._control.step, np.sqrt(TAKEN * twice_kinetic / max(taken, 1e-30)))
-        remembered = model.memory.after(model.strains(q))
-        return Motion(time, q, rate, a, a, model.mass @ a + forces, remembered)
+        return Motion(time, q, rate, a, a, model.mass @ a + forces, self._remembered(q, branches))
 
     def advance(self, motion: Motion, at_most: float) -> Motion:
         """One step of at most so long [s]. Raises StepFailed."""
@@ -212,21 +228,23 @@ class ConstrainedAlpha:
 
     def _advanced(self, motion: Motion, h: float) -> Motion:
         model, time, rule = self._model, motion.time + h, self._rule
-        model.memory.since(motion.time, motion.memory)
+        branches = self._branches(motion, time)
         self.late = 1.0 - rule.af
         old = shifted(motion.a, motion.algorithm, h, self._before)
         step = step_of(rule, h, motion.q, motion.v, motion.a, old)
 
         def at(q: np.ndarray) -> Motion:
             v, a = step.velocity(q), step.acceleration(q)
-            exerted = model.mass @ a + model.forces(q, v, time)
+            exerted = model.mass @ a + model.forces(model.shape(q, time, v, branches))
             return Motion(time, q, v, a, step.algorithm(a), exerted)
 
         def linear(found: Motion) -> Linear:
             basis = model.basis(found.q)
             return (
                 basis,
-                lambda: model.tangent(found.q, found.v, time, found.exerted, step.by_a, step.by_v),
+                lambda: model.tangent(
+                    model.shape(found.q, time, found.v, branches), found.exerted, step.by_a, step.by_v
+                ),
                 basis.T @ found.exerted,
             )
 
@@ -235,9 +253,7 @@ class ConstrainedAlpha:
             return length * min(share, 1.0) <= enough
 
         found = self._solved(h, at(model.placed(step.guess, time)), at, linear, solved, QUICK)
-        if model.memory:
-            return replace(found, memory=model.memory.after(model.strains(found.q)))
-        return found
+        return replace(found, memory=self._remembered(found.q, branches)) if branches else found
 
     def _solved(
         self,

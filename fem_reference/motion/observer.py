@@ -7,8 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from fem_reference.discrete.energies import energies
 from fem_reference.motion.generalised_alpha import Sampled
-from fem_reference.motion.moving import Moving, energies
+from fem_reference.motion.moving import Moving
 from sheetbench.answers.history import ENERGIES
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
@@ -39,7 +40,7 @@ class ReferenceObserver:
         """Return the numbers of samples, (k, width)."""
         model, rows = self._model, []
         for motion in samples.motions:
-            kinds = energies(model, motion.q, motion.v, motion.time)
+            kinds = energies(model, motion)
             probes = model.sample(model.displacement(motion.q), self._points)
             reactions = model.reactions(motion.exerted)
             forces = [reactions[name] for name in self._reactions]

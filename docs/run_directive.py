@@ -35,7 +35,7 @@ def printed(command: str, folder: Path) -> str:
     done = subprocess.run(
         [sys.executable, "-m", "sheetbench", *words],
         cwd=folder,
-        env=os.environ | {"COLUMNS": str(COLUMNS)},
+        env=os.environ | {"COLUMNS": str(COLUMNS), "FORCE_COLOR": "1", "TERM": "dumb"},  # as a plain terminal
         capture_output=True,
         text=True,
     )

@@ -94,5 +94,5 @@ if __name__ == "__main__":
     for constants in STRIPS:
         rows = measured(strip(*constants), MASSES)
         numbers = [f"{100 * row[1]:.2f}" for row in rows]
-        told = ", ".join("–" if row[2] is None else f"{100 * row[2]:.2f}" for row in rows)
-        print(f"| {', '.join(map(str, constants))} | {' | '.join(numbers)} | {told} |", flush=True)
+        expected = ", ".join("–" if row[2] is None else f"{100 * row[2]:.2f}" for row in rows)
+        print(f"| {', '.join(map(str, constants))} | {' | '.join(numbers)} | {expected} |", flush=True)

@@ -26,7 +26,7 @@ def command(
     campaign: ClusterOptions,
     output: PictureOptions,
 ) -> Any:
-    """Map where each model holds, degrades, refuses or fails.
+    """Map where each model is accurate, degrades, refuses or fails.
 
     Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit
     integrators the largest stable step is measured. With --out an interrupted run is resumed.

@@ -263,7 +263,7 @@ def setup(
 
 
 def require_damper(code: str, material: Material, options: Mapping[str, object]) -> None:
-    """Raise BadInput where damping is asked for by these options, of which the code has nothing."""
+    """Raise BadInput where these options want damping, of which the code has nothing."""
     if why := undamped(CODES[code], material):
         require_effect(f"with --for {code}: {why}", options)
 

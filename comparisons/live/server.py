@@ -174,12 +174,12 @@ class Desk(BaseHTTPRequestHandler):
     def do_POST(self) -> None:
         """Answer a question; one that contradicts itself is refused in a line."""
         guard, length = self.server.guard, self.headers.get("Content-Length", "")
-        asked = {"lattice": self.server.lattice, "shell": self.server.shell, "text": self.server.text}
+        answers = {"lattice": self.server.lattice, "shell": self.server.shell, "text": self.server.text}
         if (refused := guard.refusal(self.path, self.headers, own=True)) is not None:
             return self._reply(refused)
         if not (length.isascii() and length.isdigit() and int(length) <= MESSAGE):
             return self._reply(HTTPStatus.REQUEST_ENTITY_TOO_LARGE)
-        if (answer := asked.get(guard.name(self.path))) is None:
+        if (answer := answers.get(guard.name(self.path))) is None:
             return self._reply(HTTPStatus.NOT_FOUND)
         try:
             document = answer(self.server.panel.read(self.rfile.read(int(length))))

@@ -140,10 +140,20 @@ def expected_error(
     stretch = largest_stretch(scene, fine, finer)
     value = grid_error(solution.displacement(points), fine.displacement(points), ratio, stretch)
     if value is None:
-        return NoEstimate(
-            f"on {masses} masses the answer is the same, too far away, or laws of strain would differ by more"
-        )
+        reason = _without(solution.displacement(points), fine.displacement(points), ratio)
+        return NoEstimate(f"displacements on {masses} masses {reason}")
     return ExpectedError(value, finer, fine.solve_seconds)
+
+
+def _without(coarse: np.ndarray, fine: np.ndarray, ratio: float) -> str:
+    """Return why no error follows from displacements (n, 3) on two grids, as the end of a sentence."""
+    size, difference = float(np.max(np.abs(fine))), float(np.max(np.abs(coarse - fine)))
+    if not difference > ROUNDING * size:
+        return "are the same but for rounding"
+    differ = f"differ by {few(100.0 * difference / size)} %"
+    if difference >= FAR * (1.0 - 1.0 / ratio) * size:
+        return f"{differ}, too much to extrapolate from"
+    return f"{differ}, less than the law of strain may change them at this stretch"
 
 
 def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float) -> float | None:

@@ -68,9 +68,9 @@ def advise(
     scene = scene_of(scene)
     require_static(scene)
     tolerance, budget = _limits(tolerance, budget)
-    asked = Lattice.given(lattice, keywords)
-    asked = asked if calibration is None else asked.but(calibration=calibration)
-    trials = TrialSolves(scene, asked, items(models) if isinstance(models, str) else models)
+    extra = Lattice.given(lattice, keywords)
+    extra = extra if calibration is None else extra.but(calibration=calibration)
+    trials = TrialSolves(scene, extra, items(models) if isinstance(models, str) else models)
     for _ in range(3):
         trials.refine()
     while not trials.reference.stable and trials.refine():

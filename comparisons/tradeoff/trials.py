@@ -96,7 +96,7 @@ class TrialSolves:
         return [one for one in chosen if has_room(self.scene, one)]
 
     def graded(self, lattices: list[Lattice]) -> list[Lattice]:
-        """Those of these lattices that are to be graded too, as asked or by the scene's layers."""
+        """Those of these lattices that are to be graded too, as requested or by the scene's layers."""
         gradings = [(one, self.grading_of(one)[0]) for one in lattices]
         return [one.but(grading=value) for one, value in gradings if value and amount(value)]
 

@@ -192,9 +192,9 @@ def test_what_a_lattice_and_each_law_differ_by_is_told_before_they_are_compared(
     for law in STRAIN_LAWS:
         shell = fem_reference.solve(scene, "shell", elements=2, law=law)
         assert shell.stretch is not None
-        told = (own - curving(law, scene.material)) * shell.stretch
+        predicted = (own - curving(law, scene.material)) * shell.stretch
         off = 1.0 - found / shell.displacement(corner)[0, 0]
-        assert off == pytest.approx(told, abs=5.0 * strain**2)
+        assert off == pytest.approx(predicted, abs=5.0 * strain**2)
 
 
 def test_links_along_a_square_lattices_sides_and_diagonals_bend_as_derived():
@@ -223,11 +223,11 @@ def test_compare_says_what_is_due_to_laws_of_strain():
 
 
 def test_the_law_is_an_option_of_the_reference(capsys):
-    asked = ["compare", "one-edge-clamped", "--lumped", "5", "--calibration", "consistent", "--elements", "4"]
-    reference = json_of(capsys, *asked, "--law", "biot")["solutions"][1]
+    arguments = ["one-edge-clamped", "--lumped", "5", "--calibration", "consistent", "--elements", "4"]
+    reference = json_of(capsys, "compare", *arguments, "--law", "biot")["solutions"][1]
     assert reference["settings"]["law"] == "biot" and 0.0 < reference["stretch"] < 0.01
     for wrong in (["--law", "hooke"], ["--law", "biot", "--reference", "plate"]):
-        assert run(*asked, *wrong) == 2
+        assert run("compare", *arguments, *wrong) == 2
     with pytest.raises(BadInput, match="section of its own"):
         section = section_of(material(STRAIN_LAW), 0.01)
         fem_reference.solve(bent(), "shell", elements=2, section=section, law="biot")

@@ -194,13 +194,13 @@ def test_compare_says_what_its_mesh_cannot_tell_apart(by_mesh, lumped, told_apar
 
 
 def test_it_is_off_when_not_wanted_and_for_the_solid_unless_wanted(by_mesh):
-    def asked(**settings):
+    def wanted(**settings):
         return compare("one-edge-clamped", calibration="consistent", **settings).bar is not None
 
-    assert asked() and asked(reference="plate")
-    assert not asked(uncertainty=False)
-    assert not asked(reference="solid") and asked(reference="solid", uncertainty=True)
-    assert not asked(elements=1)
+    assert wanted() and wanted(reference="plate")
+    assert not wanted(uncertainty=False)
+    assert not wanted(reference="solid") and wanted(reference="solid", uncertainty=True)
+    assert not wanted(elements=1)
     without = compare("one-edge-clamped", calibration="consistent", uncertainty=False)
     assert "uncertainty" not in without.document()["solutions"][1]
     assert {d.distinguishable for d in without.differences} == {None}

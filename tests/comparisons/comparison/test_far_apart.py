@@ -54,9 +54,9 @@ def test_answers_on_different_branches_have_no_error(known):
     """Where only the grid is too coarse the error stands."""
     pair = (solution(SCENE, size=0.01), solution(SCENE, "shell"))
     finer = solution(SCENE, size=0.0101 if known else -0.007, settings={"grid": [9, 5, 2]})
-    apart, other_branch = far_apart_note(resolve(SCENE, LATTICE), pair, 0.01, lambda other: finer)
+    note, other_branch = far_apart_note(resolve(SCENE, LATTICE), pair, 0.01, lambda other: finer)
     assert other_branch is known
-    found = Comparison(SCENE, pair, disagreement=apart, several=known, other_branch=other_branch)
+    found = Comparison(SCENE, pair, disagreement=note, several=known, other_branch=other_branch)
     assert (found.error(pair[0]) is None) is known
     assert all((difference.relative is None) is known for difference in found.differences)
     assert found.succeeded and found.document()["apart"] in found.report().complaints
@@ -88,8 +88,8 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
     settings = {"grid": [5, 3, 2], "calibration": calibration}
     both = (solution(SCENE, size=-0.005, settings=settings), solution(SCENE, "shell", stretch=stretch))
     lattice = LATTICE.but(calibration=calibration)
-    apart, other_branch = far_apart_note(resolve(SCENE, lattice), both, 0.01, lambda other: fine(finer))
-    assert "50 % apart" in apart
+    note, other_branch = far_apart_note(resolve(SCENE, lattice), both, 0.01, lambda other: fine(finer))
+    assert "50 % apart" in note
     assert other_branch is known
 
 

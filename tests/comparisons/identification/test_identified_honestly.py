@@ -304,7 +304,7 @@ def test_unknowns_are_identified_on_springs_with_a_layer_distance():
 
 
 def test_the_finer_lattice_of_a_drawn_sheet_has_lines_on_shapes_too():
-    fin, asked = scenes.load("ray-fin"), Lattice((9, 5, 2))
-    chosen = of_settings(lattice_model(fin, asked).settings)
+    fin, scene = scenes.load("ray-fin"), Lattice((9, 5, 2))
+    chosen = of_settings(lattice_model(fin, scene).settings)
     finer = lattice_model(fin, Lattice((17, 9, 2), grading=chosen))
-    assert chosen == of_settings(finer.settings) == lines_on_shapes(fin, asked.grid, asked) != 0.0
+    assert chosen == of_settings(finer.settings) == lines_on_shapes(fin, scene.grid, scene) != 0.0

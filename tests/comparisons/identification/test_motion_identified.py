@@ -125,7 +125,7 @@ def test_markers_with_names_of_probes_are_displacements(reader, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("does", "told"),
+    ("does", "message"),
     [
         ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "ended by SIGSEGV"),
         ("import time; time.sleep(60)", "no answer within 1 s"),
@@ -133,8 +133,8 @@ def test_markers_with_names_of_probes_are_displacements(reader, monkeypatch):
         ("return dict(parameters={}, data={})", "cannot be read as C3D: 'POINT'"),
     ],
 )
-def test_a_damaged_capture_is_refused_whatever_ezc3d_does(reader, monkeypatch, does, told):
+def test_a_damaged_capture_is_refused_whatever_ezc3d_does(reader, monkeypatch, does, message):
     """Of 200 damaged files ezc3d ended by a signal on 7, did not end on 2, raised ValueError on 15."""
     monkeypatch.setattr(c3d, "SECONDS", 1.0 if "sleep" in does else 20.0)
-    with pytest.raises(BadInput, match=told):
+    with pytest.raises(BadInput, match=message):
         read(reader(f"def c3d(path): {does}"), TRUTH)

@@ -114,8 +114,8 @@ def _expected(scene):
 
 
 def test_calibrate_says_it_of_a_scene(capsys):
-    told = json_of(capsys, "calibrate", "two-edges-clamped", "--grid", "9")["expected_error"]["value"]
-    assert told == pytest.approx(_expected(SCENE), rel=1e-9)
+    estimate = json_of(capsys, "calibrate", "two-edges-clamped", "--grid", "9")["expected_error"]["value"]
+    assert estimate == pytest.approx(_expected(SCENE), rel=1e-9)
 
 
 def test_loads_in_its_plane_bend_no_flat_sheet():
@@ -135,9 +135,9 @@ def test_frequencies_about_the_deformed_sheet_have_theirs(name):
     found = spectra(name, count=4, elements=12, about="deformed")
     expected = found[0].as_dict()["expected_errors"]
     assert len(expected) == 4
-    for pair, told in zip(found.pairs, expected, strict=True):
-        assert pair.relative is not None and told is not None
-        assert abs(told - pair.relative) < 0.5 * abs(pair.relative) + 2e-3
+    for pair, estimate in zip(found.pairs, expected, strict=True):
+        assert pair.relative is not None and estimate is not None
+        assert abs(estimate - pair.relative) < 0.5 * abs(pair.relative) + 2e-3
     assert any("expected grid error of the frequencies" in note for note in found.report().notes)
     assert spectra(name, count=2, elements=2)[0].expected == ()
     uniform = spectra(name, count=2, elements=2, calibration="uniform", about="deformed")
@@ -150,6 +150,6 @@ def test_where_none_is_told_the_reason_stands_beside_the_error():
     reason = found.document()["solutions"][0]["no_estimate"]
     assert "bends the sheet within a cell" in reason
     assert any(f"no estimate of its grid error: {reason}." in note for note in found.notes())
-    told = compare(SCENE, grid=5, elements=4)
-    assert "no_estimate" not in told.document()["solutions"][0]
-    assert not any("no estimate" in note for note in told.notes())
+    estimate = compare(SCENE, grid=5, elements=4)
+    assert "no_estimate" not in estimate.document()["solutions"][0]
+    assert not any("no estimate" in note for note in estimate.notes())

@@ -74,11 +74,11 @@ def test_flat_keywords_stand_in_the_signature():
 
 
 def test_a_context_holds_for_a_block_and_for_a_call():
-    told: list[object] = []
-    with running(progress=told.append):
+    reports: list[object] = []
+    with running(progress=reports.append):
         sb.solve("one-edge-clamped", "plate", elements=2)
-        assert context().progress == told.append and not context().large
-    assert told and context().progress != told.append
+        assert context().progress == reports.append and not context().large
+    assert reports and context().progress != reports.append
     sb.solve("one-edge-clamped", "plate", elements=2, large=True)
     assert not context().large
 

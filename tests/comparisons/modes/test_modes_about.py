@@ -94,9 +94,9 @@ def test_no_equilibrium_nothing_about_it(answer):
 
 
 def test_the_verb_warns_of_a_sheet_that_is_not_flat(capsys):
-    asked = ["modes", "two-edges-clamped", "--lumped", "5", "--elements", "2", "--count", "1"]
+    arguments = ["modes", "two-edges-clamped", "--lumped", "5", "--elements", "2", "--count", "1"]
     for more, warned in (([], True), (["--about", "deformed"], False)):
-        assert run(*asked, *more, "--json") == 0
+        assert run(*arguments, *more, "--json") == 0
         said = capsys.readouterr()
         assert ("--about deformed" in said.err) is warned
         assert json.loads(said.out)["about"] == ("flat" if warned else "deformed")

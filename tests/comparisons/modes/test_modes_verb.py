@@ -43,8 +43,8 @@ def test_both_models_agree_and_files_are_left(tmp_path, capsys):
 
 
 def test_table_has_ten_modes_and_several_references(capsys):
-    asked = ("--lumped", "5", "--reference", "plate", "--reference", "shell", "--elements", "4")
-    assert run("modes", "two-edges-clamped", *asked) == 0
+    arguments = ("--lumped", "5", "--reference", "plate", "--reference", "shell", "--elements", "4")
+    assert run("modes", "two-edges-clamped", *arguments) == 0
     printed = capsys.readouterr().out
     assert all(word in printed for word in ("lumped", "plate", "shell", "10", "Hz"))
 
@@ -95,8 +95,8 @@ def test_repeated_frequencies_pair_whatever_their_rotation():
     zero = np.zeros_like(x)
     shapes = np.stack([np.stack([zero, zero, w], axis=-1) for w in (np.sin(9 * x), np.sin(9 * y), x * y)])
     turned = np.einsum("ij,jnk->ink", [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]], shapes)
-    apart, same = (assurance(shapes, turned, np.array(f)) for f in ([1.0, 1.1, 2.0], [1.0, 1.0, 2.0]))
-    assert apart[0, 0] < 0.7
+    distinct, same = (assurance(shapes, turned, np.array(f)) for f in ([1.0, 1.1, 2.0], [1.0, 1.0, 2.0]))
+    assert distinct[0, 0] < 0.7
     assert matched(same) == [0, 1, 2]
     # not exactly 1: sin 9x and sin 9y are not orthogonal, so that the turn is not one in their mass
     assert np.diag(same).min() > 0.95

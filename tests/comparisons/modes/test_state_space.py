@@ -147,8 +147,8 @@ def test_what_has_no_linear_form_is_refused():
 
 
 def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
-    asked = ["one-edge-clamped", "--lumped", "4", "--state-space", "5", "--out", str(tmp_path), "--json"]
-    assert run("modes", *asked) == 0
+    arguments = ["one-edge-clamped", "--lumped", "4", "--state-space", "5", "--out", str(tmp_path), "--json"]
+    assert run("modes", *arguments) == 0
     document = json.loads(capsys.readouterr().out)["state_space"]
     assert len(document["poles"]) == 10 and document["unknowns"] == 72
     arrays, other = dict(np.load(tmp_path / "linear.npz")), loadmat(tmp_path / "linear.mat")

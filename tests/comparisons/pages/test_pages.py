@@ -59,7 +59,7 @@ def shown(browser, studies):  # noqa: F811
         dialogs: list[Any] = []
         found.on("dialog", lambda dialog: dialogs.append(dialog))
         yield found
-        assert watch.troubles == [] and watch.asked == [path.as_uri()] and not dialogs
+        assert watch.troubles == [] and watch.requests == [path.as_uri()] and not dialogs
 
 
 def test_its_policy_lets_nothing_but_its_own_script_and_style_in(shown):

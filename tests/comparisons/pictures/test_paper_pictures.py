@@ -154,22 +154,22 @@ def test_the_sheets_in_one_column_keep_off_the_colour_bars(aspect):
 
 def test_the_option(tmp_path, capsys):
     out = tmp_path / "out"
-    asked = ["modes", "two-edges-clamped", "--grid", "3", "--reference", "plate", "--elements", "2"]
-    assert run(*asked, "--figure", "svg,pdf", "--out", str(out)) == 0
+    arguments = ["modes", "two-edges-clamped", "--grid", "3", "--reference", "plate", "--elements", "2"]
+    assert run(*arguments, "--figure", "svg,pdf", "--out", str(out)) == 0
     files = json.loads((out / "manifest.json").read_text(encoding="utf-8"))["runs"]["modes"]["files"]
     drawn = {name for name in files if name.endswith((".png", ".pdf", ".svg"))}
     assert drawn == {"modes.svg", "modes.pdf"} and all((out / name).is_file() for name in drawn)
     capsys.readouterr()
-    assert run(*asked, "--figure", "svg") == 2
+    assert run(*arguments, "--figure", "svg") == 2
     assert "--figure: no effect without --out" in one_line(capsys)
-    assert run(*asked, "--figure", "svg", "--no-pictures", "--out", str(out)) == 2
+    assert run(*arguments, "--figure", "svg", "--no-pictures", "--out", str(out)) == 2
     assert "--no-pictures" in one_line(capsys)
     bare = tmp_path / "bare"
-    assert run(*asked, "--no-pictures", "--out", str(bare)) == 0
+    assert run(*arguments, "--no-pictures", "--out", str(bare)) == 0
     assert "drawing" not in capsys.readouterr().err
     left = {path.suffix for path in bare.iterdir()}
     assert not left & {".png", ".pdf", ".svg"} and {".json", ".csv", ".vtu"} <= left
-    assert run(*asked, "--figure", "jpg", "--out", str(out)) == 2
+    assert run(*arguments, "--figure", "jpg", "--out", str(out)) == 2
     assert "--figure" in one_line(capsys)
     assert run("stability", "one-edge-clamped", "--figure", "pdf:single", "--out", str(tmp_path / "s")) == 2
     assert "both columns" in one_line(capsys) and not (tmp_path / "s").exists()

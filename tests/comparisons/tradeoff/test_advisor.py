@@ -198,8 +198,8 @@ def test_the_printed_command_solves_the_choice(capsys, monkeypatch):
         return replace(answer(model), model=name or model.spec.model)
 
     monkeypatch.setattr(table, "solve", recorded)
-    _, *asked = shlex.split(advice["command"])
-    assert run(*asked) == 0
+    _, *arguments = shlex.split(advice["command"])
+    assert run(*arguments) == 0
     choice = {"calibration": "consistent", **advice["choice"]["settings"]}
     alike = [one for one in solved if one.model == advice["choice"]["model"]]
     known = ({"calibration": "consistent", **_told(one.settings)} for one in alike)

@@ -26,8 +26,8 @@ def driven(**chain):
 def test_a_chain_thrown_has_its_own_mass(model):
     scene = driven(face="top")
     energies = []
-    for asked in (scene, scene.replace(actuators=())):
-        moving = MODELS[model](asked, (2, 2))
+    for case in (scene, scene.replace(actuators=())):
+        moving = MODELS[model](case, (2, 2))
         v = np.zeros(moving.mass.shape[0])
         moving.displacement(v)[:] = 0.0, 0.0, 2.0
         energies.append(0.5 * v @ (moving.mass @ v))
@@ -40,8 +40,8 @@ def test_a_chain_that_spins_about_the_edge_has_its_rotary_inertia():
     scene, omega = driven(face="top"), 3.0
     (chain,) = scene.actuators
     energies = []
-    for asked in (scene, scene.replace(actuators=())):
-        moving = MovingShell(asked, (2, 2))
+    for case in (scene, scene.replace(actuators=())):
+        moving = MovingShell(case, (2, 2))
         v = np.zeros((moving.mass.shape[0] // 3, 3))
         v[moving.nodes : 2 * moving.nodes, 0], v[2 * moving.nodes :, 2] = omega, -omega
         energies.append(0.5 * v.ravel() @ (moving.mass @ v.ravel()))

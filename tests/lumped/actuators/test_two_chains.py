@@ -31,10 +31,10 @@ def strip(base, curvatures, width):
 @pytest.mark.parametrize("curvatures", [(9.0, 9.0), (9.0, -9.0)], ids=["equal", "antagonistic"])
 @pytest.mark.parametrize(("width", "rows"), [(0.016, 3), (0.1, 13)], ids=["narrow", "wide"])
 def test_the_lattice_agrees_with_the_shell(base, curvatures, width, rows):
-    asked = strip(base, curvatures, width)
-    springs = lumped.calibrate(asked.sheet, asked.material, grid=(25, rows), method="consistent")
-    found = lumped.solve(asked, springs)
-    shell = fem_reference.solve(asked, model="shell", elements=4)
+    scene = strip(base, curvatures, width)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(25, rows), method="consistent")
+    found = lumped.solve(scene, springs)
+    shell = fem_reference.solve(scene, model="shell", elements=4)
     assert (found.status, shell.status) == (Status.CONVERGED, Status.CONVERGED), found.message
     points = np.array([(x, y) for x in (0.1, 0.2) for y in (0.0, 0.5 * width, width)])
     truth = shell.displacement(points)

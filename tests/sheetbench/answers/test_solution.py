@@ -15,8 +15,8 @@ from sheetbench.answers.solution import Status
 def test_the_message_is_fallback_snaps_and_notes_in_a_line():
     scene = scenes.load("one-edge-clamped")
     assert solution(scene).message == ""
-    told = solution(scene, snaps=(0.25, 0.56789), fallback="divided evenly", remarks=("seen", "heard"))
-    assert told.message == (
+    found = solution(scene, snaps=(0.25, 0.56789), fallback="divided evenly", remarks=("seen", "heard"))
+    assert found.message == (
         "divided evenly; snapped at load factor 0.25; snapped at load factor 0.5679; seen; heard"
     )
 

@@ -138,11 +138,11 @@ def test_curvatures_are_told_joint_by_joint_whatever_they_are_given_as():
 @pytest.mark.parametrize("segments", [1, 2, 3, 6])
 @pytest.mark.parametrize("base", ["free", "start", "middle", "end"])
 def test_pieces_of_a_chain_cover_the_edge(base, segments):
-    asked = Chain(
+    chain = Chain(
         edge="x0", segments=segments, bending_stiffness=1.0, line_density=1.0, radius=1e-3, base=base
     )
-    bounds = asked.pieces()
-    assert len(bounds) == len(asked.curvatures().at()) + 1
+    bounds = chain.pieces()
+    assert len(bounds) == len(chain.curvatures().at()) + 1
     assert bounds[0] == 0.0 and bounds[-1] == segments and np.all(np.diff(bounds) > 0.0)
 
 

@@ -24,11 +24,11 @@ VALUES = {
 
 @pytest.mark.parametrize("name", VALUES)
 def test_what_is_put_is_got_and_nothing_else_changes(name):
-    asked = RICH.replace(supports=(Clamped(edge="x0"),)) if name == "tilt_x0" else RICH
-    changed = put(asked, name, VALUES[name])
+    scene = RICH.replace(supports=(Clamped(edge="x0"),)) if name == "tilt_x0" else RICH
+    changed = put(scene, name, VALUES[name])
     found = parameter(changed, name)
     assert found.value == VALUES[name] and found.low <= found.value <= found.high
-    assert put(changed, name, parameter(asked, name).value) == asked
+    assert put(changed, name, parameter(scene, name).value) == scene
 
 
 def test_a_pair_of_one_curvature_changes_together_and_one_of_two_is_refused():

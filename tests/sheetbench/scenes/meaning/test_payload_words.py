@@ -39,12 +39,12 @@ def test_a_mass_is_read_written_and_told(tmp_path):
     assert scene.masses == (sb.Mass(0.005, (0.2, 0.05), inertia=(2e-6, 1e-6, 2e-6)),)
     scene.save(tmp_path / "again.toml")
     assert load(tmp_path / "again.toml") == scene
-    told = dict(in_words(scene))
-    assert told["mass 1"] == (
+    words = dict(in_words(scene))
+    assert words["mass 1"] == (
         "5 g at (200, 50) mm, on edge x1, moments of inertia 20 and 10 g·cm² about x and y, "
         "of that about z, the sheet's normal, nothing is taken"
     )
-    assert told["sheet"].endswith(", 60 g") and told["weight"] == "0.638 N along −z, of 65 g in all"
+    assert words["sheet"].endswith(", 60 g") and words["weight"] == "0.638 N along −z, of 65 g in all"
     spread = read(tmp_path, f"{BASE}[[mass]]\nmass = 0.005\n{DISC(0.1)}")
     assert "spread evenly, in the circle of radius 10 mm" in dict(in_words(spread))["mass 1"]
     assert spread.shaped_by == "mass.where" and scene.drawn_by == ""

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from dynamic_cases import scene, springs, system
+from dynamic_cases import make_scene, springs, system
 from lattice_cases import ALL, MATERIAL, SHEET, assembly_of, dense, derivative, state
 from scipy.integrate import solve_ivp
 
@@ -31,7 +31,7 @@ def tip_force(history, force=(0.0, 0.02, 0.1)):
 
 
 def pull_on_a_cantilever(history, **material):
-    return scene("one-edge-clamped", gravity=False, loads=[tip_force(history)], **material)
+    return make_scene("one-edge-clamped", gravity=False, loads=[tip_force(history)], **material)
 
 
 @pytest.mark.parametrize(
@@ -74,12 +74,12 @@ def loaded(*actuators):
         {"kind": "edge", "edge": "y1", "moment_per_length": 5e-3, "history": ending(-2.0)},
         {"kind": "pressure", "value": 8.0, "history": ending(0.5)},
     ]
-    asked = scene("one-edge-clamped", actuators, loads=loads)
+    scene = make_scene("one-edge-clamped", actuators, loads=loads)
     history = FactorTable.model_validate(ending(0.3))
-    return asked.model_copy(update={"gravity": asked.gravity.model_copy(update={"history": history})})
+    return scene.model_copy(update={"gravity": scene.gravity.model_copy(update={"history": history})})
 
 
-def multiplied_out(asked):
+def multiplied_out(scene):
     """The scene without histories, its loads and weight multiplied by the last factors."""
 
     def part(load):
@@ -92,24 +92,24 @@ def multiplied_out(asked):
                 changed[name] = by * getattr(load, name)
         return load.model_copy(update=changed)
 
-    return asked.model_copy(update={"gravity": part(asked.gravity), "loads": tuple(map(part, asked.loads))})
+    return scene.model_copy(update={"gravity": part(scene.gravity), "loads": tuple(map(part, scene.loads))})
 
 
 STATICS = {
-    "lattice": lambda asked: lumped.solve(asked, springs(asked)),
-    "linear lattice": lambda asked: lumped.solve(asked, springs(asked), linear=True),
-    "plate": lambda asked: fem_reference.solve(asked, "plate", elements=4),
-    "shell": lambda asked: fem_reference.solve(asked, "shell", elements=3),
-    "solid": lambda asked: fem_reference.solve(asked, "solid", elements=3),
+    "lattice": lambda scene: lumped.solve(scene, springs(scene)),
+    "linear lattice": lambda scene: lumped.solve(scene, springs(scene), linear=True),
+    "plate": lambda scene: fem_reference.solve(scene, "plate", elements=4),
+    "shell": lambda scene: fem_reference.solve(scene, "shell", elements=3),
+    "solid": lambda scene: fem_reference.solve(scene, "solid", elements=3),
 }
 
 
 @pytest.mark.parametrize("model", STATICS)
 def test_statics_take_the_last_factor(model):
-    asked = loaded()
-    found, truth = STATICS[model](asked), STATICS[model](multiplied_out(asked))
+    scene = loaded()
+    found, truth = STATICS[model](scene), STATICS[model](multiplied_out(scene))
     assert found.status is truth.status is Status.CONVERGED
-    moved, expected = (s.displacement(asked.probe_points()) for s in (found, truth))
+    moved, expected = (s.displacement(scene.probe_points()) for s in (found, truth))
     assert largest(expected) > 1e-3
     assert largest(moved - expected) < 1e-9 * largest(expected)
     assert found.reactions["x0"] == pytest.approx(truth.reactions["x0"], rel=1e-7, abs=1e-9)
@@ -117,9 +117,9 @@ def test_statics_take_the_last_factor(model):
 
 @pytest.mark.parametrize("model", ["lattice", "shell"])
 def test_statics_take_the_last_factor_of_a_rods_weight(model):
-    asked = loaded({"line_density": 1.0}).model_copy(update={"loads": ()})
+    scene = loaded({"line_density": 1.0}).model_copy(update={"loads": ()})
     moved, expected = (
-        STATICS[model](a).displacement(asked.probe_points()) for a in (asked, multiplied_out(asked))
+        STATICS[model](a).displacement(scene.probe_points()) for a in (scene, multiplied_out(scene))
     )
     assert largest(expected) > 1e-3
     assert largest(moved - expected) < 1e-9 * largest(expected)
@@ -127,15 +127,15 @@ def test_statics_take_the_last_factor_of_a_rods_weight(model):
 
 def test_scales_and_halves_know_of_histories():
     assert scales(loaded()).as_dict() == pytest.approx(scales(multiplied_out(loaded())).as_dict())
-    asked = pull_on_a_cantilever(RAMP)
-    upwards = asked.loads[0].model_copy(update={"force": (0.0, 0.0, 0.1)})
-    asked = asked.model_copy(update={"loads": (upwards,)})
-    assert planes(asked) == (1,)
-    assert half(asked, 1).loads[0].history == upwards.history
+    scene = pull_on_a_cantilever(RAMP)
+    upwards = scene.loads[0].model_copy(update={"force": (0.0, 0.0, 0.1)})
+    scene = scene.model_copy(update={"loads": (upwards,)})
+    assert planes(scene) == (1,)
+    assert half(scene, 1).loads[0].history == upwards.history
     ends = [upwards.model_copy(update={"at": (0.188, y)}) for y in (0.0, 0.188)]
-    assert planes(asked.model_copy(update={"loads": tuple(ends)})) == (1,)
+    assert planes(scene.model_copy(update={"loads": tuple(ends)})) == (1,)
     ends[1] = ends[1].model_copy(update={"history": None})
-    assert planes(asked.model_copy(update={"loads": tuple(ends)})) == ()
+    assert planes(scene.model_copy(update={"loads": tuple(ends)})) == ()
 
 
 @pytest.mark.parametrize("time, factors", [(-1.0, (2.0, 1.0)), (0.05, (0.5, 0.0)), (9.0, (-4.0, -1.0))])
@@ -173,7 +173,7 @@ def test_forces_and_tangents_at_a_time(time, factors):
 
 
 def test_loads_without_a_history_are_one_constant_array():
-    equations, rest = system(scene(loads=[{"kind": "point", "at": TIP, "force": [0.0, 0.0, 0.1]}]))
+    equations, rest = system(make_scene(loads=[{"kind": "point", "at": TIP, "force": [0.0, 0.0, 0.1]}]))
     loads = equations.problem.loads
     assert loads.potential and not equations.working
     assert loads.force(rest.u, 0.3) is loads.dead
@@ -182,8 +182,8 @@ def test_loads_without_a_history_are_one_constant_array():
 @pytest.fixture(scope="module")
 def reference():
     """The tip of a 3 × 3 × 2 cantilever under a ramped force, M ü + f_int(u) = f(t) by hand."""
-    asked = pull_on_a_cantilever(RAMP)
-    equations, _ = system(asked, 3)
+    scene = pull_on_a_cantilever(RAMP)
+    equations, _ = system(scene, 3)
     lattice, mass = equations.assembly.lattice, equations.lattice_mass
     free = np.flatnonzero(lattice.positions[:, 0] > 0.0)
     pulled = np.flatnonzero(np.abs(lattice.positions[:, :2] - TIP).max(axis=1) < 1e-12)
@@ -204,15 +204,15 @@ def reference():
         found.append(part.y.T)
     moved = np.concatenate(found)[:, : 3 * len(free)].reshape(len(times), -1, 3)
     tip = moved[:, np.isin(free, pulled)].mean(axis=1)
-    return asked, times, tip
+    return scene, times, tip
 
 
 @pytest.mark.parametrize(
     "name, step", [("verlet", None), ("generalised-alpha", None), ("esdirk", None), ("midpoint", 2e-4)]
 )
 def test_a_ramped_force_moves_the_cantilever_as_solve_ivp_says(reference, name, step):
-    asked, times, truth = reference
-    history = lumped.simulate(asked, springs(asked, 3), 0.2, integrator=name, step=step, every=0.002)
+    scene, times, truth = reference
+    history = lumped.simulate(scene, springs(scene, 3), 0.2, integrator=name, step=step, every=0.002)
     assert history.status is Status.CONVERGED
     assert history.time == pytest.approx(times)
     assert largest(history.probes["P3"] - truth) < 1e-3 * largest(truth)  # measured below 1e-4
@@ -220,13 +220,13 @@ def test_a_ramped_force_moves_the_cantilever_as_solve_ivp_says(reference, name, 
 
 def test_the_sheet_follows_slow_ramps_through_the_static_solutions():
     pressure = {"kind": "pressure", "value": 6.0, "history": {"time": [0.0, 4.0], "factor": [0.0, 1.0]}}
-    asked = scene("one-edge-clamped", gravity=False, loads=[pressure], damping_time=1e-2)
-    history = lumped.simulate(asked, springs(asked, 4), 4.0, step=0.02, every=1.0)
+    scene = make_scene("one-edge-clamped", gravity=False, loads=[pressure], damping_time=1e-2)
+    history = lumped.simulate(scene, springs(scene, 4), 4.0, step=0.02, every=1.0)
     assert history.status is Status.CONVERGED
     for i, factor in enumerate(history.time[1:] / 4.0, start=1):
-        there = asked.model_copy(update={"loads": (Pressure(value=6.0 * factor),)})
-        static = lumped.solve(there, springs(asked, 4)).displacement(asked.probe_points())
-        found = np.array([history.probes[name][i] for name in asked.probes])
+        there = scene.model_copy(update={"loads": (Pressure(value=6.0 * factor),)})
+        static = lumped.solve(there, springs(scene, 4)).displacement(scene.probe_points())
+        found = np.array([history.probes[name][i] for name in scene.probes])
         assert largest(found - static) < 0.01 * largest(history.probes["P4"])
 
 
@@ -240,7 +240,7 @@ def shaken(damping_time=0.0):
         {"kind": "pressure", "value": 60.0, "history": pulse},
         {"kind": "edge", "edge": "x1", "moment_per_length": 0.1, "history": swing},
     ]
-    return scene("one-edge-clamped", loads=loads, damping_time=damping_time)
+    return make_scene("one-edge-clamped", loads=loads, damping_time=damping_time)
 
 
 @pytest.mark.parametrize("damping", [0.0, 1e-3])
@@ -248,9 +248,9 @@ def shaken(damping_time=0.0):
     "name, tolerance", [("midpoint", 1e-9), ("generalised-alpha", 1e-4), ("esdirk", 1e-4), ("verlet", 1e-4)]
 )
 def test_the_energy_balance_holds_with_loads_that_change(name, tolerance, damping):
-    asked = shaken(damping)
+    scene = shaken(damping)
     step = {"midpoint": 5e-4, "generalised-alpha": 2e-4, "esdirk": 5e-4, "verlet": None}[name]
-    history = lumped.simulate(asked, springs(asked, 3), 0.05, integrator=name, step=step, every=0.001)
+    history = lumped.simulate(scene, springs(scene, 3), 0.05, integrator=name, step=step, every=0.001)
     assert history.status is Status.CONVERGED
     scale = max(largest(energy) for energy in history.energies.values())
     assert largest(history.energies["work"]) > 0.2 * scale
@@ -260,13 +260,13 @@ def test_the_energy_balance_holds_with_loads_that_change(name, tolerance, dampin
 
 def test_weight_with_a_history_does_work_and_has_no_potential():
     history = FactorTable(time=(0.0, 0.05), factor=(0.0, 1.0))
-    asked = scene("one-edge-clamped")
-    asked = asked.model_copy(update={"gravity": asked.gravity.model_copy(update={"history": history})})
-    found = lumped.simulate(asked, springs(asked, 4), 0.1, integrator="midpoint", step=5e-4, every=0.005)
+    scene = make_scene("one-edge-clamped")
+    scene = scene.model_copy(update={"gravity": scene.gravity.model_copy(update={"history": history})})
+    found = lumped.simulate(scene, springs(scene, 4), 0.1, integrator="midpoint", step=5e-4, every=0.005)
     assert largest(found.energies["potential"]) == 0.0
     assert largest(found.balance) < 1e-8 * largest(found.energies["work"])
     weight = 9.81 * 1678.0 * 0.188**2 * 0.003
-    static = lumped.solve(asked, springs(asked, 4))
+    static = lumped.solve(scene, springs(scene, 4))
     assert static.reactions["x0"][2] == pytest.approx(weight)
 
 
@@ -281,11 +281,11 @@ def test_orders_are_as_declared_under_a_smooth_load(name):
         tip_force(history, force=[0.0, 0.0, 0.5]),
         {"kind": "pressure", "value": 100.0, "history": history},
     ]
-    asked = scene("one-edge-clamped", gravity=False, loads=loads)
+    scene = make_scene("one-edge-clamped", gravity=False, loads=loads)
     ends = []
     for halvings in (1, 2, 3):
         step = ORDER_STEPS[name] / 2**halvings
-        found = lumped.simulate(asked, springs(asked, 3), 0.002, integrator=name, step=step, every=0.002)
+        found = lumped.simulate(scene, springs(scene, 3), 0.002, integrator=name, step=step, every=0.002)
         ends.append(found.probes["P4"][-1])
     changes = [largest(a - b) for a, b in pairwise(ends)]
     assert np.log2(changes[0] / changes[1]) == pytest.approx(INTEGRATORS[name].order, abs=0.15)

@@ -21,7 +21,7 @@ from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.discrete.energies import Motion, spent
 from fem_reference.discrete.relaxation import remembered
-from fem_reference.motion.moving import Moving
+from fem_reference.motion.moving import MovingSheet
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
@@ -63,7 +63,9 @@ class ConstrainedAlpha:
 
     state = Motion
 
-    def __init__(self, model: Moving, step: float | None, error: float, first: float, radius: float = RADIUS):
+    def __init__(
+        self, model: MovingSheet, step: float | None, error: float, first: float, radius: float = RADIUS
+    ):
         self._usual = generalised(radius)
         self.late = 1.0 - self._usual.af
         self._model, self.adapts, self._error = model, step is None, error

@@ -15,7 +15,7 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.motion import NO_START, at_start, starts_flat
 
 
-class Moving(Discrete):
+class MovingSheet(Discrete):
     """A discrete sheet that knows where its motion starts."""
 
     @abstractmethod

@@ -20,7 +20,9 @@ def command(
             "NAME",
         ),
     ] = None,
-    reference: Annotated[str, option(f"What errors are against: {listed(REFERENCES)}.", "MODEL")] = REFERENCE,
+    reference: Annotated[
+        str, option(f"What errors are measured from: {listed(REFERENCES)}.", "MODEL")
+    ] = REFERENCE,
     elements: Annotated[int, option("Elements of the references along the shorter side.", "N", min=1)] = 12,
     large: Large = False,
     campaign: ClusterOptions,

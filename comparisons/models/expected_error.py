@@ -50,6 +50,7 @@ FOLD = 1.5  # cells of the finer grid in the layer that a load bends (`compariso
 FAR = 0.5  # of the largest displacement
 LAW = 0.2  # of the largest stretch, that the laws of strain may put lattice and shell apart
 MOST = 5000  # masses in plan
+LARGE = 0.02  # above which a note says how to lower it
 ROUNDING = 1e-9  # of the largest displacement
 
 
@@ -68,7 +69,8 @@ class ExpectedError:
         return f"estimated from a second solve on {masses} masses, {1e3 * self.solve_seconds:.0f} ms"
 
     def __str__(self) -> str:
-        return f"expected grid error about {few(100 * self.value)} % ({self.reason})"
+        lower = ": a finer --grid or --grading auto lowers it" if self.value > LARGE else ""
+        return f"expected grid error about {few(100 * self.value)} %{lower} ({self.reason})"
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""

@@ -38,7 +38,7 @@ def command(
         ),
     ] = None,
     buckling: Annotated[
-        bool, option("Also at how many times its loads the flat sheet buckles, with the shapes paired.")
+        bool, option("Also the load factors at which the flat sheet buckles, with the shapes paired.")
     ] = False,
     state_space: Annotated[
         int | None,

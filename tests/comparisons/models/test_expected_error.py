@@ -9,6 +9,7 @@ import pytest
 from commands import json_of
 
 from comparisons.comparison.comparison import compare
+from comparisons.models import expected_error as estimates
 from comparisons.models.expected_error import (
     MOST,
     ExpectedError,
@@ -81,6 +82,22 @@ def test_nothing_is_said_where_the_estimate_has_no_ground(changes, options, fine
     assert "too much memory" in str(expected_error(SCENE, plain, answered(), lambda candidate: None))
     moved = fake_solutions.solution(SCENE, "lumped", -0.0101)
     assert isinstance(expected_error(SCENE, plain, answered(), lambda candidate: moved), ExpectedError)
+
+
+@pytest.mark.parametrize(
+    ("finer", "words"),
+    [
+        (-0.01, "are the same but for rounding"),
+        (0.01, "differ by 200 %, too much to extrapolate from"),
+        (-0.010001, "differ by 0.01 %, less than the law of strain may change them at this stretch"),
+        (-0.0101, "about 1.8 % (estimated"),  # (0.0001/0.0101)/(1 − 1/2.25)
+        (-0.011, "about 16 %: a finer --grid or --grading auto lowers it (estimated"),
+    ],
+)
+def test_the_note_names_the_reason_or_what_lowers_the_error(monkeypatch, finer, words):
+    monkeypatch.setattr(estimates, "largest_stretch", lambda *of: 0.01)
+    moved = fake_solutions.solution(SCENE, "lumped", finer)
+    assert words in str(expected_error(SCENE, Lattice(9, "consistent"), answered(), lambda candidate: moved))
 
 
 def test_compare_says_it_in_the_norm_of_its_error():

@@ -3,6 +3,8 @@ obstacles."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from fem_reference.discrete.contact import Touching
@@ -10,7 +12,7 @@ from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.static import Forces, State, Static
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
-from sheetbench.numerics.continuation.path import Inspect, Path, Progress, Settle
+from sheetbench.numerics.continuation.path import Inspect, Path, Settle
 from sheetbench.numerics.continuation.stiffening import Penalties, trace_stiffening
 from sheetbench.numerics.continuation.trace import trace_path
 
@@ -39,20 +41,18 @@ def trace(
     sheet: DiscreteElements,
     inspect: Inspect[State, Forces],
     settle: Settle[State, Forces] | None,
-    progress: Progress | None = None,
-    near: Start[State] | None = None,
-    slenderness: float = 0.0,
     limits: Limits | None = None,
-    buckled: bool = False,
+    **options: Any,
 ) -> Path[State, Forces]:
-    """Return the path of a sheet, as `trace_path` does; with obstacles from rest, whatever is near."""
+    """Return the path of a sheet, as `trace_path` does with these options; with obstacles from rest, whatever
+    is near."""
     structure, limits = Static(sheet), limits or Limits()
-    more = progress, None if sheet.contacts else near, slenderness
     if not sheet.contacts:
-        return trace_path(structure, sheet.solver(), inspect, settle, *more, limits, buckled)
+        return trace_path(structure, sheet.solver(), inspect, settle, limits=limits, **options)
+    buckled, from_rest = options.pop("buckled", False), options | {"near": None}
 
     def soft(limits: Limits, inspect: Inspect[State, Forces]) -> Path[State, Forces]:
-        return trace_path(structure, sheet.solver(), inspect, settle, *more, limits)
+        return trace_path(structure, sheet.solver(), inspect, settle, limits=limits, **from_rest)
 
-    path = Path(structure, sheet.solver(), structure.rest(), limits=limits, progress=progress)
+    path = Path(structure, sheet.solver(), structure.rest(), limits=limits, progress=options.get("progress"))
     return trace_stiffening(penalties(structure), path, soft, inspect, settle, buckled)

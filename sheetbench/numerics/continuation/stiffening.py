@@ -18,13 +18,13 @@ from typing import Generic, Protocol
 
 import numpy as np
 
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Settle
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.continuation.trace import conclude
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Status
 
 FIRST_FACTOR, SMALLEST_FACTOR = 1e3, 1.05  # of the penalties, from stage to stage
 EASIER = 10.0  # by which a stage's factor grows after one that went well

@@ -39,7 +39,7 @@ def test_plate_and_solid_keep_theirs(model):
 @pytest.mark.nightly  # a minute
 @pytest.mark.parametrize(("model", "elements"), [("plate", (2, 1)), ("shell", (2, 1)), ("solid", (1, 1))])
 def test_a_hundred_periods_leave_the_energy_as_it_was(model, elements):
-    """Of 0.32 s; asked: to 1e-6 of the elastic energy."""
+    """Over 0.32 s, to 1e-6 of the elastic energy."""
     assert drift(model, 0.0, elements, duration=32.1, step=1e-2) < 1e-8
 
 

@@ -226,7 +226,7 @@ def test_the_mass_of_rigid_motions_is_that_of_a_slab():
 
 
 def sheet_on(kinds):
-    """Habibi et al.'s sheet under a thousandth of its weight, each edge held as asked."""
+    """Habibi et al.'s sheet under a thousandth of its weight, each edge held as its kind says."""
     scene = scenes.load("two-edges-clamped")
     light = scenes.Gravity(acceleration=(0.0, 0.0, -9.81e-3))
     supports = [{"edge": edge, "kind": kind} for edge, kind in kinds.items()]

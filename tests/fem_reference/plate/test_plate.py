@@ -233,6 +233,7 @@ def sheet_on(kinds):
     return Scene.model_validate({**scene.model_dump(), "supports": supports, "gravity": light})
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("kinds", [{"x0": "clamped", "y0": "clamped"}, dict.fromkeys(EDGES, "hinged")])
 def test_graded_where_edges_let_twist_go(kinds):
     """On 16 × 16 within 0.05 % of 40 × 40 graded ones; on equal elements 0.3 to 0.5 % off."""

@@ -83,7 +83,7 @@ MODELS = {
     "lattice": ("lumped", {"grid": (5, 5, 2)}),
     "graded lattice": ("lumped", {"grid": (5, 5, 2), "grading": 0.6}),
     "linear lattice": ("lumped", {"grid": (5, 5, 2), "linear": True}),
-    **{name: (name, {"elements": 3}) for name in REFERENCES},
+    **{name: (name, {"elements": 3 if name == "solid" else 4}) for name in REFERENCES},
 }
 SHARP = 1e-5  # of all forces, above which no tolerance is: rods are 10⁵ times as stiff as sheets
 

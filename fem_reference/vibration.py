@@ -126,8 +126,8 @@ def modes(
             q, at = _equilibrium(sheet), 1.0
         else:
             rigid = _free_rigid_motions(sheet)
-        still = np.zeros_like(q)
-        stiffness = sheet.tangent(q, still, at, sheet.forces(q, still, at), 0.0, 0.0)
+        shape = sheet.shape(q, at)
+        stiffness = sheet.tangent(shape, sheet.forces(shape), 0.0, 0.0)
         basis = sheet.basis(q, at)
         mass = (basis.T @ sheet.mass @ basis).tocsr()
         ready = now()

@@ -60,7 +60,7 @@ class ErrorBar:
             why = "no change but rounding"
         else:
             swing = int(np.sum(~found.trusted))
-            why = f"the meshes disagree in {swing} of {found.trusted.size} components"
+            why = f"in {swing} of {found.trusted.size} components the change does not fall with the mesh"
         meshes = f"{', '.join(finer)} and {coarsest} elements"
         return f"{model}: mesh error ± {few(100.0 * self.error)} % (from {meshes}; {why})."
 

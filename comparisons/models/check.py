@@ -20,6 +20,7 @@ from sheetbench.answers.table import Column, Table
 from sheetbench.choices import CALIBRATION, ELEMENTS
 from sheetbench.errors import Implausible
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
+from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.meaning.plausibility import slips
 from sheetbench.scenes.meaning.words import in_words
 from sheetbench.scenes.objects.grid import elements_of
@@ -76,8 +77,10 @@ class Check(Answer):
         return scene_file(self.called)
 
     def notes(self) -> list[str]:
-        solve = f"Solve it with:\nsheetbench compare {shlex.quote(self.called)}"
-        return [] if self.free else [solve]
+        called, until = shlex.quote(self.called), max(kinks(self.scene), default=0.0)
+        statics = [] if self.free else [f"Solve it with:\nsheetbench compare {called}"]
+        motion = [f"Its motion:\nsheetbench compare {called} --duration {until:g}"] if until > 0.0 else []
+        return [*statics, *motion]
 
     def complaints(self) -> list[str]:
         floats = "the sheet can move as a rigid body: only `modes` and `simulate` can answer"

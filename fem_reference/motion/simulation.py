@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 
 from fem_reference.defaults import with_defaults
+from fem_reference.discrete.energies import Motion
 from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
-from fem_reference.motion.moving import Motion, Moving
+from fem_reference.motion.moving import MovingSheet
 from fem_reference.motion.observer import ReferenceObserver
 from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
@@ -34,7 +35,7 @@ from sheetbench.scenes import AnyScene, Scene, require_no_branches, scene_of
 from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.objects.quantities import require_positive
 
-MODELS: dict[str, Callable[..., Moving]] = {
+MODELS: dict[str, Callable[..., MovingSheet]] = {
     "plate": MovingPlate,
     "shell": MovingShell,
     "solid": MovingSolid,

@@ -147,7 +147,8 @@ def _run(
     elif near is not None:
         begin_at = coarse_start.start(near.sheet, near.path.state.q, sheet)
     slenderness = scene.sheet.thickness / sheet.lever
-    path = trace(sheet, inspector(graded), relax, progress, begin_at, slenderness, limits or LIMITS, buckled)
+    options = {"progress": progress, "near": begin_at, "slenderness": slenderness, "buckled": buckled}
+    path = trace(sheet, inspector(graded), relax, limits or LIMITS, **options)
     path.factor = None  # a run is kept longer than that
     return _Run(sheet, path, ready - begin, now() - ready)
 

@@ -89,7 +89,7 @@ def _solved(
     sheet = discretise(mesh, scene, layers, law, clamp)
     sheet.own = own
     ready = now()
-    path = trace(sheet, inspected, None, progress)
+    path = trace(sheet, inspected, None, progress=progress)
     done = now()
     status, notes = judge(sheet, path)
     return answered(

@@ -216,10 +216,10 @@ def test_a_lattice_has_its_law_whatever_is_cut_from_its_sheet():
 
 def test_compare_says_what_is_due_to_laws_of_strain():
     scene = pulled((200.0, 0.0))
-    found = compare(scene, grid=5, calibration="consistent", elements=4)
+    found = compare(scene, Lattice(5, "consistent"), elements=4)
     assert "% stretch" in found.laws and "(st-venant-kirchhoff)" in found.laws and "up to" in found.laws
     assert found.laws in found.report().notes and found.document()["laws"] == found.laws
-    assert not compare(bent(0.05), grid=5, calibration="consistent", elements=4).laws
+    assert not compare(bent(0.05), Lattice(5, "consistent"), elements=4).laws
 
 
 def test_the_law_is_an_option_of_the_reference(capsys):

@@ -85,7 +85,7 @@ def fit(law: str, curves: Sequence[Curve], free: bool = False) -> Fit | None:
     rows."""
     scale = [float(np.abs(curve.stress).max()) for curve in curves]
     rows, keys = sum(len(curve.stretch) for curve in curves), KEYS[law]
-    if rows < len(keys) + 3:
+    if rows < len(keys) + (3 if len(keys) > 1 else 2):
         return None
     size = max(float(s / abs(c.stretch[-1] - 1.0)) for s, c in zip(scale, curves, strict=True)) / 6.0
     most = max(map(largest_x, curves))

@@ -74,7 +74,7 @@ def in_words(scene: SceneFields) -> list[tuple[str, str]]:
     if scene.initial is not None:
         gone = ", ".join(str(n) for n, load in enumerate(scene.loads, start=1) if load.hold)
         then = f"; load {gone} is let go then" if gone else ""
-        sentences.append(("start", f"in motion from the equilibrium under all that acts at t = 0{then}"))
+        sentences.append(("start", f"motion starts from the equilibrium under all loads at t = 0{then}"))
     if scene.springs is not None:
         sentences.append(
             ("springs", "the lattice takes the scene's own constants instead of calibrated ones")
@@ -216,9 +216,10 @@ def _air(air: Air, sheet: Sheet, mass: float) -> str:
 def _support(support: AnySupport, sheet: Sheet) -> str:
     moved = ""
     if support.motion is not None:
-        last = _vector(support.motion.displacement[-1], "m")
+        far = max(support.motion.displacement, key=lambda moved: sum(part * part for part in moved))
         how = {"smooth": "smoothly", "linear": "linearly between samples"}[support.motion.interpolation]
-        moved = f", moved {how} over {support.motion.time[-1]:g} s, in the end by {last}"
+        by = _vector([1e3 * part for part in far], "mm")
+        moved = f", moved {how} over {support.motion.time[-1]:g} s, farthest by {by}"
     if isinstance(support, Clamped):
         if support.tilt == 0.0:
             return f"clamped: the mid-surface and its normal held{moved}"

@@ -86,10 +86,10 @@ class SceneFields(Frozen):
     """The lattice's own dampers along its links in `simulate`, in place of the material's damping_time, which
     area and strain springs keep."""
     probes: Annotated[dict[str, PlanPoint], Unit("m")] = Field(default_factory=dict)
-    """Named plan points [x, y] of the undeformed sheet for which displacements are reported; without this
-    table P1 is the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides
-    beside P4, each a quarter of the sheet inside where it would lie on an edge that is held; where there is
-    no sheet, the nearest point of it."""
+    """Named plan points [x, y] of the undeformed sheet where answers are compared; without this table P1 is
+    the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4,
+    each a quarter of the sheet inside where it would lie on an edge that is held; where there is no sheet,
+    the nearest point of it."""
 
     def document(self) -> dict[str, Any]:
         """The scene as in a file, for JSON: plain lists, dicts, numbers and texts."""

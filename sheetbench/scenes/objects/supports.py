@@ -16,7 +16,7 @@ from collections.abc import Iterable
 from math import pi
 from typing import Annotated, Literal, Self
 
-from pydantic import ConfigDict, Field, field_validator, model_validator
+from pydantic import AfterValidator, ConfigDict, Field, field_validator, model_validator
 
 from sheetbench.scenes.objects.quantities import Angle, Frozen, Number, PlanPoint, Unit, Vector3
 from sheetbench.scenes.objects.shapes import Rectangle, Shape
@@ -24,6 +24,15 @@ from sheetbench.scenes.objects.sheet import EDGES, EdgeName
 from sheetbench.scenes.objects.tables import CURVES, Interpolation, OverTime, PiecewiseCurve
 
 Component = Literal["x", "y", "z"]
+
+
+def _each_once(components: tuple[Component, ...]) -> tuple[Component, ...]:
+    if len(set(components)) != len(components):
+        raise ValueError("a component is named twice")
+    return components
+
+
+Components = Annotated[tuple[Component, ...], Field(min_length=1), AfterValidator(_each_once)]
 LARGEST_TILT = pi / 2.0  # rad, of a clamp
 SMALLEST_PLACE = 1e-12  # m, to each side of a point
 
@@ -99,15 +108,8 @@ class Held(_Support):
     """Some components of the mid-surface's displacement held, free to turn."""
 
     kind: Literal["held"] = Field(default="held", kw_only=True)
-    components: tuple[Component, ...] = Field(min_length=1)
+    components: Components
     """Which of "x", "y" and "z" are held, for instance ["z"] for an edge that slides on a rail."""
-
-    @field_validator("components")
-    @classmethod
-    def _each_once(cls, components: tuple[Component, ...]) -> tuple[Component, ...]:
-        if len(set(components)) != len(components):
-            raise ValueError("a component is named twice")
-        return components
 
 
 class Point(_EdgeSupport):
@@ -117,7 +119,7 @@ class Point(_EdgeSupport):
     kind: Literal["point"] = Field(default="point", kw_only=True)
     at: Annotated[PlanPoint, Unit("m")]
     """Plan point [x, y] of the undeformed sheet that is held."""
-    components: tuple[Component, ...] = Field(default=("x", "y", "z"), min_length=1)
+    components: Components = ("x", "y", "z")
     """Which of "x", "y" and "z" are held there; all unless given."""
     edge: Annotated[EdgeName, Field(default=None, kw_only=True)]
     """Of no edge: left out."""
@@ -136,13 +138,6 @@ class Point(_EdgeSupport):
         """Return the point as a shape, smaller than any distance on a sheet."""
         (x, y), half = self.at, SMALLEST_PLACE
         return Shape(rectangle=Rectangle(x=(x - half, x + half), y=(y - half, y + half)))
-
-    @field_validator("components")
-    @classmethod
-    def _each_once(cls, components: tuple[Component, ...]) -> tuple[Component, ...]:
-        if len(set(components)) != len(components):
-            raise ValueError("a component is named twice")
-        return components
 
 
 class Curved(_EdgeSupport):

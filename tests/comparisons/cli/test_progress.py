@@ -65,6 +65,7 @@ def test_what_will_last_is_said_before_it_starts(said):
     lines.say(Work("solving solid", SLOW).at(0.25))
     assert reports == ["solving solid (1.23 million unknowns, about 5 min) …"]
     assert str(Work("solving solid", SLOW).at(0.25)).endswith("about 5 min): 25 % of the load")
+    assert str(Work("solving shell").at(51.35)) == "solving shell: following its path beyond the load"
 
 
 def test_the_clock_is_looked_at_while_nothing_is_said(monkeypatch):

@@ -85,7 +85,7 @@ def test_shell_over_a_ball_folds_one_way():
 
 
 def test_the_plate_refuses_obstacles():
-    with pytest.raises(SceneError, match="the plate, which is linear, knows no contact"):
+    with pytest.raises(SceneError, match="the plate, which is linear, has no contact"):
         fem_reference.solve(laid_strip(0.1), "plate")
 
 

@@ -7,6 +7,7 @@ from scene_files import GOOD, written
 import lumped
 from sheetbench import scenes
 from sheetbench.scenes import Material, Relaxation, SceneError
+from sheetbench.scenes.meaning.words import in_words
 
 
 def series(*branches):
@@ -70,7 +71,7 @@ def test_a_scene_with_branches_is_kept_in_files_and_solved_at_rest(tmp_path):
     assert scenes.load(tmp_path / "kept.toml") == relaxing
     springs = lumped.calibrate(scene.sheet, relaxing.material, (4, 4))
     assert springs.springs == lumped.calibrate(scene.sheet, scene.material, (4, 4)).springs
-    (said,) = (text for part, text in scenes.words.in_words(relaxing) if part == "material")
+    (said,) = (text for part, text in in_words(relaxing) if part == "material")
     assert "54.5 MPa" in said and "109 MPa at once" in said
 
 

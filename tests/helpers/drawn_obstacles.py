@@ -2,7 +2,7 @@
 
     python tests/helpers/drawn_obstacles.py [COUNT] [FIRST]
 
-prints a line a fault; nothing is asked of a solver that says it has found no equilibrium.
+prints a line a fault; a solver that reports no equilibrium is not judged.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Status, outside_model
 from sheetbench.scenes.motion import NO_START, at_start, kinks, starts_flat
-from sheetbench.scenes.natural_state import sources_of
+from sheetbench.scenes.natural_state import Growing, sources_of
 from sheetbench.scenes.obstacles import obstacles_by_name
 from sheetbench.scenes.relaxation import Branches
 
@@ -62,6 +62,7 @@ class Discrete(Output):
     conservative: bool
     any_strain: bool = False
     own: bool = False
+    natural: Growing | None = None
     supports: Supports
     rods: Rods
     unknowns: int
@@ -155,14 +156,10 @@ class Discrete(Output):
         """Times [s] at which something prescribed bends its course."""
         return np.array(kinks(self.scene))
 
-    @abstractmethod
     def grow(self, at: float) -> None:
         """Set the sheet's natural state to that at a load factor or time [s], where it has one."""
-
-    @property
-    @abstractmethod
-    def grows(self) -> bool:
-        """Whether the natural state changes over time."""
+        if self.natural is not None:
+            self.natural.grow(*self.instant(at))
 
     def jumps(self, time: float) -> bool:
         """Whether what is prescribed changes its velocity at once."""

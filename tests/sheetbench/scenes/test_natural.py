@@ -6,7 +6,13 @@ import pytest
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes import Clamped, FactorTable, Layer, Material, Patch, Scene, Sheet
 from sheetbench.scenes.natural import Natural, Temperature
-from sheetbench.scenes.natural_state import natural_at, natural_of_cells, sheet_at_rest, thermal
+from sheetbench.scenes.natural_state import (
+    growth_of_cells,
+    natural_at,
+    natural_of_cells,
+    sheet_at_rest,
+    thermal,
+)
 from sheetbench.scenes.natural_words import natural_in_words
 from sheetbench.scenes.parameters import parameter, put
 from sheetbench.scenes.patches import require_plain
@@ -38,7 +44,11 @@ def test_patches_win_over_the_sheet_and_later_ones_over_those_before():
     cells = natural_of_cells(of, np.array([0.0, 0.2]), np.array([0.0, 0.1]))
     mean, _ = cells.at(cells.factors())
     assert mean[0, 0, 0, 0] == pytest.approx(0.25 * 0.02 + 0.5 * 0.03 + 0.25 * 0.01)
-    assert sheet_at_rest(of).lengths == pytest.approx((0.202, 0.1))
+    assert sheet_at_rest(of).lengths == (0.2, 0.1)  # cells have grown each by itself
+    growth = growth_of_cells(of, np.array([0.0, 0.2]), np.array([0.0, 0.1]))
+    np.testing.assert_allclose(growth, [[[1.0 + mean[0, 0, 0, 0], 1.0]]])
+    assert growth_of_cells(of.replace(patches=()), np.array([0.0, 0.2]), np.array([0.0, 0.1])) is None
+    assert sheet_at_rest(of.replace(patches=())).lengths == pytest.approx((0.202, 0.1))
 
 
 def test_histories_scale_each_source_of_its_own():

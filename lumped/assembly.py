@@ -69,13 +69,12 @@ class Assembly:
             self.pattern = MassPattern(self.coupling.size, rows, columns)
             self.coupling_slots = self.pattern.slots(*own)
         springs = springs_of(self.lattice, self.pattern, calibration.springs, precision == "single")
-        state = natural(*(line.at for line in self.lattice.lines))
-        self.natural, self.all_families = None, springs
+        self.natural = state = natural(*(line.at for line in self.lattice.lines))
+        self.all_families = springs
         if state is not None:
             if precision == "single":
                 raise BadInput("precision = 'single': of a sheet that is flat at rest; leave it out")
-            families, self.natural = with_natural(self.lattice, springs.families, state)
-            self.all_families = AllFamilies(families, self.pattern)
+            self.all_families = AllFamilies(with_natural(self.lattice, springs.families, state), self.pattern)
         self.force, self.advance = self.all_families.force, self.all_families.advance
         self.tangent, self.springs = self.all_families.tangent, self.all_families.families
         self.links, self.conservative = self.all_families.links, self.all_families.conservative

@@ -28,16 +28,14 @@ from lumped.springs.cell_laws import AREA_AND_STRAINS, NATURAL
 from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.laws import of_stiffness
 from sheetbench.errors import BadInput
-from sheetbench.scenes.natural_state import Growing, NaturalState
+from sheetbench.scenes.natural_state import NaturalState
 
 Setter = Callable[[np.ndarray, np.ndarray], None]  # of strains and curvatures of cells (rows, columns, 2, 2)
 
 
-def with_natural(
-    lattice: Lattice, families: Sequence[Family], state: NaturalState
-) -> tuple[list[Family], Growing]:
-    """Return the families of a sheet that is not flat at rest, and what sets their arrays to a share of its
-    cells' natural state. Raises BadInput for springs of a per-direction law."""
+def with_natural(lattice: Lattice, families: Sequence[Family], state: NaturalState) -> list[Family]:
+    """Return the families of a sheet that is not flat at rest, whose arrays its cells' state sets. Raises
+    BadInput for springs of a per-direction law."""
     found, setters = list(families), list[Setter]()
     for number, family in enumerate(families):
         if isinstance(family, DirectionalLinks):
@@ -49,7 +47,8 @@ def with_natural(
         else:
             continue
         setters.append(setter)
-    return found, Growing(state, lambda *forms: [setter(*forms) for setter in setters])
+    state.made(lambda *forms: [setter(*forms) for setter in setters])
+    return found
 
 
 def _links(lattice: Lattice, links: Links) -> tuple[Links, Setter]:
@@ -85,7 +84,7 @@ def _cells(lattice: Lattice, cells: SpringCells, state: NaturalState) -> tuple[S
         e, k = (form.reshape(-1, 2, 2)[plan] for form in (strain, curvature))
         return np.asarray(flat @ (e - at * k))
 
-    sides = flat + changes(*state.at(state.factors()), np.zeros((1, 1, 1)))
+    sides = flat + changes(*state.now, np.zeros((1, 1, 1)))
     springs = of_stiffness(cells.stiffness, np.pad(sides, ((0, 0), (0, 0), (0, 1))), _area(sides))
     natural = np.column_stack([springs, np.zeros((len(cells), 4))])
 

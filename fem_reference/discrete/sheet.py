@@ -39,7 +39,7 @@ from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Status, outside_model
 from sheetbench.scenes.motion import NO_START, at_start, kinks, starts_flat
-from sheetbench.scenes.natural_state import Growing, sources_of
+from sheetbench.scenes.natural_state import NaturalState, sources_of
 from sheetbench.scenes.obstacles import obstacles_by_name
 from sheetbench.scenes.relaxation import Branches
 
@@ -62,7 +62,7 @@ class Discrete(Output):
     conservative: bool
     any_strain: bool = False
     own: bool = False
-    natural: Growing | None = None
+    natural: NaturalState | None = None
     supports: Supports
     rods: Rods
     unknowns: int

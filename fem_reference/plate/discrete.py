@@ -33,7 +33,6 @@ from fem_reference.surface.mesh import field_mesh, on_boundary, plan_of, require
 from fem_reference.surface.natural import at_gauss
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import EDGES, FieldMesh, Scene, outside_model
-from sheetbench.scenes.natural_state import Growing
 
 PARTS = ("membrane", "bending", "shear")
 
@@ -86,7 +85,7 @@ class DiscretePlate(Discrete):
         self.scale[number[: len(nodes)]] = 1.0
         self.bind(bind, bound, number[bound.sites].reshape(-1, 27))
         if (state := at_gauss(scene, plan.corners)) is not None:
-            self.natural = Growing(state, partial(own_strains, self.elements, self.section, self.size))
+            self.natural = state.made(partial(own_strains, self.elements, self.section, self.size))
 
     @property
     def own(self) -> OwnStrains:

@@ -47,7 +47,7 @@ from fem_reference.surface.biquadratic import (
 from fem_reference.surface.materials import Section
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes.natural_state import Growing
+from sheetbench.scenes.natural_state import NaturalState
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
 GRIDS = {**TYING, "rs": (THREE, THREE)}
@@ -101,12 +101,12 @@ class Element:
     reference: np.ndarray
     stiffness: np.ndarray
     areas: np.ndarray
-    natural: Growing | None = field(default=None, kw_only=True)
+    natural: NaturalState | None = field(default=None, kw_only=True)
 
     @classmethod
-    def build(cls, nodes: np.ndarray, section: Section, natural: Growing | None = None) -> Element:
+    def build(cls, nodes: np.ndarray, section: Section) -> Element:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
-        return cls(*_built(nodes, *section), natural=natural)
+        return cls(*_built(nodes, *section))
 
     @cached_property
     def flat_jacobian(self) -> np.ndarray:

@@ -8,12 +8,12 @@ from fem_reference.shell.element import GRIDS, STRAINS
 from fem_reference.surface.biquadratic import product_grid, shape
 from fem_reference.surface.natural import covariant, green
 from sheetbench.scenes import Scene
-from sheetbench.scenes.natural_state import Growing, natural_at
+from sheetbench.scenes.natural_state import NaturalState, natural_at
 
 COMPONENTS = {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}
 
 
-def natural_strains(scene: Scene, nodes: np.ndarray) -> Growing | None:
+def natural_strains(scene: Scene, nodes: np.ndarray) -> NaturalState | None:
     """Return those (m, 54) of elements with nodes (m, 9, 2) [m], None of a sheet that is flat at rest."""
     tables = [shape(*product_grid(*GRIDS[name])) for name in COMPONENTS]
     state = natural_at(scene, np.concatenate([value for value, _ in tables]) @ nodes)
@@ -31,4 +31,4 @@ def natural_strains(scene: Scene, nodes: np.ndarray) -> Growing | None:
         none = np.zeros((len(nodes), STRAINS - 2 * parts[0].shape[1]))
         return np.concatenate([*parts, none], axis=1)
 
-    return Growing(state, sample)
+    return state.made(sample)

@@ -9,6 +9,7 @@ and follower loads. Rotations may be large; the weight has no couple on the dire
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -201,7 +202,8 @@ def elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> 
     require_law(law, LAWS, material)
     if law == STRAIN_LAW:
         own = section or section_at(scene, nodes)
-        return Element.build(nodes, grown(own, scene, nodes), natural_strains(scene, nodes))
+        plain = Element.build(nodes, grown(own, scene, nodes))
+        return replace(plain, natural=natural_strains(scene, nodes))
     require_flat_at_rest(scene, f"the shell's law '{law}'")
     require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
     if section is not None:

@@ -41,7 +41,7 @@ from fem_reference.surface.biquadratic import THREE, TYING, lagrange
 from fem_reference.surface.materials import pulled_back
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Constants, Material
-from sheetbench.scenes.natural_state import Growing
+from sheetbench.scenes.natural_state import NaturalState
 
 NODES = 27
 RETAINED_SHEAR = (
@@ -113,7 +113,7 @@ class Bricks:
     material: Material | Constants
     to_strain: np.ndarray
     volumes: np.ndarray
-    natural: Growing | None = None
+    natural: NaturalState | None = None
 
     @classmethod
     def build(cls, positions: np.ndarray, law: SolidLaw, material: Material | Constants) -> Bricks:

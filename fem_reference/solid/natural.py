@@ -12,7 +12,7 @@ from fem_reference.solid.materials import PAIRS
 from fem_reference.surface.materials import pulled_back
 from fem_reference.surface.natural import covariant, green
 from sheetbench.scenes import Scene
-from sheetbench.scenes.natural_state import Growing, natural_at
+from sheetbench.scenes.natural_state import natural_at
 from sheetbench.scenes.patches import of_sheet
 
 
@@ -40,7 +40,7 @@ def at_rest(plain: Bricks, scene: Scene) -> Bricks:
     grown = natural_at(scene, points)
     assert grown is not None
     stretch = np.tile(np.eye(3), (*points.shape[:2], 1, 1))
-    stretch[..., :2, :2] += grown.at(grown.factors())[0]
+    stretch[..., :2, :2] += grown.now[0]
     on = pulled_back(np.linalg.inv(stretch), PAIRS) @ plain.to_strain
     volumes = np.linalg.det(stretch) * plain.volumes
-    return replace(plain, to_strain=on, volumes=volumes, natural=Growing(state, sample))
+    return replace(plain, to_strain=on, volumes=volumes, natural=state.made(sample))

@@ -40,7 +40,7 @@ def at_gauss(scene: Scene, corners: np.ndarray) -> NaturalState | None:
 def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:
     """Return the section per area and strain of the sheet as drawn, of one per natural area and strain."""
     state = at_gauss(scene, corners)
-    if state is None or not (strain := state.at(state.factors())[0]).any():
+    if state is None or not (strain := state.now[0]).any():
         return section
     stretch = np.eye(2) + strain
     inverse, area = np.linalg.inv(stretch), np.linalg.det(stretch)[..., None, None]

@@ -96,7 +96,7 @@ class System:
         self.solve_mass = _mass_solver(self.reduced_mass)
         branches = scene.material.branches
         self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
-        self.growing = self.natural if self.natural is not None and self.natural.state.moves else None
+        self.growing = self.natural if self.natural is not None and self.natural.moves else None
         if self.maxwell is not None and self.growing is not None:
             raise BadInput(
                 f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"

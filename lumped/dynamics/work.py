@@ -70,16 +70,16 @@ def natural_work(system: System, u: np.ndarray, then: float, now: float) -> floa
     """Return the work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""
     if system.growing is None:
         return 0.0
-    before, after = (system.growing.state.factors(time) for time in (then, now))
+    before, after = (system.growing.factors(time) for time in (then, now))
     return _gain(system, u, before, after)
 
 
 def natural_power(system: System, u: np.ndarray, time: float, before: bool = False) -> float:
     """Return its power [W] from a moment on, or until then: of a difference that is exact but for third
     powers of the change."""
-    if system.growing is None or not (rate := system.growing.state.rates(time, before)).any():
+    if system.growing is None or not (rate := system.growing.rates(time, before)).any():
         return 0.0
-    at, step = system.growing.state.factors(time), NATURAL_STEP / np.abs(rate).max()
+    at, step = system.growing.factors(time), NATURAL_STEP / np.abs(rate).max()
     return _gain(system, u, at - step * rate, at + step * rate) / (2.0 * step)
 
 

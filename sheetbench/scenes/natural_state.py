@@ -4,7 +4,7 @@ their own, which win where they are, and of [temperature]; each with its history
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 
@@ -34,7 +34,8 @@ class Source(NamedTuple):
 
 
 class NaturalState:
-    """Natural strains and curvatures at points or of cells (…), at any share and time."""
+    """Natural strains and curvatures at points or of cells (…), of which `now` is what a model makes (`made`)
+    at the share and time that `grow` sets; at first both themselves (…, 2, 2), in full."""
 
     def __init__(self, sources: list[Source], shape: tuple[int, ...], share: Callable[[Polygon], np.ndarray]):
         """shape: of the points or cells; share: of each of them that a part of the plan has."""
@@ -47,6 +48,13 @@ class NaturalState:
                 weight[...] = share(source.where)
             if source.beyond is not None:
                 weight -= share(source.beyond)
+        self.made(lambda *both: both)
+
+    def made(self, make: Callable[[np.ndarray, np.ndarray], Any]) -> Self:
+        """Return the state, with what this makes of strains and curvatures."""
+        self._make, self._factors = make, np.array([np.nan])
+        self.grow()
+        return self
 
     def factors(self, time: float | None = None) -> np.ndarray:
         """Return the factor of every source at a time [s], without one the last."""
@@ -56,28 +64,15 @@ class NaturalState:
         """Return their derivatives [1/s] from a time on, or until then."""
         return np.array([course.slope(time, before) for course in self._courses])
 
-    def at(self, factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return strains and curvatures, both (…, 2, 2)."""
-        strain, curvature = np.einsum("s,s...,skij->k...ij", factors, self._weights, self._forms)
-        return strain, curvature
-
-
-class Growing:
-    """What a model makes of a natural state, as it is `now`, at a share and time that `grow` sets."""
-
-    def __init__(self, state: NaturalState, make: Callable[[np.ndarray, np.ndarray], Any]):
-        """make: of strains and curvatures (…, 2, 2)."""
-        self.state, self._make, self._factors = state, make, np.array([np.nan])
-        self.grow()
-
     def grow(self, share: float = 1.0, time: float | None = None) -> None:
         """Set a share of the natural state at a time [s], without one the last."""
-        self.set(share * self.state.factors(time))
+        self.set(share * self.factors(time))
 
     def set(self, factors: np.ndarray) -> None:
-        """Set so many times what each source of the natural state has."""
+        """Set so many times what each source has."""
         if not np.array_equal(factors, self._factors):
-            self._factors, self.now = factors, self._make(*self.state.at(factors))
+            both = np.einsum("s,s...,skij->k...ij", factors, self._weights, self._forms)
+            self._factors, self.now = factors, self._make(*both)
 
 
 def natural_at(scene: Scene, points: np.ndarray) -> NaturalState | None:
@@ -121,12 +116,10 @@ def sources_of(scene: Scene) -> Iterator[Source]:
 def growth_of_cells(scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray | None:
     """Return how many times as long and as wide cells are at rest, (rows, columns, 2); None where all are
     alike (`sheet_at_rest`)."""
-    if all(patch.natural is None for patch in scene.patches):
+    parts = any(patch.natural is not None for patch in scene.patches)
+    if not parts or (state := natural_of_cells(scene, x, y)) is None or not state.now[0].any():
         return None
-    state = natural_of_cells(scene, x, y)
-    assert state is not None
-    strain = state.at(state.factors())[0]
-    return 1.0 + np.diagonal(strain, axis1=-2, axis2=-1) if strain.any() else None
+    return 1.0 + np.diagonal(state.now[0], axis1=-2, axis2=-1)
 
 
 def sheet_at_rest(scene: Scene) -> Sheet:

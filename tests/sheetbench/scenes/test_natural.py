@@ -39,10 +39,10 @@ def test_patches_win_over_the_sheet_and_later_ones_over_those_before():
         ),
     )
     state = natural_at(of, np.array([[0.02, 0.05], [0.07, 0.05], [0.12, 0.05], [0.18, 0.05]]))
-    strain, _ = state.at(state.factors())
+    strain, _ = state.now
     np.testing.assert_allclose(strain[:, 0, 0], [0.02, 0.03, 0.03, 0.01])
     cells = natural_of_cells(of, np.array([0.0, 0.2]), np.array([0.0, 0.1]))
-    mean, _ = cells.at(cells.factors())
+    mean, _ = cells.now
     assert mean[0, 0, 0, 0] == pytest.approx(0.25 * 0.02 + 0.5 * 0.03 + 0.25 * 0.01)
     assert sheet_at_rest(of).lengths == (0.2, 0.1)  # cells have grown each by itself
     growth = growth_of_cells(of, np.array([0.0, 0.2]), np.array([0.0, 0.1]))
@@ -57,7 +57,8 @@ def test_histories_scale_each_source_of_its_own():
         natural=Natural(curvature=(1.0, 0.0, 0.5), history=grows), temperature=Temperature(change=10.0)
     )
     state = natural_at(of, np.zeros(2))
-    strain, curvature = state.at(state.factors(0.25))
+    state.grow(time=0.25)
+    strain, curvature = state.now
     np.testing.assert_allclose(curvature, [[0.5, 0.25], [0.25, 0.0]])
     np.testing.assert_allclose(strain, 1e-3 * np.eye(2), rtol=1e-12)
     assert state.moves and state.rates(0.25, before=False).tolist() == [2.0, 0.0]

@@ -6,11 +6,9 @@ link along d in the plane, whose ends are at the heights z₁ and z₂, and the 
     g₀ = (z₂ − z₁)² + (U(z₁) d)·(U(z₂) d),     g₀ = (|U a|², |U b|², U a · U b)
 
 in place of what they measure on the flat sheet; columns and upright faces keep what they have. Of links
-across the layers that is the diagonal of an isosceles trapezoid, diagonal² = leg² + the product of the
-parallel sides: exact, not of first order, so that a cylinder of any curvature k0 is a state without energy,
-its masses on a circle of exactly 1/k0 and its cells turned by 2 asin(l k0/2) each: the error of an arc is
-(l k0)²/24 of it. A cell that several parts share has the mean of their e0 and k0, a link between cells the
-mean of their g₀.
+across the layers that is the diagonal of an isosceles trapezoid: exact, so that a cylinder of any curvature
+k0 is a state without energy, its masses on a circle of 1/k0 and its cells turned by 2 asin(l k0/2) each. A
+cell that several parts share has the mean of their e0 and k0, a link between cells the mean of their g₀.
 
 The springs' laws see δg − δg₀ for δg and g₀ for g at rest, so that no digits are lost; springs of cells
 resist strains of their natural sides. Derived here.
@@ -84,15 +82,17 @@ def _cells(lattice: Lattice, cells: SpringCells, state: NaturalState) -> tuple[S
         e, k = (form.reshape(-1, 2, 2)[plan] for form in (strain, curvature))
         return np.asarray(flat @ (e - at * k))
 
-    sides = flat + changes(*state.now, np.zeros((1, 1, 1)))
-    springs = of_stiffness(cells.stiffness, np.pad(sides, ((0, 0), (0, 0), (0, 1))), _area(sides))
+    strain, curvature = state.now
+    sides = flat + changes(strain, curvature, np.zeros((1, 1, 1)))
+    area = np.abs(np.linalg.det(sides))
+    springs = of_stiffness(cells.stiffness, np.pad(sides, ((0, 0), (0, 0), (0, 1))), area)
     natural = np.column_stack([springs, np.zeros((len(cells), 4))])
 
     def set_cells(strain: np.ndarray, curvature: np.ndarray) -> None:
         moved = changes(strain, curvature, heights)
         for column, (s, t) in enumerate(((0, 0), (1, 1), (0, 1)), start=7):
             natural[:, column] = _change(flat[:, s], flat[:, t], moved[:, s], moved[:, t])
-        natural[:, 10] = _area(flat + moved)
+        natural[:, 10] = np.abs(np.linalg.det(flat + moved))
 
     return replace(cells, law=NATURAL, natural=natural), set_cells
 
@@ -100,7 +100,3 @@ def _cells(lattice: Lattice, cells: SpringCells, state: NaturalState) -> tuple[S
 def _change(a: np.ndarray, b: np.ndarray, moved_a: np.ndarray, moved_b: np.ndarray) -> np.ndarray:
     """Change of a · b of sides that have moved by so much."""
     return np.asarray((a * moved_b + b * moved_a + moved_a * moved_b).sum(axis=-1))
-
-
-def _area(sides: np.ndarray) -> np.ndarray:
-    return np.abs(np.linalg.det(sides))

@@ -26,13 +26,13 @@ from fem_reference.surface import carried, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, OnEdge, on_edges
 from fem_reference.surface.balance import Surface
-from fem_reference.surface.biquadratic import GAUSS, integrated, shape
+from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS, integrated, shape
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.materials import Section, constants_of, section_at
 from fem_reference.surface.mesh import field_mesh, on_boundary, plan_of, require_upright
-from fem_reference.surface.natural import at_gauss
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import EDGES, FieldMesh, Scene, outside_model
+from sheetbench.scenes.natural_state import natural_at
 
 PARTS = ("membrane", "bending", "shear")
 
@@ -84,11 +84,11 @@ class DiscretePlate(Discrete):
         self.unknowns, self.scale = len(self.free), np.full(self.size, self.lever)
         self.scale[number[: len(nodes)]] = 1.0
         self.bind(bind, bound, number[bound.sites].reshape(-1, 27))
-        if (state := at_gauss(scene, plan.corners)) is not None:
+        if (state := natural_at(scene, AT_GAUSS[0] @ plan.corners)) is not None:
             self.natural = state.made(partial(own_strains, self.elements, self.section, self.size))
 
     @property
-    def own(self) -> OwnStrains:
+    def at_rest(self) -> OwnStrains:
         """What it has at rest."""
         return OwnStrains() if self.natural is None else self.natural.now
 
@@ -156,7 +156,7 @@ class DiscretePlate(Discrete):
         elastic = self.stiffness @ shape.q
         out = elastic + self.memory.added(elastic) if self.memory else elastic
         viscous = 0.0 if shape.v is None else self.tau * (self.stiffness @ shape.v)
-        return np.asarray(out + viscous - self.own.force)
+        return np.asarray(out + viscous - self.at_rest.force)
 
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
         return self.elements_internal(Shape(self, 0.5 * (start + end), 0.0, (end - start) / h))
@@ -216,7 +216,7 @@ class DiscretePlate(Discrete):
         return q, self.stiffness @ q
 
     def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
-        own = dict(zip(PARTS, self.own.strains, strict=False))
+        own = dict(zip(PARTS, self.at_rest.strains, strict=False))
         nodal, out = q[self.elements.unknowns], {}
         for name, operator, section in zip(PARTS, self._strains, self.section, strict=True):
             strain = (operator @ nodal[:, None, :, None])[..., 0] - own.get(name, 0.0)
@@ -225,7 +225,7 @@ class DiscretePlate(Discrete):
         return out
 
     def elastic(self, q: np.ndarray) -> float:
-        own = self.own
+        own = self.at_rest
         return 0.5 * self.stiffness_of(q, q, q) - float(np.sum(own.force * q)) + own.stored
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:

@@ -6,8 +6,7 @@ takes E − E0(z), 2 E0 = U² − 1, of a shell to first order in z
     E0 = e0 + ½ e0²,    κ0 = −k0 − ½ (e0 k0 + k0 e0),
 
 and its energy is that per natural area: strains of the natural sides are U⁻¹ (E − E0) U⁻¹, areas det U times
-as large, U = 1 + e0 that of the mid-surface at the full share. Elements sample E0 where they sample E, so
-that a sheet in its natural shape has no strain.
+as large, U = 1 + e0 that of the mid-surface at the full share. Elements sample E0 where they sample E.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ import numpy as np
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import Section, pulled_back
 from sheetbench.scenes import Scene
-from sheetbench.scenes.natural_state import NaturalState, natural_at
+from sheetbench.scenes.natural_state import natural_at
 
 IN_PLANE = ((0, 0), (1, 1), (0, 1))
 
@@ -32,14 +31,10 @@ def covariant(form: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.nda
     return np.asarray(np.einsum("eki,ekij,ekj->ek", first, form, second))
 
 
-def at_gauss(scene: Scene, corners: np.ndarray) -> NaturalState | None:
-    """Return the natural state at the Gauss points of elements with nodes (m, 9, 2) [m], None of none."""
-    return natural_at(scene, AT_GAUSS[0] @ corners)
-
-
 def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:
-    """Return the section per area and strain of the sheet as drawn, of one per natural area and strain."""
-    state = at_gauss(scene, corners)
+    """Return the section per area and strain of the sheet as drawn, of one per natural area and strain;
+    corners: the elements' nodes (m, 9, 2) [m]."""
+    state = natural_at(scene, AT_GAUSS[0] @ corners)
     if state is None or not (strain := state.now[0]).any():
         return section
     stretch = np.eye(2) + strain

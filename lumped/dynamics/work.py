@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.system import State, System
+from sheetbench.scenes.natural_state import NaturalState
 
 NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
 
@@ -68,25 +69,24 @@ def obstacle_power(system: System, state: State) -> float:
 
 def natural_work(system: System, u: np.ndarray, then: float, now: float) -> float:
     """Return the work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""
-    if system.growing is None:
+    if (state := system.growing) is None:
         return 0.0
-    before, after = (system.growing.factors(time) for time in (then, now))
-    return _gain(system, u, before, after)
+    return _gain(system, state, u, state.factors(then), state.factors(now))
 
 
 def natural_power(system: System, u: np.ndarray, time: float, before: bool = False) -> float:
     """Return its power [W] from a moment on, or until then: of a difference that is exact but for third
     powers of the change."""
-    if system.growing is None or not (rate := system.growing.rates(time, before)).any():
+    if (state := system.growing) is None or not (rate := state.rates(time, before)).any():
         return 0.0
-    at, step = system.growing.factors(time), NATURAL_STEP / np.abs(rate).max()
-    return _gain(system, u, at - step * rate, at + step * rate) / (2.0 * step)
+    at, step = state.factors(time), NATURAL_STEP / np.abs(rate).max()
+    return _gain(system, state, u, at - step * rate, at + step * rate) / (2.0 * step)
 
 
-def _gain(system: System, u: np.ndarray, *factors: np.ndarray) -> float:
-    """Return how much more energy [J] the springs have at the second factors of the natural state."""
+def _gain(system: System, state: NaturalState, u: np.ndarray, *factors: np.ndarray) -> float:
+    """Return how much more energy [J] the springs have at the second factors of their state."""
     energies = []
     for each in factors:
-        system.assembly.natural.set(each)
+        state.set(each)
         energies.append(system.assembly.force(u)[0])
     return float(energies[1] - energies[0])

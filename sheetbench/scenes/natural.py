@@ -30,8 +30,7 @@ class Natural(Loading):
     curvature: Annotated[Vector3, Unit("1/m")] = NOTHING
     """[kxx, kyy, kxy]; > 0 curls the sheet towards +z."""
     pretension: Annotated[tuple[Number, Number], Unit("N/m")] | None = Field(default=None, kw_only=True)
-    """In place of strain: [Nx, Ny] with which the sheet is stretched as long as it is held where it is
-    drawn."""
+    """In place of strain: [Nx, Ny] that stretch the sheet as long as it is held where it is drawn."""
 
     @model_validator(mode="after")
     def _possible(self) -> Natural:
@@ -44,8 +43,7 @@ class Natural(Loading):
 
 
 class Temperature(Loading):
-    """How much warmer the sheet is than where it is flat and free of stress; it expands as its `expansion`
-    says."""
+    """How much warmer the sheet is than where it is flat and free of stress (`expansion`)."""
 
     change: Annotated[Number, Unit("K")] = 0.0
     """In the middle of the thickness; > 0 is warmer."""

@@ -26,6 +26,7 @@ class Source(NamedTuple):
     """strain, curvature: (3,), xx, yy, xy [-], [1/m]; where: the part of the plan that has them, `beyond` the
     part that has not, None for all of it and none."""
 
+    name: str
     of: Natural | Temperature
     strain: np.ndarray
     curvature: np.ndarray
@@ -83,34 +84,29 @@ def natural_at(scene: Scene, points: np.ndarray) -> NaturalState | None:
 
         return np.asarray(shapely.intersects_xy(area, points[..., 0], points[..., 1]), dtype=float)
 
-    return _state(scene, points.shape[:-1], share)
+    sources = list(sources_of(scene))
+    return NaturalState(sources, points.shape[:-1], share) if sources else None
 
 
 def natural_of_cells(scene: Scene, x: np.ndarray, y: np.ndarray) -> NaturalState | None:
     """Return the state of the cells between lines at x and at y [m], (rows, columns): a cell that several
     parts share has their mean; None of a sheet that is flat at rest."""
-    return _state(scene, (len(y) - 1, len(x) - 1), lambda area: shares_in(area, boxes_of(x, y)))
-
-
-def _state(
-    scene: Scene, shape: tuple[int, ...], share: Callable[[Polygon], np.ndarray]
-) -> NaturalState | None:
-    sources = list(sources_of(scene))
-    return NaturalState(sources, shape, share) if sources else None
+    sources, shape = list(sources_of(scene)), (len(y) - 1, len(x) - 1)
+    return NaturalState(sources, shape, lambda area: shares_in(area, boxes_of(x, y))) if sources else None
 
 
 def sources_of(scene: Scene) -> Iterator[Source]:
     """Yield what makes a scene's sheet other than flat at rest."""
     taken: Polygon | None = None
-    for patch in scene.patches[::-1]:
+    for n, patch in reversed([*enumerate(scene.patches, start=1)]):
         if patch.natural is not None:
             area = patch.shape.area if taken is None else patch.shape.area.difference(taken)
-            yield Source(patch.natural, *_own(scene, patch.natural), where=area)
+            yield Source(f"patch {n}", patch.natural, *_own(scene, patch.natural), where=area)
             taken = area if taken is None else taken.union(area)
     if scene.natural is not None:
-        yield Source(scene.natural, *_own(scene, scene.natural), beyond=taken)
+        yield Source("natural", scene.natural, *_own(scene, scene.natural), beyond=taken)
     if scene.temperature is not None:
-        yield Source(scene.temperature, *thermal(scene, scene.temperature))
+        yield Source("temperature", scene.temperature, *thermal(scene, scene.temperature))
 
 
 def growth_of_cells(scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray | None:

@@ -19,9 +19,7 @@ NONE = 1e-12  # of the largest, for what is rounding
 
 def natural_in_words(scene: Scene) -> Iterator[tuple[str, str]]:
     """Yield name and meaning of each of what makes a sheet other than flat at rest."""
-    names = {id(patch.natural): f"patch {n}" for n, patch in enumerate(scene.patches, start=1)}
     for source in sources_of(scene):
-        name = "temperature" if isinstance(source.of, Temperature) else names.get(id(source.of), "natural")
         strain, curvature = (
             source.of.last_factor * np.where(np.abs(part) > NONE * np.abs(part).max(), part, 0.0)
             for part in (source.strain, source.curvature)
@@ -36,7 +34,7 @@ def natural_in_words(scene: Scene) -> Iterator[tuple[str, str]]:
         parts += [f"twisted by {curvature[2]:.3g} 1/m"] if curvature[2] else []
         parts += ["held flat, stresses from {:.3g} to {:.3g} Pa".format(*_stresses(scene, source))]
         over = "" if source.of.history is None else f", over {source.of.history.time[-1]:g} s"
-        yield name, (", ".join(parts) if len(parts) > 1 else "as it is drawn") + over
+        yield source.name, (", ".join(parts) if len(parts) > 1 else "as it is drawn") + over
 
 
 def _stresses(scene: Scene, source: Source) -> tuple[float, float]:

@@ -50,8 +50,7 @@ def with_natural(lattice: Lattice, families: Sequence[Family], state: NaturalSta
 
 
 def _links(lattice: Lattice, links: Links) -> tuple[Links, Setter]:
-    # the cells that each lies in or between (m, 4), and the shares of their means
-    cells, shares = (
+    cells, shares = (  # that each lies in or between (m, 4), and of their means
         np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1]))) for part in parts])
         for parts in zip(*((f.cells, f.shares) for f in lattice.links), strict=True)
     )

@@ -29,11 +29,12 @@ from lumped import plies
 from lumped.coverage import ObliqueRims, clamped_stiffness, oblique_rims
 from lumped.grid_lines import Lines, grid_lines
 from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, require_uniform
-from sheetbench.scenes.cells import NUMBERS
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.natural_state import growth_of_cells
-from sheetbench.scenes.patches import COINCIDENT, of_sheet, parts_between, shares_of, sides_of
+from sheetbench.scenes.meaning.composition import of_sheet, parts_between, shares_of, sides_of
+from sheetbench.scenes.meaning.natural_state import growth_of_cells
+from sheetbench.scenes.objects.cells import NUMBERS
+from sheetbench.scenes.objects.grading import Graded
+from sheetbench.scenes.objects.grid import Grid
+from sheetbench.scenes.objects.shapes import COINCIDENT
 
 SHEAR_CORRECTION = 5.0 / 6.0
 FINER = 4

@@ -35,7 +35,7 @@ def command(
     tolerance: Annotated[
         float | None,
         option(
-            "Find the cheapest model with no larger error, as 0.01 or 1%, by the few solves that this takes. "
+            "Find the cheapest model with no larger error, as 0.01 or 1%, with as few solves as possible. "
             "0.01 with --budget alone. Empty lists leave models out.",
             "FRACTION",
             unit="",

@@ -22,10 +22,11 @@ from comparisons.comparison.frames import Frame, frames
 from comparisons.pictures import offscreen
 from comparisons.pictures.plan import plan_mesh
 from comparisons.pictures.stage import Stage
+from sheetbench.answers.history import History
 from sheetbench.answers.report import NoPicture
 from sheetbench.answers.style import STYLE, plain
 from sheetbench.files import whole
-from sheetbench.scenes import History, Scene
+from sheetbench.scenes import Scene
 
 WIDTH, PER_INCH = 4.0, 160  # inches, pixels an inch
 COLOURS, PIXELS = 64, 480  # of a GIF: its palette, its width

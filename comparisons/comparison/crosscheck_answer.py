@@ -13,10 +13,11 @@ import numpy as np
 from comparisons.external.installed import InstalledCode
 from comparisons.sweep.limits import Limit, Pair, pairs
 from sheetbench.answers.answer import Answer
+from sheetbench.answers.solution import Status
 from sheetbench.answers.table import MILLIMETRES, PERCENT, Column, Table
 from sheetbench.choices import REFERENCE
-from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
 
 EXPLANATION = (
     "u: the largest component of the displacements at the probes, extrapolated from the meshes (Richardson); "

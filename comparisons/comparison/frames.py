@@ -14,7 +14,8 @@ import numpy as np
 
 from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.files import folder, write_text
-from sheetbench.scenes import FieldMesh, History
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import FieldMesh
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,9 @@ import numpy as np
 
 from comparisons.identification.columns import read_columns
 from comparisons.identification.start import require_flat_start
+from sheetbench.answers.history import History
+from sheetbench.answers.measured_history import COMPONENTS, Measured
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History
-from sheetbench.scenes.measured_history import COMPONENTS, Measured
 
 HEADER = ("time", "probe", *COMPONENTS)
 

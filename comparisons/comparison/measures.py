@@ -9,8 +9,8 @@ twentieth of its range, placed between samples by a parabola:
              extrema that follow one another, so that where the sheet comes to rest need not be known
 
 Of two motions those extrema are used that go in pairs from the first on: both highest or both lowest, and
-closer in time than half the reference's way from the one before. Distances are over the reference's largest
-component.
+closer in time than half the reference's way from the one before; of several, those that all of them have.
+Distances are over the reference's largest component.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from sheetbench.answers.history import History
 from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NUMBER
-from sheetbench.scenes import History
 
 STANDS_OUT = 0.05  # of the range of a component
 
@@ -80,16 +80,24 @@ def measures(found: np.ndarray, count: int) -> Measures:
     return Measures(float(kept[0, 1]), float(kept[0, 0]), period, decay, float(kept[-1, 0]))
 
 
-def measured_alike(one: History, other: History) -> tuple[Measures, Measures]:
-    """The measures of a motion and of its reference, of the extrema that go in pairs."""
+def measured_alike(*motions: History) -> tuple[Measures, ...]:
+    """Return the measures of motions, the reference's last, of the extrema that all have; none of a motion
+    without a pair."""
+    other = motions[-1]
     probe, component = leading(other)
-    both = [extrema(h.time, h.probes[probe][:, component]) for h in (one, other)]
-    ours, theirs = (found[: min(map(len, both))] for found in both)
-    way = np.diff(theirs[:, 0], prepend=other.time[0])
+    *others, truth = (extrema(h.time, h.probes[probe][:, component]) for h in motions)
+    pairs = [_paired(one, truth, other.time[0]) for one in others]
+    count = min(filter(None, pairs), default=0 if others else len(truth))
+    rows = (measures(found, min(count, n)) for found, n in zip(others, pairs, strict=True))
+    return (*rows, measures(truth, count))
+
+
+def _paired(one: np.ndarray, truth: np.ndarray, start: float) -> int:
+    """How many extrema (n, 3) go in pairs, from the first on."""
+    ours, theirs = (found[: min(len(one), len(truth))] for found in (one, truth))
+    way = np.diff(theirs[:, 0], prepend=start)
     pairs = (np.abs(ours[:, 0] - theirs[:, 0]) < 0.5 * way) & (ours[:, 2] * theirs[:, 2] > 0.0)
-    count = len(pairs) if pairs.all() else int(np.argmin(pairs))
-    first, second = (measures(found, count) for found in both)
-    return first, second
+    return len(pairs) if pairs.all() else int(np.argmin(pairs))
 
 
 def largest(one: History, other: History) -> float:

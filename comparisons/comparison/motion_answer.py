@@ -14,13 +14,16 @@ from comparisons.comparison.measures import Measures, difference, leading, measu
 from comparisons.models.spec import Lattice
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
+from sheetbench.answers.history import History
+from sheetbench.answers.measured_history import COMPONENTS
 from sheetbench.answers.report import Film, Picture, Write
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.answers.table import NUMBER, PERCENT, SECONDS, Column, Table, number
-from sheetbench.scenes import FieldMesh, History, Scene
-from sheetbench.scenes.measured_history import COMPONENTS
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.meaning.motion import kinks
 
-DOUBTFUL, SHARE = 0.1, 1.0 / 3.0  # bars of no judge: of itself, of a difference
+DOUBTFUL, SHARE = 0.1, 1.0 / 3.0  # a reference's bar beyond which it is doubtful: of itself, of a difference
 WHOLE = ("of", "largest", "rms", "peak", "period", "phase", "decay")  # of two motions' difference
 
 
@@ -29,7 +32,7 @@ class DifferenceRow:
     """How far a motion is from the reference's at a probe, or at all and in its measures; bar: the
     reference's own, and whether the difference is within it."""
 
-    of: str
+    of: Annotated[str, Column("model")]
     probe: str
     largest: Annotated[float, PERCENT("z.2f")]
     rms: Annotated[float, PERCENT("z.2f")]
@@ -126,8 +129,10 @@ class MotionComparison(Answer):
                 "energies": {name: history.accounts for name, history in self.histories.items()},
                 "reactions": {name: history.reactions for name, history in self.histories.items()},
                 "measures": {
-                    name: measured_alike(history, truth)[0].as_dict()
-                    for name, history in self.histories.items()
+                    name: one.as_dict()
+                    for name, one in zip(
+                        self.histories, measured_alike(*self.histories.values()), strict=True
+                    )
                 },
                 "differences": self.differences,
                 "uncertainty": self.uncertainty,
@@ -178,7 +183,12 @@ class MotionComparison(Answer):
             for note in history.notes():
                 models.setdefault(note, []).append(name)
         left_out = (f"{name} is left out: {why}" for name, why in self.left_out.items())
-        return [*_bars(self), *left_out, *(f"{', '.join(names)}: {note}" for note, names in models.items())]
+        return [
+            *_driven(self),
+            *_bars(self),
+            *left_out,
+            *(f"{', '.join(names)}: {note}" for note, names in models.items()),
+        ]
 
     def complaints(self) -> list[str]:
         return [f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints()]
@@ -202,7 +212,8 @@ class MotionComparison(Answer):
 def _measures(found: MotionComparison) -> Table:
     truth = found.histories[found.reference]
     probe, component = leading(truth)
-    rows = [replace(measured_alike(one, truth)[0], model=name) for name, one in found.histories.items()]
+    alike = measured_alike(*found.histories.values())
+    rows = [replace(one, model=name) for name, one in zip(found.histories, alike, strict=True)]
     caption = f"{COMPONENTS[component]} of {probe}, which moves farthest: its peak, period and log decrement"
     fields = ("model", "peak", "peak_time", "period", "decay", "damping")
     return Table.of(Measures, rows, caption, "measures", fields=fields)
@@ -237,6 +248,19 @@ def _runs(found: MotionComparison) -> Table:
         for name, h in found.histories.items()
     )
     return Table.of(RunRow, rows, "Steps and time of each model", "runs")
+
+
+def _driven(found: MotionComparison) -> list[str]:
+    """What a decrement means while the sheet is driven, in a sentence."""
+    truth = found.histories[found.reference]
+    until = max(kinks(found.scene), default=0.0)
+    first = measured_alike(*found.histories.values())[-1]
+    if first.decay is None or first.peak_time is None or until <= truth.time[0] + first.peak_time:
+        return []
+    return [
+        f"The scene drives the sheet until {until:g} s: log decrement and damping ratio are those of the "
+        "driven motion, not of the material's dampers (sheetbench modes lists these)."
+    ]
 
 
 def _bars(found: MotionComparison) -> list[str]:

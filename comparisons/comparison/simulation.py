@@ -11,10 +11,11 @@ from typing import Any
 from comparisons.comparison.frames import write_frames
 from comparisons.comparison.measured import left_out
 from comparisons.models.grading import choice_notes
+from sheetbench.answers.history import History
+from sheetbench.answers.measured_history import Measured
 from sheetbench.answers.report import Film, Picture, Write
 from sheetbench.answers.table import Table, quantity
-from sheetbench.scenes import History, Scene
-from sheetbench.scenes.measured_history import Measured
+from sheetbench.scenes import Scene
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -49,7 +50,7 @@ class Simulation(History):
     def figures(self) -> tuple[Picture, ...]:
         """Probes over time, and the sheet moving."""
         of = (self, self.subject.title or self.subject.name, self.measured)
-        pictures = [Picture("history", "sheetbench.scenes.history_figure:compose", of)]
+        pictures = [Picture("history", "sheetbench.answers.history_figure:compose", of)]
         if self.animate:
             formats = ("gif", "mp4") if shutil.which("ffmpeg") else ("gif",)
             film = "comparisons.comparison.animation:animate"

@@ -31,7 +31,7 @@ from sheetbench.answers.escape import terminal
 from sheetbench.answers.files import plain
 from sheetbench.answers.table import number, quantity
 from sheetbench.errors import BadInput
-from sheetbench.scenes.words import in_words
+from sheetbench.scenes.meaning.words import in_words
 
 PACKAGE = "comparisons.pages"
 AS_THEY_ARE = ("title", "verb", "place", "command", "date", "result", "notes", "complaints")  # of a study

@@ -37,8 +37,8 @@ def _largest_resident_set() -> int:
     Of this program alone where Linux tells it: `getrusage` counts the process that started it too.
     """
     with suppress(OSError):
-        told = re.search(r"^VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text(), re.MULTILINE)
-        if told is not None:
-            return 1024 * int(told[1])
+        line = re.search(r"^VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text(), re.MULTILINE)
+        if line is not None:
+            return 1024 * int(line[1])
     largest = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return largest if sys.platform == "darwin" else 1024 * largest

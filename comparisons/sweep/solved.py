@@ -18,7 +18,9 @@ from comparisons.external import plugins
 from comparisons.models.spec import Elements, External, Spec
 from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
 from comparisons.sweep.store import Store
-from sheetbench.scenes import History, Scene, Status, comparable
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import Status, comparable
+from sheetbench.scenes import Scene
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,8 @@ from comparisons.models.spec import Elements, spec_of
 from comparisons.sweep import load
 from comparisons.sweep.columns import COLUMNS
 from comparisons.sweep.peak_memory import with_peak_memory
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import Scene
 
 SETTLED, MOST = 0.1, 25
 

@@ -15,7 +15,7 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import MILLISECONDS, PERCENT, Column, Table, number, quantity
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Scene
-from sheetbench.scenes.summary import few
+from sheetbench.scenes.language.summary import few
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ class Advice(Answer):
         """Return a row per probing solve, the quickest first; the choice is marked. Statuses that are all
         "converged" are for the files alone."""
         rows = sorted(self.tried, key=lambda one: one.solve_seconds)
-        caption = "Quick solves; error: difference from the finest one; in all: with its bar and model error"
+        caption = "Quick solves; error: off the finest; in all: with its own mesh and model error"
         fields = ("model", "size", "solve_seconds", "error", "total", "choice", "status")
         details = () if any(one.status != "converged" for one in rows) else ("status",)
         text = ""

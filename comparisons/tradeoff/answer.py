@@ -15,9 +15,10 @@ from comparisons.sweep.model_error import share_of_tolerance
 from comparisons.tradeoff.row import MotionRow, TradeoffRow
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
+from sheetbench.answers.solution import Status, comparable
 from sheetbench.answers.table import NUMBER, Column, Table
-from sheetbench.scenes import Scene, Status, comparable
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
 
 STATED = 0.01  # the tolerance whose parts are said
 SHOWN = (

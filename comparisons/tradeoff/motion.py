@@ -25,7 +25,6 @@ import numpy as np
 
 from comparisons.comparison.measures import largest
 from comparisons.comparison.moving import require_motion
-from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.sweep.campaign import CampaignKeywords
@@ -36,9 +35,10 @@ from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow
 from comparisons.tradeoff.statics import finest_shell
 from fem_reference.uncertainty import coarser
+from sheetbench.answers.solution import Status
 from sheetbench.choices import INTEGRATORS
-from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.quantities import require_positive
+from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.quantities import require_positive
 
 DIVISIONS = (20, 40, 100, 200, 400)  # steps in the lowest period
 SHARES = (0.9, 0.45)  # of the explicit integrator's limit
@@ -49,7 +49,6 @@ FINEST = 16  # elements of the reference along the shorter side, at least
 SAMPLES = 20  # in the lowest period; no step of a lattice is longer than the time between samples
 
 
-@large_in_context
 def dynamic_tradeoff(
     scene: Scene,
     duration: float,
@@ -61,15 +60,13 @@ def dynamic_tradeoff(
     integrators: Sequence[str] = tuple(sorted(INTEGRATORS)),
     divisions: Sequence[int] = DIVISIONS,
     fine: int = REFERENCE,
-    large: bool = False,
     **how: Unpack[CampaignKeywords],
 ) -> DynamicTradeoff:
     """Measure every integrator at every step on every lattice, and the other models.
 
     others: plate, shell and solid, or models from outside that move; reference: what all are measured
-    against; fine: steps of the midpoint rule in a period; large: even if it takes more memory than there is.
-    Raises BadInput for an integrator that does not exist and for a model that does not move. A run that
-    diverges is a row with its status.
+    against; fine: steps of the midpoint rule in a period. Raises BadInput for an integrator
+    that does not exist and for a model that does not move. A run that diverges is a row with its status.
     """
     import lumped
 

@@ -14,7 +14,7 @@ from comparisons.external.plugins import shown_name
 from comparisons.models.spec import counted
 from comparisons.sweep.solved import Solved
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Unit
-from sheetbench.scenes.summary import milliseconds
+from sheetbench.scenes.language.summary import milliseconds
 
 MEMORY = Unit("B", "MB", 1e-6)
 FRONT = Column(words=("yes", ""))

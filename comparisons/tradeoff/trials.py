@@ -27,8 +27,8 @@ from comparisons.sweep.model_error import ModelError, model_error
 from sheetbench.choices import CALIBRATION
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene
-from sheetbench.scenes.grading import Graded, amount
-from sheetbench.scenes.grid import MASSES, near_square
+from sheetbench.scenes.objects.grading import Graded, amount
+from sheetbench.scenes.objects.grid import MASSES, near_square
 
 MESHES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
 FIRST = 3  # of them are always solved
@@ -96,7 +96,7 @@ class TrialSolves:
         return [one for one in chosen if has_room(self.scene, one)]
 
     def graded(self, lattices: list[Lattice]) -> list[Lattice]:
-        """Those of these lattices that are to be graded too, as asked or by the scene's layers."""
+        """Those of these lattices that are to be graded too, as requested or by the scene's layers."""
         gradings = [(one, self.grading_of(one)[0]) for one in lattices]
         return [one.but(grading=value) for one, value in gradings if value and amount(value)]
 

@@ -47,7 +47,7 @@ from fem_reference.surface.biquadratic import (
 from fem_reference.surface.materials import Section
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes.natural_state import NaturalState
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
 GRIDS = {**TYING, "rs": (THREE, THREE)}

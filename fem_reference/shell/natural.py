@@ -8,7 +8,7 @@ from fem_reference.shell.element import GRIDS, STRAINS
 from fem_reference.surface.biquadratic import product_grid, shape
 from fem_reference.surface.natural import covariant, green
 from sheetbench.scenes import Scene
-from sheetbench.scenes.natural_state import NaturalState, natural_at
+from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 COMPONENTS = {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}
 

@@ -41,7 +41,7 @@ from fem_reference.surface.biquadratic import THREE, TYING, lagrange
 from fem_reference.surface.materials import pulled_back
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Constants, Material
-from sheetbench.scenes.natural_state import NaturalState
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 NODES = 27
 RETAINED_SHEAR = (

@@ -12,8 +12,8 @@ from fem_reference.solid.materials import PAIRS
 from fem_reference.surface.materials import pulled_back
 from fem_reference.surface.natural import covariant, green
 from sheetbench.scenes import Scene
-from sheetbench.scenes.natural_state import natural_at
-from sheetbench.scenes.patches import of_sheet
+from sheetbench.scenes.meaning.composition import of_sheet
+from sheetbench.scenes.meaning.natural_state import natural_at
 
 
 def at_rest(plain: Bricks, scene: Scene) -> Bricks:

@@ -16,8 +16,8 @@ from lumped.grid_lines import Lines, grid_lines
 from lumped.sections import Section
 from lumped.spring_constants import Springs
 from sheetbench.scenes import Constants, Material, Sheet
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.objects.grading import Graded
+from sheetbench.scenes.objects.grid import Grid
 
 
 class EachCell(NamedTuple):

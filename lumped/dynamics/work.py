@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.system import State, System
-from sheetbench.scenes.natural_state import NaturalState
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
 

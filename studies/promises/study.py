@@ -27,7 +27,8 @@ from comparisons.sweep.solved import Ask, Solved, sweep
 from comparisons.sweep.store import Store
 from comparisons.tradeoff.advisor import advise
 from fem_reference.uncertainty import coarser
-from sheetbench.scenes import Scene, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Scene
 from studies.promises.answer import Promise
 from studies.promises.scenes import SEED, drawn_scenes
 

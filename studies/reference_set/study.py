@@ -33,7 +33,9 @@ from comparisons.sweep.solved import Ask, Solved
 from fem_reference.surface.mesh import Elements
 from fem_reference.uncertainty import coarser, of_answers, solve_with_bar
 from sheetbench.answers.files import plain
-from sheetbench.scenes import History, Scene, Status
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Scene
 from sheetbench.sources import version
 
 ELEMENTS, ACROSS = 24, 8  # of the shell along the shorter side; of strips four times as long as wide

@@ -21,7 +21,7 @@ from sheetbench.scenes import (
     Symmetric,
     load,
 )  # fmt: skip
-from sheetbench.scenes.natural import Natural, Temperature
+from sheetbench.scenes.objects.natural import Natural, Temperature
 
 EDGES = ("x0", "x1", "y0", "y1")
 MATERIAL = Material(young=1e6, poisson=0.3, density=1e3)

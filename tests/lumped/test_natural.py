@@ -7,8 +7,8 @@ import lumped
 from lumped.statics.solver import build_problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, Gravity, Held, Hinged, Layer, Material, Patch, Scene, Sheet, Symmetric
-from sheetbench.scenes.natural import Natural, Temperature
-from sheetbench.scenes.natural_state import sheet_at_rest
+from sheetbench.scenes.meaning.natural_state import sheet_at_rest
+from sheetbench.scenes.objects.natural import Natural, Temperature
 
 EDGES = ("x0", "x1", "y0", "y1")
 YOUNG, POISSON = 1e6, 0.3

@@ -28,9 +28,9 @@ def study(tmp_path_factory):
     """The study in this process; runs are kept from one test to the next."""
     with campaign(tmp_path_factory.mktemp("transfer")) as store:
 
-        def carried_out(**asked):
-            asked = {"elements": 10, **asked}
-            found = transfer(store, pool=lambda workers: ThreadPoolExecutor(1), **asked)
+        def carried_out(**settings):
+            settings = {"elements": 10, **settings}
+            found = transfer(store, pool=lambda workers: ThreadPoolExecutor(1), **settings)
             assert found.failed == []
             return found
 

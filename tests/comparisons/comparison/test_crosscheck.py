@@ -13,7 +13,8 @@ SEED = load("two-edges-clamped")
 FAKE = '''
 import numpy as np
 from pathlib import Path
-from sheetbench.scenes import BadInput, Chain, FieldMesh, Solution, Status
+from sheetbench.answers.solution import FieldMesh, Solution, Status
+from sheetbench.scenes import BadInput, Chain
 
 
 class Fake:
@@ -86,8 +87,8 @@ def test_judges_side_by_side(fakes, capsys):
     )
     assert exact["extrapolated"]["P4"][2] == pytest.approx(-0.01)
     assert exact["uncertainty"]["P4"][2] == pytest.approx(1.35 * 0.001 / 64)
-    apart = {(one["a"], one["b"]): one["apart"] for one in document["pairs"]}
-    assert apart["exact", "same"] == [] and apart["exact", "other"] == ["P1", "P2", "P3", "P4"]
+    points = {(one["a"], one["b"]): one["apart"] for one in document["pairs"]}
+    assert points["exact", "same"] == [] and points["exact", "other"] == ["P1", "P2", "P3", "P4"]
     assert [judge["status"] for judge in document["judges"]] == ["found"] * 3
 
 

@@ -11,12 +11,15 @@ from commands import json_of, run
 import sheetbench as sb
 from comparisons.comparison.measures import difference, extrema, measured_alike
 from comparisons.comparison.motion import compare_motion
+from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.models.spec import Lattice
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
+from sheetbench.answers.history import ENERGIES, History
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History, Status, load
-from sheetbench.scenes.history import ENERGIES
+from sheetbench.scenes import load
+from sheetbench.scenes.objects.supports import Motion
 
 SMALL = {"grid": 5, "elements": 2}
 
@@ -57,6 +60,33 @@ def test_extrema_that_do_not_go_in_pairs_measure_nothing():
     """A swing three times as fast has its first peak where the other has none."""
     fast, slow = measured_alike(swing(15.0, 0.05), swing(5.0, 0.05))
     assert (fast.peak, slow.peak, slow.period) == (None, None, None)
+    fast, near, slow = measured_alike(swing(15.0, 0.05), swing(4.9, 0.05), swing(5.0, 0.05))
+    assert fast.peak is None and (near, slow) == measured_alike(swing(4.9, 0.05), swing(5.0, 0.05))
+
+
+def test_the_references_row_is_of_the_extrema_that_the_other_row_is_of():
+    """A swing of 5 Hz beside one that gets slower: after the third extremum they do not pair, and the mean
+    of all the reference's extrema would be of a longer time."""
+    still, (one, other) = np.linspace(0.0, 1.0, 1001), (swing(5.0, 0.05), swing(5.0, 0.05))
+    late = np.interp(still - 0.5 * np.clip(still - 0.25, 0.0, None), other.time, one.probes["P"][:, 2])
+    one.probes["P"][:, 2] = late
+    mine, truth = measured_alike(one, other)
+    assert None not in (mine.period, truth.period)
+    assert abs(mine.last - truth.last) < 0.05  # half the way from one to the next
+    assert difference(one, other)["period"] == pytest.approx(mine.period / truth.period - 1.0, rel=1e-9)
+    both = MotionComparison(load("two-edges-settling"), {"lumped": one, "shell": other})
+    rows = both.document()["motion"]["measures"]
+    assert rows == {"lumped": mine.as_dict(), "shell": truth.as_dict()}
+    assert truth.last < extrema(other.time, other.probes["P"][:, 2])[-1, 0]
+
+
+def test_a_driven_motion_says_that_its_decrement_is_not_a_dampers():
+    free, motions = load("two-edges-settling"), {"lumped": swing(5.0, 0.05), "shell": swing(5.0, 0.05)}
+    for until, said in ((0.05, False), (0.5, True)):  # the first peak is at 0.1 s
+        motion = Motion(time=(0.0, until), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 1e-3)))
+        scene = free.replace(supports=tuple(one.replace(motion=motion) for one in free.supports))
+        notes = " ".join(MotionComparison(scene, motions).notes())
+        assert ("those of the driven motion" in notes) == said
 
 
 def test_what_does_not_swing_has_no_period():
@@ -150,8 +180,8 @@ def test_what_cannot_be_compared_is_refused(options, said):
 
 def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
     """A second time every run goes on from its last checkpoint, to the same answer to the last bit."""
-    asked = {"duration": 0.02, "every": 2e-4, "grid": 5, "elements": 2, "store": tmp_path}
-    first, second = (compare_motion(load("two-edges-settling"), **asked) for _ in range(2))
+    settling, how = load("two-edges-settling"), {"every": 2e-4, "elements": 2, "store": tmp_path}
+    first, second = (compare_motion(settling, 0.02, Lattice(5), **how) for _ in range(2))
     assert all(history.resumed_from > 0.0 for history in second.histories.values())
     assert any("went on from" in note for note in second.report().notes)
     for name, history in first.histories.items():
@@ -193,5 +223,5 @@ def test_an_undamped_sheet_is_said_not_to_settle():
 
 def test_samples_lie_as_far_apart_as_requested(capsys):
     motion = ["compare", "two-edges-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty"]
-    told = json_of(capsys, *motion, "--duration", "0.02", "--every", "0.005")
-    assert told["motion"]["time"] == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02])
+    document = json_of(capsys, *motion, "--duration", "0.02", "--every", "0.005")
+    assert document["motion"]["time"] == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02])

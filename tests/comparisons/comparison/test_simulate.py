@@ -7,14 +7,14 @@ import meshio
 import numpy as np
 import pytest
 from commands import json_of, run
-from dynamic_cases import scene, springs
+from dynamic_cases import make_scene, springs
 
 import lumped
 from comparisons.comparison import measured as histories
 from comparisons.comparison.frames import frames
+from sheetbench.answers.measured_history import Measured
 from sheetbench.scenes import load
-from sheetbench.scenes.measured_history import Measured
-from sheetbench.scenes.toml import to_toml
+from sheetbench.scenes.language.toml import to_toml
 
 RUN = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1"]
 
@@ -26,8 +26,8 @@ def test_json_has_the_promised_keys_and_enough_samples(capsys):
     count = len(document["time"])
     assert np.shape(document["probes"]["P4"]) == (count, 3) and len(document["energy"]) == count
     assert np.shape(document["reactions"]["x0"]) == (count, 3)
-    asked = scene("two-edges-settling")
-    lowest = lumped.modes(asked, springs(asked, 4), 1, "tributary").frequencies[0]
+    scene = make_scene("two-edges-settling")
+    lowest = lumped.modes(scene, springs(scene, 4), 1, "tributary").frequencies[0]
     assert count - 1 >= 100 * 0.1 * lowest
     assert document["time"][-1] == pytest.approx(0.1)
 
@@ -75,8 +75,18 @@ def test_a_run_that_cannot_go_on_keeps_what_it_has_and_is_three(tmp_path, capsys
     torn = tmp_path / "torn.toml"
     torn.write_text(to_toml(load("one-edge-clamped")) + "[[load]]\nkind = 'pressure'\nvalue = 5e5\n")
     out = tmp_path / "out"
-    asked = ("--lumped", "3", "--duration", "0.01", "--every", "0.001", "--no-pictures", "--out", str(out))
-    assert run("simulate", str(torn), *asked) == 3
+    arguments = (
+        "--lumped",
+        "3",
+        "--duration",
+        "0.01",
+        "--every",
+        "0.001",
+        "--no-pictures",
+        "--out",
+        str(out),
+    )
+    assert run("simulate", str(torn), *arguments) == 3
     assert "inverted: at 0.003 s the cell at" in capsys.readouterr().err
     assert len((out / "history.csv").read_text().splitlines()) > 2
 
@@ -95,8 +105,8 @@ def test_measured_times_beyond_the_run_are_said(tmp_path, capsys):
 
 
 def test_measured_error_is_relative_to_the_largest_measured_component():
-    asked = scene()
-    history = lumped.simulate(asked, springs(asked, 4), 0.05, every=0.005)
+    scene = make_scene()
+    history = lumped.simulate(scene, springs(scene, 4), 0.05, every=0.005)
     exact = history.probes["P4"][2:8]
     measured = Measured(history.time[2:8], exact.copy())
     assert measured.error(history.time, history.probes["P4"]) == pytest.approx(0.0, abs=1e-12)
@@ -127,22 +137,22 @@ def test_chains_are_in_the_files_of_a_run(tmp_path):
 
 @pytest.mark.parametrize("grading", [0.0, 0.8])
 def test_a_frames_mid_surface_is_that_of_the_runs_lattice(grading):
-    asked = load("two-edges-settling")
-    graded = lumped.calibrate(asked.sheet, asked.material, (5, 4), grading=grading)
-    history = lumped.simulate(asked, graded, 0.01, every=0.005, frames=3)
+    scene = load("two-edges-settling")
+    graded = lumped.calibrate(scene.sheet, scene.material, (5, 4), grading=grading)
+    history = lumped.simulate(scene, graded, 0.01, every=0.005, frames=3)
     for number, (_, frame) in enumerate(frames(history)):
-        told = np.array([history.probes[name][number] for name in asked.probes])
-        np.testing.assert_allclose(frame.displacement(asked.probe_points()), told, atol=1e-15)
+        probed = np.array([history.probes[name][number] for name in scene.probes])
+        np.testing.assert_allclose(frame.displacement(scene.probe_points()), probed, atol=1e-15)
 
 
 def test_a_run_says_which_integrator_it_chose_and_why(capsys):
     assert run(*RUN) == 0
     assert "integrator esdirk: least time at equal error\n" in capsys.readouterr().out
-    asked = load("actuated-edge")
-    chained = lumped.simulate(asked, springs(asked, 3), 1e-3)
+    scene = load("actuated-edge")
+    chained = lumped.simulate(scene, springs(scene, 3), 1e-3)
     assert chained.integrator == "generalised-alpha"
     assert chained.settings["integrator_reason"] == "least time at equal error, with chains"
-    plain = scene("two-edges-settling")
+    plain = make_scene("two-edges-settling")
     damped = lumped.simulate(plain, springs(plain, 3), 1e-3, radius=0.5)
     assert damped.integrator == "generalised-alpha" and "radius" in damped.settings["integrator_reason"]
 
@@ -150,10 +160,10 @@ def test_a_run_says_which_integrator_it_chose_and_why(capsys):
 def test_an_explicit_run_names_its_largest_stable_step(capsys):
     assert run(*RUN, "--integrator", "verlet", "--duration", "0.005") == 0
     assert "the largest stable one is" in capsys.readouterr().out
-    asked = scene("two-edges-settling")
-    history = lumped.simulate(asked, springs(asked, 4), 1e-3, integrator="verlet")
+    scene = make_scene("two-edges-settling")
+    history = lumped.simulate(scene, springs(scene, 4), 1e-3, integrator="verlet")
     limit = lumped.INTEGRATORS["verlet"].limit(
-        lumped.System(asked, lumped.build_problem(asked, springs(asked, 4))), np.zeros((32, 3))
+        lumped.System(scene, lumped.build_problem(scene, springs(scene, 4))), np.zeros((32, 3))
     )
     assert history.settings["largest_step"] == pytest.approx(limit.step)
     assert history.settings["step"] <= limit.step

@@ -5,9 +5,10 @@ import pytest
 
 import fem_reference
 import lumped
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
 from sheetbench.runs.watch import Watch
-from sheetbench.scenes import Scene, Status, load
+from sheetbench.scenes import Scene, load
 
 MODELS = ("lumped", "plate", "shell", "solid")
 SOFT = {
@@ -87,11 +88,11 @@ def test_samples_one_by_one_are_watched_as_all_at_once():
     at_once, one_by_one = Watch(), Watch()
     together = at_once.grown(rows)
     at_once.take(rows)
-    apart = []
+    singly = []
     for row in rows:
-        apart.append(one_by_one.grown(row[None])[0])
+        singly.append(one_by_one.grown(row[None])[0])
         one_by_one.take(row[None])
-    assert np.array_equal(together, apart) and np.array_equal(at_once.memory()[:3], one_by_one.memory()[:3])
+    assert np.array_equal(together, singly) and np.array_equal(at_once.memory()[:3], one_by_one.memory()[:3])
 
 
 def test_a_sheet_in_other_units_takes_as_many_steps():

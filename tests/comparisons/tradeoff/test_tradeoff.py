@@ -96,11 +96,11 @@ def test_lists_of_sizes_become_rows_with_near_square_cells():
 
 
 def test_a_measured_row_says_what_it_cost(scene):
-    asked = Ask(scene, Lattice((9, 9, 2), "consistent"), repeats=3)
-    row = task.solve(**asked.task.arguments)
+    ask = Ask(scene, Lattice((9, 9, 2), "consistent"), repeats=3)
+    row = task.solve(**ask.task.arguments)
     assert row["status"] == "converged" and row["unknowns"] == 384
     cost = row["cost"]
-    assert Solved(asked, "converged", row=row).seconds == pytest.approx(np.median(cost["samples"]))
+    assert Solved(ask, "converged", row=row).seconds == pytest.approx(np.median(cost["samples"]))
     assert len(cost["samples"]) >= 3 and cost["peak_memory_bytes"] >= 0
     assert {"python", "processor", "cpu_count"} <= set(cost["machine"])
     assert {"sheetbench", "numpy", "scipy"} <= set(cost["versions"])

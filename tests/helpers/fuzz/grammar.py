@@ -265,11 +265,11 @@ def _broken(draw: st.DrawFn, text: bytes, pieces: tuple[str, ...]) -> bytes:
 def command_lines(draw: st.DrawFn) -> list[str]:
     """A verb, its scene and up to three options with values that may be anything; short runs else."""
     verb = draw(st.sampled_from(list(OPTIONS)))
-    asked = [verb, draw(st.sampled_from([*CATALOGUE, "no-such-scene"])), *SMALL.get(verb, "").split()]
+    arguments = [verb, draw(st.sampled_from([*CATALOGUE, "no-such-scene"])), *SMALL.get(verb, "").split()]
     for _ in range(draw(st.integers(0, 3)) if OPTIONS[verb] else 0):
         option = draw(st.sampled_from(OPTIONS[verb].split()))
-        asked += [option, draw(st.one_of(st.sampled_from(WORDS), numbers(-10.0, 10.0).map(str)))]
-    return [*asked, *(["--json"] if draw(st.booleans()) else [])]
+        arguments += [option, draw(st.one_of(st.sampled_from(WORDS), numbers(-10.0, 10.0).map(str)))]
+    return [*arguments, *(["--json"] if draw(st.booleans()) else [])]
 
 
 ROW = ("0.188,0.188,-0.0004,-0.0004,-0.0135", "0.094,0.094,0,0,-0.00245", "0.1,0.15,,,-0.0075", "0.1,0.1,1,,")

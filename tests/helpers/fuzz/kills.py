@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 from campaigns import Here, rows_in, task
-from dynamic_cases import scene, springs
+from dynamic_cases import make_scene, springs
 
 import fem_reference
 import lumped
@@ -53,8 +53,8 @@ def run_campaign(folder: Path) -> None:
 
 def run_in_time(folder: Path) -> None:
     """A motion with samples, frames and some checkpoints."""
-    asked = scene("one-edge-clamped", damping_time=1e-3)
-    lumped.simulate(asked, springs(asked, 4), 0.06, store=folder, every=2e-4, frames=20, integrator="verlet")
+    scene = make_scene("one-edge-clamped", damping_time=1e-3)
+    lumped.simulate(scene, springs(scene, 4), 0.06, store=folder, every=2e-4, frames=20, integrator="verlet")
 
 
 def run_of_reference(folder: Path) -> None:
@@ -93,8 +93,8 @@ def checkpointed(folder: Path) -> Kept:
 def answers(folder: Path) -> Kept:
     """A campaign's rows without what no two runs have alike."""
     found = {}
-    for key, (_, name, asked, status, row, message, *_) in rows_in(folder / FILE).items():
-        found[key] = (name, asked, status, timeless(json.loads(row)), message)
+    for key, (_, name, question, status, row, message, *_) in rows_in(folder / FILE).items():
+        found[key] = (name, question, status, timeless(json.loads(row)), message)
     return found
 
 
@@ -207,19 +207,19 @@ def table(done: list[dict[str, Any]], seed: int) -> str:
 
 
 def main() -> int:
-    asked = record.asked(__doc__, {name: kind.kills for name, kind in KINDS.items()})
+    arguments = record.parse_arguments(__doc__, {name: kind.kills for name, kind in KINDS.items()})
     done: list[dict[str, Any]] = []
-    with record.opened(asked.folder / f"kills-{asked.seed}.jsonl", "chain") as found:
+    with record.opened(arguments.folder / f"kills-{arguments.seed}.jsonl", "chain") as found:
         for name, kind in KINDS.items():
             with tempfile.TemporaryDirectory() as place:
-                whole, kills, wanted = None, 0, getattr(asked, name)
+                whole, kills, wanted = None, 0, getattr(arguments, name)
                 for number in count():
                     if kills >= wanted:
                         break
                     line = found.get(name, number)
                     if line is None or line["fault"]:
                         whole = whole or undisturbed(kind, Path(place))
-                        instants = random.Random(f"{asked.seed} {name} {number}")
+                        instants = random.Random(f"{arguments.seed} {name} {number}")
                         line = {"kind": name, "chain": number, "kills": 0, "fault": ""}
                         try:
                             line["kills"] = chain(kind, Path(place) / str(number), whole, instants)
@@ -229,8 +229,8 @@ def main() -> int:
                     done.append(line)
                     kills += line["kills"]
                     print(f"{name}: {kills}/{wanted} {line['fault']}", file=sys.stderr)
-    said = table(done, asked.seed)
-    (asked.folder / "kills.md").write_text(said, encoding="utf-8")
+    said = table(done, arguments.seed)
+    (arguments.folder / "kills.md").write_text(said, encoding="utf-8")
     print(said)
     return int(any(line["fault"] for line in done))
 

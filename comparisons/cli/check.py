@@ -22,7 +22,7 @@ def command(
     *,
     schema: Annotated[
         bool,
-        option("Print the JSON Schema of scenes, for editors; --out writes it instead, and a page of every key."),
+        option("Print the JSON Schema of scenes, for editors; --out writes it, and a page of every key."),
     ] = False,
     output: PictureOptions,
 ) -> Any:

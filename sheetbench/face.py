@@ -19,7 +19,8 @@ from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, parse, spec_of
 from comparisons.pictures.work import silent
 from sheetbench.errors import BadInput
-from sheetbench.scenes import AnyScene, Solution, scene_of
+from sheetbench.scenes import AnyScene, Scene, Solution, scene_of
+from sheetbench.scenes.plausibility import warn_of_slips
 
 
 def verb(name: str) -> Callable[..., Any]:
@@ -55,4 +56,6 @@ def solve(
         raise BadInput(f"solve: model = {model!r}: a name as 'lumped' or 'shell', or a spec, is needed")
     if settings:
         spec = spec_of(spec.model, {**spec.settings, **settings})
+    if isinstance(scene, Scene):
+        warn_of_slips([(f"scene '{scene.name}'", scene)], stacklevel=3)  # `in_context` is between
     return solvers.solve(resolve(scene_of(scene), spec))

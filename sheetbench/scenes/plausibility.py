@@ -9,9 +9,12 @@ sheet, and a sheet that nothing moves.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import hypot
 from typing import TYPE_CHECKING
+from warnings import warn
 
+from sheetbench.errors import Implausible
 from sheetbench.scenes.masses import weights
 from sheetbench.scenes.material import Material
 from sheetbench.scenes.patches import mass_of
@@ -49,6 +52,13 @@ def slips(scene: Scene) -> tuple[str, ...]:
             "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
         )
     return tuple(warnings)
+
+
+def warn_of_slips(scenes: Iterable[tuple[str, Scene]], stacklevel: int) -> None:
+    """Warn (Implausible) of the slips of scenes under the names given."""
+    for name, scene in scenes:
+        for slip in slips(scene):
+            warn(Implausible(f"{name}: {slip}"), stacklevel=stacklevel + 1)
 
 
 def sheet_slips(sheet: Sheet) -> list[str]:

@@ -6,18 +6,16 @@ once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads`
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Sequence
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
-from warnings import warn
 
 import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 
-from sheetbench.errors import Implausible, SceneError
+from sheetbench.errors import SceneError
 from sheetbench.scenes import corners, obstacles, region, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion
 from sheetbench.scenes.air import Air
@@ -30,7 +28,6 @@ from sheetbench.scenes.natural import Natural, Temperature
 from sheetbench.scenes.obstacles import Obstacle
 from sheetbench.scenes.orthotropy import FIBRES
 from sheetbench.scenes.patches import Patch, mismatched, misplaced
-from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.region import Cutout
 from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
@@ -49,7 +46,6 @@ SHAPED = (
     "sheet.outline", "sheet.mesh", "cutout", "support.where", "load.where", 'load.kind = "area"',
     "mass.where", 'support.kind = "point"',
 )  # fmt: skip
-OURS = {"sheetbench", "lumped", "fem_reference", "comparisons", "studies"}
 
 
 class Scene(Frozen):
@@ -106,14 +102,6 @@ class Scene(Frozen):
     the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4,
     each a quarter of the sheet inside where it would lie on an edge that is held; where there is no sheet,
     the nearest point of it."""
-
-    if not TYPE_CHECKING:  # type checkers read the signature off the fields
-
-        def __init__(self, *values: Any, **keys: Any) -> None:
-            super().__init__(*values, **keys)
-            _warn_author(self)
-
-        __init__.__pydantic_base_init__ = True
 
     @model_validator(mode="after")
     def _with_probes(self) -> Scene:
@@ -196,9 +184,7 @@ class Scene(Frozen):
         )
         if redrawn and "probes" not in values and self.probes == super().replace(probes={}).probes:
             values["probes"] = {}
-        changed = super().replace(**values)
-        _warn_author(changed, known=self)
-        return changed
+        return super().replace(**values)
 
     def __repr__(self) -> str:
         return summary.text(*self._summary())
@@ -303,19 +289,6 @@ class Scene(Frozen):
     def probe_points(self) -> np.ndarray:
         """Plan points of the probes, (n, 2) [m], in the order of `probes`."""
         return np.array(list(self.probes.values()), dtype=float).reshape(-1, 2)
-
-
-def _warn_author(scene: Scene, known: Scene | None = None) -> None:
-    """Warn whoever writes a scene in Python of what is hardly meant and was not so in the scene `known`.
-
-    What our own packages make of a scene is not its author's.
-    """
-    if sys._getframe(2).f_globals.get("__name__", "").partition(".")[0] in OURS:
-        return
-    before = () if known is None else slips(known)
-    for slip in slips(scene):
-        if slip not in before:
-            warn(Implausible(f"scene '{scene.name}': {slip}"), stacklevel=3)
 
 
 def default_probes(sheet: Sheet, supported: Sequence[str], held: Sequence[str]) -> dict[str, PlanPoint]:

@@ -256,6 +256,8 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
     if path.fault is not None:
         if scene.material.limit and any(support.motion is not None for support in scene.supports):
             notes.append(limit_note(scene.material))
+        if problem.assembly.precision == "single" and (lost := _rounded(problem, path)):
+            notes.append(lost)
         return Outcome(status, path, tuple(notes))
     links = problem.assembly.links
     problem.assembly.grow(state.load_factor)
@@ -278,6 +280,8 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
             ],
         )
     )
+    if status is Status.UNSTABLE:
+        notes.append(validity.slender_cells(problem.assembly.lattice))
     if not problem.assembly.conservative:
         notes.append(
             "per-direction springs: not central, they have no energy and keep no moments; solved with an "
@@ -285,4 +289,14 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
         )
     elif not problem.conservative:
         notes.append("follower loads: solved with an unsymmetric tangent")
-    return Outcome(status, path, tuple(notes), energies)
+    return Outcome(status, path, tuple(filter(None, notes)), energies)
+
+
+def _rounded(problem: Problem, path: LatticePath) -> str:
+    """Return in a sentence what rounding may have moved the last equilibrium of a path by, if not little."""
+    try:
+        factor = path.factored(path.tangent(path.state, path.load_factor))
+    except SingularMatrixError:
+        return ""
+    found = validity.digits(problem, path.state, factor)
+    return "" if found is None else found.message

@@ -9,10 +9,10 @@ from matrix_options import scene_files
 from matrix_rows import check, tally
 from verbs import few_runs, run_here, undraw
 
-from comparisons.runs.campaign import campaign
 from comparisons.sweep import here as table
+from comparisons.sweep.campaign import campaign
 from sheetbench.answers import style
-from sheetbench.scenes import Solution
+from sheetbench.answers.solution import Solution
 
 
 def pytest_configure():
@@ -39,10 +39,10 @@ def quick(monkeypatch):
     """Answers without a solver; a test may put its own in."""
     answers: dict[str, Solution] = {}
 
-    def answer(asked, name=""):
-        model = asked.spec.model
+    def answer(ask, name=""):
+        model = ask.spec.model
         size = -0.01 if model == "lumped" else -0.0101
-        return answers.get(model) or fake_solutions.solution(asked.scene, name or model, size)
+        return answers.get(model) or fake_solutions.solution(ask.scene, name or model, size)
 
     monkeypatch.setattr(table, "solve", answer)
     return answers

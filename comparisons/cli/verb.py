@@ -207,7 +207,7 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
         from comparisons.models.context import running
         from sheetbench.errors import BadInput
         from sheetbench.scenes import Scene
-        from sheetbench.scenes.plausibility import warn_of_slips
+        from sheetbench.scenes.meaning.plausibility import warn_of_slips
 
         found = bound(name, own, values, named)
         written = [one for one in found.values() if isinstance(one, Scene)]
@@ -258,7 +258,7 @@ def _conversion(parameter: Parameter) -> Callable[[Any], Any]:
         if value is None:
             return None
         if unit is not None:
-            from sheetbench.scenes.units import amount
+            from sheetbench.scenes.language.units import amount
 
             return amount(parameter.name, value, unit)
         if getattr(info, "listed", False) and not isinstance(value, str):

@@ -19,7 +19,8 @@ import numpy as np
 from comparisons.models.resolve import Resolved
 from comparisons.models.spec import Elements, Lattice
 from comparisons.pictures.plan import on_sheet
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import Scene
 
 FAR = 0.2  # of the largest displacement, from which on another branch is looked for
 SAME = 0.5  # of the difference, by which an answer begun elsewhere must come nearer

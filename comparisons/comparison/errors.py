@@ -22,7 +22,8 @@ from comparisons.comparison.rows import Difference
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.sweep.differences import error, relative
 from comparisons.sweep.model_error import ModelError, model_error
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import Scene
 
 ROUND_OFF = 1e-9  # of the largest displacement at a probe
 

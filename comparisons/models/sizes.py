@@ -14,9 +14,9 @@ from comparisons.models.context import context
 from comparisons.models.spec import Spec
 from comparisons.models.symmetry import cut_axes
 from comparisons.pictures import amounts
+from sheetbench.answers.size import Size
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.size import Size
 
 
 def size(scene: Scene, spec: Spec) -> Size | None:

@@ -17,11 +17,12 @@ from comparisons.modes.pairing import CELLS, Pair, Shaped, on_cells, pairs_of
 from comparisons.pictures.plan import plan_mesh
 from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
+from sheetbench.answers.modes import Buckling
 from sheetbench.answers.report import RASTER, Picture, Write
+from sheetbench.answers.solution import About
 from sheetbench.answers.table import HERTZ, NUMBER, PERCENT, Column, Table, number
-from sheetbench.scenes import About, Scene
-from sheetbench.scenes.modes import Buckling
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
 
 FLAT = 0.3  # displacement, in thicknesses, from which on stretching stiffens a plate by percents
 

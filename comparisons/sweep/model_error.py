@@ -37,10 +37,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sheetbench.scenes import EDGES, Clamped, Curved, Scene, Solution, Status, Symmetric
-from sheetbench.scenes.kinematics import UP, bent_or_tilted
-from sheetbench.scenes.summary import few
-from sheetbench.scenes.supports import holds_director, place
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import EDGES, Clamped, Curved, Scene, Symmetric
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.meaning.kinematics import UP, bent_or_tilted
+from sheetbench.scenes.objects.supports import holds_director, place
 
 MODELS = ("shell", "solid")
 SHEAR, NORMAL = 1.2, 1.3

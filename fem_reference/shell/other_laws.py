@@ -20,10 +20,11 @@ from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import mesh_of
+from sheetbench.answers.solution import Solution
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes import Scene
 
 OTHERS = ("biot", "neo-hookean")
 SAME = 1e-6  # residual, relative to the forces, up to which the answer's state is that of the mesh rebuilt

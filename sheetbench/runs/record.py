@@ -10,6 +10,7 @@ from typing import Any, Generic
 
 import numpy as np
 
+from sheetbench.answers.history import History
 from sheetbench.clock import now
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod
@@ -17,7 +18,6 @@ from sheetbench.runs.columns import split, width
 from sheetbench.runs.run import Observer, Run
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
-from sheetbench.scenes import History
 
 
 @dataclass(frozen=True)

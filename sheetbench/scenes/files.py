@@ -9,9 +9,9 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from sheetbench.errors import BadInput, SceneError, foreign
-from sheetbench.scenes.plausibility import warn_of_slips
-from sheetbench.scenes.reading import read_text
-from sheetbench.scenes.refusals import did_you_mean, in_one_line
+from sheetbench.scenes.language.reading import read_text
+from sheetbench.scenes.language.refusals import did_you_mean, in_one_line
+from sheetbench.scenes.meaning.plausibility import warn_of_slips
 from sheetbench.scenes.scene import Scene
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from comparisons.models.resolve import Resolved
-from sheetbench.scenes import Solution
+from sheetbench.answers.solution import Solution
 
 
 def once(ask: Callable[..., Solution]) -> Callable[..., Solution]:

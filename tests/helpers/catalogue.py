@@ -12,7 +12,8 @@ from typing import Any
 import fem_reference
 import lumped
 from sheetbench import scenes
-from sheetbench.scenes import Scene, Solution
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import Scene
 
 FILE = Path(__file__).with_name("catalogue.json")
 GRID, ELEMENTS = 5, 4

@@ -15,6 +15,7 @@ from collections import Counter
 import numpy as np
 
 import lumped
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
 from sheetbench.scenes import (
     Clamped,
@@ -28,9 +29,7 @@ from sheetbench.scenes import (
     Scene,
     SceneError,
     Sheet,
-    Solution,
     Sphere,
-    Status,
 )
 
 INSIDE = 4  # points a side of a cell, that the sheet is looked at in

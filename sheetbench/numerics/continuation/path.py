@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Generic, NamedTuple
 
+from sheetbench.answers.solution import Iteration, Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.structure import Forces, Matrix, Solver, State, Structure
 from sheetbench.numerics.direct import Factor
-from sheetbench.scenes import Iteration, Status
 
 Progress = Callable[[Iteration], None]
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sheetbench.answers.solution import Status
 from sheetbench.errors import NoEquilibrium
 from sheetbench.numerics.continuation.path import Path
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import SingularMatrixError
-from sheetbench.scenes import Status
 
 
 def stability(path: Path[State, Forces]) -> tuple[Status, str]:

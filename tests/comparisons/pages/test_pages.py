@@ -14,11 +14,12 @@ from commands import run
 
 from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
+from comparisons.models.spec import Lattice
 from comparisons.pages import studies as pages
 from comparisons.pages.page import page, pictures, question, whole_words
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
-from comparisons.runs.folder import Folder
+from comparisons.sweep.folder import Folder
 from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow
 from sheetbench.answers.report import Report
@@ -34,7 +35,7 @@ def studies(tmp_path_factory):
     """A comparison of a scene with an evil title, and modes, without pictures; a file that nobody knows."""
     folder = tmp_path_factory.mktemp("studies")
     scene = load("two-edges-clamped").model_copy(update={"title": EVIL})
-    found = compare(scene, grid=3, reference="plate", elements=2, uncertainty=False)
+    found = compare(scene, Lattice(3), reference="plate", elements=2, uncertainty=False)
     about = {"scene": scene.document()}
     undrawn = replace(found.report(), pictures=())
     Folder(folder, "compare", ["sheetbench", "compare"], about=about).report(undrawn)
@@ -59,7 +60,7 @@ def shown(browser, studies):  # noqa: F811
         dialogs: list[Any] = []
         found.on("dialog", lambda dialog: dialogs.append(dialog))
         yield found
-        assert watch.troubles == [] and watch.asked == [path.as_uri()] and not dialogs
+        assert watch.troubles == [] and watch.requests == [path.as_uri()] and not dialogs
 
 
 def test_its_policy_lets_nothing_but_its_own_script_and_style_in(shown):
@@ -263,7 +264,7 @@ def test_a_folder_that_is_none_is_refused(tmp_path, capsys):
 
 def test_a_report_of_several_folders_shows_their_numbers_and_tells_them_apart(tmp_path):
     for grid in (3, 5):
-        found = compare("two-edges-clamped", grid=grid, elements=4, companion=False)
+        found = compare("two-edges-clamped", Lattice(grid), elements=4, companion=False)
         about = {"scene": found.scene.document()}
         undrawn = replace(found.report(), pictures=())
         Folder(tmp_path / f"grid-{grid}", "compare", ["sheetbench"], about=about).report(undrawn)

@@ -6,10 +6,10 @@ import pytest
 from matplotlib.figure import Figure
 
 from comparisons.pictures.labels import place_labels
+from sheetbench.answers import history_figure as motion
+from sheetbench.answers.history import ENERGIES, History
+from sheetbench.answers.solution import Status
 from sheetbench.answers.style import MOST, STYLE, plain, save
-from sheetbench.scenes import History, Status
-from sheetbench.scenes import history_figure as motion
-from sheetbench.scenes.history import ENERGIES
 
 HOSTILE = "T $\\foo$ \x1b[31m _x^y\n$"
 

@@ -16,7 +16,8 @@ from contact_cases import (
 import fem_reference
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import divisions, mesh_of
-from sheetbench.scenes import Cylinder, Plane, SceneError, Sphere, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Cylinder, Plane, SceneError, Sphere
 
 OBSTACLES = {
     "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),

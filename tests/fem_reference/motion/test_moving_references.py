@@ -7,10 +7,11 @@ import pytest
 
 import fem_reference
 from fem_reference.verification import settling_strip
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeMotion, Gravity, Pressure, Status
-from sheetbench.scenes.supports import Clamped, Curved, Motion
-from sheetbench.scenes.tables import FactorTable
+from sheetbench.scenes import EdgeMotion, Gravity, Pressure
+from sheetbench.scenes.objects.supports import Clamped, Curved, Motion
+from sheetbench.scenes.objects.tables import FactorTable
 
 MODELS = ("plate", "shell", "solid")
 

@@ -7,9 +7,10 @@ import pytest
 
 import fem_reference
 from fem_reference.motion.generalised_alpha import ConstrainedAlpha
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.time.method import StepFailed
-from sheetbench.scenes import Air, BadInput, Status, load
-from sheetbench.scenes.tables import FactorTable
+from sheetbench.scenes import Air, BadInput, load
+from sheetbench.scenes.objects.tables import FactorTable
 
 BENT = FactorTable(time=(0.0, 0.013, 0.05), factor=(0.0, 1.0, 0.5))
 

@@ -5,7 +5,7 @@ import pytest
 from rod_cases import CHAINS, chain, driven, shell
 
 import fem_reference
-from sheetbench.scenes import Status
+from sheetbench.answers.solution import Status
 
 
 def solid(scene, elements=8, layers=1):

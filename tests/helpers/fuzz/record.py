@@ -10,7 +10,7 @@ from typing import Any, TextIO
 Line = dict[str, Any]
 
 
-def asked(about: str, counts: Mapping[str, int]) -> argparse.Namespace:
+def parse_arguments(about: str, counts: Mapping[str, int]) -> argparse.Namespace:
     """The command line: a folder, which is made, a seed, and how many of each kind, `counts` unless given."""
     parser = argparse.ArgumentParser(description=about.partition("\n")[0])
     parser.add_argument("folder", type=Path)

@@ -8,7 +8,7 @@ from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.closed_form import springs_of_cells
 from lumped.spring_constants import Springs, require_cells
 from sheetbench.scenes import BadInput, Material, Scene, Sheet, SpringSet
-from sheetbench.scenes.grading import Grading
+from sheetbench.scenes.objects.grading import Grading
 
 SIZES = {"length_x": 0.1, "length_y": 0.08, "thickness": 0.003}
 PLAIN = {"name": "pinned", "sheet": SIZES, "material": {"young": 5e6, "poisson": 0.35, "density": 1e3}}

@@ -14,7 +14,7 @@ from lumped.calibration.calibration import plan_spacing
 from lumped.calibration.edge_twist import layer_width
 from lumped.spring_constants import RIMS_OWN, Springs, of_edge_cells
 from sheetbench.scenes import Cells, Scene, SpringSet
-from sheetbench.scenes.grid import grid_of
+from sheetbench.scenes.objects.grid import grid_of
 from studies.transfer.drawn_scenes import drawn
 
 THICKNESS, ACROSS, ALONG = 1e-3, 16, 60  # of strips; their sides in cells

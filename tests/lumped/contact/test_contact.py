@@ -20,8 +20,9 @@ from scipy.optimize import fsolve
 import lumped
 from lumped.actuators import Drive
 from lumped.statics.solver import build_problem
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Cylinder, Motion, Plane, SceneError, Sphere, Status
+from sheetbench.scenes import Cylinder, Motion, Plane, SceneError, Sphere
 
 OBSTACLES = {
     "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),

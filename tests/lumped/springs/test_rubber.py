@@ -10,8 +10,9 @@ from scipy.optimize import brentq
 
 import lumped
 from lumped.assembly import Assembly
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Scene, Sheet, Status, load
+from sheetbench.scenes import Material, Scene, Sheet, load
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "rubber"
 
@@ -20,7 +21,7 @@ SHEET = Sheet(*SIDES, THICKNESS)
 
 
 def slopes(material, stretches):
-    """∂W/∂λ of the three principal stretches [Pa], from W as `sheetbench.scenes.material` writes it."""
+    """∂W/∂λ of the three principal stretches [Pa], from W as `scenes.objects.material` writes it."""
     e, s = material.energy, np.asarray(stretches) ** 2
     x = s.sum() - 3.0
     first = e.c10 + 2.0 * e.c20 * x + 3.0 * e.c30 * x * x

@@ -12,7 +12,7 @@ from lumped.actuators import Coupling
 from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
-from lumped.contact import ContactPenalties, contacts
+from lumped.contact import contacts
 from lumped.lattice import Lattice, Weights
 from lumped.loads import Loads
 from lumped.sections import require_alike
@@ -22,14 +22,13 @@ from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import LatticePath, settle
 from lumped.statics.fields import SMALL
 from lumped.statics.problem import LatticeState, Problem
-from lumped.statics.structure import STRETCH, LatticeStructure
+from lumped.statics.structure import STRETCH, LatticeForces, LatticeStructure
 from lumped.supports import constrain
 from sheetbench.answers.solution import Iteration, Solution, Status
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_effect
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.continuation.newton import Start
-from sheetbench.numerics.continuation.path import Path, Progress
+from sheetbench.numerics.continuation.path import Inspect, Path, Progress
 from sheetbench.numerics.continuation.stiffening import trace_stiffening
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.reduced import SingularMatrixError
@@ -192,20 +191,16 @@ def solve_path(
     slenderness = scene.sheet.thickness / problem.size
     down = settle if problem.descends else None
 
-    def trace(limits: Limits, buckled: bool = False) -> LatticePath:
-        return trace_path(
-            structure, structure, structure.inspect, down, progress, start, slenderness, limits, buckled
-        )
+    def trace(
+        limits: Limits, inspect: Inspect[LatticeState, LatticeForces], buckled: bool = False
+    ) -> LatticePath:
+        return trace_path(structure, structure, inspect, down, progress, start, slenderness, limits, buckled)
 
-    buckled = branch == "stable"
+    buckled, inspect = branch == "stable", structure.inspect
     if not problem.items:
-        return classify(scene, problem, trace(structure.limits, buckled))
-    penalties = ContactPenalties(problem)
-    path = trace_stiffening(
-        penalties, Path(structure, structure, structure.rest(), limits=structure.limits, progress=progress),
-        lambda: trace(structure.limits.direct), structure.inspect, down,
-        lambda state: Start(LatticeState(state.u, 1.0), 1.0, 1.0, 0.0), buckled,
-    )  # fmt: skip
+        return classify(scene, problem, trace(structure.limits, inspect, buckled))
+    path = Path(structure, structure, structure.rest(), limits=structure.limits, progress=progress)
+    path = trace_stiffening(structure.penalties(), path, trace, inspect, down, buckled)
     return classify(scene, problem, path)
 
 

@@ -20,8 +20,8 @@ from lumped.pattern import MassPattern, neighbours, of_grid
 from lumped.springs.all_families import AllFamilies, springs_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
-from sheetbench.scenes.natural_state import NaturalState
-from sheetbench.scenes.springs import Distribution
+from sheetbench.scenes.meaning.natural_state import NaturalState
+from sheetbench.scenes.objects.springs import Distribution
 
 Precision = Literal["double", "single"]
 

@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from lumped.actuators import Drive
-from sheetbench.scenes import ContactState
+from sheetbench.answers.contact import ContactState
 
 
 class Item(Protocol):

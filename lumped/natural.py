@@ -28,7 +28,7 @@ from lumped.springs.cell_laws import AREA_AND_STRAINS, NATURAL
 from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.laws import of_stiffness
 from sheetbench.errors import BadInput
-from sheetbench.scenes.natural_state import NaturalState
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 
 class NaturalSprings:

@@ -8,7 +8,8 @@ import fem_reference
 import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from sheetbench.scenes import Scene, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Scene
 
 ALIGNED, OBLIQUE = range(30), range(30, 50)  # seeds: of sides along the axes, of any sides
 # that differed, some by ties of lines or held masses, others between cells

@@ -22,11 +22,11 @@ from sheetbench.scenes import (
     Sheet,
     load,
 )
+from sheetbench.scenes.language.schema import for_editors, json_schema
+from sheetbench.scenes.language.toml import to_toml
+from sheetbench.scenes.meaning.words import in_words
 from sheetbench.scenes.reference import markdown
-from sheetbench.scenes.schema import for_editors, json_schema
 from sheetbench.scenes.template import template
-from sheetbench.scenes.toml import to_toml
-from sheetbench.scenes.words import in_words
 
 DOCS = Path(__file__).parent.parent / "docs"
 SHEET, MATERIAL = Sheet(0.3, 0.2, 0.002), Material(1.2e6, 0.45, 1100.0)

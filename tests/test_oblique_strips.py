@@ -14,7 +14,8 @@ from comparisons.models.expected_error import expected_error
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
-from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
 
 # E1, E2, G12 [MPa], degrees, length and width [mm] of a sheet 1 mm thick; errors in percent with 5, 9 and 17
 # masses across, against a shell of 16 elements across
@@ -93,5 +94,5 @@ if __name__ == "__main__":
     for constants in STRIPS:
         rows = measured(strip(*constants), MASSES)
         numbers = [f"{100 * row[1]:.2f}" for row in rows]
-        told = ", ".join("–" if row[2] is None else f"{100 * row[2]:.2f}" for row in rows)
-        print(f"| {', '.join(map(str, constants))} | {' | '.join(numbers)} | {told} |", flush=True)
+        expected = ", ".join("–" if row[2] is None else f"{100 * row[2]:.2f}" for row in rows)
+        print(f"| {', '.join(map(str, constants))} | {' | '.join(numbers)} | {expected} |", flush=True)

@@ -38,7 +38,7 @@ def command(
         ),
     ] = None,
     buckling: Annotated[
-        bool, option("Also at how many times its loads the flat sheet buckles, with the shapes paired.")
+        bool, option("Also the load factors at which the flat sheet buckles, with the shapes paired.")
     ] = False,
     state_space: Annotated[
         int | None,
@@ -81,9 +81,8 @@ def command(
             return out.show(
                 spectra(
                     loaded,
-                    lattice.spec,
+                    lattice.spec.but(masses=masses),
                     count=count,
-                    masses=masses,
                     reference=REFERENCE if reference is None else reference,
                     elements=parse_elements(elements),
                     about=about or "flat",

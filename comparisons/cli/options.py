@@ -9,7 +9,7 @@ runs. Those of the output stand in `comparisons.cli.output`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from inspect import Parameter
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, get_type_hints
 
@@ -43,7 +43,7 @@ def quantity_in(unit: str) -> Callable[[str], float]:
 
     def parse(text: str) -> float:
         from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
-        from sheetbench.scenes.units import quantity
+        from sheetbench.scenes.language.units import quantity
 
         try:
             return quantity(str(text), unit)
@@ -157,7 +157,7 @@ class LatticeGroup(Group):
         from comparisons.models.spec import Lattice  # help does not wait for models
 
         own = {name: value for name, value in vars(self).items() if name != "lattice" and value is not None}
-        return Lattice.given(self.lattice, own)
+        return replace(self.lattice or Lattice(), **own)
 
 
 @dataclass(frozen=True)
@@ -206,7 +206,7 @@ class SheetOptions(Group):
     density: Annotated[
         float | None, option("Density: 1100 or 1.1g/cm3; default: 1000 kg/m³.", "KG/M3", unit="kg/m³")
     ] = None
-    side: Annotated[str | None, option("Sides: 0.188, 0.188x0.3 (x by y) or 12cmx4cm.", "M")] = None
+    side: Annotated[str | None, option("Sides: 0.188, 0.188x0.3 (x by y) or 12x4cm.", "M")] = None
 
     @property
     def values(self) -> dict[str, Any]:

@@ -20,13 +20,15 @@ def command(
             "NAME",
         ),
     ] = None,
-    reference: Annotated[str, option(f"What errors are against: {listed(REFERENCES)}.", "MODEL")] = REFERENCE,
+    reference: Annotated[
+        str, option(f"What errors are measured from: {listed(REFERENCES)}.", "MODEL")
+    ] = REFERENCE,
     elements: Annotated[int, option("Elements of the references along the shorter side.", "N", min=1)] = 12,
     large: Large = False,
     campaign: ClusterOptions,
     output: PictureOptions,
 ) -> Any:
-    """Map where each model holds, degrades, refuses or fails.
+    """Map where each model is accurate, degrades, refuses or fails.
 
     Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit
     integrators the largest stable step is measured. With --out an interrupted run is resumed.

@@ -35,7 +35,7 @@ def command(
     tolerance: Annotated[
         float | None,
         option(
-            "Find the cheapest model with no larger error, as 0.01 or 1%, by the few solves that this takes. "
+            "Find the cheapest model with no larger error, as 0.01 or 1%, with as few solves as possible. "
             "0.01 with --budget alone. Empty lists leave models out.",
             "FRACTION",
             unit="",
@@ -124,8 +124,8 @@ def command(
     from comparisons.tradeoff.choices import trade
 
     if tolerance is not None or budget is not None:
-        from comparisons.advice.advisor import advise
         from comparisons.comparison.comparison import load_static
+        from comparisons.tradeoff.advisor import advise
         from sheetbench.errors import require_effect
 
         lists = {"lumped": grid, "plate": plate, "shell": shell, "solid": solid}

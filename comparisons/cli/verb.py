@@ -252,7 +252,7 @@ def _conversion(parameter: Parameter) -> Callable[[Any], Any]:
         if value is None:
             return None
         if unit is not None:
-            from sheetbench.scenes.units import amount
+            from sheetbench.scenes.language.units import amount
 
             return amount(parameter.name, value, unit)
         if getattr(info, "listed", False) and not isinstance(value, str):

@@ -13,9 +13,10 @@ import numpy as np
 import pyvista
 
 from comparisons.pictures.plan import eye_heading, held_lines, plan_lines, plan_mesh, rims
+from sheetbench.answers.solution import FieldMesh, Solution
 from sheetbench.answers.style import DARK, GREY
-from sheetbench.scenes import Cylinder, FieldMesh, Plane, Scene, Solution, holds_director
-from sheetbench.scenes.obstacles import AnyObstacle
+from sheetbench.scenes import Cylinder, Plane, Scene, holds_director
+from sheetbench.scenes.objects.obstacles import AnyObstacle
 
 REFERENCE_PIXELS = 1800  # across an image, in which the widths of lines below are pixels
 MARGIN = 0.04  # as a share of the image's width

@@ -33,7 +33,7 @@ from sheetbench.scenes import (
     Sheet,
     load,
 )
-from sheetbench.scenes.supports import AnySupport, Motion
+from sheetbench.scenes.objects.supports import AnySupport, Motion
 
 AT_REST = ("statics", "curves", "natural", "contact")  # displacements without time
 SUITES = ("statics", "motion", "modes", "curves", "natural", "contact")

@@ -116,7 +116,7 @@ def summary(maps: Stability) -> Table:
         holds, off, refuses, fails = (_ranges(of, end) for end in ("holds", "off", "refuses", "fails"))
         errors = [row["error"] for row in of if verdict(row) == "holds" and row["error"] is not None]
         rows.append(HoldsRow(VARIED[study], name, holds, off, refuses, fails, max(errors, default=None)))
-    return Table.of(HoldsRow, rows, "Where each model holds", "holds", grouped=True)
+    return Table.of(HoldsRow, rows, "Where each model is accurate", "holds", grouped=True)
 
 
 def _order(maps: Stability, row: Row) -> int:

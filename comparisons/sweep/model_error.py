@@ -29,8 +29,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sheetbench.scenes import Clamped, Curved, Scene, Solution, Status
-from sheetbench.scenes.summary import few
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import Clamped, Curved, Scene
+from sheetbench.scenes.language.summary import few
 
 MODELS = ("shell", "solid")
 SHEAR, NORMAL = 1.2, 1.3

@@ -18,7 +18,7 @@ from comparisons.tradeoff.usual import GRIDS, MESHES, MOVING, PAIRS, REPEATS, SP
 from sheetbench.choices import AUTO, CALIBRATION, INTEGRATORS, REFERENCE
 from sheetbench.errors import BadInput, require_effect
 from sheetbench.scenes import AnyScene, Scene, scene_of
-from sheetbench.scenes.quantities import require_positive
+from sheetbench.scenes.objects.quantities import require_positive
 
 
 def trade(

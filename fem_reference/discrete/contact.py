@@ -13,7 +13,7 @@ with o = h/2 of a mid-surface, 0 of faces. The work of the pressure p = k ⟨dep
 
 A node's area is ∫ N dA, all positive on nine nodes, where it is Simpson's rule; those at Gauss points are
 nine constraints on four nodes an element, whose pressures scatter. k = E/h; see
-`sheetbench.scenes.obstacles` for what the words mean.
+`sheetbench.scenes.objects.obstacles` for what the words mean.
 """
 
 from __future__ import annotations
@@ -25,8 +25,9 @@ from fem_reference.discrete.shape import Shape
 from fem_reference.surface.biquadratic import AT_GAUSS, areas
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan
-from sheetbench.scenes import ContactState, Plane, Scene
-from sheetbench.scenes.obstacles import SLIP_SPEED, AnyObstacle
+from sheetbench.answers.contact import ContactState
+from sheetbench.scenes import Plane, Scene
+from sheetbench.scenes.objects.obstacles import SLIP_SPEED, AnyObstacle
 
 TOUCH = 1e-9  # of the thickness, that a sheet which lies on a plane is held by it
 UNDECIDED = 1e-6

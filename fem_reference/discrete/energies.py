@@ -32,14 +32,14 @@ class Energies(NamedTuple):
     potential: float
 
 
-def energies(sheet: Discrete, q: np.ndarray, v: np.ndarray, time: float) -> Energies:
-    """Return the energies of a state."""
-    sheet.memory.now = time
+def energies(sheet: Discrete, motion: Motion) -> Energies:
+    """Return the energies of a motion."""
+    q, v, time = motion.q, motion.v, motion.time
     sheet.grow(time)
     shape = sheet.shape(q, time, v)
     potential = sum(item.stored(shape) for item in sheet.items)
     elastic = sheet.elastic(q) + sum(body.energy(q, time) for body in sheet.bodies)
-    stored = sheet.memory.stored(sheet.strains(q)) if sheet.memory else 0.0
+    stored = sheet.branches.stored(motion.memory) if sheet.branches.times else 0.0
     return Energies(0.5 * float(v @ (sheet.mass @ v)), elastic + stored, potential)
 
 
@@ -50,10 +50,7 @@ def spent(sheet: Discrete, start: Motion, end: Motion, late: float) -> np.ndarra
     rate = (1.0 - late) * start.v + late * end.v
     damped = sheet.tau * sheet.stiffness_of(middle, step, rate) if sheet.tau else 0.0
     damped += sheet.alpha * float(step @ (sheet.sheet_mass @ rate))
-    sheet.memory.since(start.time, start.memory)
-    sheet.memory.now = end.time
-    sheet.grow(end.time)
-    damped += sheet.memory.dissipated(sheet.strains(end.q)) if sheet.memory else 0.0
+    damped += sheet.branches.dissipated(start.memory, end.memory) if sheet.branches.times else 0.0
     exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
     work = float(sheet.of_supports(exerted) @ step)
     for body in sheet.bodies:

@@ -10,7 +10,7 @@ from fem_reference.surface.actuator_forces import Held, OnEdge
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Plan
-from sheetbench.scenes import FieldMesh
+from sheetbench.answers.solution import FieldMesh
 
 
 class Output(ABC):

@@ -3,17 +3,19 @@ obstacles."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.static import Forces, State, Static
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
-from sheetbench.numerics.continuation.path import Fault, Inspect, Path, Progress, Settle
+from sheetbench.numerics.continuation.path import Fault, Inspect, Path, Settle
 from sheetbench.numerics.continuation.stiffening import trace_stiffening
 from sheetbench.numerics.continuation.trace import trace_path
-from sheetbench.scenes import Status
 
 
 class Softness:
@@ -46,18 +48,15 @@ def trace(
     sheet: DiscreteElements,
     inspect: Inspect[State, Forces],
     settle: Settle[State, Forces] | None,
-    progress: Progress | None = None,
-    near: Start[State] | None = None,
-    slenderness: float = 0.0,
     limits: Limits | None = None,
-    buckled: bool = False,
+    **options: Any,
 ) -> Path[State, Forces]:
-    """Return the path of a sheet, as `trace_path` does; with obstacles from rest, whatever is near."""
+    """Return the path of a sheet, as `trace_path` does with these options; with obstacles from rest, whatever
+    is near."""
     structure, limits = Static(sheet), limits or Limits()
     if not sheet.contacts:
-        return trace_path(
-            structure, sheet.solver(), inspect, settle, progress, near, slenderness, limits, buckled
-        )
+        return trace_path(structure, sheet.solver(), inspect, settle, limits=limits, **options)
+    progress, slenderness = options.get("progress"), options.get("slenderness", 0.0)
     before = structure.rest(), 0.0
 
     def kept_out(path: Path[State, Forces]) -> Fault | None:
@@ -71,8 +70,9 @@ def trace(
         return inspect(path)
 
     def soft() -> Path[State, Forces]:
+        direct = limits.direct
         return trace_path(
-            structure, sheet.solver(), kept_out, settle, progress, None, slenderness, limits.direct
+            structure, sheet.solver(), kept_out, settle, progress, slenderness=slenderness, limits=direct
         )
 
     path = Path(structure, sheet.solver(), structure.rest(), limits=limits, progress=progress)
@@ -81,4 +81,6 @@ def trace(
         balanced = structure.potential(state, 1.0)[1]
         return Start(structure.unextrapolated(state), 1.0, 1.0, balanced)
 
-    return trace_stiffening(Softness(sheet), path, soft, kept_out, settle, restart, buckled)
+    return trace_stiffening(
+        Softness(sheet), path, soft, kept_out, settle, restart, options.get("buckled", False)
+    )

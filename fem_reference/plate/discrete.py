@@ -16,7 +16,7 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity
 from skfem import MeshQuad
 
-from fem_reference.discrete.relaxation import Strained
+from fem_reference.discrete.relaxation import Strained, gain, with_branches
 from fem_reference.discrete.shape import Shape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import TILT_X, PlateElements, W
@@ -30,8 +30,9 @@ from fem_reference.surface.biquadratic import GAUSS, integrated, shape
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.materials import Section, constants_of, section_at
 from fem_reference.surface.mesh import field_mesh, on_boundary, plan_of, require_upright
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import EDGES, FieldMesh, Scene, outside_model
+from sheetbench.scenes import EDGES, Scene, outside_model
 
 PARTS = ("membrane", "bending", "shear")
 
@@ -161,23 +162,19 @@ class DiscretePlate(Discrete):
 
     def elements_internal(self, shape: Shape) -> np.ndarray:
         self.grow(shape.at)
-        elastic = self.stiffness @ shape.q
-        out = elastic + self.memory.added(elastic) if self.memory else elastic
+        out = with_branches(self.stiffness @ shape.q, shape.branches)
         viscous = 0.0 if shape.v is None else self.tau * (self.stiffness @ shape.v)
         return np.asarray(out + viscous - self._pull)
 
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
         return self.elements_internal(Shape(self, 0.5 * (start + end), 0.0, (end - start) / h))
 
-    def tangent(
-        self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
-    ) -> csr_matrix:
-        self.memory.now = time
-        return self.whole_tangent(self.shape(q, time, v), by_a, by_v)[self.free][:, self.free]
+    def tangent(self, shape: Shape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
+        return self.whole_tangent(shape, by_a, by_v)[self.free][:, self.free]
 
     def whole_tangent(self, shape: Shape, by_a: float = 0.0, by_v: float = 0.0) -> csr_matrix:
         """by_a M + by_v C + K of all coordinates."""
-        whole = (1.0 + self.tau * by_v + self.memory.gain) * self.stiffness
+        whole = (1.0 + self.tau * by_v + gain(shape.branches)) * self.stiffness
         if by_a or by_v:
             whole = (by_a + self.alpha * by_v) * self.sheet_mass + whole
         for body in self.bodies:

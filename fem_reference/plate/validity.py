@@ -24,9 +24,10 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 from fem_reference.plate.element import UX, UY, PlateElements, W
 from fem_reference.surface.biquadratic import NODES
 from fem_reference.surface.materials import Section
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import Scene, Status, outside_model
+from sheetbench.scenes import Scene, outside_model
 
 TURN_LIMIT = 1.0
 SLIGHT = 1.0  # a² |N|/D, below which in-plane forces do not buckle a sheet

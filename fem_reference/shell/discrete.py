@@ -34,9 +34,10 @@ from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import cross
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
 from fem_reference.surface.mesh import Plan, field_mesh
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import add_blocks, pattern_of
-from sheetbench.scenes import FieldMesh, Scene
+from sheetbench.scenes import Scene
 
 UP = np.array([0.0, 0.0, 1.0])
 

@@ -15,7 +15,7 @@ from fem_reference.surface.biquadratic import product_grid, shape
 from fem_reference.surface.materials import Section
 from fem_reference.surface.natural import NaturalStrains, grown, of_shell
 from sheetbench.scenes import Scene
-from sheetbench.scenes.natural_state import natural_at
+from sheetbench.scenes.meaning.natural_state import natural_at
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,7 @@ from fem_reference.surface.borders import borders_of
 from fem_reference.surface.materials import Section, section_at
 from fem_reference.surface.mesh import Elements, Plan, divisions, has_lines, mesh_of, plan_of
 from fem_reference.surface.rubber import limit_notes, require_law
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
@@ -36,9 +37,9 @@ from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.pseudo_transient import relax
-from sheetbench.scenes import Scene, Solution, Status, require_uniform
-from sheetbench.scenes.patches import require_flat_at_rest
-from sheetbench.scenes.rigid_motions import require_static
+from sheetbench.scenes import Scene, require_uniform
+from sheetbench.scenes.meaning.composition import require_flat_at_rest
+from sheetbench.scenes.meaning.rigid_motions import require_static
 
 LIMITS = Limits()
 
@@ -146,7 +147,8 @@ def _run(
     elif near is not None:
         begin_at = coarse_start.start(near.sheet, near.path.state.q, sheet)
     slenderness = scene.sheet.thickness / sheet.lever
-    path = trace(sheet, inspector(graded), relax, progress, begin_at, slenderness, limits or LIMITS, buckled)
+    options = {"progress": progress, "near": begin_at, "slenderness": slenderness, "buckled": buckled}
+    path = trace(sheet, inspector(graded), relax, limits or LIMITS, **options)
     path.factor = None  # a run is kept longer than that
     return _Run(sheet, path, ready - begin, now() - ready)
 

@@ -31,9 +31,10 @@ from fem_reference.surface.actuator_forces import Held, OnEdge
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal
 from fem_reference.surface.stretch import largest_stretch
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import Constants, FieldMesh, Material, Scene
+from sheetbench.scenes import Constants, Material, Scene
 
 
 class DiscreteSolid(DiscreteElements):

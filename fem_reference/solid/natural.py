@@ -11,8 +11,8 @@ from fem_reference.solid.element import SAMPLED, Bricks, reference, shape
 from fem_reference.solid.materials import PAIRS
 from fem_reference.surface.natural import NaturalStrains, green
 from sheetbench.scenes import Scene
-from sheetbench.scenes.natural_state import natural_at
-from sheetbench.scenes.patches import of_sheet
+from sheetbench.scenes.meaning.composition import of_sheet
+from sheetbench.scenes.meaning.natural_state import natural_at
 
 
 @dataclass(frozen=True)

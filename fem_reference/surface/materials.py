@@ -19,7 +19,7 @@ import numpy as np
 from fem_reference.surface import plies
 from fem_reference.surface.biquadratic import AT_GAUSS
 from sheetbench.scenes import Constants, Material, Scene
-from sheetbench.scenes.patches import constants_at
+from sheetbench.scenes.meaning.composition import constants_at
 
 SHEAR_CORRECTION = 5.0 / 6.0
 

@@ -1,6 +1,6 @@
 """Sheets that are not flat at rest: their strains are those from the natural state.
 
-With the natural stretch U(z) = 1 + e0 − z k0 at the height z (`sheetbench.scenes.natural`) a law of strain
+With the natural stretch U(z) = 1 + e0 − z k0 at the height z (`scenes.objects.natural`) a law of strain
 takes E − E0(z), 2 E0 = U² − 1, of a shell to first order in z
 
     E0 = e0 + ½ e0²,    κ0 = −k0 − ½ (e0 k0 + k0 e0),
@@ -19,7 +19,7 @@ import numpy as np
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import Section
 from sheetbench.scenes import Scene
-from sheetbench.scenes.natural_state import NaturalState, natural_at
+from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 Sample = Callable[[np.ndarray, np.ndarray], np.ndarray]
 

@@ -16,7 +16,7 @@ from fem_reference.shell.statics import solve
 from fem_reference.verification.rows import EXACT, Row, relatively
 from fem_reference.vibration import modes
 from sheetbench.scenes import Clamped, Hinged, Material, Scene, Sheet, Support
-from sheetbench.scenes.natural import Natural
+from sheetbench.scenes.objects.natural import Natural
 
 YOUNG, POISSON, DENSITY = 1e6, 0.3, 1e3
 LENGTH, SIDE, THICKNESS = 0.2, 0.2, 0.002

@@ -36,10 +36,12 @@ from lumped.actuators import Drive
 from lumped.assembly import Assembly
 from lumped.contact.law import rounded_law, side_rule
 from lumped.contact.surface import At, ObstacleSurface
+from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
-from sheetbench.scenes import ContactState, Scene, free_rigid_motions
-from sheetbench.scenes.obstacles import SLIP_SPEED, AnyObstacle, obstacles_by_name
-from sheetbench.scenes.patches import constants_at
+from sheetbench.scenes import Scene, free_rigid_motions
+from sheetbench.scenes.meaning.composition import constants_at
+from sheetbench.scenes.meaning.distances import obstacles_by_name
+from sheetbench.scenes.objects.obstacles import SLIP_SPEED, AnyObstacle
 
 if TYPE_CHECKING:
     from lumped.statics.problem import Problem

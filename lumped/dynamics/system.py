@@ -29,7 +29,7 @@ from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.motion import kinks
+from sheetbench.scenes.meaning.motion import kinks
 
 ROUNDED = 1e-9  # of the energy of a natural state on the flat sheet
 

@@ -24,6 +24,7 @@ from lumped.statics.fields import SMALL
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.structure import STRETCH, LatticeStructure
 from lumped.supports import constrain
+from sheetbench.answers.solution import Iteration, Solution, Status
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_effect
 from sheetbench.numerics.continuation.limits import Limits
@@ -37,20 +38,17 @@ from sheetbench.scenes import (
     AnyScene,
     Clamped,
     Gravity,
-    Iteration,
     Material,
     Scene,
     Sheet,
-    Solution,
-    Status,
     outside_model,
     require_static,
     scene_of,
 )
-from sheetbench.scenes.material import limit_note
-from sheetbench.scenes.natural_state import NaturalState, natural_of_cells
-from sheetbench.scenes.obstacles import require_no_obstacles
-from sheetbench.scenes.orthotropy import FIBRES
+from sheetbench.scenes.meaning.distances import require_no_obstacles
+from sheetbench.scenes.meaning.natural_state import NaturalState, natural_of_cells
+from sheetbench.scenes.objects.material import limit_note
+from sheetbench.scenes.objects.orthotropy import FIBRES
 
 Branch = Literal["path", "stable"]
 

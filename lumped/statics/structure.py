@@ -16,12 +16,13 @@ import scipy.sparse as sp
 from lumped.actuators import Drive
 from lumped.statics.faults import broken
 from lumped.statics.problem import LatticeState, Problem, Residual
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Path
 from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.direct import Count, Factor, iterated
-from sheetbench.scenes import Scene, Status, outside_model
+from sheetbench.scenes import Scene, outside_model
 
 STRETCH = "largest in-plane link strain"
 ITERATED = 5000  # unknowns from which a factorisation costs as much as ten solutions

@@ -28,11 +28,12 @@ from lumped.assembly import Assembly
 from lumped.statics.faults import place
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.soundness import carried_by_links, sharpest_bend
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.kept import frozen
-from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
 
 DOUBTFUL, LOST = 1e-2, 0.05  # displacement by rounding over the largest: that it may be, that it is
 MAY_BE_LOST = 0.1  # in single precision: a sheet of h/a = 1e-4, of 0.5, was 61 % off

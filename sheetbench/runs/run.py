@@ -14,6 +14,7 @@ from typing import Any, Generic, Protocol
 
 import numpy as np
 
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod, StepFailed
@@ -21,7 +22,6 @@ from sheetbench.runs.columns import Part
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.runs.watch import GROWN, Watch
-from sheetbench.scenes import Status
 
 MOST_STEPS = 100_000  # of a method that adapts them, between two samples
 

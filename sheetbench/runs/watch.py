@@ -15,8 +15,8 @@ from typing import Self
 
 import numpy as np
 
+from sheetbench.answers.solution import Status
 from sheetbench.answers.table import number
-from sheetbench.scenes import Status
 
 GROWN = 0.1
 TOLD = 0.01
@@ -68,15 +68,15 @@ class Watch:
     def ending(self, outside: str, steps: str = "") -> tuple[Status, str]:
         """Return the status of a run that came to its end, and what there is to say; outside: a clause on the
         strains that went farthest beyond the model; steps: one on the steps."""
-        told = [f"from {number(self.since, '.4g')} s on {outside}"] if outside else []
+        notes = [f"from {number(self.since, '.4g')} s on {outside}"] if outside else []
         if self.largest > 0.0 and self.off > TOLD * self.largest:
             share = number(100.0 * self.off / self.largest, ".2g")
-            told.append(
+            notes.append(
                 f"the energy balance is off by {share} % of the largest energy at some sample: energies are "
                 "good to no more; smaller steps (--error, --step) keep it better"
             )
-        told += [steps] if steps else []
-        return Status.STRAIN_OUTSIDE_MODEL if outside else Status.CONVERGED, "; ".join(told)
+        notes += [steps] if steps else []
+        return Status.STRAIN_OUTSIDE_MODEL if outside else Status.CONVERGED, "; ".join(notes)
 
     def memory(self) -> np.ndarray:
         """What a resumed run needs."""

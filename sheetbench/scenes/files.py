@@ -10,9 +10,9 @@ from warnings import warn
 from pydantic import ValidationError
 
 from sheetbench.errors import BadInput, Implausible, SceneError, foreign
-from sheetbench.scenes.plausibility import slips
-from sheetbench.scenes.reading import read_text
-from sheetbench.scenes.refusals import did_you_mean, in_one_line
+from sheetbench.scenes.language.reading import read_text
+from sheetbench.scenes.language.refusals import did_you_mean, in_one_line
+from sheetbench.scenes.meaning.plausibility import slips
 from sheetbench.scenes.scene import Scene
 
 

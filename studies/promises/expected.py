@@ -22,8 +22,9 @@ from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.sweep.differences import error
 from sheetbench.answers.files import write_text
-from sheetbench.scenes import Scene, Solution
-from sheetbench.scenes.grid import grid_of
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.grid import grid_of
 from studies.pages import RESULTS
 from studies.promises.answer import Promise
 

@@ -23,9 +23,10 @@ from comparisons.identification.answer import Identification
 from comparisons.identification.c3d import read_markers
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements
+from sheetbench.answers.solution import Status
 from sheetbench.answers.table import Column
 from sheetbench.errors import Implausible
-from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet, Status
+from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet
 
 RUNS = {"no load": ("gravity", 0.0, 7.7), "52 g": ("load52", 0.052, 4.0), "101 g": ("load101", 0.101, 3.3)}
 RATE, THROUGH, PERIODS = 100.0, 250, 4.0  # 1/s; samples of a cosine, periods of a picture and of identify

@@ -12,7 +12,8 @@ from fem_reference.surface.actuator_forces import by_segment
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification import heavy_elastica
 from sheetbench import scenes
-from sheetbench.scenes import Gravity, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Gravity
 
 
 @pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])

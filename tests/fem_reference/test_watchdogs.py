@@ -14,12 +14,13 @@ from lumped.dynamics.runs.observer import LatticeObserver
 from lumped.dynamics.system import State
 from lumped.statics import faults
 from lumped.statics.solver import build_problem
+from sheetbench.answers.solution import Status
 from sheetbench.runs.columns import width
 from sheetbench.runs.run import Run
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import MemoryStore
 from sheetbench.runs.watch import Watch
-from sheetbench.scenes import EdgeLoad, Status
+from sheetbench.scenes import EdgeLoad
 from studies.stability.scenes import sheet
 
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not

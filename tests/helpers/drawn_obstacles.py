@@ -2,7 +2,7 @@
 
     python tests/helpers/drawn_obstacles.py [COUNT] [FIRST]
 
-prints a line a fault; nothing is asked of a solver that says it has found no equilibrium.
+prints a line a fault; a solver that reports no equilibrium is not judged.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from collections import Counter
 import numpy as np
 
 import lumped
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
 from sheetbench.scenes import (
     Clamped,
@@ -28,9 +29,7 @@ from sheetbench.scenes import (
     Scene,
     SceneError,
     Sheet,
-    Solution,
     Sphere,
-    Status,
 )
 
 INSIDE = 4  # points a side of a cell, that the sheet is looked at in

@@ -13,7 +13,7 @@ from lumped.grid_lines import grid_lines
 from lumped.spring_constants import of_edge_cells
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, load
-from sheetbench.scenes.grading import Grading, as_settings, of_settings, towards
+from sheetbench.scenes.objects.grading import Grading, as_settings, of_settings, towards
 from studies.transfer.scenes import transfer_scenes
 from studies.transfer.tasks import points
 
@@ -75,9 +75,9 @@ def test_the_twist_of_either_edge_is_that_of_the_strip_that_begins_with_it():
 
 def test_a_half_is_cut_only_where_its_image_is_the_other():
     scene = transfer_scenes()["opposite-edges-hinged"]
-    asked = {"grid": 5, "calibration": "consistent", "symmetry": True}
-    assert solve(scene, "lumped", grading=0.5, **asked).settings["symmetry"] == ["x", "y"]
-    assert solve(scene, "lumped", grading="0.5:x0", **asked).settings["symmetry"] == ["y"]
+    settings = {"grid": 5, "calibration": "consistent", "symmetry": True}
+    assert solve(scene, "lumped", grading=0.5, **settings).settings["symmetry"] == ["x", "y"]
+    assert solve(scene, "lumped", grading="0.5:x0", **settings).settings["symmetry"] == ["y"]
 
 
 def test_auto_grades_towards_the_one_edge_that_holds_the_sheet():

@@ -5,8 +5,9 @@ import pytest
 
 import lumped
 from lumped.assembly import Assembly
-from sheetbench.scenes import BadInput, Scene, Status, load
-from sheetbench.scenes.patches import mass_of
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import BadInput, Scene, load
+from sheetbench.scenes.meaning.composition import mass_of
 
 MATERIAL = {"young": 5e6, "poisson": 0.4, "density": 1e3}
 CLAMP = {"kind": "clamped", "edge": "x0"}

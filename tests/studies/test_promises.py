@@ -11,7 +11,7 @@ from comparisons.cli import main
 from comparisons.models.spec import Elements
 from comparisons.sweep.solved import Ask, Solved
 from sheetbench import scenes
-from sheetbench.scenes.rigid_motions import require_static
+from sheetbench.scenes.meaning.rigid_motions import require_static
 from studies.promises import study
 from studies.promises.answer import GOALS, Promise, Promises, share
 from studies.promises.expected import expected_errors, lattice, stored

@@ -13,7 +13,8 @@ from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.stability import extremes, limit
 from comparisons.stability.rows import LARGE
-from sheetbench.scenes import Gravity, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Gravity
 from studies.stability import study
 from studies.stability.scenes import bent, pressed, sheet
 

@@ -11,13 +11,13 @@ from lumped.lattice import Weights
 from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Scene
-from sheetbench.scenes.motion import NO_START, at_start, starts_flat
+from sheetbench.scenes.meaning.motion import NO_START, at_start, starts_flat
 
 
 def initial_state(
     system: System, calibration: Calibration, weights: Weights, scene: Scene | None = None
 ) -> State:
-    """At rest, flat or in the equilibrium that the scene starts from (`sheetbench.scenes.motion`), with the
+    """At rest, flat or in the equilibrium that the scene starts from (`scenes.meaning.motion`), with the
     acceleration that loads and commands give it at once. scene: the system's with the loads that it lets go.
 
     Raises NoEquilibrium where there is no stable one.

@@ -21,11 +21,11 @@ from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
 from lumped.statics.faults import broken, fastest
 from lumped.statics.structure import STRETCH
+from sheetbench.answers.history import ENERGIES
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.runs.columns import Part, width
 from sheetbench.scenes import outside_model
-from sheetbench.scenes.history import ENERGIES
 
 
 class Observed(NamedTuple):

@@ -13,12 +13,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Settle
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.continuation.trace import conclude
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Status
 
 FIRST_FACTOR, LARGEST_FACTOR, SMALLEST_FACTOR = 30.0, 1e4, 1.05  # of the penalties, from stage to stage
 EASIER = 3.0  # by which a stage's factor grows after one that went well

@@ -10,7 +10,8 @@ from comparisons.comparison.comparison import error
 from comparisons.external.answer import ExternalCode
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
-from sheetbench.scenes import Clamped, Pressure, Status, load
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Pressure, load
 
 JUDGES: tuple[ExternalCode, ...] = (CALCULIX, KRATOS, FELUPE)
 SEED = load("two-edges-clamped")

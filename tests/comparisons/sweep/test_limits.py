@@ -1,4 +1,4 @@
-"""A model's limit with its bar, and who is told apart from whom."""
+"""A model's limit with its bar, and which models are distinguishable."""
 
 import numpy as np
 import pytest

@@ -10,11 +10,13 @@ import pytest
 from cases import relative
 
 import fem_reference
-from comparisons.advice.advisor import advise
 from comparisons.comparison.comparison import compare
+from comparisons.models.spec import Lattice
 from comparisons.sweep.model_error import ModelError, model_error
+from comparisons.tradeoff.advisor import advise
 from fem_reference.pulled_strip import pulled
-from sheetbench.scenes import Clamped, Gravity, Hinged, Material, Pressure, Scene, Sheet, Status, load
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Gravity, Hinged, Material, Pressure, Scene, Sheet, load
 
 THICK = Scene(
     name="thick-three",
@@ -91,7 +93,7 @@ def test_of_plates_and_unstable_answers_nothing_is_said():
 
 
 def test_compare_names_both_parts(capsys):
-    found = compare("two-edges-clamped", grid=5, elements=6)
+    found = compare("two-edges-clamped", Lattice(5), elements=6)
     bar = found.document()["solutions"][1]["uncertainty"]
     assert bar["mesh"] == bar["error"] and bar["model"] == sum(bar["model_parts"].values()) > 0.0
     assert bar["clamp"] == pytest.approx(0.75 * 0.48 / 0.52 * 0.003 / 0.188)
@@ -103,13 +105,13 @@ def test_compare_names_both_parts(capsys):
 def test_a_law_of_strain_that_the_user_chose_is_no_error_of_the_model():
     """Both sheets neo-Hookean, pulled to over 1.5 lengths; with the default law it is part of the bound."""
     scene = pulled((2400.0, 0.0), Sheet(length_x=0.1, length_y=0.1, thickness=0.005))
-    chosen = compare(scene, grid=3, calibration="hyperelastic", elements=3, law="neo-hookean")
+    chosen = compare(scene, Lattice(3, "hyperelastic"), elements=3, law="neo-hookean")
     assert chosen.reference.stretch is not None and chosen.reference.stretch > 0.5
     assert chosen.error(chosen.solutions[0]) == pytest.approx(0.0, abs=1e-3)
     assert chosen.model_error == ModelError(pytest.approx((1.2 + 1.3 * 0.3**2) * 0.05**2), 0.0, 0.0)
     assert not any("law of strain" in note for note in chosen.report().notes)
     mild = pulled((200.0, 0.0), Sheet(length_x=0.1, length_y=0.1, thickness=0.005))
-    assert "law of strain" in str(compare(mild, grid=3, elements=3).model_error)
+    assert "law of strain" in str(compare(mild, Lattice(3), elements=3).model_error)
 
 
 def test_of_a_solid_whose_law_is_chosen_the_clamp_alone_is_said():

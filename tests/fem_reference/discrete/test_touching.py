@@ -16,7 +16,8 @@ from contact_cases import (
 import fem_reference
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import divisions, mesh_of
-from sheetbench.scenes import Cylinder, Plane, SceneError, Sphere, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Cylinder, Plane, SceneError, Sphere
 
 OBSTACLES = {
     "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),
@@ -84,7 +85,7 @@ def test_shell_over_a_ball_folds_one_way():
 
 
 def test_the_plate_refuses_obstacles():
-    with pytest.raises(SceneError, match="the plate, which is linear, knows no contact"):
+    with pytest.raises(SceneError, match="the plate, which is linear, has no contact"):
         fem_reference.solve(laid_strip(0.1), "plate")
 
 

@@ -6,7 +6,8 @@ import pytest
 import fem_reference
 from fem_reference.surface.mesh import mesh_of
 from fem_reference.uncertainty import solve_with_bar
-from sheetbench.scenes import BadInput, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import BadInput, Scene, Sheet
 
 ROOT = {"shape": {"rectangle": {"x": (0.0, 0.05), "y": (0.0, 0.1)}}, "young": 1e8}
 

@@ -7,7 +7,7 @@ import lumped
 from lumped.assembly import Assembly
 from lumped.calibration.edge_twist import edge_factors, layer_width
 from sheetbench.scenes import Clamped, Material, PointLoad, Scene, Sheet, load
-from sheetbench.scenes.grading import Grading
+from sheetbench.scenes.objects.grading import Grading
 
 SEED = load("two-edges-clamped")
 # uz [m] at P1 to P4 of Habibi et al.'s sheet by a linear Mindlin plate of 80 elements a side, graded to its

@@ -8,6 +8,7 @@ import lumped
 from lumped.statics.solver import build_problem
 from lumped.statics.structure import LIMITS, LatticeStructure
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.newton import newton
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.scenes import (
@@ -23,7 +24,6 @@ from sheetbench.scenes import (
     Scene,
     Sheet,
     SpringSet,
-    Status,
 )
 
 pytestmark = pytest.mark.smoke

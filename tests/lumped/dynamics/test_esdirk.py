@@ -85,10 +85,10 @@ def test_samples_do_not_change_the_steps_and_lie_on_one_curve():
 
 def test_what_corrects_some_samples_of_a_step_corrects_the_others(monkeypatch):
     """All solved for, they differ by less than the error that a step may have, along stiff springs too."""
-    asked = scene("two-edges-settling")
-    few = lumped.simulate(asked, springs(asked), 0.3, integrator="esdirk", every=1e-3)
+    scene = make_scene("two-edges-settling")
+    few = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=1e-3)
     monkeypatch.setattr(esdirk, "NODES", np.linspace(0.0, 1.0, 200))
-    each = lumped.simulate(asked, springs(asked), 0.3, integrator="esdirk", every=1e-3)
+    each = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=1e-3)
     assert few.steps == each.steps < 60
     largest = max(np.abs(u).max() for u in each.probes.values())
     for name, u in each.probes.items():

@@ -9,7 +9,7 @@ M is diagonal on the lattice and constant throughout. Units: m, s, N, kg, J.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -180,6 +180,11 @@ class System:
             self.maxwell.add_branch_force(state.u, state.memory, force)
             power += float(np.sum(force * state.v))
         return power
+
+    def loads(self, times: Sequence[float]) -> np.ndarray:
+        """Loads at times if they change, those that do not follow the sheet, (k or 1, n, 3) [N]."""
+        dead = self.problem.loads.dead
+        return np.array([self.external(dead, time) for time in (times if self.working else times[:1])])
 
     def external(self, u: np.ndarray, time: float) -> np.ndarray:
         """External force."""

@@ -172,7 +172,7 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
     path.state = LatticeState(u, 1.0)
     links = problem.assembly.links
     problem.assembly.grow(SMALL)
-    strain = links.largest_strain(links.elongations(SMALL * u)) / SMALL
+    strain = links.largest_strain(SMALL * u) / SMALL
     if outside := outside_model(scene, strain, STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, path, (outside,))
     return Outcome(Status.CONVERGED, path)
@@ -256,7 +256,7 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
     links = problem.assembly.links
     problem.assembly.grow(state.load_factor)
     elongations = links.elongations(state.u)
-    outside = outside_model(scene, links.largest_strain(elongations), STRETCH)
+    outside = outside_model(scene, links.largest_strain(state.u), STRETCH)
     if outside and not problem.assembly.any_strain:
         status = Status.STRAIN_OUTSIDE_MODEL
         notes.insert(0, outside)

@@ -62,8 +62,9 @@ class Item(Protocol):
     def exerted(self, u: np.ndarray, drive: Drive, v: np.ndarray | None = None) -> np.ndarray:
         """Return its forces on the masses (n, 3) [N], at a velocity (n, 3) [m/s] in motion."""
 
-    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive) -> float:
-        """Return the share of a move up to which what the item says holds, 1 for all of it."""
+    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:
+        """Return the share of a move up to which what the item says holds, 1 for all of it; since: where
+        what it is fixed to is as the move begins."""
 
     def stiffest(self, mass: np.ndarray) -> float:
         """Return by how much it may raise a squared frequency ω² [1/s²] at most; mass: (n,) [kg]."""

@@ -72,7 +72,7 @@ class RunRow:
 
 @dataclass(frozen=True, repr=False)
 class Reproduction(Answer):
-    """What each part found; empty, or None, where a part was not asked for."""
+    """What each part found; empty, or None, where a part was not requested."""
 
     file_name = "reproduction"
     parts: tuple[str, ...]

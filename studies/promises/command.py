@@ -37,7 +37,7 @@ def command(
 ) -> None:
     """Measure how often promised errors hold: the references' bars, expected errors, advice's tolerance.
 
-    Exit status 3 unless as many hold as are asked for. With --out an interrupted study is resumed.
+    Exit status 3 unless as many hold as required. With --out an interrupted study is resumed.
     """
     parts, rows, skipped = part or PARTS, list[Promise](), dict[str, str]()
     with output.open() as out:

@@ -1,4 +1,4 @@
-"""Sizes told before anything is built: near what is measured, and a refusal where they do not fit."""
+"""Sizes predicted before anything is built: near what is measured, and a refusal where they do not fit."""
 
 import json
 import subprocess

@@ -1,4 +1,4 @@
-"""Both at rest and more than 100 % apart: a coarse grid is told from another branch of equilibria."""
+"""Both at rest and more than 100 % apart: a coarse grid is no other branch of equilibria."""
 
 import pytest
 from fake_solutions import solution

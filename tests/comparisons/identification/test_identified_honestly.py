@@ -153,7 +153,7 @@ def test_a_slip_of_the_pen_is_named_by_its_line(tmp_path):
 
 @pytest.mark.parametrize("rows, named", [(16, [3, 7]), (15, [])])
 def test_one_row_in_eight_may_be_left_out(rows, named):
-    """Two slips, one as large as the other, are told from noise together alone."""
+    """Two slips, one as large as the other, are distinguished from noise only together."""
     residuals = 1e-3 * np.random.default_rng(1).uniform(-1.0, 1.0, (rows, 3))
     residuals[[3, 7], 2] = 1.0
     measured = Displacements(np.zeros((rows, 2)), np.zeros((rows, 3)))

@@ -53,7 +53,7 @@ def studies(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def shown(browser, studies):  # noqa: F811
-    """The page in a browser; at the end nothing was complained of, by its policy neither, nor asked."""
+    """The page in a browser; at the end no complaint, none by its policy, and no request."""
     path = studies.parent / "report.html"
     path.write_text(page(read(studies), f"Report {EVIL}"), encoding="utf-8")
     with opened(browser, path.as_uri()) as (found, watch):
@@ -186,7 +186,7 @@ def test_a_trade_of_motion_has_its_figure_and_its_notes(tmp_path):
 
 
 def test_no_verb_has_a_page_of_its_own():
-    """What a page shows it is told by the manifest: a new verb needs nothing there."""
+    """The manifest lists what a page shows: a new verb needs nothing there."""
     for path in sorted(Path(pages.__file__).parent.glob("*.py")):
         text = path.read_text(encoding="utf-8")
         named = [verb for verb in VERBS if f'"{verb}"' in text or f"'{verb}'" in text]

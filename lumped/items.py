@@ -69,8 +69,9 @@ class Item(Protocol):
         self.add_force(u, drive, force)
         return -force
 
-    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive) -> float:
-        """Return the share of a move up to which what the item says holds, 1 for all of it."""
+    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:
+        """Return the share of a move up to which what the item says holds, 1 for all of it; since: where
+        what it is fixed to is as the move begins."""
         return 1.0
 
     def stiffest(self, mass: np.ndarray) -> float:

@@ -79,7 +79,7 @@ def names_in(path):
 
 
 def imported(path):
-    """Our packages that a file imports, the ground of all apart from the face."""
+    """Our packages that a file imports, the ground of all without the face."""
     parts = (name.split(".") for name in names_in(path))
     ours = [part for part in parts if part[0] in PACKAGES]
     return {second if (second := ".".join(part[:2])) in GROUND else part[0] for part in ours}

@@ -1,4 +1,4 @@
-"""A sheet that buckles, asked by every verb that solves one: with exit status 3 too --json prints one."""
+"""A sheet that buckles, in every verb that solves one: with exit status 3 too --json prints one."""
 
 import json
 

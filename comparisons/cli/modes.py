@@ -81,9 +81,8 @@ def command(
             return out.show(
                 spectra(
                     loaded,
-                    lattice.spec,
+                    lattice.spec.but(masses=masses),
                     count=count,
-                    masses=masses,
                     reference=REFERENCE if reference is None else reference,
                     elements=parse_elements(elements),
                     about=about or "flat",

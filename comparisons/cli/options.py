@@ -9,7 +9,7 @@ runs. Those of the output stand in `comparisons.cli.output`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from inspect import Parameter
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, get_type_hints
 
@@ -157,7 +157,7 @@ class LatticeGroup(Group):
         from comparisons.models.spec import Lattice  # help does not wait for models
 
         own = {name: value for name, value in vars(self).items() if name != "lattice" and value is not None}
-        return Lattice.given(self.lattice, own)
+        return replace(self.lattice or Lattice(), **own)
 
 
 @dataclass(frozen=True)

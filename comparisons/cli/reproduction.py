@@ -30,7 +30,7 @@ def command(
         require_choice("--part", name, PARTS)
     parts = [name for name in PARTS if name in (part or PARTS)]
     with output.open(variant={"--part": parts}) as out:
-        reproduction = reproduce(parts, elements=parse_elements(elements), progress=out.progress)
+        reproduction = reproduce(parts, parse_elements(elements))
         for name in reproduction.folders:
             out.reserve(name)
         return out.show(reproduction)

@@ -175,7 +175,8 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
 
     It takes what the command takes: a Scene or a Lattice as well as their names, a list where the command's
     option is repeated or has commas, a number as well as a quantity in words; `out` and what goes with it for
-    files; `progress`, called with what is being done. Raises BadInput in Python's names.
+    files; `progress`, called with what is being done. Raises BadInput in Python's names. Warns of what is
+    hardly meant in a Scene.
     """
     declared = _Declared(command)
     positional: list[Parameter] = []
@@ -205,8 +206,13 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
         from comparisons.cli.keywords import bound
         from comparisons.models.context import running
         from sheetbench.errors import BadInput
+        from sheetbench.scenes import Scene
+        from sheetbench.scenes.meaning.plausibility import warn_of_slips
 
         found = bound(name, own, values, named)
+        written = [one for one in found.values() if isinstance(one, Scene)]
+        if name != "check":  # whose answer has them
+            warn_of_slips(((f"scene '{one.name}'", one) for one in written), stacklevel=2)
         found = {key: converted.get(key, _as_it_is)(value) for key, value in found.items()}
         held = {"progress": found.pop("progress", None), "large": found.get("large", False)}
         try:

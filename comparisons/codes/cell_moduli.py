@@ -50,7 +50,7 @@ class CellModuli(Answer):
 
     Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
     nearest to the sheet's, and the error that they leave, where that is another. limit_error is None where it
-    cannot be told; missing: why.
+    is unknown; missing: why.
     """
 
     cell: Cell

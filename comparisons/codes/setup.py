@@ -122,7 +122,7 @@ class CodeSetup(Answer):
 
     def notes(self) -> list[str]:
         chosen = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
-        notes = [f"Coefficients of hinges and springs: those that {chosen}."]
+        notes = [f"Coefficients of hinges and springs {chosen}."]
         if self.limit_error is not None:
             notes.append(
                 "Error of an infinitely fine mesh with them in this scene: "

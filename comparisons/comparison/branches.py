@@ -6,7 +6,7 @@ in the lattice's: what lies at the height z over the mid-surface is on its norma
     u(x, y, z) = u(x, y) + z (n − e_z).
 
 The model that stays near there has both equilibria, and that answer takes the place of the one on its own
-load path. Where neither does, there is no such equilibrium on this grid, or the answers are apart for another
+load path. Where neither does, there is no such equilibrium on this grid, or the answers differ for another
 reason (`far_apart`).
 """
 

@@ -7,7 +7,6 @@ from typing import Unpack
 
 from comparisons.comparison.crosscheck_answer import Crosscheck
 from comparisons.external.installed import InstalledCode
-from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Spec
 from comparisons.sweep.campaign import CampaignKeywords
@@ -17,21 +16,19 @@ from comparisons.sweep.store import Store
 from sheetbench.scenes import Scene
 
 
-@large_in_context
 def crosscheck(
     scenes: Sequence[Scene],
     store: Store,
     *,
     models: Mapping[str, Sequence[Spec]],
     codes: Sequence[InstalledCode] = (),
-    large: bool = False,
     **how: Unpack[CampaignKeywords],
 ) -> Crosscheck:
     """Carry out what the store does not have, and return every model's limit on every scene.
 
     models: candidates by what tables call them, coarsest mesh first, those of external codes among them;
     codes: the external ones, absent too. Raises BadInput, before the first run, for candidates that cannot
-    be and unless `large` for those that take more memory than there is.
+    be and for those that take more memory than there is.
     """
     versions = {one.model: one.version for one in codes}
     asks = [

@@ -1,7 +1,7 @@
 """The error bar that a reference's mesh leaves at every probe of a comparison.
 
 The reference is solved on coarser meshes too (`fem_reference.uncertainty`); a model that differs from it by
-less than its bar is not distinguishable from it. The time that takes is reported apart.
+less than its bar is not distinguishable from it. Its time is reported separately.
 """
 
 from __future__ import annotations

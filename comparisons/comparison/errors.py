@@ -35,7 +35,7 @@ class Compared:
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
     reference's mesh leaves uncertain, where that was requested; laws: a sentence where lattice and reference
     have laws of strain that differ by more. disagreement: a sentence where both are at rest and far apart.
-    expected: the error to expect of the chosen lattice's grid, or why none is told. several: whether more
+    expected: the error to expect of the chosen lattice's grid, or why there is none. several: whether more
     than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:
     sentences on times taken on a busy machine. law_chosen: the reference's law of strain, by the user.
     """

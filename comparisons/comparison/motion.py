@@ -12,7 +12,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Any
 
 import numpy as np
 
@@ -21,13 +21,12 @@ from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.comparison.moving import refusal, require_motion
 from comparisons.external import plugins
 from comparisons.models import sizes
-from comparisons.models.context import context, in_context
+from comparisons.models.context import context
 from comparisons.models.grids import Elements as Count
-from comparisons.models.keywords import LatticeKeywords
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unlike
-from comparisons.pictures.work import Pace, Progress, Work, silent
+from comparisons.pictures.work import Pace, Work
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE
 from sheetbench.scenes import AnyScene, Scene, scene_of
@@ -39,11 +38,10 @@ SOLVES = 0.08  # of a static solve's time that a step takes
 EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
 
 
-@in_context
 def compare_motion(
     scene: AnyScene,
     duration: float,
-    lattice: Lattice | None = None,
+    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     reference: str | Elements = REFERENCE,
     *,
     elements: Count | None = None,
@@ -54,9 +52,6 @@ def compare_motion(
     every: float | None = None,
     frames: int = 0,
     store: Path | None = None,
-    large: bool = False,
-    progress: Progress = silent,
-    **keywords: Unpack[LatticeKeywords],
 ) -> MotionComparison:
     """Move a scene's sheet for `duration` [s] with the lattice and with a reference, from rest.
 
@@ -64,8 +59,7 @@ def compare_motion(
     twice as large and with steps twice as long. models: that move it too, external codes and plug-ins
     among them; leave_out: without those that refuse the scene, which the answer names. every [s]: distance of
     samples, 1/100 of the lowest period unless given. frames: whole displacements to keep. store: a folder in
-    which every run of ours has one to stream to; runs that were stopped go on from there. progress: called
-    with what is being done, its size and how long it may take.
+    which every run of ours has one to stream to; runs that were stopped go on from there.
     Raises BadInput as `compare` and `simulate` do, and for a model that does not move the scene.
     """
     scene = scene_of(scene)
@@ -76,7 +70,7 @@ def compare_motion(
     beside = [one for one in beside if one.model not in left_out]
     for one in (finest, *beside):
         require_motion(scene, one)
-    model = resolve(scene, Lattice.given(lattice, keywords), "motion")
+    model = resolve(scene, lattice, "motion")
 
     def moved(of: Resolved[Any], doing: str, spacing: float | None, **settings: Any) -> History:
         """A run, kept in a folder of its own by its settings where there is a store."""

@@ -130,11 +130,6 @@ class Lattice(OnGrid):
     branch: str = "path"
     masses: str | None = None
 
-    @classmethod
-    def given(cls, lattice: Lattice | None, keywords: Mapping[str, Any]) -> Lattice:
-        """Return the lattice that a function is called with, changed by its flat keywords."""
-        return replace(lattice or cls(), **keywords)
-
 
 @dataclass(frozen=True)
 class LatticePair(OnGrid):

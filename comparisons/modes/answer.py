@@ -88,7 +88,7 @@ class Spectra(Answer, Sequence[Spectrum]):
 
     about: "flat" or "deformed"; sag [m]: the largest displacement that the lattice's flat tangent gives under
     the scene's loads, None where there are none, or nothing that stops a rigid motion; buckling: of the
-    lattice first, then of the references, none unless asked for.
+    lattice first, then of the references, none unless requested.
     """
 
     file_name = "modes"
@@ -251,7 +251,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         return {spectrum.model: spectrum.settings for spectrum in self}
 
     def complaints(self) -> list[str]:
-        """That modes of the flat sheet were asked of one that its loads take far from flat."""
+        """A complaint where the modes are the flat sheet's and its loads take it far from flat."""
         thickness = self.scene.sheet.thickness
         if self.about == "deformed" or self.sag is None or self.sag < FLAT * thickness:
             return []

@@ -8,7 +8,7 @@ nearest   which sheets come nearest to the tables, and what in the tables none o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Annotated, Any
@@ -18,7 +18,6 @@ import numpy as np
 from comparisons.comparison.frames import write_frames
 from comparisons.models.grids import Elements
 from comparisons.pictures.vtk import write_mesh
-from comparisons.pictures.work import Work, silent
 from comparisons.reproduction import findings, nearest, printed_errors
 from comparisons.reproduction.answers import SETS, ReproducedTest, answer
 from comparisons.reproduction.findings import Finding
@@ -74,7 +73,7 @@ class RunRow:
 
 @dataclass(frozen=True, repr=False)
 class Reproduction(Answer):
-    """What each part found; empty, or None, where a part was not asked for."""
+    """What each part found; empty, or None, where a part was not requested."""
 
     file_name = "reproduction"
     parts: tuple[str, ...]
@@ -183,18 +182,13 @@ class Reproduction(Answer):
         return {"parts": list(self.parts), "elements": self.elements}
 
 
-def reproduce(
-    parts: Collection[str] = PARTS,
-    *,
-    elements: Elements = ELEMENTS,
-    progress: Callable[[str | Work], None] = silent,
-) -> Reproduction:
-    """Return these parts of the study; elements: of the shell; progress: called with what is being done."""
+def reproduce(parts: Collection[str] = PARTS, elements: Elements = ELEMENTS) -> Reproduction:
+    """Return these parts of the study; elements: of the shell."""
     parts_done: dict[str, Any] = {}
     if "tables" in parts:
-        parts_done["answers"] = tuple(answer(*one, elements, progress) for one in SETS)
+        parts_done["answers"] = tuple(answer(*one, elements) for one in SETS)
     if "settling" in parts:
-        parts_done["settling"] = settling(progress=progress)
+        parts_done["settling"] = settling()
     return Reproduction(tuple(part for part in PARTS if part in parts), elements, **parts_done)
 
 

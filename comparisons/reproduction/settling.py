@@ -8,13 +8,13 @@ full springs along edges, as theirs.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 
 import lumped
+from comparisons.models.context import context
 from comparisons.reproduction.answers import (
     masses,
     matched_layer_distance,
@@ -84,7 +84,7 @@ class Settling:
         }
 
 
-def settling(duration: float = DURATION, progress: Callable[[str], None] = lambda what: None) -> Settling:
+def settling(duration: float = DURATION) -> Settling:
     """Both runs, and where they ought to end. Raises NoEquilibrium where a lattice has no stable one."""
     scene, distance = load(SCENE), matched_layer_distance()
     consistent = lumped.calibrate(scene.sheet, scene.material, grid=masses(), method="consistent")
@@ -96,7 +96,7 @@ def settling(duration: float = DURATION, progress: Callable[[str], None] = lambd
     _warm(scene)
     at = np.array([scene.probes[PROBE]])
     for name, (springs, weights) in lattices.items():
-        progress(f"simulating the settling sheet: {name}")
+        context().progress(f"simulating the settling sheet: {name}")
         runs[name] = lumped.simulate(scene, springs, duration, weights=weights, frames=FRAMES)
         still = lumped.solve(scene, springs, weights=weights)
         rest[name] = still.require_stable().displacement(at)[0]

@@ -24,7 +24,6 @@ from typing import Any, Unpack
 import numpy as np
 
 import lumped
-from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.stability.answer import Stability
@@ -62,7 +61,6 @@ PARTS = ("patches", "layers")
 VARIED = (*FACTORS, "grid", "damping", "time-step")
 
 
-@large_in_context
 def stability(
     scene: Scene,
     store: Store,
@@ -71,14 +69,13 @@ def stability(
     lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     reference: str = REFERENCE,
     elements: int = 12,
-    large: bool = False,
     **how: Unpack[CampaignKeywords],
 ) -> Stability:
     """Vary a scene's sheet and solve it by every model, through a campaign's store.
 
     varied: some of `VARIED`. lattice: with what is not varied. elements: of the references, along the shorter
-    side. Raises BadInput for what cannot be varied, for settings that contradict each other, and unless
-    `large` for models that take more memory than there is.
+    side. Raises BadInput for what cannot be varied, for settings that contradict each other, and for models
+    that take more memory than there is.
     """
     for name in varied:
         require_choice("vary", name, VARIED)

@@ -103,7 +103,7 @@ def run(scene: dict[str, Any], lattice: dict[str, Any], integrator: str, period:
     at rest without loads, or where no step near the computed one is unstable. advised: the default step [s].
     """
     parsed = Scene.model_validate(scene)
-    springs = resolve(parsed, Lattice.given(None, lattice), "springs").springs
+    springs = resolve(parsed, Lattice(**lattice), "springs").springs
     duration, limits = PERIODS * period, dict.fromkeys(("computed", "measured", "advised"))
     if lumped.INTEGRATORS[integrator].explicit:
         equations = system(parsed.replace(gravity=None, loads=()), springs)

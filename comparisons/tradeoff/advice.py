@@ -128,7 +128,7 @@ class Advice(Answer):
         """Return a row per probing solve, the quickest first; the choice is marked. Statuses that are all
         "converged" are for the files alone."""
         rows = sorted(self.tried, key=lambda one: one.solve_seconds)
-        caption = "Quick solves; error: off the finest; in all: with its own mesh and model error"
+        caption = "Quick solves; error: from the finest; in all: plus the finest's mesh and model errors"
         fields = ("model", "size", "solve_seconds", "error", "total", "choice", "status")
         details = () if any(one.status != "converged" for one in rows) else ("status",)
         text = ""

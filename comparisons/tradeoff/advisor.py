@@ -16,14 +16,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import isfinite
-from typing import Unpack
 
 from comparisons.comparison import strain_law
-from comparisons.models.context import in_context
-from comparisons.models.keywords import SpringKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, items
-from comparisons.pictures.work import Progress, silent
 from comparisons.sweep import load
 from comparisons.sweep.here import SolvedHere
 from comparisons.sweep.model_error import left_for_grid
@@ -40,37 +36,31 @@ LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
 STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
 
 
-@in_context
 def advise(
     scene: AnyScene,
     tolerance: float | str | None = None,
     budget: float | str | None = None,
-    lattice: Lattice | None = None,
+    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     *,
     models: Sequence[str] | str | None = None,
     calibration: str | None = None,
-    large: bool = False,
-    progress: Progress = silent,
-    **keywords: Unpack[SpringKeywords],
 ) -> Advice:
     """Return the cheapest model predicted to meet `tolerance` (a fraction, or text as "1 %"; 0.01 unless a
     budget alone is given), or the most accurate in `budget` [s].
 
     models: only these, of "lumped", "plate", "shell". With both limits: the cheapest model that meets the
     tolerance; where it takes longer than the budget, the most accurate one in time, and `succeeded` is false.
-    lattice, calibration, k, layer_distance: springs of
-    lattices that may be chosen beside the usual ones, "auto" as in `comparisons.models.method`; grading: of
-    further lattices, a number or "auto" (`comparisons.models.grading`), which makes the calibration "auto"
-    too. Models that take more memory than there is are left out unless `large`. progress: called with every
-    solve. Raises SceneError for a scene without a static answer; BadInput where not even the coarsest
-    reference fits into memory, for a grid, and for springs and grading that contradict each other.
+    lattice, calibration: springs of lattices that may be chosen beside the usual ones, "auto" as in
+    `comparisons.models.method`; its grading: of further lattices, which with "auto" makes the calibration
+    "auto" too. Models that take more memory than there is are left out. Raises SceneError for a scene without
+    a static answer; BadInput where not even the coarsest reference fits into memory, for a grid, and for
+    springs and grading that contradict each other.
     """
     scene = scene_of(scene)
     require_static(scene)
     tolerance, budget = _limits(tolerance, budget)
-    extra = Lattice.given(lattice, keywords)
-    extra = extra if calibration is None else extra.but(calibration=calibration)
-    trials = TrialSolves(scene, extra, items(models) if isinstance(models, str) else models)
+    own = lattice if calibration is None else lattice.but(calibration=calibration)
+    trials = TrialSolves(scene, own, items(models) if isinstance(models, str) else models)
     for _ in range(3):
         trials.refine()
     while not trials.reference.stable and trials.refine():

@@ -25,7 +25,6 @@ import numpy as np
 
 from comparisons.comparison.measures import largest
 from comparisons.comparison.moving import require_motion
-from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.sweep.campaign import CampaignKeywords
@@ -50,7 +49,6 @@ FINEST = 16  # elements of the reference along the shorter side, at least
 SAMPLES = 20  # in the lowest period; no step of a lattice is longer than the time between samples
 
 
-@large_in_context
 def dynamic_tradeoff(
     scene: Scene,
     duration: float,
@@ -62,15 +60,13 @@ def dynamic_tradeoff(
     integrators: Sequence[str] = tuple(sorted(INTEGRATORS)),
     divisions: Sequence[int] = DIVISIONS,
     fine: int = REFERENCE,
-    large: bool = False,
     **how: Unpack[CampaignKeywords],
 ) -> DynamicTradeoff:
     """Measure every integrator at every step on every lattice, and the other models.
 
     others: plate, shell and solid, or models from outside that move; reference: what all are measured
-    against; fine: steps of the midpoint rule in a period; large: even if it takes more memory than there is.
-    Raises BadInput for an integrator that does not exist and for a model that does not move. A run that
-    diverges is a row with its status.
+    against; fine: steps of the midpoint rule in a period. Raises BadInput for an integrator
+    that does not exist and for a model that does not move. A run that diverges is a row with its status.
     """
     import lumped
 

@@ -32,7 +32,7 @@ SAME = 1e-6  # residual, relative to the forces, up to which the answer's state 
 
 def shift(scene: Scene, answer: Solution) -> float | None:
     """Return how far the shells of `OTHERS` are from a shell's answer, whichever is farther, as a share of
-    the largest displacement at the scene's probes; None where that cannot be told: of sheets that are not the
+    the largest displacement at the scene's probes; None where it is unknown: of sheets that are not the
     same all over, actuators, sections and meshes of the caller's own, and sheets solved by halves."""
     settings = answer.settings
     whole = {"elements", "graded", "law"} == set(settings) and settings["law"] == STRAIN_LAW

@@ -40,7 +40,7 @@ def kinetic_of(system: System, rate: np.ndarray) -> float:
 
 def kinetic_of_placed(system: System, state: State) -> float:
     """Return the kinetic energy [J] of what is prescribed, whose gain is work done on the masses: all but
-    that of the free unknowns, which is apart since Tᵀ M ġ = 0."""
+    that of the free unknowns, which is separate since Tᵀ M ġ = 0."""
     momentum = system.mass @ state.v.ravel()
     free = system.moving_part.T @ momentum
     return 0.5 * float(state.v.ravel() @ momentum - free @ system.solve_mass(free))

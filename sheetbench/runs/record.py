@@ -1,4 +1,4 @@
-"""A motion as a `History`: what runs, where its samples go, and what is told of it."""
+"""A motion as a `History`: what runs, where its samples go, its notes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from sheetbench.runs.store import FolderStore, MemoryStore
 @dataclass(frozen=True)
 class Recipe(Generic[AnyState]):
     """A motion to be run. schedule: of a run that begins, to `duration` [s]; key: JSON-able, on what its
-    numbers depend; rows: of a frame; notes: more to be told; start: of the method, the state
+    numbers depend; rows: of a frame; notes: of the answer; start: of the method, the state
     to begin in, with the work of what moves at once."""
 
     label: str

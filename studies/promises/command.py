@@ -36,7 +36,7 @@ def command(
 ) -> None:
     """Measure how often promised errors hold: the references' bars, expected errors, advice's tolerance.
 
-    Exit status 3 unless as many hold as are asked for. With --out an interrupted study is resumed.
+    Exit status 3 unless as many hold as required. With --out an interrupted study is resumed.
     """
     for name in part or ():
         require_choice("--part", name, PARTS)

@@ -1,4 +1,4 @@
-"""The same words mean the same lattice, whichever verb or function is asked: its constants, caught where the
+"""The same words mean the same lattice, in every verb and function: its constants, caught where the
 solver gets them."""
 
 from collections.abc import Callable

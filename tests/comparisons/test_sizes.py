@@ -1,4 +1,4 @@
-"""Sizes told before anything is built: near what is measured, and a refusal where they do not fit."""
+"""Sizes predicted before anything is built: near what is measured, and a refusal where they do not fit."""
 
 import json
 import subprocess
@@ -135,7 +135,7 @@ def test_every_candidate_is_looked_at_before_the_first_run(tmp_path, monkeypatch
         with pytest.raises(BadInput, match=r"solid 64x64x1: .*--solid \d+ would fit"):
             tradeoff(scene, listed, store, reference=judge, pool=pytest.fail)
         with pytest.raises(BadInput, match=r"shell 128x128: .*--elements \d+ would fit"):
-            tradeoff(scene, [spec_of("shell", {"elements": 64})], store, large=False, pool=pytest.fail)
+            tradeoff(scene, [spec_of("shell", {"elements": 64})], store, pool=pytest.fail)
 
 
 MEASURED = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"

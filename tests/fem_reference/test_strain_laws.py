@@ -216,10 +216,10 @@ def test_a_lattice_has_its_law_whatever_is_cut_from_its_sheet():
 
 def test_compare_says_what_is_due_to_laws_of_strain():
     scene = pulled((200.0, 0.0))
-    found = compare(scene, grid=5, calibration="consistent", elements=4)
+    found = compare(scene, Lattice(5, "consistent"), elements=4)
     assert "% stretch" in found.laws and "(st-venant-kirchhoff)" in found.laws and "up to" in found.laws
     assert found.laws in found.report().notes and found.document()["laws"] == found.laws
-    assert not compare(bent(0.05), grid=5, calibration="consistent", elements=4).laws
+    assert not compare(bent(0.05), Lattice(5, "consistent"), elements=4).laws
 
 
 def test_the_law_is_an_option_of_the_reference(capsys):
@@ -264,8 +264,8 @@ def test_a_square_blown_up_to_a_quarter_of_its_side_converges_as_its_mesh_is_ref
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize(("kind", "apart"), [(Hinged, (0.0, 5e-4)), (Clamped, (6e-3, 1e-2))])
-def test_what_sets_an_inflated_shell_apart_from_the_solid_is_its_clamp(kind, apart):
+@pytest.mark.parametrize(("kind", "bounds"), [(Hinged, (0.0, 5e-4)), (Clamped, (6e-3, 1e-2))])
+def test_an_inflated_shell_differs_from_the_solid_by_its_clamp(kind, bounds):
     """Free to turn at its edges, or held there with the mean over the thickness; a quarter of the square."""
     sheet = Sheet(length_x=0.05, length_y=0.05, thickness=0.003)
     edges = (kind(edge="x0"), kind(edge="y0"), Symmetric(edge="x1"), Symmetric(edge="y1"))
@@ -274,7 +274,7 @@ def test_what_sets_an_inflated_shell_apart_from_the_solid_is_its_clamp(kind, apa
         fem_reference.solve(scene, model, **options).displacement([[0.05, 0.05]])[0, 2]
         for model, options in (("shell", {"elements": 4}), ("solid", {"elements": 4, "clamp": "mean"}))
     )
-    assert apart[0] <= abs(shell / solid - 1.0) < apart[1]
+    assert bounds[0] <= abs(shell / solid - 1.0) < bounds[1]
 
 
 def test_gent_beyond_its_limit_is_told_with_the_limit():

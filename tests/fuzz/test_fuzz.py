@@ -1,4 +1,4 @@
-"""Whatever is asked: an exit status, words and numbers as documented, and no file but where it was requested.
+"""An exit status, words and numbers as documented, and no file but where it was requested.
 
 A few hundred examples, the same ones every time; `make fuzz` draws 24 000 others (`fuzz.long`).
 """

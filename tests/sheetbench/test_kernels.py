@@ -50,7 +50,7 @@ def test_matrices_are_alike_to_kernels_whatever_integers_scipy_takes():
 
 
 def test_steps_are_compiled_once_whether_edges_are_driven_or_not():
-    """Tables whose rows are apart are other arrays to a kernel, which takes ten seconds to compile."""
+    """Tables whose rows have gaps are other arrays to a kernel, which takes ten seconds to compile."""
     lifted = [[0.0] * 3, [0.0, 0.0, 0.01]]
     motion = {"kind": "motion", "edge": "x1", "time": [0.0, 1.0], "displacement": lifted}
     driven = make_scene("one-edge-clamped", [motion])

@@ -26,8 +26,8 @@ class Path(Generic[State, Forces]):
     """Where the tracing of a structure stands: the last equilibrium, its load factor, and what it took.
 
     limit: of factorisations, for now; alike: change of the strain that leaves the tangent what it is; snaps:
-    load factors that it snapped at; fault: what has ended it early; notes: what to say of it; progress: told
-    of every iteration; factor: of the equilibrium's tangent, where it is at hand.
+    load factors that it snapped at; fault: what has ended it early; notes: its warnings; progress: called
+    at every iteration; factor: of the equilibrium's tangent, where it is at hand.
     """
 
     structure: Structure[State, Forces]

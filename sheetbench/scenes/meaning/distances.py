@@ -90,7 +90,7 @@ def _onto_held_edges(scene: SceneFields, obstacle: AnyObstacle) -> str | None:
 def require_no_obstacles(scene: SceneFields, who: str) -> None:
     """Raise SceneError where there are obstacles."""
     if scene.obstacles:
-        raise SceneError(f"scene '{scene.name}': obstacle: {who} knows no contact; leave [[obstacle]] out")
+        raise SceneError(f"scene '{scene.name}': obstacle: {who} has no contact; leave [[obstacle]] out")
 
 
 def require_frictionless(scene: SceneFields) -> None:

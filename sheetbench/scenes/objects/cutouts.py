@@ -65,7 +65,7 @@ def _idle(plan: Polygon, cutouts: Sequence[Cutout]) -> int | None:
         taken = plan.intersection(area)
         before = tree.query(area)
         before = np.sort(before[before < number])
-        # from the last on: it is the nearest of a row, and leaves few others to be asked
+        # from the last on: it is the nearest of a row, and leaves few others to test
         while len(before := before[shapely.intersects(taken, areas[before])]):
             taken, before = taken.difference(areas[before[-1]]), before[:-1]
         if taken.area <= COINCIDENT * plan.area:

@@ -1,8 +1,8 @@
 """Layers of a laminate, from the sheet's lower face up: plies of one material at other angles, or of several.
 
-Classical lamination, symmetric about the mid-surface, so that stretching and bending are apart. Layers that
+Classical lamination, symmetric about the mid-surface: stretching and bending are uncoupled. Layers that
 [temperature] bends, a bimetal's, need not be: what stands for the mid-surface then is the plane about which
-they are apart, as it is of isotropic layers of one Poisson's ratio.
+they are uncoupled, as it is of isotropic layers of one Poisson's ratio.
 """
 
 from __future__ import annotations

@@ -92,7 +92,7 @@ def test_a_long_command_says_size_and_time_first(monkeypatch, capsys):
 
 
 def test_a_large_grid_is_announced_with_its_unknowns_and_its_time(monkeypatch):
-    """`compare --grid 300` on a strip of 3 by 1: told before the first array is there, nothing is solved."""
+    """`compare --grid 300` on a strip of 3 by 1: refused before the first array."""
     sheet, material = parts()
     strip = sb.Scene(
         name="strip",

@@ -133,6 +133,7 @@ def test_matlab_and_numpy_files_hold_the_same(folder):
     assert all(f"`{name}`" in page for name in NAMES)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("scene", "settings"),
     [

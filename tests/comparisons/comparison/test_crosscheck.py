@@ -13,7 +13,8 @@ SEED = load("two-edges-clamped")
 FAKE = '''
 import numpy as np
 from pathlib import Path
-from sheetbench.scenes import BadInput, Chain, FieldMesh, Solution, Status
+from sheetbench.answers.solution import FieldMesh, Solution, Status
+from sheetbench.scenes import BadInput, Chain
 
 
 class Fake:

@@ -1,4 +1,4 @@
-"""Both at rest and more than 100 % apart: a coarse grid is told from another branch of equilibria."""
+"""Both at rest and more than 100 % apart: a coarse grid is no other branch of equilibria."""
 
 import pytest
 from fake_solutions import solution
@@ -23,7 +23,7 @@ LATTICE = Lattice((5, 3), "consistent")
 
 def test_pressure_on_a_few_masses_between_tilted_clamps():
     """5 × 3 masses are 261 % off the shell, 9 × 5 are 92 %."""
-    found = compare(SCENE, grid=(5, 3), calibration="consistent", elements=(8, 3), uncertainty=False)
+    found = compare(SCENE, Lattice((5, 3), "consistent"), elements=(8, 3), uncertainty=False)
     assert found.disagreement.startswith("lumped and shell both converged, 26")
     assert "the grid is too coarse, on 9×5×2 masses it is 9" in found.disagreement
     assert found.document()["apart"] == found.disagreement

@@ -180,8 +180,8 @@ def test_what_cannot_be_compared_is_refused(options, said):
 
 def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
     """A second time every run goes on from its last checkpoint, to the same answer to the last bit."""
-    settings = {"duration": 0.02, "every": 2e-4, "grid": 5, "elements": 2, "store": tmp_path}
-    first, second = (compare_motion(load("two-edges-settling"), **settings) for _ in range(2))
+    settling, how = load("two-edges-settling"), {"every": 2e-4, "elements": 2, "store": tmp_path}
+    first, second = (compare_motion(settling, 0.02, Lattice(5), **how) for _ in range(2))
     assert all(history.resumed_from > 0.0 for history in second.histories.values())
     assert any("went on from" in note for note in second.report().notes)
     for name, history in first.histories.items():

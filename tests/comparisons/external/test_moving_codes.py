@@ -10,6 +10,7 @@ from sheetbench_felupe import MODEL as FELUPE
 from comparisons.comparison.motion import compare_motion
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
+from comparisons.models.spec import Lattice
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Air, BadInput, EdgeMotion, FactorTable, Gravity, Relaxation, load
 
@@ -58,7 +59,7 @@ def test_a_model_that_refuses_is_left_out_before_anything_moves(tmp_path):
     )
     model = f"{file}:Still"
     found = compare_motion(
-        SWING, 0.002, grid=2, elements=1, models=[model], leave_out=True, uncertainty=False
+        SWING, 0.002, Lattice(2), elements=1, models=[model], leave_out=True, uncertainty=False
     )
     assert found.document()["motion"]["left_out"] == {model: "still: nothing moves"}
     with pytest.raises(BadInput, match="still: nothing moves"):

@@ -1,4 +1,4 @@
-"""Models that are programs: what they are asked and answer, and that one that crashes, hangs, floods, lies or
+"""Models that are programs: their input and answer, and that one that crashes, hangs, floods, lies or
 answers nothing that can be read costs its own row and no other."""
 
 import json

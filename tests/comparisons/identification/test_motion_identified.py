@@ -11,6 +11,7 @@ import lumped
 from comparisons.identification import c3d
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, read
+from comparisons.models.spec import Lattice
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Air, Relaxation, load
 from sheetbench.scenes.meaning.parameters import parameter, put
@@ -38,7 +39,7 @@ def test_young_and_loss_factor_from_a_decay_with_noise(seeds):
     held = {"young": 0, "loss_factor": 0}
     run = lattice_run(TRUTH, 1.5)
     for seed in seeds:
-        found = identify(GUESS, decay(run, 1.5, 0.02, seed), list(held), grid=(3, 3))
+        found = identify(GUESS, decay(run, 1.5, 0.02, seed), list(held), Lattice((3, 3)))
         assert found.explained and not found.warnings
         for name, true in (("young", 54.5e6), ("loss_factor", 0.12)):
             low, high = found.unknowns[name].interval
@@ -50,7 +51,7 @@ def test_young_and_loss_factor_from_a_decay_with_noise(seeds):
 def test_the_drag_of_the_air_from_a_decay():
     truth = load("one-edge-clamped").replace(air=Air(drag=30.0))
     measured = decay(lattice_run(truth, 0.5), 0.5, 0.01, 0, 40)
-    found = identify(truth.replace(air=Air(drag=10.0)), measured, "drag", grid=(3, 3))
+    found = identify(truth.replace(air=Air(drag=10.0)), measured, "drag", Lattice((3, 3)))
     low, high = found.unknowns["drag"].interval
     assert low <= 30.0 <= high and high - low < 0.1 * 30.0
     with pytest.raises(BadInput, match="'drag': the scene has no"):

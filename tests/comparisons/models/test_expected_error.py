@@ -101,7 +101,7 @@ def test_the_note_names_the_reason_or_what_lowers_the_error(monkeypatch, finer, 
 
 
 def test_compare_says_it_in_the_norm_of_its_error():
-    found = compare("two-edges-clamped", grid=5, elements=6)
+    found = compare("two-edges-clamped", Lattice(5), elements=6)
     solutions = found.report().document["solutions"]
     expected, error = solutions[0]["expected_error"], found.error(found.solutions[0])
     assert expected["grid"] == [13, 13, 2] and "13 × 13 masses" in expected["reason"]
@@ -157,16 +157,16 @@ def test_frequencies_about_the_deformed_sheet_have_theirs(name):
         assert abs(estimate - pair.relative) < 0.5 * abs(pair.relative) + 2e-3
     assert any("expected grid error of the frequencies" in note for note in found.report().notes)
     assert spectra(name, count=2, elements=2)[0].expected == ()
-    uniform = spectra(name, count=2, elements=2, calibration="uniform", about="deformed")
+    uniform = spectra(name, Lattice(calibration="uniform"), count=2, elements=2, about="deformed")
     assert uniform[0].expected == ()
 
 
 def test_where_none_is_told_the_reason_stands_beside_the_error():
     """Cells wider than the layer in which the weight bends a thin sheet: the table said nothing."""
-    found = compare(SCENE.replace(young="0.6 MPa", thickness=0.0005), grid=5, elements=4)
+    found = compare(SCENE.replace(young="0.6 MPa", thickness=0.0005), Lattice(5), elements=4)
     reason = found.document()["solutions"][0]["no_estimate"]
     assert "bends the sheet within a cell" in reason
     assert any(f"no estimate of its grid error: {reason}." in note for note in found.notes())
-    estimate = compare(SCENE, grid=5, elements=4)
+    estimate = compare(SCENE, Lattice(5), elements=4)
     assert "no_estimate" not in estimate.document()["solutions"][0]
     assert not any("no estimate" in note for note in estimate.notes())

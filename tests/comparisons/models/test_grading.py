@@ -102,7 +102,7 @@ def test_auto_leaves_alone_what_the_cells_resolve_and_what_has_cells_of_one_size
 
 @pytest.mark.parametrize("text", ["0.7", "0.6:x0"])
 def test_a_scene_file_brings_its_grading(text, tmp_path, capsys):
-    """As `calibrate --toml --grading` writes it: solved so without being asked, and not otherwise."""
+    """As `calibrate --toml --grading` writes it: solved so without an option, and not otherwise."""
     path, grading = tmp_path / "own.toml", parse_grading(text)
     load("one-edge-clamped").save(path)
     springs = ("--grid", "5", "--grading", text)

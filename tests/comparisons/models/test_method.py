@@ -97,7 +97,7 @@ def test_a_sheet_that_a_load_stretches_far_is_rubber_to_auto(pull, method):
     scene = Scene(name="strip", sheet=sheet, material=material, supports=[Clamped(edge="x0")], loads=[load_])
     found, why = resolve_calibration(scene, (9, 5, 2), Lattice(calibration="auto"))
     assert found == method and ("q a/(E h)" in why) == (method == "neo-hookean")
-    assert resolve_calibration(scene, (9, 5, 2), Lattice()) == (None, "")  # nothing was asked
+    assert resolve_calibration(scene, (9, 5, 2), Lattice()) == (None, "")  # no calibration was named
 
 
 def test_rubber_gets_the_springs_of_its_law():

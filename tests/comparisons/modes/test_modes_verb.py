@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from commands import run
 
+from comparisons.models.spec import Lattice
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, assurance, cell_centres, matched
 from comparisons.modes.spectra import spectra
@@ -51,7 +52,7 @@ def test_table_has_ten_modes_and_several_references(capsys):
 
 def test_a_free_sheet_has_its_rigid_motions_left_out():
     scene = scenes.load("one-edge-clamped").model_copy(update={"supports": ()})
-    found = spectra(scene, count=3, grid=(7, 7, 2), elements=4)
+    found = spectra(scene, Lattice((7, 7, 2)), count=3, elements=4)
     assert [spectrum.rigid for spectrum in found] == [6, 6]
     assert found[0].frequencies[0] == pytest.approx(found[1].frequencies[0], rel=0.1)
     assert any("rigid-body modes" in said for said in found.report().notes)
@@ -125,7 +126,7 @@ def test_kinds_of_known_deflections():
 def test_damping_of_modes_is_told_as_asked_and_got(damped, within):
     """Branches keep it over the band; one damper has it at its frequency: ζ goes with the frequency."""
     scene = scenes.load("one-edge-clamped").replace(loss_factor=0.12, **damped)
-    found = spectra(scene, grid=5, elements=4, count=6)
+    found = spectra(scene, Lattice(5), elements=4, count=6)
     damping = found.document()["damping"]
     assert list(damping) == ["lumped", "shell"] and len(found.tables()) == 3
     for mode in damping["lumped"] + damping["shell"]:

@@ -15,6 +15,7 @@ from comparisons.comparison import figure as comparing
 from comparisons.comparison import probes_figure
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
+from comparisons.models.spec import Lattice
 from comparisons.modes import figure as swinging
 from comparisons.modes import state_figure as responding
 from comparisons.modes.linear import linearise
@@ -74,8 +75,8 @@ def composed(scene, comparison):
         for model in ("plate", "solid")
         for ratio in (1e-5, 0.1)
     ]
-    linear = linearise(scene, grid=3)
-    swings = spectra(scene, count=4, grid=3, reference="plate", elements=2)
+    linear = linearise(scene, Lattice(3))
+    swings = spectra(scene, Lattice(3), count=4, reference="plate", elements=2)
     return {
         "probes": partial(probes_figure.compose, comparison),
         "history": partial(moving.compose, history, scene.title, {}),

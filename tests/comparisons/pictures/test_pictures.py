@@ -1,4 +1,4 @@
-"""Pictures: text of scenes is no mathematics, names stand apart, loads and actuators are seen."""
+"""Pictures: text of scenes is no mathematics, names do not overlap, loads and actuators are seen."""
 
 import matplotlib
 import numpy as np

@@ -120,7 +120,7 @@ def test_a_loose_tolerance_costs_no_more_than_a_tight_one():
 def test_lattices_are_tried_with_what_auto_chooses():
     """The curved edge: the springs that `--grading auto` takes with no calibration named, even and graded,
     nearer than the usual ones on the same grid, and the advice says why, or why not."""
-    curved = advise(scenes.load("curved-edge"), 0.01, grading="auto")
+    curved = advise(scenes.load("curved-edge"), 0.01, lattice=Lattice(grading="auto"))
     errors = {
         (tuple(row.spec.settings["grid"]), row.spec.settings.get("grading", 0.0)): row.error
         for row in curved.tried
@@ -146,7 +146,7 @@ def test_lattices_are_tried_with_what_auto_chooses():
 
 
 def test_the_advice_says_why_nothing_is_graded():
-    even = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.05, grading="auto")
+    even = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.05, lattice=Lattice(grading="auto"))
     assert even.grading.startswith("no grading") and "no narrow layer" in even.grading
     assert not any(row.spec.settings.get("grading") for row in even.tried)
 

@@ -24,7 +24,7 @@ def strip():
 
 @pytest.mark.parametrize("model", ["plate", "solid"])
 def test_a_slight_motion_is_that_of_the_shell(strip, model):
-    """Rotations of some hundredths: their squares apart, and the solid's thickness, the motion is one."""
+    """Rotations of some hundredths: but for their squares and the solid's thickness, the motion is one."""
     ours, shell = (
         fem_reference.simulate(strip, m, 0.15, elements=(3, 1), every=0.01) for m in (model, "shell")
     )

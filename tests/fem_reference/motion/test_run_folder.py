@@ -57,7 +57,7 @@ def test_a_fixed_step_that_fails_is_halved_and_said(monkeypatch):
 
     def failing(self, motion, h):
         if h > 0.9e-3 and 4e-3 < motion.time < 5.5e-3:
-            raise StepFailed("asked to")
+            raise StepFailed("on request")
         return once(self, motion, h)
 
     scene = load("two-edges-settling")

@@ -17,6 +17,7 @@ def small(scene, factor=1e-3):
     return scene.model_copy(update={"gravity": weight, "actuators": (scaled,)})
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("base", ["free", "middle"])
 @pytest.mark.parametrize("name", CHAINS)
 def test_the_plate_is_the_limit_of_small_deflections(name, base):

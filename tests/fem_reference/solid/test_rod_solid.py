@@ -12,6 +12,7 @@ def solid(scene, elements=8, layers=1):
     return fem_reference.solve(scene, model="solid", elements=elements, layers=layers)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("name", CHAINS)
 def test_the_solid_agrees_with_the_shell(name):
     """Displacements within 0.2 %, the rod's energy within 1 %; forces balance."""
@@ -40,6 +41,7 @@ def test_rods_that_meet_each_other_and_a_clamp(edges):
     assert np.abs(answer.displacement(points) - truth).max() < 2e-3 * np.abs(truth).max()
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("base", ["start", "middle", "end"])
 def test_a_base_holds_the_solid(base):
     scene = driven().model_copy(update={"supports": (), "actuators": (chain(edge="y0", base=base),)})

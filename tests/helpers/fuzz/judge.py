@@ -1,4 +1,4 @@
-"""What every run must keep to, whatever was asked: its exit status, its words, its numbers, its folder."""
+"""What every run must keep to: its exit status, its words, its numbers, its folder."""
 
 import contextlib
 import io

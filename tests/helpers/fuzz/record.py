@@ -42,6 +42,6 @@ class Record:
 
 @contextmanager
 def opened(path: Path, number: str) -> Iterator[Record]:
-    """The lines of a file, made where there is none; number: the key that tells those of a kind apart."""
+    """The lines of a file, made where there is none; number: the key that numbers those of a kind."""
     with path.open("a+", encoding="utf-8") as file:
         yield Record(file, number)

@@ -40,7 +40,7 @@ def reads(folder: Path, text: bytes) -> str:
 
 
 def checks(folder: Path, text: bytes) -> str:
-    """A scene is checked, and written nowhere but where asked."""
+    """A scene is checked, and written nowhere but where requested."""
     (folder / "scene.toml").write_bytes(text)
     found = outcome(["check", "scene.toml", "--json", "--out", "out"], folder)
     held(found, text)

@@ -44,8 +44,11 @@ def disturbed(chain, size=5e-3, seed=0):
     return np.where(chain.free, size * np.random.default_rng(seed).standard_normal((chain.rows, 3)), 0.0)
 
 
-@pytest.mark.parametrize("segments", [3, 4])
-@pytest.mark.parametrize("end", ENDS)
+# a middle is a segment's or a joint
+@pytest.mark.sweep(2)
+@pytest.mark.parametrize(
+    ("end", "segments"), [*((end, 3) for end in ENDS), ("middle", 4), ("based and shared", 4)]
+)
 @pytest.mark.parametrize("plane", PLANES)
 def test_chain_force_and_tangents_are_derivatives(plane, end, segments):
     base, *ends = ENDS[end]

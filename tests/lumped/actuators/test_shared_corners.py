@@ -152,6 +152,7 @@ HELD = {
 }  # fmt: skip
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("name", HELD)
 def test_what_holds_at_a_shared_corner_is_what_holds_the_shells_rod(name):
     """A segment a cell: of second order, and 0.05 to 0.7 % off on 49 × 25 masses. Before, 6 to 400 %."""

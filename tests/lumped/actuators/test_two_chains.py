@@ -27,6 +27,7 @@ def strip(base, curvatures, width):
     )  # fmt: skip
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("base", ["start", "free"])
 @pytest.mark.parametrize("curvatures", [(9.0, 9.0), (9.0, -9.0)], ids=["equal", "antagonistic"])
 @pytest.mark.parametrize(("width", "rows"), [(0.016, 3), (0.1, 13)], ids=["narrow", "wide"])

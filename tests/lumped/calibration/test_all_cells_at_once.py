@@ -26,7 +26,7 @@ SHEETS = {
 }
 # layer distance [m] and of every constant Σ k_i cos i over the cells [N/m], by the code that took one cell
 # after another (commit 1e6b6af0), which rounded widths to twelve digits; rims of the rubber's round hole,
-# which that code took along the grid by the cells' stiffness, are told by the sheet's share of cells since
+# which that code took along the grid by the cells' stiffness, are named by the sheet's share of cells since
 BEFORE = {
     "graded": (
         0.00372380931689,

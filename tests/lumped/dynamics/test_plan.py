@@ -1,4 +1,4 @@
-"""How a run in time is sampled: a hundred times a period unless asked, frames evenly over it."""
+"""How a run in time is sampled: a hundred times a period by default, frames evenly over it."""
 
 import pytest
 from dynamic_cases import make_scene, springs, system

@@ -25,6 +25,7 @@ RUNS = [(name, [], [PULSE]) for name in ("generalised-alpha", "esdirk", "verlet"
 RUNS += [("midpoint", [CHAIN], []), ("midpoint", [CHAIN], [PULSE])]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("branches", [(), (Relaxation(0.3, 0.02),)])
 @pytest.mark.parametrize(("name", "actuators", "loads"), RUNS)
 def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name, actuators, loads, branches):
@@ -243,7 +244,7 @@ def test_memory_does_not_grow_with_the_duration(tmp_path):
 
     peak(0.05)
     # bytes; 700 more samples are 185 kB. Python 3.13 holds some 40 kB more after 700 steps, in freed small
-    # objects whose number levels off: half of what samples would take tells the two apart
+    # objects whose number levels off: half of what samples would take distinguishes the two
     assert peak(0.8) < peak(0.1) + 90_000
     assert (tmp_path / "0.8" / "samples.bin").stat().st_size > 150_000
 

@@ -82,7 +82,7 @@ def test_a_strip_that_is_pulled_finds_the_stretches(law, stretch):
         ]  # fmt: skip
         held = [{"edge": e, "kind": "held", "components": [c, "z"]} for e, c in (("x0", "x"), ("y0", "y"))]
         scene = Scene(name="strip", sheet=SHEET, material=material, supports=held, loads=loads)
-        solution = lumped.solve(scene)  # of the material's law without being asked
+        solution = lumped.solve(scene)  # of the material's law without an option
         assert solution.status is Status.CONVERGED and "hyperelastic" in str(solution.settings)
         corner = solution.displacement([SIDES])[0]
         assert np.allclose(1.0 + corner[:2] / SIDES, (stretch, across), rtol=1e-9)

@@ -74,10 +74,8 @@ def answer(
     for item in sheet.items:
         for name, (places, forces) in item.holds(shape).items():
             reactions[name] = forces.reshape(-1, 3).sum(axis=0)
-            held.append((places, forces))
-    reactions |= {each.name: each.exerted(shape) for each in sheet.contacts}
+            held.append((places.reshape(-1, 3), forces.reshape(-1, 3)))
     contacts = {each.name: each.report(shape) for each in sheet.contacts}
-    held += [pair for each in sheet.contacts for pair in each.on_points(shape)]
     if contacts:
         energies |= {"contact": sum(each.potential(shape) for each in sheet.contacts)}
         own["remarks"] = (*own.get("remarks", ()), *contact_notes(contacts))

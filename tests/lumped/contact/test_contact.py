@@ -104,18 +104,25 @@ def test_mean_force_does_the_energys_work_and_resistance_takes_power(item):
     assert np.linalg.norm(applied(problem, blocks, step) - along) <= 1e-6 * np.linalg.norm(along)
 
 
-# The lift-off is sampled to second order, with its phase in the cell; the clamp's moment is the small
-# difference of two that are 15 times as large
-@pytest.mark.parametrize(
-    ("drop", "masses", "within", "of_moment"),
-    [(0.05, 41, 1e-3, 3e-3), (0.2, 41, 1.3e-3, 4e-3), (0.05, 81, 5e-4, 1e-3), (0.2, 81, 5e-4, 1e-3)],
-)
-def test_strip_that_lies_down_against_the_heavy_elastica(drop, masses, within, of_moment):
+def of_sampling(drop, masses):
+    """Return by how much of its force and of its moment a clamp's may be off. A cell that turns by κl has
+    the moment B sin(κl)/l, κ²l²/6 of it less than a beam's; as M₀² = 2 B w H and V₀ ~ √M₀ they lose κ²l²/12
+    and κ²l²/24. Nodes at a distance l that a beam lies on leave 0.22 (l/s₁)² of its V₀ open, by the phase of
+    the lift-off s₁ in its cell (a cubic beam on unilateral points), and twice that of M₀ ~ V₀²."""
+    lift_off, _, moment = heavy_elastica(drop)
+    cell = 1.0 / (masses - 1)
+    turn, phase = (moment / 0.01 * cell) ** 2, 0.22 * (cell / lift_off) ** 2
+    return turn / 24 + phase, turn / 12 + 2 * phase
+
+
+@pytest.mark.parametrize(("drop", "masses"), [(0.05, 41), (0.2, 41), (0.05, 81), (0.2, 81)])
+def test_strip_that_lies_down_against_the_heavy_elastica(drop, masses):
     lift_off, carried, moment = heavy_elastica(drop)
+    within, of_moment = of_sampling(drop, masses)
     solution = solve(laid_strip(drop), (masses, 3, 2))
     assert solution.status is Status.CONVERGED
     free = solve(laid_strip(drop, obstacles=()), (masses, 3, 2))
-    assert solution.iterations <= 2 * free.iterations + 10
+    assert solution.iterations <= 2 * free.iterations
     clamp, plane = solution.reactions["x0"][2] / WEIGHT, solution.reactions["obstacle 1"][2] / WEIGHT
     assert clamp == pytest.approx(carried, rel=within)
     assert clamp + plane == pytest.approx(1.0, abs=1e-9)
@@ -124,8 +131,9 @@ def test_strip_that_lies_down_against_the_heavy_elastica(drop, masses, within, o
     assert contact.undecided == 0
     assert solution.energies["contact"] > 0.0
     mesh, field = solution.mesh, solution.mesh.point_data
-    clamped = float(mesh.points[:, 2] @ field["reaction"][:, 0])
-    assert clamped / WEIGHT == pytest.approx(-moment, rel=of_moment)
+    # weight that is lumped at masses leaves out the moment w l²/12 of the clamped half cell's
+    clamped = (masses - 1.0) ** -2 / 12.0 - float(mesh.points[:, 2] @ field["reaction"][:, 0]) / WEIGHT
+    assert clamped == pytest.approx(moment, rel=of_moment)
     assert moment == pytest.approx(np.sqrt(2 * 0.01 * drop), rel=1e-6)  # √(2 B w H), of any heavy elastica
     # the plane's force R, at x, is a point force at s₁ and the weight of what lies: R x = R s₁ + w (L −
     # s₁)²/2

@@ -96,7 +96,8 @@ class System:
         self.solve_mass = _mass_solver(self.reduced_mass)
         branches = scene.material.branches
         self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
-        if self.maxwell is not None and self.natural is not None and self.natural.state.moves:
+        self.growing = self.natural if self.natural is not None and self.natural.moves else None
+        if self.maxwell is not None and self.growing is not None:
             raise BadInput(
                 f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
             )
@@ -110,7 +111,7 @@ class System:
     def working(self) -> bool:
         """Whether some loads have no potential: they follow the sheet, or change over time, as a natural
         state may."""
-        return not self.problem.loads.potential or (self.natural is not None and self.natural.state.moves)
+        return not self.problem.loads.potential or self.growing is not None
 
     @property
     def resists(self) -> bool:

@@ -9,10 +9,11 @@ import pytest
 from commands import json_of
 
 import fem_reference
-from comparisons.scoring.cases import SUITES, cases
+from comparisons.scoring.cases import cases
 from comparisons.scoring.curves import way
 from comparisons.scoring.reference import FILE, VERSION, document, references
 from sheetbench import scenes
+from sheetbench.choices import SUITES
 
 FROZEN = {  # of scenes and values, by the version that they are from
     ("statics", "motion", "modes"): "15198e1a28208c6d",  # 2.0

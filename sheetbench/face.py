@@ -19,7 +19,8 @@ from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, parse, spec_of
 from sheetbench.answers.solution import Solution
 from sheetbench.errors import BadInput
-from sheetbench.scenes import AnyScene, scene_of
+from sheetbench.scenes import AnyScene, Scene, scene_of
+from sheetbench.scenes.meaning.plausibility import warn_of_slips
 
 
 def verb(name: str) -> Callable[..., Any]:
@@ -54,6 +55,8 @@ def solve(
         raise BadInput(f"solve: model = {model!r}: a name as 'lumped' or 'shell', or a spec, is needed")
     if settings:
         spec = spec_of(spec.model, {**spec.settings, **settings})
+    if isinstance(scene, Scene):
+        warn_of_slips([(f"scene '{scene.name}'", scene)], stacklevel=2)
     held: dict[str, Any] = {"large": True} if large else {}
     with running(**held, **({} if progress is None else {"progress": progress})):
         return solvers.solve(resolve(scene_of(scene), spec))

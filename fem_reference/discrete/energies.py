@@ -57,7 +57,7 @@ def spent(sheet: Discrete, start: Motion, end: Motion, late: float) -> np.ndarra
         damped += body.dissipated(middle, step, rate)
         for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
             work += 0.5 * (body.energy(q, end.time) - body.energy(q, start.time))
-    for sign, time in ((1.0, end.time), (-1.0, start.time)) if sheet.grows else ():
+    for sign, time in ((1.0, end.time), (-1.0, start.time)) if sheet.natural is not None else ():
         sheet.grow(time)
         work += 0.5 * sign * (sheet.elastic(start.q) + sheet.elastic(end.q))
     shape = sheet.shape(middle, half_way, step / h)

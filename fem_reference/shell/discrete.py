@@ -53,6 +53,7 @@ class DiscreteShell(DiscreteElements):
     def __init__(self, plan: Plan, scene: Scene, element: Element, conservative: bool, moving: bool = False):
         super().__init__(scene, moving)
         self.plan, self.element, self.conservative = plan, element, conservative
+        self.natural = element.natural
         self.any_strain = element.stands_any_strain
         n = self.nodes
 

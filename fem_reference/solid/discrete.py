@@ -23,7 +23,7 @@ from fem_reference.discrete.shape import Shape
 from fem_reference.solid.element import Bricks, tangent
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
-from fem_reference.solid.natural import NaturalBricks
+from fem_reference.solid.natural import at_rest
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.supports import components, from_forces, into_forces, of_scene, vectors
 from fem_reference.surface import carried, rod
@@ -58,7 +58,8 @@ class DiscreteSolid(DiscreteElements):
         self.conservative, self.any_strain = law == STRAIN_LAW, LAWS[law].stands_any_strain
         stacks = columns.positions.reshape(-1, 3)[columns.stacks]
         positions = np.concatenate([stacks[:, place] for place in columns.places])
-        self.element = NaturalBricks.of(Bricks.build(positions, LAWS[law], material), scene)
+        self.element = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)
+        self.natural, self._products = self.element.natural, plain.products
         self.per_vector = np.ones(27)
 
         def bind(of: Scene) -> BoundRods:
@@ -86,7 +87,7 @@ class DiscreteSolid(DiscreteElements):
     def _inertia(self) -> np.ndarray:
         """∫ ρ N N dV of the stacks, with what payloads add to columns' means and directors, (m, 3 s, 3 s)."""
         payloads = carried.of_scene(self.scene, self.plan)
-        blocks = self._stack(np.einsum("eij,cd->eicjd", self.element.products(), np.eye(3)))
+        blocks = self._stack(np.einsum("eij,cd->eicjd", self._products(), np.eye(3)))
         blocks[payloads.elements] += self._of_columns(payloads.on_surface())
         return blocks
 

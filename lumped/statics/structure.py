@@ -135,7 +135,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def has_meaning(self, state: LatticeState) -> bool:
         links = self.problem.assembly.links
         self.problem.assembly.grow(state.load_factor)
-        return not outside_model(self.scene, links.largest_strain(links.elongations(state.u)), STRETCH)
+        return not outside_model(self.scene, links.largest_strain(state.u), STRETCH)
 
     def inspect(self, path: Path[LatticeState, LatticeForces]) -> Fault | None:
         """Return why the path's last equilibrium means nothing, if it does."""

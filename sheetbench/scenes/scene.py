@@ -6,19 +6,16 @@ once, and frozen. Its keys are in `scenes.objects.fields`; what they mean, in th
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-from warnings import warn
+from typing import Any
 
 from pydantic import model_validator
 
-from sheetbench.errors import Implausible, SceneError
+from sheetbench.errors import SceneError
 from sheetbench.scenes.language import summary
 from sheetbench.scenes.meaning import corners, distances, region
-from sheetbench.scenes.meaning.plausibility import slips
 from sheetbench.scenes.meaning.words import in_words
 from sheetbench.scenes.objects.cutouts import nearest
 from sheetbench.scenes.objects.fields import LISTS, SceneFields
@@ -28,22 +25,12 @@ from sheetbench.scenes.objects.quantities import PlanPoint
 from sheetbench.scenes.objects.sheet import EDGES, Sheet
 from sheetbench.scenes.objects.supports import held_axes, place
 
-OURS = {"sheetbench", "lumped", "fem_reference", "comparisons", "studies"}
-
 
 class Scene(SceneFields):
     """A sheet with supports, loads, actuators and probes.
 
     Lists are tuples; in TOML they are [[support]], [[load]], [[actuator]].
     """
-
-    if not TYPE_CHECKING:  # type checkers read the signature off the fields
-
-        def __init__(self, *values: Any, **keys: Any) -> None:
-            super().__init__(*values, **keys)
-            _warn_author(self)
-
-        __init__.__pydantic_base_init__ = True
 
     @model_validator(mode="after")
     def _with_probes(self) -> Scene:
@@ -126,9 +113,7 @@ class Scene(SceneFields):
         )
         if redrawn and "probes" not in values and self.probes == super().replace(probes={}).probes:
             values["probes"] = {}
-        changed = super().replace(**values)
-        _warn_author(changed, known=self)
-        return changed
+        return super().replace(**values)
 
     def __repr__(self) -> str:
         return summary.text(*self._summary())
@@ -144,19 +129,6 @@ class Scene(SceneFields):
         from sheetbench.scenes.language.toml import to_toml  # a scene that is only solved need not know how
 
         Path(path).write_text(to_toml(self), encoding="utf-8")
-
-
-def _warn_author(scene: Scene, known: Scene | None = None) -> None:
-    """Warn whoever writes a scene in Python of what is hardly meant and was not so in the scene `known`.
-
-    What our own packages make of a scene is not its author's.
-    """
-    if sys._getframe(2).f_globals.get("__name__", "").partition(".")[0] in OURS:
-        return
-    before = () if known is None else slips(known)
-    for slip in slips(scene):
-        if slip not in before:
-            warn(Implausible(f"scene '{scene.name}': {slip}"), stacklevel=3)
 
 
 def default_probes(sheet: Sheet, supported: Sequence[str], held: Sequence[str]) -> dict[str, PlanPoint]:

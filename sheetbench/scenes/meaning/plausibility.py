@@ -9,8 +9,11 @@ sheet, and a sheet that nothing moves.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import hypot
+from warnings import warn
 
+from sheetbench.errors import Implausible
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.meaning.composition import mass_of
 from sheetbench.scenes.meaning.payloads import weights
@@ -46,6 +49,13 @@ def slips(scene: SceneFields) -> tuple[str, ...]:
             "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
         )
     return tuple(warnings)
+
+
+def warn_of_slips(scenes: Iterable[tuple[str, SceneFields]], stacklevel: int) -> None:
+    """Warn (Implausible) of the slips of scenes under the names given."""
+    for name, scene in scenes:
+        for slip in slips(scene):
+            warn(Implausible(f"{name}: {slip}"), stacklevel=stacklevel + 1)
 
 
 def sheet_slips(sheet: Sheet) -> list[str]:

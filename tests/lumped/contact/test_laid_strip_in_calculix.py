@@ -1,7 +1,7 @@
 """The laid strip in CalculiX: solid elements, surface to surface contact with a rigid block.
 
-C3D8I of the strip's thickness, linear overclosure of E/1000h, frictionless, load steps of 0.02: in steps ten
-times as long, or with C3D20R and E/h, its increments are cut back until it stops.
+C3D8I of the strip's thickness, linear overclosure of E/1000h, frictionless, load steps of 0.02. C3D20R with
+E/h, 0.1 and 0.01 of it in longer steps had their increments cut back until they stopped.
 """
 
 import shutil

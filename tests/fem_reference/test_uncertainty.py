@@ -127,6 +127,7 @@ def test_meshes():
     assert coarser(16) == [16, 12, 8] and coarser(2) == [2, 1] and coarser(1) == [1]
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("name", "model"),
     [

@@ -10,7 +10,7 @@ from commands import run
 from matrix_options import OUTPUTS
 from matrix_rows import named, pairwise
 
-from comparisons.scoring.cases import SUITES
+from sheetbench.choices import SUITES
 
 VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     "compare --duration 0.004 --elements 2": [

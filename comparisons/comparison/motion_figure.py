@@ -38,7 +38,7 @@ def compose(found: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
                 color=colours[name],
                 lw=1.0,
                 zorder=2 + (name != found.reference),
-                label=plain(history.label, longest=40),
+                label=plain(history.label, longest=44),
             )
         axis.set_title(f"$u_{'xyz'[component]}$ of {plain(probe, longest=40)}", loc="left", fontsize=7.5)
         axis.set_ylabel("displacement [mm]")

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import prod
-from typing import TYPE_CHECKING, Any, cast, get_args
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from sheetbench.answers.modes import Buckling
 from sheetbench.answers.solution import About
 from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
-from sheetbench.errors import BadInput, NoEquilibrium, require_choice
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
 from sheetbench.scenes.objects.grading import as_settings
 
@@ -42,7 +42,7 @@ def spectra(
     count: int = 10,
     reference: str | Elements | Sequence[str | Elements] = REFERENCE,
     elements: Count | None = None,
-    about: str = "flat",
+    about: About = "flat",
     buckling: bool = False,
 ) -> Spectra:
     """Return the spectra of the lattice and of the reference, or of each of several.
@@ -53,8 +53,6 @@ def spectra(
     Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
     that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.
     """
-    require_choice("--about", about, get_args(About))
-    around = cast(About, about)
     scene = scene_of(scene)
     if not isinstance(count, int) or count < 1:
         raise BadInput(f"--count = {count}: a whole number, at least 1")
@@ -66,13 +64,13 @@ def spectra(
         context().progress(Work(f"modes of {model.spec.model}", model.size))
 
     starting(own)
-    first = _lattice(own, count, around)
-    found = [first if around == "flat" else _with_expected(own, first)]
+    first = _lattice(own, count, about)
+    found = [first if about == "flat" else _with_expected(own, first)]
     for model in models:
         starting(model)
-        found.append(_reference(model, count, around))
+        found.append(_reference(model, count, about))
     buckled = tuple(_buckling(own, models, count)) if buckling else ()
-    return Spectra(scene, tuple(found), around, _sag(scene, own.springs), buckled)
+    return Spectra(scene, tuple(found), about, _sag(scene, own.springs), buckled)
 
 
 def _buckling(own: Resolved[Lattice], models: Sequence[Resolved[Elements]], count: int) -> Iterator[Buckling]:

@@ -29,10 +29,9 @@ from sheetbench.answers.habibi import KNOWN_FAULTS, PROBES, published_inputs
 from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Column, Table, percent
-from sheetbench.choices import ELEMENTS
+from sheetbench.choices import ELEMENTS, REPRODUCED
 from sheetbench.scenes.meaning.words import sheet_in_words
 
-PARTS = ("errors", "tables", "settling", "nearest")
 SEED = (
     "Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation "
     "continuum surfaces"
@@ -182,14 +181,14 @@ class Reproduction(Answer):
         return {"parts": list(self.parts), "elements": self.elements}
 
 
-def reproduce(parts: Collection[str] = PARTS, elements: Elements = ELEMENTS) -> Reproduction:
+def reproduce(parts: Collection[str] = REPRODUCED, elements: Elements = ELEMENTS) -> Reproduction:
     """Return these parts of the study; elements: of the shell."""
     parts_done: dict[str, Any] = {}
     if "tables" in parts:
         parts_done["answers"] = tuple(answer(*one, elements) for one in SETS)
     if "settling" in parts:
         parts_done["settling"] = settling()
-    return Reproduction(tuple(part for part in PARTS if part in parts), elements, **parts_done)
+    return Reproduction(tuple(part for part in REPRODUCED if part in parts), elements, **parts_done)
 
 
 def displacements(one: ReproducedTest) -> Table:

@@ -17,7 +17,7 @@ largest displacement.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from typing import Any, Unpack
 
@@ -34,8 +34,8 @@ from comparisons.sweep.differences import error
 from comparisons.sweep.solved import Ask, Solved, sweep
 from comparisons.sweep.store import Store
 from sheetbench.answers.solution import Status
-from sheetbench.choices import INTEGRATORS, REFERENCE
-from sheetbench.errors import BadInput, require_choice
+from sheetbench.choices import INTEGRATORS, REFERENCE, VARIED
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.distances import farther
 from sheetbench.scenes.meaning.parameters import put
@@ -58,14 +58,13 @@ DIVISIONS = (200, 50, 20, 8, 4, 2, 1)  # steps a period
 FINE, SAMPLES = 400, 40  # steps of the midpoint rule and samples, a period
 PERIODS = 3.0  # of a run
 PARTS = ("patches", "layers")
-VARIED = (*FACTORS, "grid", "damping", "time-step")
 
 
 def stability(
     scene: Scene,
     store: Store,
     *,
-    varied: Sequence[str] = VARIED,
+    varied: Collection[str] = tuple(VARIED),
     lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     reference: str = REFERENCE,
     elements: int = 12,
@@ -73,12 +72,10 @@ def stability(
 ) -> Stability:
     """Vary a scene's sheet and solve it by every model, through a campaign's store.
 
-    varied: some of `VARIED`. lattice: with what is not varied. elements: of the references, along the shorter
-    side. Raises BadInput for what cannot be varied, for settings that contradict each other, and for models
-    that take more memory than there is.
+    varied: some of `choices.VARIED`. lattice: with what is not varied. elements: of the references, along the
+    shorter side. Raises BadInput for what cannot be varied, for settings that contradict each other, and for
+    models that take more memory than there is.
     """
-    for name in varied:
-        require_choice("vary", name, VARIED)
     resolve(scene, lattice, "motion")
     resolve(scene, Elements(reference, elements))
     kinds = dict.fromkeys(("plate", "shell", reference))
@@ -161,7 +158,7 @@ def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
     against = ask("midpoint", period / FINE)
     for name in INTEGRATORS:
         steps = [period / n for n in DIVISIONS]
-        if lumped.INTEGRATORS[name].explicit:
+        if lumped.INTEGRATORS[name].explicit and not scene.chains():  # else it is refused
             limit = lumped.explicit_limit(name, scene, resolve(scene, lattice).springs)
             steps = [share * limit for share in SHARES]
         yield from ((ask(name, step), against) for step in steps)

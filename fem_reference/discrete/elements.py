@@ -73,13 +73,6 @@ class DiscreteElements(Discrete):
     def short(self, shape: Shape) -> np.ndarray:
         """The step (N,) to what is prescribed and onto the constraints, linear in both."""
 
-    def grow(self, at: float) -> None:
-        self.element.grow(*self.instant(at))
-
-    @property
-    def grows(self) -> bool:
-        return self.element.grows
-
     def stress(self, shape: Shape) -> np.ndarray:
         """s + τ D ė (m, k) and what the branches add."""
         stress = with_branches(shape.elastic, shape.branches)

@@ -40,7 +40,7 @@ from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, outside_model
 from sheetbench.scenes.meaning.distances import obstacles_by_name
 from sheetbench.scenes.meaning.motion import kinks
-from sheetbench.scenes.meaning.natural_state import sources_of
+from sheetbench.scenes.meaning.natural_state import NaturalState, sources_of
 from sheetbench.scenes.objects.relaxation import Branches, BranchStep
 
 Binding = Callable[[Scene], BoundRods]
@@ -62,6 +62,7 @@ class Discrete(Output):
     conservative: bool
     any_strain: bool = False
     own: bool = False
+    natural: NaturalState | None = None
     supports: Supports
     rods: Rods
     unknowns: int
@@ -157,14 +158,10 @@ class Discrete(Output):
         """Times [s] at which something prescribed bends its course."""
         return np.array(kinks(self.scene))
 
-    @abstractmethod
     def grow(self, at: float) -> None:
         """Set the sheet's natural state to that at a load factor or time [s], where it has one."""
-
-    @property
-    @abstractmethod
-    def grows(self) -> bool:
-        """Whether the natural state changes over time."""
+        if self.natural is not None:
+            self.natural.grow(*self.instant(at))
 
     def jumps(self, time: float) -> bool:
         """Whether what is prescribed changes its velocity at once."""

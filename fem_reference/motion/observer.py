@@ -3,8 +3,6 @@ strains, and elements that turn inside out."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 
 from fem_reference.discrete.energies import energies
@@ -60,10 +58,9 @@ class ReferenceObserver:
                 return i, Fault(Status.INVERTED, inverted)
         return count, None
 
-    def stretches(self, samples: Sampled, count: int) -> Iterator[float]:
-        """Yield how far the sheet is strained in the first samples."""
-        for motion in samples.motions[:count]:
-            yield self._model.stretch(motion.q)
+    def stretches(self, samples: Sampled, count: int) -> np.ndarray:
+        """Return how far the sheet is strained in the first samples, (count,)."""
+        return np.array([self._model.stretch(motion.q) for motion in samples.motions[:count]])
 
     def beyond(self, stretch: float) -> str:
         """Return a clause where the law of strain does not hold that far, else ""."""

@@ -124,5 +124,7 @@ def equilibrium(sheet: DiscretePlate) -> tuple[np.ndarray, Status, tuple[str, ..
             q = solve_free(matrix, applied(sheet), q, sheet.free)
         except SingularMatrixError as error:
             return q, Status.SINGULAR, (str(error),)
-    natural = sheet.natural.strains()[0]
-    return q, *judge(sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, natural)
+    sheet.grow(1.0)
+    return q, *judge(
+        sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, sheet.at_rest.strains[0]
+    )

@@ -13,7 +13,7 @@ from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
 from lumped.contact import contacts
-from lumped.lattice import Lattice, Weights
+from lumped.lattice import Weights
 from lumped.loads import Loads
 from lumped.sections import require_alike
 from lumped.statics import validity
@@ -45,7 +45,7 @@ from sheetbench.scenes import (
     scene_of,
 )
 from sheetbench.scenes.meaning.distances import require_no_obstacles
-from sheetbench.scenes.meaning.natural_state import NaturalState, natural_of_cells
+from sheetbench.scenes.meaning.natural_state import natural_of_cells
 from sheetbench.scenes.objects.material import limit_note
 from sheetbench.scenes.objects.orthotropy import FIBRES
 
@@ -140,7 +140,13 @@ def build_problem(
         require_alike(scene, f"the calibration {calibration.method}", instead)
     couple = partial(Coupling, scene) if scene.actuators else None
     assembly = Assembly(
-        scene.sheet, calibration, weights, couple, precision, scene.twisting_edges(), natural_of(scene)
+        scene.sheet,
+        calibration,
+        weights,
+        couple,
+        precision,
+        scene.twisting_edges(),
+        partial(natural_of_cells, scene),
     )
     size = max(scene.sheet.lengths)
     alike = same is not None and same.assembly.lattice is assembly.lattice
@@ -151,11 +157,6 @@ def build_problem(
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
     return Problem(assembly, constraints, Loads(scene, assembly), size, contacts(scene, assembly))
-
-
-def natural_of(scene: Scene) -> Callable[[Lattice], NaturalState | None]:
-    """Return what finds the natural state of a lattice's cells."""
-    return lambda lattice: natural_of_cells(scene, lattice.lines[0].at, lattice.lines[1].at)
 
 
 def flat_step(scene: Scene, problem: Problem) -> Outcome:
@@ -171,7 +172,7 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
     path.state = LatticeState(u, 1.0)
     links = problem.assembly.links
     problem.assembly.grow(SMALL)
-    strain = links.largest_strain(links.elongations(SMALL * u)) / SMALL
+    strain = links.largest_strain(SMALL * u) / SMALL
     if outside := outside_model(scene, strain, STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, path, (outside,))
     return Outcome(Status.CONVERGED, path)
@@ -255,7 +256,7 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
     links = problem.assembly.links
     problem.assembly.grow(state.load_factor)
     elongations = links.elongations(state.u)
-    outside = outside_model(scene, links.largest_strain(elongations), STRETCH)
+    outside = outside_model(scene, links.largest_strain(state.u), STRETCH)
     if outside and not problem.assembly.any_strain:
         status = Status.STRAIN_OUTSIDE_MODEL
         notes.insert(0, outside)

@@ -40,11 +40,11 @@ class Observer(Protocol):
     def broken(self, samples: Any, count: int) -> tuple[int, Fault | None]:
         """Return how many of the first `count` samples mean something, and why the next does not."""
 
-    def stretches(self, samples: Any, count: int) -> Iterable[float]:
-        """Return how far the sheet is strained at the first `count` samples, as `beyond` takes it."""
+    def stretches(self, samples: Any, count: int) -> np.ndarray:
+        """Return how far the sheet is strained at the first samples, (count,), as `beyond` takes it."""
 
     def beyond(self, stretch: float) -> str:
-        """Return a clause where the model does not hold that far, else ""."""
+        """Return a clause where the model does not hold that far, or farther, else ""."""
 
     def fastest(self, samples: Any, i: int) -> str:
         """Return where the sheet is fastest at sample i, in words."""
@@ -144,8 +144,7 @@ class Run(Generic[AnyState]):
         if fault is None:
             count = sound
         self.watch.take(rows[:count])
-        for time, stretch in zip(rows[:count, 0].tolist(), observer.stretches(samples, count), strict=True):
-            self.watch.strained(time, stretch, bool(observer.beyond(stretch)))
+        self.watch.strained(rows[:count, 0], observer.stretches(samples, count), observer.beyond)
         if count == len(rows):
             return count, None
         when = f"at {rows[count, 0]:.6g} s"

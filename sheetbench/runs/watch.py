@@ -9,6 +9,7 @@ end none either: the run that came to them says so, and from when on.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import astuple, dataclass
 from typing import Self
 
@@ -35,11 +36,13 @@ class Watch:
     stretch: float = 0.0
     since: float = np.nan
 
-    def strained(self, time: float, stretch: float, beyond: bool) -> None:
-        """Note how far the sheet is strained at a sample."""
-        self.stretch = max(self.stretch, stretch)
-        if beyond and np.isnan(self.since):
-            self.since = time
+    def strained(self, times: np.ndarray, stretches: np.ndarray, beyond: Callable[[float], str]) -> None:
+        """Note how far the sheet is strained at samples (k,); beyond: a clause where that is too far."""
+        largest = float(stretches.max(initial=-1.0))
+        if largest >= self.stretch:
+            self.stretch = largest
+            if np.isnan(self.since) and beyond(largest):
+                self.since = float(times[[bool(beyond(one)) for one in stretches.tolist()].index(True)])
 
     def grown(self, rows: np.ndarray) -> np.ndarray:
         """Energy from nowhere at samples (k,), over the largest until then; nan where that is no number.

@@ -17,7 +17,7 @@ from sheetbench.scenes.objects.natural import Natural
 from sheetbench.scenes.objects.obstacles import AnyObstacle
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.supports import AnySupport, Motion
-from sheetbench.scenes.objects.tables import FactorTable, Loading, OverTime, PiecewiseLinear
+from sheetbench.scenes.objects.tables import FactorTable, Loading, OverTime
 
 Loaded = TypeVar("Loaded", bound=Loading)
 Held = TypeVar("Held", bound=AnySupport | AnyObstacle)
@@ -70,8 +70,7 @@ def at_start(scene: AScene) -> AScene:
 def _now(load: Loaded) -> Loaded:
     if load.history is None:
         return load
-    factor = float(PiecewiseLinear(load.history.time, load.history.factor).at(0.0))
-    return load.replace(history=FactorTable(time=(0.0,), factor=(factor,)))
+    return load.replace(history=FactorTable(time=(0.0,), factor=(float(load.course.at(0.0)),)))
 
 
 def _bent_now(patch: Patch, static: bool) -> Patch:

@@ -152,11 +152,9 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
 
 def _natural(scene: SceneFields, name: str, patch: str | None, kind: str, component: str) -> Path:
     """Return the place of a component of a natural strain or curvature."""
-    path: Path = ("natural",)
-    if patch is not None:
-        if not 1 <= int(patch) <= len(scene.patches):
-            raise BadInput(f"'{name}': the scene has {len(scene.patches)} patches")
-        path = ("patches", int(patch) - 1, "natural")
+    if patch is not None and not 1 <= int(patch) <= len(scene.patches):
+        raise BadInput(f"'{name}': the scene has {len(scene.patches)} patches")
+    path: Path = (*(() if patch is None else ("patches", int(patch) - 1)), "natural")
     if _value(scene, path) is None:
         raise BadInput(f"'{name}': the scene has no {'.'.join(map(str, path))}; give a first guess there")
     return (*path, {"e": "strain", "k": "curvature"}[kind], ("xx", "yy", "xy").index(component))

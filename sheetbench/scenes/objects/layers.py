@@ -87,9 +87,14 @@ def plane_stress(ply: Ply) -> np.ndarray:
 
 def resultants(found: tuple[Ply, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return A [Pa], B and D [Pa] of plies per thickness, its square and its cube, (3, 3) each."""
-    parts = [[plane_stress(p) * (p.high**n - p.low**n) / n for p in found] for n in (1, 2, 3)]
-    a, b, d = (np.sum(part, axis=0) for part in parts)
-    return a, b, d
+    return moments(found, [plane_stress(ply) for ply in found])
+
+
+def moments(found: tuple[Ply, ...], values: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ∫ f dz, ∫ f z dz and ∫ f z² dz of values f of plies, over the thickness as 1."""
+    powers = np.array([[(p.high**n - p.low**n) / n for p in found] for n in (1, 2, 3)])
+    first, second, third = np.tensordot(powers, np.array(values), 1)
+    return first, second, third
 
 
 def unlike_its_mirror(found: tuple[Ply, ...]) -> int:

@@ -1,14 +1,10 @@
 """What makes a sheet other than flat at rest: natural strains and curvatures, temperatures.
 
-A part of the sheet that nothing else held would be stretched by 1 + e0 and bent by k0 (2 × 2, symmetric): at
-the height z over the mid-surface it would have the stretch U = 1 + e0 − z k0, so that k0 > 0 curls the sheet
-towards +z. A rise of temperature that is ΔT + z ΔT′ gives a material that expands alike through the thickness
+A part of the sheet that nothing else held would at the height z over the mid-surface have the stretch
+U = 1 + e0 − z k0 (2 × 2, symmetric), so that k0 > 0 curls it towards +z. A rise of temperature ΔT + z ΔT′
+gives what the layers' own stresses, with C, α of each, would bring about if nothing held them:
 
-    e0 = α ΔT,   k0 = −α ΔT′,
-
-and layers what their own stresses would bring about if nothing held them, with C, α of each layer:
-
-    ∫ C (e0 − z k0 − α (ΔT + z ΔT′)) dz = 0,   ∫ z C (e0 − z k0 − α (ΔT + z ΔT′)) dz = 0.
+    ∫ C (e0 − z k0 − α (ΔT + z ΔT′)) (1, z) dz = 0;    of one layer e0 = α ΔT,   k0 = −α ΔT′.
 
 Source: Timoshenko, J. Opt. Soc. Am. 11 (1925) 233, whose formula follows for two isotropic layers.
 """
@@ -34,8 +30,7 @@ class Natural(Loading):
     curvature: Annotated[Vector3, Unit("1/m")] = NOTHING
     """[kxx, kyy, kxy]; > 0 curls the sheet towards +z."""
     pretension: Annotated[tuple[Number, Number], Unit("N/m")] | None = Field(default=None, kw_only=True)
-    """In place of strain: [Nx, Ny] with which the sheet is stretched as long as it is held where it is
-    drawn."""
+    """In place of strain: [Nx, Ny] that stretch the sheet as long as it is held where it is drawn."""
 
     @model_validator(mode="after")
     def _possible(self) -> Natural:
@@ -48,8 +43,7 @@ class Natural(Loading):
 
 
 class Temperature(Loading):
-    """How much warmer the sheet is than where it is flat and free of stress; it expands as its `expansion`
-    says."""
+    """How much warmer the sheet is than where it is flat and free of stress (`expansion`)."""
 
     change: Annotated[Number, Unit("K")] = 0.0
     """In the middle of the thickness; > 0 is warmer."""

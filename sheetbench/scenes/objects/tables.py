@@ -136,3 +136,9 @@ class Loading(Frozen):
     def last_factor(self) -> float:
         """What the load is multiplied by in the end, and in statics."""
         return self.history.factor[-1] if self.history is not None else 1.0
+
+    @property
+    def course(self) -> PiecewiseLinear:
+        """The factor over time."""
+        table = self.history or FactorTable(time=(0.0,), factor=(1.0,))
+        return PiecewiseLinear(table.time, table.factor)

@@ -10,6 +10,7 @@ from commands import run
 
 import fem_reference
 import lumped
+import sheetbench as sb
 from comparisons.models.spec import Lattice
 from comparisons.modes.spectra import spectra
 from sheetbench.answers.solution import Status
@@ -69,7 +70,7 @@ def test_what_has_no_modes_is_refused_in_a_line():
         lambda: lumped.modes(pressed, springs, 2, about="deformed"),
         lambda: fem_reference.modes(pressed, "shell", 2, 2, "deformed"),
         lambda: fem_reference.modes(scene, "plate", 2, 2, "deformed"),
-        lambda: spectra(scene, count=1, about="sideways"),
+        lambda: sb.modes(scene, count=1, about="sideways"),
     ):
         with pytest.raises(BadInput):
             ask()

@@ -149,8 +149,8 @@ def support(draw: st.DrawFn, edge: str) -> dict[str, Any]:
 
 @st.composite
 def pin(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
-    """A point that is held, on lines of coarse grids or not."""
-    at = [draw(st.sampled_from([0.0, 0.5, 1.0, 0.3])) * length for length in lengths]
+    """A point that is held, on lines of the coarsest grid."""
+    at = [draw(st.sampled_from([0.0, 0.5, 1.0])) * length for length in lengths]
     return {
         "kind": "point",
         "at": at,

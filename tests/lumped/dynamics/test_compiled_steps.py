@@ -48,12 +48,13 @@ def test_the_compiled_iteration_takes_the_steps_of_the_general_one(scene, name):
 def test_the_compiled_iteration_tells_how_many_corrections_it_made():
     equations, _ = system(CASES["dampers in proportion"], 4)
     compiled, by = CompiledNewton(equations), (1e6, 1e3)
-    u, still, pulled = np.zeros((3, *equations.lattice_mass.shape, 3))
-    assert compiled.factorise(u, still, 0.0, *by)
-    assert compiled.iterate(u, (still, still), by, still, 1e-12, 0.5, 8) == (CONVERGED, 1)
-    pulled[:, 2] = 1e-3
-    assert compiled.iterate(u, (still, still), by, pulled, 0.0, 1e-12, 1) == (STALE, 1)  # no second
-    assert u.any()
+    u, still, pulled = np.zeros((3, 2, *equations.lattice_mass.shape, 3))
+    assert compiled.factorise(u[0], still[0], 0.0, *by)
+    assert compiled.iterate(0, 8, u, (still, still), by, still[:1], 1e-12, 0.5, 8) == (CONVERGED, 2, 8)
+    pulled[1, :, 2] = 1e-3
+    # the first of both needs no second correction, the other one has no second left
+    assert compiled.iterate(0, 1, u, (still, still), by, pulled, 1e-12, 0.5, 1) == (STALE, 1, 0)
+    assert not u[0].any() and u[1].any()
 
 
 @pytest.mark.parametrize("scene", CASES.values(), ids=CASES)

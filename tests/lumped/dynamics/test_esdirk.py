@@ -7,8 +7,10 @@ import pytest
 from dynamic_cases import ROD, make_scene, run, springs, system
 
 import lumped
+from lumped.dynamics.implicit import esdirk
 from lumped.dynamics.implicit.esdirk import Esdirk
-from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, STAGES, WEIGHTS
+from lumped.dynamics.implicit.polynomial import bubbles
+from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GUESSES, STAGES, WEIGHTS
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
 
@@ -81,6 +83,35 @@ def test_samples_do_not_change_the_steps_and_lie_on_one_curve():
     assert np.abs(fine.balance - fine.balance[0]).max() < 2e-3 * went_round
 
 
+def test_what_corrects_some_samples_of_a_step_corrects_the_others(monkeypatch):
+    """All solved for, they differ by less than the error that a step may have, along stiff springs too."""
+    scene = make_scene("two-edges-settling")
+    few = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=1e-3)
+    monkeypatch.setattr(esdirk, "NODES", np.linspace(0.0, 1.0, 200))
+    each = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=1e-3)
+    assert few.steps == each.steps < 60
+    largest = max(np.abs(u).max() for u in each.probes.values())
+    for name, u in each.probes.items():
+        assert np.abs(few.probes[name] - u).max() < 3.0 * esdirk.ERROR * largest  # as motions of each wander
+    stored = each.energies["elastic"]
+    assert np.abs(few.energies["elastic"] - stored).max() < 1e-3 * stored.max()
+
+
+def test_bubbles_have_both_ends_displacement_velocity_and_acceleration():
+    nodes, theta = np.array([0.2, 0.55, 0.7]), np.linspace(0.0, 1.0, 9)
+
+    def curve(t):
+        return (t * (1.0 - t)) ** 3 * (1.0 + 2.0 * t - 3.0 * t**2)
+
+    np.testing.assert_allclose(bubbles(nodes, theta) @ curve(nodes), curve(theta), atol=1e-16)
+    np.testing.assert_allclose(bubbles(nodes, nodes), np.eye(3), atol=1e-15)
+
+
+def test_guesses_of_stages_are_right_where_the_acceleration_stays():
+    np.testing.assert_allclose(GUESSES[1:].sum(axis=1), 1.0, atol=1e-12)
+    assert not np.triu(GUESSES).any()
+
+
 def test_a_start_from_rest_takes_steps_that_its_motion_deserves():
     """Not ones that resolve the first micrometres: the error counts beside where the weight leads."""
     equations, rest = system(make_scene("two-edges-settling"), 4)
@@ -123,7 +154,8 @@ def test_steps_end_where_a_load_changes_its_course():
     assert np.abs(state.u).max() > 1e-5  # a pulse shorter than a step is felt
 
 
-def test_chains_are_refused():
+@pytest.mark.parametrize("name", ["esdirk", "verlet"])
+def test_chains_are_refused(name):
     scene = make_scene("one-edge-clamped", actuators=[ROD])
-    with pytest.raises(BadInput, match="does not take chains"):
-        lumped.simulate(scene, springs(scene, 4), 0.01, integrator="esdirk")
+    with pytest.raises(BadInput, match=f"'{name}': does not take chains"):
+        lumped.simulate(scene, springs(scene, 4), 0.01, integrator=name)

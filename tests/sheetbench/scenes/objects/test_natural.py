@@ -6,7 +6,13 @@ import pytest
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes import Clamped, FactorTable, Layer, Material, Patch, Scene, Sheet
 from sheetbench.scenes.meaning.composition import require_plain
-from sheetbench.scenes.meaning.natural_state import natural_at, natural_of_cells, sheet_at_rest, thermal
+from sheetbench.scenes.meaning.natural_state import (
+    growth_of_cells,
+    natural_at,
+    natural_of_cells,
+    sheet_at_rest,
+    thermal,
+)
 from sheetbench.scenes.meaning.natural_words import natural_in_words
 from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.objects.natural import Natural, Temperature
@@ -33,12 +39,16 @@ def test_patches_win_over_the_sheet_and_later_ones_over_those_before():
         ),
     )
     state = natural_at(of, np.array([[0.02, 0.05], [0.07, 0.05], [0.12, 0.05], [0.18, 0.05]]))
-    strain, _ = state.at(state.factors())
+    strain, _ = state.now
     np.testing.assert_allclose(strain[:, 0, 0], [0.02, 0.03, 0.03, 0.01])
     cells = natural_of_cells(of, np.array([0.0, 0.2]), np.array([0.0, 0.1]))
-    mean, _ = cells.at(cells.factors())
+    mean, _ = cells.now
     assert mean[0, 0, 0, 0] == pytest.approx(0.25 * 0.02 + 0.5 * 0.03 + 0.25 * 0.01)
-    assert sheet_at_rest(of).lengths == pytest.approx((0.202, 0.1))
+    assert sheet_at_rest(of).lengths == (0.2, 0.1)  # cells have grown each by itself
+    growth = growth_of_cells(of, np.array([0.0, 0.2]), np.array([0.0, 0.1]))
+    np.testing.assert_allclose(growth, [[[1.0 + mean[0, 0, 0, 0], 1.0]]])
+    assert growth_of_cells(of.replace(patches=()), np.array([0.0, 0.2]), np.array([0.0, 0.1])) is None
+    assert sheet_at_rest(of.replace(patches=())).lengths == pytest.approx((0.202, 0.1))
 
 
 def test_histories_scale_each_source_of_its_own():
@@ -47,7 +57,8 @@ def test_histories_scale_each_source_of_its_own():
         natural=Natural(curvature=(1.0, 0.0, 0.5), history=grows), temperature=Temperature(change=10.0)
     )
     state = natural_at(of, np.zeros(2))
-    strain, curvature = state.at(state.factors(0.25))
+    state.grow(time=0.25)
+    strain, curvature = state.now
     np.testing.assert_allclose(curvature, [[0.5, 0.25], [0.25, 0.0]])
     np.testing.assert_allclose(strain, 1e-3 * np.eye(2), rtol=1e-12)
     assert state.moves and state.rates(0.25, before=False).tolist() == [2.0, 0.0]
@@ -77,7 +88,7 @@ def test_a_gradient_of_temperature_bends_and_a_bimetal_is_timoshenkos():
 
 def test_pretension_is_the_strain_that_pulls_so_much():
     of = scene(natural=Natural(pretension=(2.0, 1.0)))
-    strain, _ = (part[0] for part in natural_at(of, np.zeros((1, 2))).at(np.ones(1)))
+    strain, _ = (part[0] for part in natural_at(of, np.zeros((1, 2))).now)
     stiffness = 1e6 * 0.002 / 0.91 * np.array([[1.0, 0.3], [0.3, 1.0]])
     np.testing.assert_allclose(-stiffness @ np.diag(strain), [2.0, 1.0])
 

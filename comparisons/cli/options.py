@@ -206,7 +206,8 @@ class SheetOptions(Group):
     poisson: Annotated[float | None, option("Poisson's ratio ν.", "NU", unit="")] = None
     thickness: Annotated[float | None, option("Thickness: 0.002 or 2mm.", "M", unit="m")] = None
     density: Annotated[
-        float | None, option("Density: 1100 or 1.1g/cm3; default: 1000 kg/m³.", "KG/M3", unit="kg/m³")
+        float | None,
+        option("Density: 1100 or 1.1g/cm3; default: 1000 kg/m³, of new 1100.", "KG/M3", unit="kg/m³"),
     ] = None
     side: Annotated[str | None, option("Sides: 0.188, 0.188x0.3 (x by y) or 12x4cm.", "M")] = None
 

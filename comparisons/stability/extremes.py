@@ -158,7 +158,7 @@ def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
     against = ask("midpoint", period / FINE)
     for name in INTEGRATORS:
         steps = [period / n for n in DIVISIONS]
-        if lumped.INTEGRATORS[name].explicit:
+        if lumped.INTEGRATORS[name].explicit and not scene.chains():  # else it is refused
             limit = lumped.explicit_limit(name, scene, resolve(scene, lattice).springs)
             steps = [share * limit for share in SHARES]
         yield from ((ask(name, step), against) for step in steps)

@@ -92,7 +92,7 @@ def dynamic_tradeoff(
     for number, (one, period) in enumerate(zip(meant, periods, strict=True)):
         for name in integrators:
             steps = [period / n for n in divisions]
-            if lumped.INTEGRATORS[name].explicit:
+            if lumped.INTEGRATORS[name].explicit and not scene.chains():  # else it is refused
                 largest_step = lumped.explicit_limit(name, scene, one.springs)
                 steps = [share * largest_step for share in SHARES]
             asks += [of_lattice(number, name, step) for step in steps]

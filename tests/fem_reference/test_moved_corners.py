@@ -64,6 +64,7 @@ def answer(name, model):
     return solve(make_scene(supports, *actuators), model)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", COMPATIBLE)
 def test_models_agree_where_both_can_be_obeyed(name):
     """Within 1 % of the largest displacement; the moved edge is where it was put, corners included."""

@@ -233,9 +233,10 @@ def test_the_law_is_an_option_of_the_reference(capsys):
         fem_reference.solve(bent(), "shell", elements=2, section=section, law="biot")
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("law", "elements", "found"),
-    [("mooney-rivlin", 6, 1.0), ("neo-hookean", 6, 0.594), ("neo-hookean", 4, 0.599)],
+    [("neo-hookean", 4, 0.599), ("neo-hookean", 6, 0.594), ("mooney-rivlin", 6, 1.0)],
 )
 def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law, elements, found):
     """Neo-Hooke's has a limit point of inflation, Mooney's with c2 = c1/4 none up to here. On 4 elements the

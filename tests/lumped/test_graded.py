@@ -120,6 +120,7 @@ def shell_of(young, name):
     return scene, fem_reference.solve(scene, model="shell", elements=16).displacement(scene.probe_points())
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     "method, young, name, masses_, held",
     [

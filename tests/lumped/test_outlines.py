@@ -70,6 +70,7 @@ def test_absent_cells_have_no_springs_no_mass_and_no_unknowns():
     assert mesh.cell_data["cell_energy"][1].sum() == pytest.approx(stored)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("scene", "order", "within"),
     [

@@ -156,8 +156,10 @@ def mass_of(scene: SceneFields) -> float:
 def mass_over_stiffness(scene: SceneFields) -> float:
     """ρ/E [s²/m²] of the sheet as a whole: its mass over the integral of its membrane's stiffness E h, as
     if a taper's thickness were the sheet's."""
-    sheet, rest = of_sheet(scene), area_in(scene, None)
-    mass = stiffness = 0.0
+    sheet = of_sheet(scene)
+    if scene.homogeneous:
+        return float(sheet.per_area / sheet.stretching)
+    rest, mass, stiffness = area_in(scene, None), 0.0, 0.0
     for area, own in _disjoint(scene.patches):
         constants, size = sheet.arrays(()), scene.region.intersection(area).area
         _put(constants, own)

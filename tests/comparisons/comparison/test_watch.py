@@ -50,6 +50,7 @@ def test_an_edge_torn_away_is_outside_the_model_from_when_it_is(model):
     assert 0.05 < since < 0.18
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
 def test_what_turns_inside_out_ends_a_run(model):
     """An edge pushed through the other."""

@@ -57,6 +57,7 @@ def test_a_laws_own_curves_give_its_constants_back(law):
     assert found.material(poisson=0.4999).young == pytest.approx(found.law.young, rel=1e-3)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("law", LAWS)
 def test_intervals_hold_in_18_to_20_of_20_seeds(law):
     held = dict.fromkeys(KEYS[law], 0)

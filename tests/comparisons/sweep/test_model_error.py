@@ -161,6 +161,7 @@ CORNER = Scene(
 LOADED = [ARCH, CORNER, load("two-edges-clamped"), load("curved-edge")]
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("scene", LOADED, ids=lambda scene: scene.name)
 def test_the_law_of_strain_is_weighed_where_the_probes_answer_comes_from(scene):
     """The largest stretch, in a corner, had said eight times as much."""
@@ -181,6 +182,7 @@ def test_the_thick_sheet_with_four_clamps_is_within_what_is_said():
     assert found.value > (1.669 - 1.635) / 1.635
 
 
+@pytest.mark.sweep(4)
 @pytest.mark.parametrize("clamped", [("x0",), ("x0", "x1"), ("x0", "x1", "y0", "y1")], ids=len)
 @pytest.mark.parametrize("poisson", [-0.3, 0.0, 0.3, 0.45, 0.49])
 @pytest.mark.parametrize("slenderness", [0.15, pytest.param(0.06, marks=pytest.mark.nightly)])

@@ -30,6 +30,7 @@ def test_the_solid_agrees_with_the_shell(name):
     np.testing.assert_allclose(moment[8:16], agreed[8:16], atol=0.02 * np.abs(agreed).max())
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("edges", [("y1",), ("x1", "y1"), ("y0", "y1")])
 def test_rods_that_meet_each_other_and_a_clamp(edges):
     """They end at corners whose column the clamp holds or the other rod turns too."""

@@ -260,10 +260,10 @@ def driven():
     )
 
 
-@pytest.mark.parametrize("name", ["verlet", "generalised-alpha", "midpoint"])
+@pytest.mark.parametrize("name", ["generalised-alpha", "midpoint"])
 def test_integrators_agree_on_a_sheet_with_a_chain(driven, name):
     scene, truth = driven
-    step = {"verlet": None, "generalised-alpha": None, "midpoint": 2.5e-4}[name]
+    step = 2.5e-4 if name == "midpoint" else None
     history = lumped.simulate(scene, springs(scene, 3), 0.01, integrator=name, step=step, every=0.001)
     assert history.status is scenes.Status.CONVERGED
     scale = np.abs(truth.probes["P4"]).max()

@@ -37,6 +37,7 @@ def bent(scene, cells):
     return bending(scene, lumped.solve(scene, springs))
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     "young, length, curvature, stiffness, within",
     [
@@ -78,6 +79,7 @@ def composite_elastica():
     return found.y[2:, -1]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("segments", [6, 24])
 @pytest.mark.parametrize(
     "grid", [(25, 3), (37, 3), (49, 3), *(pytest.param(n, marks=pytest.mark.nightly) for n in (9, 17))]
@@ -102,6 +104,7 @@ def test_a_strip_between_two_chains_is_the_composite_elastica(grid, segments):
     assert np.abs(tip - [x - LENGTH, 0.0, z]).max() < 1e-3 * z
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("base", ["free", "start", "middle", "end"])
 @pytest.mark.parametrize("segments", [1, 2, 3, 6])
 def test_parts_keep_curvatures_and_forces_of_the_segments(base, segments):

@@ -1,7 +1,5 @@
 """Edges that move as prescribed, and constraints, step by step: positions, velocities, work and impulses."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from dynamic_cases import make_scene, run, springs, system
@@ -95,37 +93,3 @@ def test_a_moved_edge_exerts_what_balances_a_load(turned):
     assert_allclose(force, -pull, atol=1e-8)
     assert_allclose(moment, -np.cross(loaded - middle, pull), atol=1e-8 * 0.188)
     assert_allclose(solution.reactions["x0"], force, atol=1e-12)
-
-
-@pytest.fixture(scope="module")
-def whirling():
-    """A chain whose joints straighten, undamped, on the far edge of a clamped sheet."""
-    rod = {"edge": "x1", "segments": 3, "curvature": 20.0, "line_density": 0.5}
-    clamp = {"edge": "x0", "kind": "clamped"}
-    return system(make_scene(gravity=False, supports=[clamp], actuators=[rod], damping_time=0.0), n=3)
-
-
-def test_verlet_with_constraints_can_be_run_backwards(whirling):
-    """RATTLE is symmetric in time: positions and velocities take the impulses of both ends of a step."""
-    equations, rest = whirling
-    forth, _ = run(INTEGRATORS["verlet"](equations, 2e-5), rest, 2e-5, 40)
-    turned = replace(forth[-1], time=0.0, v=-forth[-1].v)
-    back, _ = run(INTEGRATORS["verlet"](equations, 2e-5), turned, 2e-5, 40)
-    real = ~equations.coupling.algebraic
-    far = np.abs((forth[-1].u - rest.u)[real]).max()
-    assert np.abs((back[-1].u - rest.u)[real]).max() < 1e-9 * far
-    assert np.abs((back[-1].v + rest.v)[real]).max() < 1e-9 * np.abs(forth[-1].v[real]).max()
-
-
-def test_verlets_multipliers_accelerate_and_its_velocities_stay_tangential(whirling):
-    """Accelerations, constraint forces among them, are the slopes of velocities; to first order in the step,
-    of which 2e-5 s gives 1.1e-3."""
-    equations, rest = whirling
-    states, _ = run(INTEGRATORS["verlet"](equations, 2e-5), rest, 2e-5, 40)
-    real = ~equations.coupling.algebraic
-    v, a = (np.array([getattr(state, name)[real] for state in states]) for name in ("v", "a"))
-    assert np.abs((v[2:] - v[:-2]) / 4e-5 - a[1:-1]).max() < 1e-2 * np.abs(a).max()
-    for state in states[1:]:
-        gradient = equations.coupling.constraint_gradient(state.u)
-        along = np.einsum("mrq,rq->m", gradient, state.v[equations.coupling.masses :])
-        assert np.abs(along).max() < 1e-10 * np.abs(gradient).max() * np.abs(v).max()

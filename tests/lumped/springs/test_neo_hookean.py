@@ -86,6 +86,7 @@ def test_the_largest_frequency_does_not_grow_under_stretch():
         assert 0.9 * at_rest < step_limit(system, u).frequency < 1.01 * at_rest
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("integrator", "step", "tolerance", "law"),
     [

@@ -207,6 +207,7 @@ def reference():
     return scene, times, tip
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     "name, step", [("verlet", None), ("generalised-alpha", None), ("esdirk", None), ("midpoint", 2e-4)]
 )
@@ -243,6 +244,7 @@ def shaken(damping_time=0.0):
     return make_scene("one-edge-clamped", loads=loads, damping_time=damping_time)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("damping", [0.0, 1e-3])
 @pytest.mark.parametrize(
     "name, tolerance", [("midpoint", 1e-9), ("generalised-alpha", 1e-4), ("esdirk", 1e-4), ("verlet", 1e-4)]

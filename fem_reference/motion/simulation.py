@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from fem_reference.defaults import with_defaults
-from fem_reference.discrete.energies import Motion
+from fem_reference.discrete.energies import SheetMotion
 from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
 from fem_reference.motion.moving import MovingSheet
@@ -109,7 +109,7 @@ def simulate(
         "settings": settings,
         "every": every,
     }
-    recipe: Recipe[Motion] = Recipe(
+    recipe: Recipe[SheetMotion] = Recipe(
         label=moving.label,
         integrator=integrator,
         settings=settings,

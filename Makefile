@@ -30,7 +30,7 @@ help:
 	@echo "make bench     settling beside SciPy's BDF, statics, explicit steps, start-up: time and what it goes to (files in $(OUT)/, history in benchmarks/history/)"
 	@echo "make viewer    the viewer of sheets in a browser, comparisons/pages/viewer.js, from its source (needs Node)"
 	@echo "make docs-scene  the sketch of a scene, docs/images/scene.svg"
-	@echo "make animations  the README's moving pictures, docs/images/settling.gif and actuated.gif (two minutes)"
+	@echo "make animations  the moving pictures of README and catalogue, docs/images/*.gif (four minutes)"
 	@echo "make pictures  the still pictures of the README and of the pages (a minute; needs chromium)"
 	@echo "make notebooks the notebooks of docs/notebooks anew, with what they print and draw"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
@@ -125,6 +125,8 @@ animations: install
 	@cp $(OUT)/both/both.gif docs/images/both.gif
 	@cp $(OUT)/settling/animation.gif docs/images/settling.gif
 	@cp $(OUT)/actuated/animation.gif docs/images/actuated.gif
+	@$(BIN)/sheetbench simulate muscle-bands --duration 1.5 --animate --out $(OUT)/muscles
+	@cp $(OUT)/muscles/animation.gif docs/images/muscles.gif
 
 pictures: install
 	@$(BIN)/python docs/pictures.py

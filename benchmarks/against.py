@@ -118,7 +118,7 @@ def beside(case: str, other: Path, seconds: float) -> dict[str, Any]:
         "least_seconds": [min(of) for of in spent],
         "median_seconds": [median(of) for of in spent],
         "peak_bytes": [of[2] for of in rounds[-1]],
-        "apart": abs(now / was - 1.0),
+        "difference": abs(now / was - 1.0),
     }
 
 
@@ -132,25 +132,25 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=5.0, help="CPU seconds of a case")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
     parser.add_argument("--serve", metavar="CASE", help=argparse.SUPPRESS)
-    asked = parser.parse_args()
-    if asked.serve:
-        serve(asked.serve)
+    arguments = parser.parse_args()
+    if arguments.serve:
+        serve(arguments.serve)
         return
-    if asked.other is None:
+    if arguments.other is None:
         parser.error("name the FOLDER of another state")
     rows = []
-    for case in asked.case:
-        row = beside(case, asked.other.resolve(), asked.seconds)
+    for case in arguments.case:
+        row = beside(case, arguments.other.resolve(), arguments.seconds)
         (was, now), medians = row["least_seconds"], row["median_seconds"]
         peaks = " → ".join(f"{peak / 1e9:.2f}" for peak in row["peak_bytes"])
         print(
             f"{case:>15}  {1e3 * was:8.2f} → {1e3 * now:8.2f} ms, {was / now:5.2f} times as fast by the "
             f"least of {row['calls']}, {medians[0] / medians[1]:5.2f} by medians; {peaks} GB; "
-            f"answers {row['apart']:.0e} apart",
+            f"answers {row['difference']:.0e} apart",
             flush=True,
         )
         rows.append(row)
-    if asked.keep:
+    if arguments.keep:
         from keeping import keep
 
         print(keep("against", rows))

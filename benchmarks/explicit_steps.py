@@ -65,10 +65,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("masses", nargs="*", type=int, default=[9, 65], help="along each side")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     rows: list[dict[str, Any]] = []
     kinds: tuple[Precision, ...] = ("double", "single")
-    for n, damping, kind in product(asked.masses, (0.0, 4e-3), kinds):
+    for n, damping, kind in product(arguments.masses, (0.0, 4e-3), kinds):
         one, other = measure(n, damping, kind)
         rate = 2e-6 * n * n / one
         rows.append(
@@ -80,7 +80,7 @@ def main() -> None:
             f"{1e6 * other:.0f} one by one; {rate:.1f} M mass-steps/s",
             flush=True,
         )
-    if asked.keep:
+    if arguments.keep:
         print(keep("explicit-steps", rows))
 
 

@@ -42,24 +42,25 @@ def main() -> None:
     parser.add_argument(
         "--picture", metavar="FILE", help="keep a picture of the page, as docs/images/live.png"
     )
-    asked = parser.parse_args()
-    sizes = ("--grid", str(asked.grid), "--elements", str(asked.elements))
-    with serving(asked.scene, *sizes) as address, sync_playwright() as playwright:
+    arguments = parser.parse_args()
+    sizes = ("--grid", str(arguments.grid), "--elements", str(arguments.elements))
+    with serving(arguments.scene, *sizes) as address, sync_playwright() as playwright:
         program = shutil.which("chromium") or shutil.which("google-chrome")
         browser = playwright.chromium.launch(executable_path=program, args=list(FLAGS))
         page = browser.new_page(viewport={"width": 1200, "height": 820})
         page.goto(address)
         until(page, ANSWERED)
         drag(page, 5, waiting=True)  # the page's own code is compiled by then
-        if asked.picture:
-            page.screenshot(path=asked.picture)
-        found: dict[str, Any] = {"scene": asked.scene, "grid": asked.grid, "elements": asked.elements}
-        found["lattice_ms"], found["shell_ms"] = drag(page, asked.drags, waiting=True)
-        found["sweep_ms"], _ = drag(page, asked.drags, waiting=False)
+        if arguments.picture:
+            page.screenshot(path=arguments.picture)
+        found: dict[str, Any] = {name: getattr(arguments, name) for name in ("scene", "grid", "elements")}
+        found["lattice_ms"], found["shell_ms"] = drag(page, arguments.drags, waiting=True)
+        found["sweep_ms"], _ = drag(page, arguments.drags, waiting=False)
         found["solve_ms"] = 1e3 * page.evaluate("live.shown.lattice.seconds")
         browser.close()
     print(
-        f"{asked.scene}, lattice {asked.grid} × {asked.grid} × 2, shell of {asked.elements} elements a side"
+        f"{arguments.scene}, lattice {arguments.grid} × {arguments.grid} × 2, "
+        f"shell of {arguments.elements} elements a side"
     )
     for name, said in {
         "lattice_ms": "drag to lattice drawn",
@@ -68,8 +69,8 @@ def main() -> None:
     }.items():
         times = found[name]
         print(f"{said}: median {statistics.median(times):.0f} ms, worst of {len(times)} {max(times):.0f} ms")
-    if asked.json:
-        with open(asked.json, "w", encoding="utf-8") as file:
+    if arguments.json:
+        with open(arguments.json, "w", encoding="utf-8") as file:
             json.dump(found, file)
 
 

@@ -39,9 +39,9 @@ Answer = tuple[np.ndarray, int]  # P4 (n, 3) [m] at TIMES, and steps
 def equations() -> tuple[Any, Callable[..., np.ndarray], Callable[..., sp.csc_array]]:
     """The lattice's system, and ẏ and ∂ẏ/∂y of y = (free displacements, their velocities): of dampers that
     turn the Jacobian leaves the turning out, as an implicit step does."""
-    asked = scenes.load(SCENE)
-    springs = lumped.calibrate(asked.sheet, asked.material, grid=GRID)
-    system = lumped.System(asked, lumped.build_problem(asked, springs))
+    scene = scenes.load(SCENE)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=GRID)
+    system = lumped.System(scene, lumped.build_problem(scene, springs))
     n = system.reduced_mass.shape[0]
     weight = sp.diags_array(1.0 / system.reduced_mass.diagonal())
 
@@ -77,11 +77,11 @@ def bdf(rtol: float) -> Callable[[], Answer]:
 
 def ours(integrator: str, duration: float = DURATION, **options: Any) -> Callable[[], Answer]:
     """A run of ours, set-up and samples included."""
-    asked = scenes.load(SCENE)
-    springs = lumped.calibrate(asked.sheet, asked.material, grid=GRID)
+    scene = scenes.load(SCENE)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=GRID)
 
     def run() -> Answer:
-        history = lumped.simulate(asked, springs, duration, integrator=integrator, every=EVERY, **options)
+        history = lumped.simulate(scene, springs, duration, integrator=integrator, every=EVERY, **options)
         return history.probes["P4"], history.steps
 
     return run
@@ -100,13 +100,13 @@ def main() -> None:
     parser.add_argument("--all", action="store_true", help="verlet and midpoint too")
     parser.add_argument("--json", type=Path, help="a file for the rows")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     rivals = {"SciPy BDF, rtol 1e-3": bdf(1e-3), "SciPy BDF, rtol 1e-4": bdf(1e-4)}
     methods: dict[str, tuple[str, dict[str, Any]]] = {
         "generalised-alpha": ("generalised-alpha", {}),
         "esdirk": ("esdirk", {}),
     }
-    if asked.all:
+    if arguments.all:
         methods |= {name: (name, {}) for name in ("midpoint", "verlet")}
     truth, _ = ours("esdirk", step=1e-3)()
     near, _ = ours("esdirk", step=2e-3)()
@@ -144,9 +144,9 @@ def main() -> None:
             f"  {faster:6.1f} times as fast as the first{each}",
             flush=True,
         )
-    if asked.json is not None:
-        asked.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
-    if asked.keep:
+    if arguments.json is not None:
+        arguments.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
+    if arguments.keep:
         print(keep("settling", rows))
 
 

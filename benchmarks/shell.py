@@ -86,7 +86,7 @@ def main() -> None:
     )
     parser.add_argument("--elements", type=int, nargs="+", default=ELEMENTS, help="along a side")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     clock, scene = watched(), load("two-edges-clamped")
 
     def solved(elements: int) -> dict[str, float]:
@@ -96,7 +96,7 @@ def main() -> None:
         return spent | clock.spent
 
     rows: list[dict[str, Any]] = []
-    for elements in asked.elements:
+    for elements in arguments.elements:
         calls = [solved(elements) for _ in range(REPEATS + 1)][1:]
         ours = min(calls, key=lambda call: call["seconds"])
         shares = {kind: ours.get(kind, 0.0) / ours["seconds"] for kind in ("assembly", "factors", "set-up")}
@@ -108,7 +108,7 @@ def main() -> None:
             f"factorisations  {shown}",
             flush=True,
         )
-    if asked.keep:
+    if arguments.keep:
         print(keep("shell", rows))
 
 

@@ -51,7 +51,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--first", action="store_true", help="with an empty cache too (a minute)")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     rows: list[dict[str, Any]] = []
     for command in COMMANDS:
         process(command)  # what is compiled is in the cache now
@@ -61,13 +61,13 @@ def main() -> None:
         rows.append({"command": " ".join(command), "cpu_seconds": cpu, "seconds": clock})
         compiled = ", compiles" if "compiling" in said else ""
         print(f"sheetbench {' '.join(command):34s} {cpu:6.2f} s CPU {clock:6.2f} s{compiled}", flush=True)
-    if asked.first:
+    if arguments.first:
         command = COMMANDS[-2]
         with tempfile.TemporaryDirectory() as empty:
             cpu, clock, _ = process(command, NUMBA_CACHE_DIR=empty)
         rows.append({"command": " ".join(command), "first": True, "cpu_seconds": cpu, "seconds": clock})
         print(f"sheetbench {' '.join(command):34s} {cpu:6.2f} s CPU {clock:6.2f} s, the first time")
-    if asked.keep:
+    if arguments.keep:
         print(keep("startup", rows))
 
 

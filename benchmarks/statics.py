@@ -156,9 +156,9 @@ def main() -> None:
     parser.add_argument("--batch", type=int, default=BATCH, help="lattices in the batch")
     parser.add_argument("--json", metavar="FILE", help="where to keep the numbers")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     rows: list[dict[str, Any]] = []
-    for masses in LATTICES + (LARGE if asked.large else ()):
+    for masses in LATTICES + (LARGE if arguments.large else ()):
         rows.append(lattice(masses))
         row = rows[-1]
         share = min(1.0, row["factorisations"] * row["one_factorisation_seconds"] / row["solve_seconds"])
@@ -168,12 +168,12 @@ def main() -> None:
             f"({share:.0%})  {row['gflops']:.1f} Gflop/s  {row['peak_bytes'] / 1e9:.1f} GB",
             flush=True,
         )
-    rows.extend(of_batch_and_shells(asked.batch))
-    if asked.json:
+    rows.extend(of_batch_and_shells(arguments.batch))
+    if arguments.json:
         about = {"machine": platform.processor() or platform.machine(), "python": platform.python_version()}
-        with open(asked.json, "w", encoding="utf-8") as file:
+        with open(arguments.json, "w", encoding="utf-8") as file:
             json.dump({"about": about, "rows": rows}, file, indent=1)
-    if asked.keep:
+    if arguments.keep:
         print(keep("statics", rows))
 
 

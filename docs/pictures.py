@@ -30,6 +30,7 @@ COMPARED = (
     "actuated-edge",
     "bimetal-strip",
     "muscle-bands",
+    "bistable-bilayer",
     "heated-plate",
     "strip-on-table",
     "napkin-on-ball",

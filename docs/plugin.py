@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from sheetbench.scenes import BadInput, Clamped, FieldMesh, Solution, Status
+from sheetbench.answers.solution import FieldMesh, Solution, Status
+from sheetbench.scenes import BadInput, Clamped
 
 
 class Strip:

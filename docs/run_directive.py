@@ -23,6 +23,7 @@ from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
 
 COLUMNS = 82
+FOLDERS: dict[str, Path] = {}  # of a page, in this build: a later one starts with empty folders
 ROWS = 45  # of one command's output; what is longer is cut, and says so
 
 
@@ -35,7 +36,7 @@ def printed(command: str, folder: Path) -> str:
     done = subprocess.run(
         [sys.executable, "-m", "sheetbench", *words],
         cwd=folder,
-        env=os.environ | {"COLUMNS": str(COLUMNS)},
+        env=os.environ | {"COLUMNS": str(COLUMNS), "FORCE_COLOR": "1", "TERM": "dumb"},  # as a plain terminal
         capture_output=True,
         text=True,
     )
@@ -53,9 +54,7 @@ class Run(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """Return a block a command, and one with its output."""
-        if not hasattr(self.env, "run_folders"):
-            self.env.run_folders = {}
-        folder = self.env.run_folders.setdefault(self.env.docname, Path(mkdtemp()))
+        folder = FOLDERS.setdefault(self.env.docname, Path(mkdtemp()))
         blocks: list[nodes.Node] = []
         for command in (line for line in self.content if line.strip()):
             text = printed(command, folder)

@@ -23,7 +23,7 @@ def write_verb_pages(folder: Path) -> None:
 
 def _page(verb: str, command: Any) -> str:
     arguments = [p for p in command.params if p.param_type_name == "argument"]
-    options = [p for p in command.params if p.param_type_name == "option"]
+    options = [p for p in command.params if p.param_type_name == "option" and not p.hidden]
     usage = " ".join(["sheetbench", verb, *(_argument(a) for a in arguments), "[OPTIONS]"])
     lines = [f"# {verb}", "", "```sh", usage, "```", "", command.help or "", ""]
     lines += ["| option | |", "| --- | --- |"]

@@ -15,11 +15,12 @@ from typing import Any
 import numpy as np
 
 from fem_reference.defaults import with_defaults
+from sheetbench.answers.solution import Iteration, Solution
 from sheetbench.choices import REFERENCE, REFERENCES, STRAIN_LAWS
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import AnyScene, Iteration, Solution, scene_of
-from sheetbench.scenes.material import WORDS
-from sheetbench.scenes.obstacles import require_no_obstacles
+from sheetbench.scenes import AnyScene, scene_of
+from sheetbench.scenes.meaning.distances import require_no_obstacles
+from sheetbench.scenes.objects.material import WORDS
 
 MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
 

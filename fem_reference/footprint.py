@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sheetbench.scenes.size import Size, factors
+from sheetbench.answers.size import Size, factors
 
 
 @dataclass(frozen=True)

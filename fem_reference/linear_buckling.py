@@ -12,12 +12,12 @@ from fem_reference.discrete.static import Static
 from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from sheetbench.answers.modes import STILL, Buckling, require_flat_and_dead
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.buckling import buckling_modes
 from sheetbench.scenes import AnyScene, require_static, scene_of
-from sheetbench.scenes.modes import STILL, Buckling, require_flat_and_dead
 
 
 def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, count: int = 1) -> Buckling:

@@ -2,7 +2,7 @@
 
 Pulled one way by the force P per area of the unstrained section it is stretched by ε,
 P = E ε (1 + c ε + …); the laws' whole courses are in `fem_reference.verification.strain_laws`. Of a rubber
-(`sheetbench.scenes.material`) ⅓ c E is what its energy has of ε³ where the strip contracts by ν ε:
+(`sheetbench.scenes.objects.material`) ⅓ c E is what its energy has of ε³ where the strip contracts by ν ε:
 
     2 f″ p₁ p₂ + ⁴⁄₃ f‴ p₁³ + 2 c₀₁ (p₁ p₂ − p₃) − ⅓ m p₃ − ½ Λ p₁ p₂,     p_n = 1 + 2 (−ν)ⁿ.
 """
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from sheetbench.choices import STRAIN_LAWS
 from sheetbench.scenes import EdgeLoad, Held, Material, Scene, Sheet
-from sheetbench.scenes.material import Energy
+from sheetbench.scenes.objects.material import Energy
 
 SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.01)
 MATERIAL = Material(young=1e6, poisson=0.3, density=1000.0)

@@ -45,8 +45,9 @@ import numpy as np
 from fem_reference import solve
 from fem_reference.edge_layer import NOTHING, Missed, missed_by
 from fem_reference.surface.mesh import Elements, divisions
+from sheetbench.answers.solution import Solution
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes import Scene
 
 NEIGHBOURS = 0.35  # of ē in the bar
 CAUTION = 3.0  # of e in the bar by two meshes

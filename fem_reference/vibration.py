@@ -40,14 +40,15 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid import statics as solid
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from sheetbench.answers.modes import NaturalModes
+from sheetbench.answers.solution import About
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of
-from sheetbench.scenes.modes import NaturalModes
+from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 
 REACH = 0.375  # of the grading
 
@@ -125,8 +126,8 @@ def modes(
             q, at = _equilibrium(sheet), 1.0
         else:
             rigid = _free_rigid_motions(sheet)
-        still = np.zeros_like(q)
-        stiffness = sheet.tangent(q, still, at, sheet.forces(q, still, at), 0.0, 0.0)
+        shape = sheet.shape(q, at)
+        stiffness = sheet.tangent(shape, sheet.forces(shape), 0.0, 0.0)
         basis = sheet.basis(q, at)
         mass = (basis.T @ sheet.mass @ basis).tocsr()
         ready = now()

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
     from lumped.dynamics.runs.simulation import simulate
+    from lumped.dynamics.scales import explicit_limit, shortest_period
     from lumped.dynamics.system import State, System
     from lumped.linearised import Linear, linearise
     from lumped.state_space import Balanced, StateSpace
@@ -60,6 +61,7 @@ __all__ = [
     "build_problem",
     "calibrate",
     "describe",
+    "explicit_limit",
     "footprint",
     "given",
     "homogenised",
@@ -71,6 +73,7 @@ __all__ = [
     "require_integrator",
     "sections_of",
     "sensitivity",
+    "shortest_period",
     "simulate",
     "solve",
     "step_limit",

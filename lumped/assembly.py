@@ -15,13 +15,13 @@ import numpy as np
 from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
-from lumped.natural import NaturalSprings
+from lumped.natural import with_natural
 from lumped.pattern import MassPattern, neighbours, of_grid
 from lumped.springs.all_families import AllFamilies, springs_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
-from sheetbench.scenes.natural_state import NaturalState
-from sheetbench.scenes.springs import Distribution
+from sheetbench.scenes.meaning.natural_state import NaturalState
+from sheetbench.scenes.objects.springs import Distribution
 
 Precision = Literal["double", "single"]
 
@@ -32,7 +32,8 @@ class Assembly:
     springs: the families (`lumped.springs.families`), the central `links` first. inertia: how masses that
     move are shared out. couple: makes the actuators bound to the lattice; their rows follow those of the
     masses in every array. precision: of the internal force. twisting: edges along which nothing holds the
-    director (`Scene.twisting_edges`). natural: the cells' natural strains and curvatures.
+    director (`Scene.twisting_edges`). natural: the state of cells
+    between lines at x and at y.
     """
 
     def __init__(
@@ -43,7 +44,7 @@ class Assembly:
         couple: Callable[[Lattice], Coupling] | None = None,
         precision: Precision = "double",
         twisting: frozenset[str] = frozenset(),
-        natural: Callable[[Lattice], NaturalState | None] = lambda lattice: None,
+        natural: Callable[..., NaturalState | None] = lambda x, y: None,
     ):
         self.lattice: Lattice = build(
             sheet,
@@ -68,13 +69,12 @@ class Assembly:
             self.pattern = MassPattern(self.coupling.size, rows, columns)
             self.coupling_slots = self.pattern.slots(*own)
         springs = springs_of(self.lattice, self.pattern, calibration.springs, precision == "single")
-        state = natural(self.lattice)
-        self.natural = None if state is None else NaturalSprings(self.lattice, springs.families, state)
+        self.natural = state = natural(*(line.at for line in self.lattice.lines))
         self.all_families = springs
-        if self.natural is not None:
+        if state is not None:
             if precision == "single":
                 raise BadInput("precision = 'single': of a sheet that is flat at rest; leave it out")
-            self.all_families = AllFamilies(self.natural.families, self.pattern)
+            self.all_families = AllFamilies(with_natural(self.lattice, springs.families, state), self.pattern)
         self.force, self.advance = self.all_families.force, self.all_families.advance
         self.tangent, self.springs = self.all_families.tangent, self.all_families.families
         self.links, self.conservative = self.all_families.links, self.all_families.conservative

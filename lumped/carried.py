@@ -1,4 +1,4 @@
-"""The scene's payloads on a lattice (`sheetbench.scenes.masses`).
+"""The scene's payloads on a lattice (`sheetbench.scenes.objects.masses`).
 
 Each mass of the lattice takes of a payload at a point the share that it would take of a force there:
 bilinearly among the columns of the cell, equally among the layers, so that the mass and its first moment are

@@ -14,7 +14,8 @@ from lumped.contact import Contact
 from lumped.contact.table import pressed
 from lumped.lattice import Lattice
 from lumped.statics.solver import solve
-from sheetbench.scenes import Scene, Status, free_rigid_motions
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Scene, free_rigid_motions
 
 STRETCH, WARP, TURN = 0.02, 0.05, 2.0  # of the imposed states: strain, height over length, rad in all
 

@@ -10,10 +10,10 @@ from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Scene, Support, Symmetric, held_axes
-from sheetbench.scenes.patches import boxes_of, shares_of
-from sheetbench.scenes.region import edge_parts
-from sheetbench.scenes.shapes import COINCIDENT, Shape
-from sheetbench.scenes.supports import Point, place
+from sheetbench.scenes.meaning.composition import boxes_of, shares_of
+from sheetbench.scenes.meaning.region import edge_parts
+from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
+from sheetbench.scenes.objects.supports import Point, place
 
 if TYPE_CHECKING:
     from shapely import Geometry

@@ -25,9 +25,9 @@ from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, require_no_branches
-from sheetbench.scenes.natural_state import sources_of
-from sheetbench.scenes.obstacles import obstacles_by_name
-from sheetbench.scenes.supports import named
+from sheetbench.scenes.meaning.distances import obstacles_by_name
+from sheetbench.scenes.meaning.natural_state import sources_of
+from sheetbench.scenes.objects.supports import named
 
 
 @dataclass(frozen=True)

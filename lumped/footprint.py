@@ -12,8 +12,8 @@ core; the whole path takes about twice as long, and a core that is shared up to 
 
 from __future__ import annotations
 
-from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.size import Size, factors
+from sheetbench.answers.size import Size, factors
+from sheetbench.scenes.objects.grid import Grid
 
 ALWAYS = 40e6  # bytes
 A_BLOCK = 600.0  # bytes

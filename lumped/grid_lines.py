@@ -21,8 +21,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.scenes import PiecewiseLinear, Sheet
-from sheetbench.scenes.grading import Graded, Grading, amount, line_numbers, places_with_lines, towards
-from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.objects.grading import (
+    Graded,
+    Grading,
+    amount,
+    line_numbers,
+    places_with_lines,
+    towards,
+)
+from sheetbench.scenes.objects.grid import Grid
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,18 +12,19 @@ from typing import Protocol
 import numpy as np
 
 from lumped.actuators import Drive
-from sheetbench.scenes import ContactState
+from sheetbench.answers.contact import ContactState
 
 
 class Item(Protocol):
     """A physics of its own. name: of its part in an answer; moves: whether what it is fixed to does;
-    resists: whether it takes energy."""
+    resists: whether it takes energy. One that inherits this leaves out what has a default here."""
 
     name: str
     moves: bool
 
     @property
-    def resists(self) -> bool: ...
+    def resists(self) -> bool:
+        return False
 
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         """Add the internal force; return the energy [J]."""
@@ -46,6 +47,7 @@ class Item(Protocol):
 
     def add_resistance(self, u: np.ndarray, v: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         """Add what resists the velocity; return the power taken [W]."""
+        return 0.0
 
     def add_resistance_tangent(
         self, u: np.ndarray, v: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray
@@ -55,15 +57,22 @@ class Item(Protocol):
     def work(self, force: np.ndarray, start: float, end: float) -> float:
         """Return the work [J] that a force (3,) of what it is fixed to does on the sheet between two times
         [s]."""
+        return 0.0
 
     def power(self, force: np.ndarray, time: float) -> float:
         """Return its power [W] at a time [s]."""
+        return 0.0
 
     def exerted(self, u: np.ndarray, drive: Drive, v: np.ndarray | None = None) -> np.ndarray:
         """Return its forces on the masses (n, 3) [N], at a velocity (n, 3) [m/s] in motion."""
+        force = np.zeros_like(u)
+        self.add_force(u, drive, force)
+        return -force
 
-    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive) -> float:
-        """Return the share of a move up to which what the item says holds, 1 for all of it."""
+    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:
+        """Return the share of a move up to which what the item says holds, 1 for all of it; since: where
+        what it is fixed to is as the move begins."""
+        return 1.0
 
     def stiffest(self, mass: np.ndarray) -> float:
         """Return by how much it may raise a squared frequency ω² [1/s²] at most; mass: (n,) [kg]."""
@@ -73,6 +82,8 @@ class Item(Protocol):
 
     def rounding(self) -> float:
         """Return what rounding of displacements leaves of its forces, as a norm [N]."""
+        return 0.0
 
     def report(self, u: np.ndarray, drive: Drive) -> ContactState:
         """Return what there is to say of it at an equilibrium or a sample."""
+        return ContactState(0.0, 0.0, 0, 0)

@@ -30,8 +30,8 @@ from lumped.pattern import SHARED_UP_TO
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import frozen, kept
 from sheetbench.scenes import Sheet
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.objects.grading import Graded
+from sheetbench.scenes.objects.grid import Grid
 
 Weights = Literal["tributary", "full"]
 

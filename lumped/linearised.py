@@ -39,12 +39,12 @@ from lumped.sensitivity import rates
 from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, stable_equilibrium
+from sheetbench.answers.solution import About
 from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
-    About,
     AnyScene,
     Chain,
     Curved,
@@ -55,8 +55,8 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
-from sheetbench.scenes.obstacles import require_no_obstacles
-from sheetbench.scenes.supports import named
+from sheetbench.scenes.meaning.distances import require_no_obstacles
+from sheetbench.scenes.objects.supports import named
 
 MODES = 20  # of the state space unless requested
 LAST = 1e9  # s: when every history has its last value, as in statics

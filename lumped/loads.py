@@ -38,7 +38,7 @@ from sheetbench.scenes import (
     Scene,
     encloses_volume,
 )
-from sheetbench.scenes.region import edge_parts
+from sheetbench.scenes.meaning.region import edge_parts
 
 
 @dataclass

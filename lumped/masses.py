@@ -55,8 +55,8 @@ from lumped.lattice import Lattice
 from lumped.sections import Section
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.springs import Distribution
-from sheetbench.scenes.supports import held_axes
+from sheetbench.scenes.objects.springs import Distribution
+from sheetbench.scenes.objects.supports import held_axes
 
 Inertia = Distribution | Literal["higher-order"]
 

@@ -23,6 +23,7 @@ import scipy.sparse as sp
 
 from lumped.lattice import Lattice
 from sheetbench.errors import BadInput
+from sheetbench.numerics.kept import kept
 
 REACH = 2  # cells beside a point's, by their sides
 ON_LINE = 1e-6  # of a cell's side
@@ -30,51 +31,11 @@ ON_LINE = 1e-6  # of a cell's side
 
 class MidSurface:
     """The mid-surface of a lattice at plan points (n, 2) [m], by polynomials of an order. Raises BadInput for
-    points off the sheet."""
+    points off the sheet. What masses are around them is found once for a lattice."""
 
     def __init__(self, lattice: Lattice, points: np.ndarray, order: int = 3):
         points = np.asarray(points, dtype=float).reshape(-1, 2)
-        places = [lines.index(points[:, axis])[1] for axis, lines in enumerate(lattice.lines)]
-        outside = np.max(np.abs(np.array(places) - 0.5), axis=0) > 0.5 + 1e-9
-        if outside.any():
-            raise BadInput(f"point {points[outside][0].tolist()} m is off the sheet")
-        if lattice.per_area is not None:
-            self._near_rims(lattice, lattice.per_area, points, order)
-            return
-        ends = [lines.around(points[:, axis], order + 1) for axis, lines in enumerate(lattice.lines)]
-        (i, x, beyond_x), (j, y, beyond_y) = ends
-        columns = lattice.columns()[j[:, :, None], i[:, None, :]]
-        self._nodes = columns.reshape(len(points), -1, lattice.grid[2])
-        signs = np.ones((*columns.shape[:3], 3))  # an image moves across its plane of symmetry the other way
-        signs[..., 0] -= 2.0 * beyond_x[:, None, :]
-        signs[..., 1] -= 2.0 * beyond_y[:, :, None]
-        weights = y[:, :, None, None] * x[:, None, :, None] / lattice.grid[2] * signs
-        self._share = weights.reshape(len(points), -1, 3)
-
-    def _near_rims(self, lattice: Lattice, per_area: np.ndarray, points: np.ndarray, order: int) -> None:
-        """Nodes and shares on a lattice with absent cells: of the lines around each point's cell."""
-        own = [_own_cell(lattice, per_area, point) for point in points]
-        reach = 0 if order == 1 else REACH + 1
-        around = np.arange(-reach, reach + 2)
-        first = np.array(own).reshape(-1, 2, 1)
-        rows, over = (np.clip(first[:, axis] + around, 0, per_area.shape[axis]) for axis in (0, 1))
-        columns = lattice.columns()[rows[:, :, None], over[:, None, :]]
-        self._nodes = columns.reshape(len(points), -1, lattice.grid[2])
-        share = np.zeros((len(points), len(around), len(around)))
-        known: dict[tuple[int, int], _Polynomial] = {}
-        for cell in set(own):
-            which = np.array([n for n, each in enumerate(own) if each == cell])
-            weights = {cell: np.ones(len(which))}
-            for other, weight in (
-                _blend(lattice, per_area, cell, points[which]) if order > 1 else weights
-            ).items():
-                if other not in known:
-                    known[other] = _Polynomial.near(lattice, per_area, other, order)
-                found = known[other]
-                row, column = found.rows - cell[0] + reach, found.over - cell[1] + reach
-                share[which[:, None], row, column] += weight[:, None] * found.at(points[which])
-        share = share.reshape(len(points), -1, 1) / lattice.grid[2]
-        self._share = np.broadcast_to(share, (*share.shape[:2], 3))
+        self._nodes, self._share = _nodes_and_shares(lattice, points, order)
 
     def of(self, field: np.ndarray) -> np.ndarray:
         """Values (n, 3) at the points of a field of vectors over the masses, (masses and more, 3)."""
@@ -98,6 +59,54 @@ class MidSurface:
         parts = (self._share * np.asarray(values, float)[:, None, :])[:, :, None, :]
         np.add.at(out, self._nodes, np.broadcast_to(parts, (*self._nodes.shape, 3)))
         return out
+
+
+@kept(last=8, most=2**16, size=lambda lattice, points, _: points.nbytes + 8 * lattice.mass_count)
+def _nodes_and_shares(lattice: Lattice, points: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
+    """The masses (n, columns, layers) around plan points (n, 2) [m], and what share of each component every
+    one of a column has in the value there, (n, columns, 3). Raises BadInput for points off the sheet."""
+    places = [lines.index(points[:, axis])[1] for axis, lines in enumerate(lattice.lines)]
+    outside = np.max(np.abs(np.array(places) - 0.5), axis=0) > 0.5 + 1e-9
+    if outside.any():
+        raise BadInput(f"point {points[outside][0].tolist()} m is off the sheet")
+    if lattice.per_area is not None:
+        return _near_rims(lattice, lattice.per_area, points, order)
+    ends = [lines.around(points[:, axis], order + 1) for axis, lines in enumerate(lattice.lines)]
+    (i, x, beyond_x), (j, y, beyond_y) = ends
+    columns = lattice.columns()[j[:, :, None], i[:, None, :]]
+    signs = np.ones((*columns.shape[:3], 3))  # an image moves across its plane of symmetry the other way
+    signs[..., 0] -= 2.0 * beyond_x[:, None, :]
+    signs[..., 1] -= 2.0 * beyond_y[:, :, None]
+    weights = y[:, :, None, None] * x[:, None, :, None] / lattice.grid[2] * signs
+    return columns.reshape(len(points), -1, lattice.grid[2]), weights.reshape(len(points), -1, 3)
+
+
+def _near_rims(
+    lattice: Lattice, per_area: np.ndarray, points: np.ndarray, order: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Those on a lattice with absent cells: of the lines around each point's cell."""
+    own = [_own_cell(lattice, per_area, point) for point in points]
+    reach = 0 if order == 1 else REACH + 1
+    around = np.arange(-reach, reach + 2)
+    first = np.array(own).reshape(-1, 2, 1)
+    rows, over = (np.clip(first[:, axis] + around, 0, per_area.shape[axis]) for axis in (0, 1))
+    columns = lattice.columns()[rows[:, :, None], over[:, None, :]]
+    share = np.zeros((len(points), len(around), len(around)))
+    known: dict[tuple[int, int], _Polynomial] = {}
+    for cell in set(own):
+        which = np.array([n for n, each in enumerate(own) if each == cell])
+        weights = {cell: np.ones(len(which))}
+        for other, weight in (
+            _blend(lattice, per_area, cell, points[which]) if order > 1 else weights
+        ).items():
+            if other not in known:
+                known[other] = _Polynomial.near(lattice, per_area, other, order)
+            found = known[other]
+            row, column = found.rows - cell[0] + reach, found.over - cell[1] + reach
+            share[which[:, None], row, column] += weight[:, None] * found.at(points[which])
+    share = share.reshape(len(points), -1, 1) / lattice.grid[2]
+    nodes = columns.reshape(len(points), -1, lattice.grid[2])
+    return nodes, np.broadcast_to(share, (*share.shape[:2], 3))
 
 
 @dataclass(frozen=True, eq=False)

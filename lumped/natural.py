@@ -6,11 +6,9 @@ link along d in the plane, whose ends are at the heights z₁ and z₂, and the 
     g₀ = (z₂ − z₁)² + (U(z₁) d)·(U(z₂) d),     g₀ = (|U a|², |U b|², U a · U b)
 
 in place of what they measure on the flat sheet; columns and upright faces keep what they have. Of links
-across the layers that is the diagonal of an isosceles trapezoid, diagonal² = leg² + the product of the
-parallel sides: exact, not of first order, so that a cylinder of any curvature k0 is a state without energy,
-its masses on a circle of exactly 1/k0 and its cells turned by 2 asin(l k0/2) each: the error of an arc is
-(l k0)²/24 of it. A cell that several parts share has the mean of their e0 and k0, a link between cells the
-mean of their g₀.
+across the layers that is the diagonal of an isosceles trapezoid: exact, so that a cylinder of any curvature
+k0 is a state without energy, its masses on a circle of 1/k0 and its cells turned by 2 asin(l k0/2) each. A
+cell that several parts share has the mean of their e0 and k0, a link between cells the mean of their g₀.
 
 The springs' laws see δg − δg₀ for δg and g₀ for g at rest, so that no digits are lost; springs of cells
 resist strains of their natural sides. Derived here.
@@ -18,7 +16,7 @@ resist strains of their natural sides. Derived here.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -28,105 +26,76 @@ from lumped.springs.cell_laws import AREA_AND_STRAINS, NATURAL
 from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.laws import of_stiffness
 from sheetbench.errors import BadInput
-from sheetbench.scenes.natural_state import NaturalState
+from sheetbench.scenes.meaning.natural_state import NaturalState
+
+Setter = Callable[[np.ndarray, np.ndarray], None]  # of strains and curvatures of cells (rows, columns, 2, 2)
 
 
-class NaturalSprings:
-    """Springs of a lattice at a share of its cells' natural state, which `grow` sets in the families' arrays.
-
-    families: in the order of those that are given, of a sheet that is flat at rest; state: of the cells that
-    there are and are not, (rows, columns). Raises BadInput for springs of a per-direction law.
-    """
-
-    def __init__(self, lattice: Lattice, families: Sequence[Family], state: NaturalState):
-        self.state, self._factors = state, np.array([np.nan])
-        self._springs: list[_NaturalLinks | _NaturalCells] = []
-        self.families = [self._natural(lattice, family) for family in families]
-        self.grow()
-
-    def _natural(self, lattice: Lattice, family: Family) -> Family:
+def with_natural(lattice: Lattice, families: Sequence[Family], state: NaturalState) -> list[Family]:
+    """Return the families of a sheet that is not flat at rest, whose arrays its cells' state sets. Raises
+    BadInput for springs of a per-direction law."""
+    found, setters = list(families), list[Setter]()
+    for number, family in enumerate(families):
         if isinstance(family, DirectionalLinks):
             raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
         if isinstance(family, Links):
-            links = _NaturalLinks(lattice, family)
-            self._springs.append(links)
-            return links.family
-        if isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
-            cells = _NaturalCells(lattice, family, self.state)
-            self._springs.append(cells)
-            return cells.family
-        return family
-
-    def grow(self, share: float = 1.0, time: float | None = None) -> None:
-        """Set the springs to a share of the natural state at a time [s], without one the last."""
-        self.set(share * self.state.factors(time))
-
-    def set(self, factors: np.ndarray) -> None:
-        """Set the springs to so many times what each source of the natural state has."""
-        if np.array_equal(factors, self._factors):
-            return
-        self._factors = factors
-        strain, curvature = (form.reshape(-1, 2, 2) for form in self.state.at(factors))
-        for springs in self._springs:
-            springs.set(strain, curvature)
+            found[number], setter = _links(lattice, family)
+        elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
+            found[number], setter = _cells(lattice, family, state)
+        else:
+            continue
+        setters.append(setter)
+    state.made(lambda *forms: [setter(*forms) for setter in setters])
+    return found
 
 
-class _NaturalLinks:
-    """Links, the cells that each lies in or between (m, 4) and the shares of their means (m, 4)."""
+def _links(lattice: Lattice, links: Links) -> tuple[Links, Setter]:
+    cells, shares = (  # that each lies in or between (m, 4), and of their means
+        np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1]))) for part in parts])
+        for parts in zip(*((f.cells, f.shares) for f in lattice.links), strict=True)
+    )
+    every, own = (n[:, 0] * lattice.mass_count + n[:, 1] for n in (lattice.joined[0], links.nodes))
+    order = np.argsort(every)
+    place = order[np.searchsorted(every[order], own)]
+    cells, shares = cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)
+    along, rest = links.offset[:, None, :2], (links.offset**2).sum(axis=1)
+    heights, natural = lattice.positions[links.nodes, 2], np.zeros((2, len(links)))
 
-    def __init__(self, lattice: Lattice, links: Links):
-        cells, shares = (
-            np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1]))) for part in parts])
-            for parts in zip(*((f.cells, f.shares) for f in lattice.links), strict=True)
-        )
-        every, own = (
-            nodes[:, 0] * lattice.mass_count + nodes[:, 1] for nodes in (lattice.joined[0], links.nodes)
-        )
-        order = np.argsort(every)
-        place = order[np.searchsorted(every[order], own)]
-        self._cells, self._shares = cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)
-        self._along, self._rest = links.offset[:, :2], (links.offset**2).sum(axis=1)
-        self._heights = lattice.positions[links.nodes, 2]
-        self._natural = np.zeros((2, len(links)))
-        self.family = replace(links, rest_length=self._natural[0], natural=self._natural)
+    def set_lengths(strain: np.ndarray, curvature: np.ndarray) -> None:
+        e, k = (form.reshape(-1, 2, 2)[cells] for form in (strain, curvature))
+        moved = [np.einsum("mqij,mkj->mqi", e - z[:, None, None, None] * k, along) for z in heights.T]
+        natural[1] = (shares * _change(along, along, *moved)).sum(axis=1)
+        natural[0] = np.sqrt(rest + natural[1])
 
-    def set(self, strain: np.ndarray, curvature: np.ndarray) -> None:
-        """Set lengths and δg₀ of cells' strains and curvatures (c, 2, 2)."""
-        stretched = np.einsum("mqij,mj->mqi", strain[self._cells], self._along)
-        bent = np.einsum("mqij,mj->mqi", curvature[self._cells], self._along)
-        first, second = (stretched - self._heights[:, end, None, None] * bent for end in (0, 1))
-        change = np.einsum("mqi,mi->mq", first + second, self._along) + (first * second).sum(axis=2)
-        self._natural[1] = (self._shares * change).sum(axis=1)
-        self._natural[0] = np.sqrt(self._rest + self._natural[1])
+    return replace(links, rest_length=natural[0], natural=natural), set_lengths
 
 
-class _NaturalCells:
-    """Cells of the layers or of the mid-surface, and the number of the plan cell of each (m,)."""
+def _cells(lattice: Lattice, cells: SpringCells, state: NaturalState) -> tuple[SpringCells, Setter]:
+    """Of the layers or of the mid-surface."""
+    kept = np.arange(lattice.cell_areas.size)[lattice.kept]
+    plan = np.tile(kept, len(cells) // len(kept))
+    heights = lattice.positions[cells.nodes, 2].mean(axis=(1, 2))[:, None, None]
+    flat = cells.sides[:, :, :2]
 
-    def __init__(self, lattice: Lattice, cells: SpringCells, state: NaturalState):
-        kept = np.arange(lattice.cell_areas.size)[lattice.kept]
-        self._plan = np.tile(kept, len(cells) // len(kept))
-        self._heights = lattice.positions[cells.nodes, 2].mean(axis=(1, 2))[:, None]
-        self._sides = cells.sides[:, :, :2]
-        grown, _ = (form.reshape(-1, 2, 2)[self._plan] for form in state.at(state.factors()))
-        sides = cells.sides.copy()
-        sides[:, :, :2] += np.einsum("mij,msj->msi", grown, self._sides)
-        area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-        springs = of_stiffness(cells.stiffness, sides, area)
-        self._natural = np.column_stack([springs, np.zeros((len(cells), 4))])
-        self.family = replace(cells, law=NATURAL, natural=self._natural)
+    def changes(strain: np.ndarray, curvature: np.ndarray, at: np.ndarray) -> np.ndarray:
+        e, k = (form.reshape(-1, 2, 2)[plan] for form in (strain, curvature))
+        return np.asarray(flat @ (e - at * k))
 
-    def set(self, strain: np.ndarray, curvature: np.ndarray) -> None:
-        """Set δg₀ and areas of cells' strains and curvatures (c, 2, 2)."""
-        (a, b), of = self._sides.swapaxes(0, 1), self._plan
-        moved = [
-            np.einsum("mij,mj->mi", strain[of], side)
-            - self._heights * np.einsum("mij,mj->mi", curvature[of], side)
-            for side in (a, b)
-        ]
-        pairs = ((a, b), moved)
+    strain, curvature = state.now
+    sides = flat + changes(strain, curvature, np.zeros((1, 1, 1)))
+    area = np.abs(np.linalg.det(sides))
+    springs = of_stiffness(cells.stiffness, np.pad(sides, ((0, 0), (0, 0), (0, 1))), area)
+    natural = np.column_stack([springs, np.zeros((len(cells), 4))])
+
+    def set_cells(strain: np.ndarray, curvature: np.ndarray) -> None:
+        moved = changes(strain, curvature, heights)
         for column, (s, t) in enumerate(((0, 0), (1, 1), (0, 1)), start=7):
-            (x, y), (dx, dy) = ((of_sides[s], of_sides[t]) for of_sides in pairs)
-            self._natural[:, column] = (x * dy + dx * y + dx * dy).sum(axis=1)
-        a, b = a + moved[0], b + moved[1]
-        self._natural[:, 10] = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+            natural[:, column] = _change(flat[:, s], flat[:, t], moved[:, s], moved[:, t])
+        natural[:, 10] = np.abs(np.linalg.det(flat + moved))
+
+    return replace(cells, law=NATURAL, natural=natural), set_cells
+
+
+def _change(a: np.ndarray, b: np.ndarray, moved_a: np.ndarray, moved_b: np.ndarray) -> np.ndarray:
+    """Change of a · b of sides that have moved by so much."""
+    return np.asarray((a * moved_b + b * moved_a + moved_a * moved_b).sum(axis=-1))

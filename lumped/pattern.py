@@ -9,7 +9,7 @@ import numpy as np
 
 from sheetbench.numerics.fronts import CoupledCells
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.objects.grid import Grid
 
 SHARED_UP_TO = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
 PATTERN_CACHE = 32  # sets of masses whose blocks a small pattern keeps

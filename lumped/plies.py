@@ -20,7 +20,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from sheetbench.scenes.orthotropy import Ply
+from sheetbench.scenes.objects.orthotropy import Ply
 
 Parts = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 

@@ -29,10 +29,12 @@ from lumped import plies
 from lumped.coverage import ObliqueRims, clamped_stiffness, oblique_rims
 from lumped.grid_lines import Lines, grid_lines
 from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, require_uniform
-from sheetbench.scenes.cells import NUMBERS
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.patches import COINCIDENT, of_sheet, parts_between, shares_of, sides_of
+from sheetbench.scenes.meaning.composition import of_sheet, parts_between, shares_of, sides_of
+from sheetbench.scenes.meaning.natural_state import growth_of_cells
+from sheetbench.scenes.objects.cells import NUMBERS
+from sheetbench.scenes.objects.grading import Graded
+from sheetbench.scenes.objects.grid import Grid
+from sheetbench.scenes.objects.shapes import COINCIDENT
 
 SHEAR_CORRECTION = 5.0 / 6.0
 FINER = 4
@@ -44,7 +46,7 @@ class Section:
     """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m] along x and y,
     free_shear the same where no force shears the other way, per_area (…) [kg/m²]; of cells the dots are
     (rows, columns); rims: the oblique ones, where there are any; share: the sheet's of each cell, where some
-    are cut."""
+    are cut; growth: of the sides of each, where patches have grown."""
 
     membrane: np.ndarray
     bending: np.ndarray
@@ -53,6 +55,7 @@ class Section:
     per_area: np.ndarray
     rims: ObliqueRims | None = None
     share: np.ndarray | None = None
+    growth: np.ndarray | None = None
 
     @classmethod
     def of(cls, constants: Constants) -> Self:
@@ -134,10 +137,12 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | No
     lines = grid_lines(scene.sheet, grid, grading)
     whole, clamped = _as_if_whole(scene, grid, lines), clamped_stiffness(scene, lines)
     cut = bool(np.any(np.abs(clamped - 1.0) > COINCIDENT))
-    if not (scene.pierced or cut):
+    growth = growth_of_cells(scene, lines[0].at, lines[1].at)
+    if not (scene.pierced or cut or growth is not None):
         return whole
     if whole is None:
         whole = of_cells(Cells.of(scene.sheet, scene.material), grid)
+    whole = replace(whole, growth=growth)
     if cut:
         whole = replace(_times(whole, clamped), per_area=whole.per_area)
     if not scene.pierced:

@@ -29,8 +29,8 @@ from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene, require_static
-from sheetbench.scenes.natural_state import sheet_at_rest
-from sheetbench.scenes.parameters import FIBRES, parameter, put
+from sheetbench.scenes.meaning.natural_state import sheet_at_rest
+from sheetbench.scenes.meaning.parameters import FIBRES, parameter, put
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
 CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from

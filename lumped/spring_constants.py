@@ -1,6 +1,6 @@
 """The constants of a spring or damper set as arrays: what is computed with, beside the table that is written.
 
-`Springs.read` makes arrays of a table (`sheetbench.scenes.springs`), `table` a table of them. A constant has
+`Springs.read` makes arrays of a table (`scenes.objects.springs`), `table` a table of them. A constant has
 the shape (directions, rows, columns): one direction, or x and y, of Habibi et al.'s per-direction law x, y
 and z; one row and column where all cells are alike, else rows of cells from y0 to y1, each from x0 to x1.
 Those of edges have an array along x0 and one along y0, or one number for both.
@@ -20,9 +20,9 @@ import numpy as np
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
-from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.quantities import LARGEST
-from sheetbench.scenes.springs import DamperSet, Either
+from sheetbench.scenes.objects.grid import Grid
+from sheetbench.scenes.objects.quantities import LARGEST
+from sheetbench.scenes.objects.springs import DamperSet, Either
 
 EDGES_OWN = (
     "edge_shear",

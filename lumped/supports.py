@@ -6,7 +6,7 @@ held     the mean of the layers held in the named components
 curved   every layer held on the director of the rod
 symmetric  the component across the edge held, in every layer
 
-Where bent and tilted edges are at a load factor λ is the scene's to say (`sheetbench.scenes.kinematics`).
+Where bent and tilted edges are at a load factor λ is the scene's to say (`scenes.meaning.kinematics`).
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ from sheetbench.numerics.kept import frozen, kept
 from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.numerics.reduced import ReducedSystem, reduced
 from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
-from sheetbench.scenes.kinematics import bent_or_tilted, shifts
-from sheetbench.scenes.supports import named
+from sheetbench.scenes.meaning.kinematics import bent_or_tilted, shifts
+from sheetbench.scenes.objects.supports import named
 
 
 @dataclass(frozen=True, eq=False)

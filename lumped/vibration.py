@@ -20,19 +20,13 @@ from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, stable_equilibrium
+from sheetbench.answers.modes import NaturalModes
+from sheetbench.answers.solution import About
 from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import (
-    About,
-    AnyScene,
-    Scene,
-    free_rigid_motions,
-    require_static,
-    scene_of,
-)
-from sheetbench.scenes.modes import NaturalModes
+from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, require_static, scene_of
 
 
 @dataclass(frozen=True, repr=False)

@@ -24,6 +24,8 @@ if _TYPE_CHECKING:
     from comparisons.comparison.comparison import error
     from comparisons.identification.measurements import Displacements
     from comparisons.models.spec import Elements, External, Lattice, LatticePair
+    from sheetbench.answers.history import History
+    from sheetbench.answers.solution import Solution, Status
     from sheetbench.face import solve, study
     from sheetbench.scenes import (
         BadInput,
@@ -35,7 +37,6 @@ if _TYPE_CHECKING:
         Gravity,
         Held,
         Hinged,
-        History,
         Implausible,
         Mass,
         Material,
@@ -44,12 +45,10 @@ if _TYPE_CHECKING:
         Scene,
         SceneError,
         Sheet,
-        Solution,
-        Status,
         Symmetric,
         catalogue,
         load,
-    )  # fmt: skip
+    )
 
     calibrate: _Callable[..., _Any]
     check: _Callable[..., _Any]
@@ -75,6 +74,8 @@ _MODULES = {  # all else is of sheetbench.scenes
     "comparisons.comparison.comparison": "error",
     "comparisons.identification.measurements": "Displacements",
     "comparisons.models.spec": "Elements External Lattice LatticePair",
+    "sheetbench.answers.history": "History",
+    "sheetbench.answers.solution": "Solution Status",
     "sheetbench.face": "solve study",
 }
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names.split()}

@@ -87,6 +87,17 @@ STRAIN_LAWS = {
     "biot": "linear in the elongation, as the lattice's springs are",
     "neo-hookean": "compressible, for rubbers and silicones",
 }
+SUITES = ("statics", "motion", "modes", "curves", "natural", "contact")  # of the reference set
+REPRODUCED = ("errors", "tables", "settling", "nearest")  # parts of the published study
+VARIED = {  # of a scene's stability
+    "load": "loads, times the scene's",
+    "slenderness": "thickness, times the scene's",
+    "young": "E, times the scene's",
+    "obstacle": "distance of obstacles, times the scene's",
+    "grid": "cells along the shorter side",
+    "damping": "damping ratio of the lowest mode",
+    "time-step": "time step [ms]",
+}
 ELEMENTS = 16  # along the shorter side
 
 

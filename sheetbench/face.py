@@ -14,12 +14,13 @@ from typing import Any
 from comparisons.cli.study import module_of
 from comparisons.cli.verb import as_function
 from comparisons.models import solve as solvers
-from comparisons.models.context import in_context
+from comparisons.models.context import running
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, parse, spec_of
-from comparisons.pictures.work import silent
+from sheetbench.answers.solution import Solution
 from sheetbench.errors import BadInput
-from sheetbench.scenes import AnyScene, Solution, scene_of
+from sheetbench.scenes import AnyScene, Scene, scene_of
+from sheetbench.scenes.meaning.plausibility import warn_of_slips
 
 
 def verb(name: str) -> Callable[..., Any]:
@@ -33,13 +34,12 @@ def study(name: str, **options: Any) -> Any:
     return as_function(name, module_of(name).command)(**options)
 
 
-@in_context
 def solve(
     scene: AnyScene,
     model: Spec | str = Lattice.NAME,
     *,
     large: bool = False,
-    progress: Callable[[Any], None] = silent,
+    progress: Callable[[Any], None] | None = None,
     **settings: Any,
 ) -> Solution:
     """The static answer of one model: a spec, as `Lattice`, or "lumped", "plate", "shell", "solid", or a
@@ -55,4 +55,8 @@ def solve(
         raise BadInput(f"solve: model = {model!r}: a name as 'lumped' or 'shell', or a spec, is needed")
     if settings:
         spec = spec_of(spec.model, {**spec.settings, **settings})
-    return solvers.solve(resolve(scene_of(scene), spec))
+    if isinstance(scene, Scene):
+        warn_of_slips([(f"scene '{scene.name}'", scene)], stacklevel=2)
+    held: dict[str, Any] = {"large": True} if large else {}
+    with running(**held, **({} if progress is None else {"progress": progress})):
+        return solvers.solve(resolve(scene_of(scene), spec))

@@ -36,8 +36,8 @@ REMEDIES = {
     errno.ELOOP: "a link stands there: remove it",
     errno.ENOENT: "the folder is gone: run the same command again",
     errno.EIO: "the disk is at fault: choose another folder",
-    errno.ENOLCK: "this file system knows no locks: choose another folder",
-    errno.ENOTSUP: "this file system knows no locks: choose another folder",
+    errno.ENOLCK: "this file system has no locks: choose another folder",
+    errno.ENOTSUP: "this file system has no locks: choose another folder",
 }
 
 

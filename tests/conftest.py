@@ -9,10 +9,10 @@ from matrix_options import scene_files
 from matrix_rows import check, tally
 from verbs import few_runs, run_here, undraw
 
-from comparisons.runs.campaign import campaign
 from comparisons.sweep import here as table
+from comparisons.sweep.campaign import campaign
 from sheetbench.answers import style
-from sheetbench.scenes import Solution
+from sheetbench.answers.solution import Solution
 
 
 def pytest_configure():
@@ -23,14 +23,17 @@ def pytest_configure():
 
 
 def pytest_collection_modifyitems(items):
-    """Tests of studies, of a browser, and two of three rows of a matrix are for `make nightly`."""
+    """Tests of studies, of a browser, and two of three rows of a matrix or sweep are for `make nightly`."""
     rows = {}
     for item in items:
         if "studies" in item.path.parts[-2:] or "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.nightly)
+        sweep, place = item.get_closest_marker("sweep"), (item.path, getattr(item, "originalname", None))
         if "matrix" in item.path.stem and "row" in getattr(getattr(item, "callspec", None), "params", ()):
-            rows[item.path] = rows.get(item.path, -1) + 1
-            if rows[item.path] % 3:
+            sweep, place = pytest.mark.sweep(3), item.path
+        if sweep:
+            rows[place] = rows.get(place, -1) + 1
+            if rows[place] % (sweep.args or (3,))[0]:
                 item.add_marker(pytest.mark.nightly)
 
 
@@ -39,10 +42,10 @@ def quick(monkeypatch):
     """Answers without a solver; a test may put its own in."""
     answers: dict[str, Solution] = {}
 
-    def answer(asked, name=""):
-        model = asked.spec.model
+    def answer(ask, name=""):
+        model = ask.spec.model
         size = -0.01 if model == "lumped" else -0.0101
-        return answers.get(model) or fake_solutions.solution(asked.scene, name or model, size)
+        return answers.get(model) or fake_solutions.solution(ask.scene, name or model, size)
 
     monkeypatch.setattr(table, "solve", answer)
     return answers

@@ -3,7 +3,7 @@
 import pkgutil
 import re
 import shlex
-import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -87,7 +87,7 @@ def test_scenes_of_the_documentation_load(tmp_path):
 def test_the_reference_of_the_python_interface_names_what_exists(page):
     text = page.read_text(encoding="utf-8")
     for name in re.findall(r"auto(?:module|class|function):: (\S+)$", text, re.M):
-        pkgutil.resolve_name(name if "." in name or name in sys.modules else f"sheetbench.{name}")
+        pkgutil.resolve_name(name if "." in name or find_spec(name) else f"sheetbench.{name}")
 
 
 def test_files_that_are_named_exist():

@@ -10,7 +10,9 @@ from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
-from sheetbench.scenes import Scene, Sheet, Status, dead_force, load
+from sheetbench.answers.balance import dead_force
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Scene, Sheet, load
 
 LENGTH, WIDTH, THICK, YOUNG, FORCE = 0.2, 0.02, 3e-3, 5e6, 1e-6
 TIP = [[LENGTH, WIDTH / 2.0]]

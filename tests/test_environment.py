@@ -12,19 +12,19 @@ PROGRAM = (sys.executable, "-m", "sheetbench")
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
-@pytest.mark.parametrize("asked", [("check",), ("check", "--json"), ("--help",), ("--version",)], ids=str)
-def test_an_output_that_cannot_be_written_is_said_in_a_line(asked):
+@pytest.mark.parametrize("arguments", [("check",), ("check", "--json"), ("--help",), ("--version",)], ids=str)
+def test_an_output_that_cannot_be_written_is_said_in_a_line(arguments):
     with open("/dev/full", "wb") as full:
-        done = subprocess.run([*PROGRAM, *asked], stdout=full, stderr=subprocess.PIPE, text=True)
+        done = subprocess.run([*PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
     assert done.returncode == 2
     assert done.stderr == "sheetbench: the output cannot be written: no space left on device\n"
 
 
 @pytest.mark.parametrize(
-    "asked", [("report",), ("score", "--out"), ("check", "one-edge-clamped", "--out")], ids=str
+    "arguments", [("report",), ("score", "--out"), ("check", "one-edge-clamped", "--out")], ids=str
 )
-def test_a_name_that_is_too_long_is_said_in_a_line(capsys, asked):
-    assert run(*asked, 300 * "a") == 2
+def test_a_name_that_is_too_long_is_said_in_a_line(capsys, arguments):
+    assert run(*arguments, 300 * "a") == 2
     assert "too long" in one_line(capsys)
 
 

@@ -11,9 +11,10 @@ from comparisons.external.answer import refusal
 from comparisons.external.calculix.model import DRAWN
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from fem_reference.surface import plies
-from sheetbench.scenes import Material, SceneError, Status, load
-from sheetbench.scenes.orthotropy import Ply
-from sheetbench.scenes.parameters import parameter
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Material, SceneError, load
+from sheetbench.scenes.meaning.parameters import parameter
+from sheetbench.scenes.objects.orthotropy import Ply
 
 PLAIN = load("two-edges-clamped")
 YOUNG, POISSON = PLAIN.material.young, PLAIN.material.poisson

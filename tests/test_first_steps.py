@@ -22,11 +22,12 @@ from sheetbench.scenes import (
     Sheet,
     load,
 )
+from sheetbench.scenes.language.schema import for_editors, json_schema
+from sheetbench.scenes.language.toml import to_toml
+from sheetbench.scenes.meaning.words import in_words
+from sheetbench.scenes.objects.supports import Motion
 from sheetbench.scenes.reference import markdown
-from sheetbench.scenes.schema import for_editors, json_schema
 from sheetbench.scenes.template import template
-from sheetbench.scenes.toml import to_toml
-from sheetbench.scenes.words import in_words
 
 DOCS = Path(__file__).parent.parent / "docs"
 SHEET, MATERIAL = Sheet(0.3, 0.2, 0.002), Material(1.2e6, 0.45, 1100.0)
@@ -92,6 +93,18 @@ def test_new_keeps_what_is_there(tmp_path, capsys):
     assert load(path).name == "mine"
 
 
+def test_check_says_how_a_scene_moves_and_names_the_command_of_its_motion(tmp_path, capsys):
+    scene = load("one-edge-clamped")
+    there = Motion(time=(0.0, 0.1, 0.5), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.005), (0.0, 0.0, 0.0)))
+    path = tmp_path / "moved.toml"
+    path.write_text(to_toml(scene.replace(supports=(scene.supports[0].replace(motion=there),))))
+    assert run("check", str(path)) == 0
+    printed = capsys.readouterr().out
+    assert "moved smoothly over 0.5 s, farthest by 5 mm along +z" in printed
+    assert f"sheetbench compare {path}\n" in printed
+    assert f"sheetbench compare {path} --duration 0.5\n" in printed
+
+
 def test_check_warns_and_says_what_floats(tmp_path, capsys):
     path = tmp_path / "loose.toml"
     loose = template("loose", SHEET, Material(1.2, 0.45, 1100.0), ())
@@ -113,7 +126,8 @@ def test_the_schema_is_one_document_with_every_unit(tmp_path, capsys):
         "[Pa] Young's modulus"
     )
     assert schema["$defs"]["EdgeLoad"]["required"] == ["kind", "edge"]
-    assert run("check", "--schema", "--out", str(tmp_path), "--quiet") == 0
+    assert run("check", "--schema", "--out", str(tmp_path)) == 0
+    assert len(capsys.readouterr().out.splitlines()) < 5  # where it is written it is not printed
     assert (tmp_path / "scene.md").read_text(encoding="utf-8") == markdown()
     assert json.loads((tmp_path / "schema.json").read_text(encoding="utf-8"))["$defs"] == schema["$defs"]
 

@@ -1,4 +1,4 @@
-"""A sheet that buckles, asked by every verb that solves one: with exit status 3 too --json prints one."""
+"""A sheet that buckles, in every verb that solves one: with exit status 3 too --json prints one."""
 
 import json
 
@@ -32,10 +32,10 @@ MAPS = ("tradeoff", "crosscheck", "stability")  # of many solves, each with its 
 @pytest.mark.usefixtures("few", "undrawn")
 @pytest.mark.parametrize("verb", STATIC)
 def test_an_answer_that_is_none_is_a_document_too(verb, places, tmp_path, capsys):
-    asked = STATIC[verb].format(**places).split()
+    arguments = STATIC[verb].format(**places).split()
     (tmp_path / "buckled.toml").write_text(SCENE)
     name, *first = verb.split()
-    status = run(name, str(tmp_path / "buckled.toml"), *first, *asked, "--json")
+    status = run(name, str(tmp_path / "buckled.toml"), *first, *arguments, "--json")
     said = capsys.readouterr()
     assert status == (0 if verb in MAPS else 3) and "Traceback" not in said.err
     document = json.loads(said.out)

@@ -5,18 +5,20 @@ parts that differ, and what holds and loads it. A row is one small command line.
 import pytest
 from matrix_rows import named, pairwise
 
-FIBRES = """kind = "orthotropic"
+FIBRES = """
+kind = "orthotropic"
 young_1 = 1e8
 young_2 = 2e7
 poisson_12 = 0.3
 shear_12 = 8e6
-angle = 0.5"""
+angle = 0.5
+"""
 LAYERS = "".join(f'[[layer]]\nthickness = 0.001\nangle = "{angle} deg"\n' for angle in (0, 90, 0))
 PATCH = "[[patch]]\nshape = {{ rectangle = {{ x = [0.05, 0.07], y = [0.0, 0.08] }} }}\n{} = {}\n".format
 WHERE = "where = { rectangle = { x = [%s], y = [0.0, 0.05] } }\n"
 WEIGHT = "[gravity]\nacceleration = [0.0, 0.0, -9.81]\n"
 PARTS = {  # of a scene's text: below [sheet], below [material], and tables
-    "plain": ("", "young = 2e7\npoisson = 0.4", ""),
+    "plain": ("", "young = 2e7\npoisson = 0.4\n", ""),
     "fibres": ("", FIBRES, ""),
     "laminate": ("", FIBRES, LAYERS),
     "outline": ("outline = [[0.0, 0.0], [0.12, 0.01], [0.12, 0.07], [0.0, 0.08]]\n", "", ""),
@@ -32,13 +34,21 @@ PARTS = {  # of a scene's text: below [sheet], below [material], and tables
                + WHERE % "0.1, 0.12"),
     "payload": ("", "", WEIGHT + '[[mass]]\nat = [0.11, 0.03]\nmass = "5 g"\n'),
     "spread": ("", "", WEIGHT + '[[mass]]\nmass = "5 g"\n' + WHERE % "0.03, 0.07"),
+    "pins": ("", "", "".join(
+        f'[[support]]\nkind = "point"\nat = [{at}]\n' for at in ("0.0, 0.02", "0.0, 0.06", "0.03, 0.04"))),
+    "flat": ("", "", ""),
+    "curled": ("", "", "[natural]\nstrain = [0.01, 0.0, 0.0]\ncurvature = [2.0, 0.0, 1.0]\n"
+               "history = { time = [0.0, 0.001], factor = [0.0, 1.0] }\n"),
+    "muscle": ("", "", PATCH("natural", "{ curvature = [9.0, 0.0, 0.0], strain = [0.0, 0.01, 0.0] }")),
+    "warm": ("", "expansion = 1e-4\n", "[temperature]\nchange = 9.0\ngradient = 900.0\n"),
     "laid": ("", "", '[[load]]\nkind = "area"\nforce_per_area = [0.0, 0.0, 10.0]\n'),
 }  # fmt: skip
 KINDS = (
     ("plain", "fibres", "laminate"),
     ("outline", "hole", "notch"),
     ("taper", "stiff", "thick"),
-    ("edge", "gripper"),
+    ("edge", "gripper", "pins"),
+    ("flat", "curled", "muscle", "warm"),
     ("pressed", "pulled", "laid", "payload", "spread"),
 )
 SMALL, CAMPAIGN = "--lumped 5 --elements 2", "--workers 1 --quiet"

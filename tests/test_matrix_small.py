@@ -10,18 +10,18 @@ from commands import run
 from matrix_options import OUTPUTS
 from matrix_rows import named, pairwise
 
-from comparisons.scoring.cases import SUITES
+from sheetbench.choices import SUITES
 
 VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     "compare --duration 0.004 --elements 2": [
-        (("two-edges-settling",), ("{pressed}",)),
+        (("two-edges-settling",), ("{pressed}",), ("{natural}",)),
         (("--grid", "3"), ("--grid", "3x4")),
         (("--calibration", "hyperelastic"), ("--k", "550")),
         (("--json",), ("--out", "{folder}")),
     ],
     "calibrate --out {folder}": [
         (("--calibration", "neo-hookean"), ("--calibration", "central"), ()),
-        (("two-edges-settling",), ("{pressed}",)),
+        (("two-edges-settling",), ("{pressed}",), ("{natural}",)),
         tuple(("--for", code) for code in ("mujoco", "sofa", "numpy", "newton")),
         (("--grid", "3"), ("--grid", "3x4")),
     ],
@@ -50,13 +50,22 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         (("--unknown", "young"), ("--unknown", "poisson"), ("--unknown", "tilt_x0")),
         OUTPUTS[:3],
     ],
+    "identify {natural} --measured {displacements}": [
+        (("--lumped", "3"), ("--lumped", "3x4"), ("--model", "shell", "--elements", "2")),
+        (("--unknown", "natural.kxx"), ("--unknown", "patch1.natural.kxx"), ("--unknown", "natural.exx")),
+        OUTPUTS[:3],
+    ],
+    "modes {natural} --lumped 3 --elements 2": [
+        ((), ("--about", "deformed"), ("--buckling",), ("--state-space", "3", "--about", "deformed")),
+        (("--json",), ("--out", "{folder}"), ()),
+    ],
     "identify two-edges-settling --measured {motion}": [
         (("--lumped", "3"), ("--lumped", "3x4")),
         (("--unknown", "young"), ("--unknown", "damping_time")),
         OUTPUTS[:3],
     ],
     "tradeoff --repeats 1 --elements 3 --plate 2 --workers 1": [
-        (("{pressed}",), ("{weightless}",)),
+        (("{pressed}",), ("{weightless}",), ("{natural}",)),
         (("--lumped", "3x4,4"), ("--lumped", ""), ("--lumped=", "--lumped-pair", "3:4")),
         (("--calibration", "hyperelastic"), ("--calibration", "auto"), ("--grading", "auto")),
         (("--shell", "2", "--solid", ""), ("--shell", "", "--solid", "2")),
@@ -66,14 +75,14 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         (("--lumped", "3x4", "--calibration", "hyperelastic", "--json"), ("--k", "550", "--out", "{folder}")),
     ],
     "crosscheck --plate 2,3 --shell 2,3 --judges= --workers 1": [
-        (("one-edge-clamped",), ("{pressed}",)),
+        (("one-edge-clamped",), ("{pressed}",), ("{natural}",)),
         (("--lumped", "3,4,5"), ("--lumped", "3,4")),
         (("--solid", ""), ("--solid", "1,2")),
         (("--calibration", "hyperelastic"), ("--grading", "0.4")),
         OUTPUTS[:3],
     ],
     "stability --elements 2 --workers 1": [
-        (("one-edge-clamped",), ("{pressed}",), ("{weightless}",)),
+        (("one-edge-clamped",), ("{pressed}",), ("{natural}",), ("{weightless}",)),
         tuple(("--vary", name) for name in ("load", "slenderness", "grid")),
         (("--lumped", "3"), ("--lumped", "3x4")),
         ((), ("--calibration", "hyperelastic"), ("--k", "550"), ("--grading", "auto")),
@@ -98,6 +107,14 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     ],
 }
 ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(dimensions)]
+DEAR = {("--vary", "time-step"), ("--calibration", "hyperelastic")}  # a fifth of all rows' time
+
+
+def cases():
+    """Return every row under its name."""
+    for verb, row in ROWS:
+        marks = [pytest.mark.nightly] if set(row) >= DEAR else []
+        yield pytest.param(verb, row, id=f"{verb} {named(row)}", marks=marks)
 
 
 @pytest.fixture(scope="module")
@@ -125,6 +142,6 @@ def places(places, tmp_path_factory):
 
 
 @pytest.mark.usefixtures("few")
-@pytest.mark.parametrize(("verb", "row"), ROWS, ids=[f"{verb} {named(row)}" for verb, row in ROWS])
+@pytest.mark.parametrize(("verb", "row"), list(cases()))
 def test_verb(verb, row, ends):
     ends(*verb.split(), *(part for one in row for part in one))

@@ -19,7 +19,7 @@ from comparisons.cli.app import verb_group
 from sheetbench.answers.files import to_json
 from sheetbench.errors import BadInput
 from sheetbench.scenes import load
-from sheetbench.scenes.toml import to_toml
+from sheetbench.scenes.language.toml import to_toml
 
 SPRINGS = {
     "--lumped": "4",
@@ -213,10 +213,10 @@ def write_inputs(folder):
 def in_python(verb, arguments):
     """The document of the verb's function, of the words as the terminal reads them."""
     function, command = getattr(sb, verb), verb_group((verb,)).commands[verb]
-    asked = command.make_context(verb, list(arguments)).params
+    parameters = command.make_context(verb, list(arguments)).params
     known = signature(function).parameters
     return json.loads(
-        to_json(function(**{k: v for k, v in asked.items() if k in known and v != ()}).document())
+        to_json(function(**{k: v for k, v in parameters.items() if k in known and v != ()}).document())
     )
 
 

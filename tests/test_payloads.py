@@ -13,8 +13,10 @@ from comparisons.external.calculix.deck import deck
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.kratos.problem import Triangles, problem
-from sheetbench.scenes import AreaLoad, Gravity, Material, PointLoad, Scene, Sheet, Status, dead_force
-from sheetbench.scenes.parameters import parameter, put
+from sheetbench.answers.balance import dead_force
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import AreaLoad, Gravity, Material, PointLoad, Scene, Sheet
+from sheetbench.scenes.meaning.parameters import parameter, put
 
 LENGTH, WIDTH, THICK, YOUNG, DENSITY, TIP = 0.2, 0.02, 0.003, 2e6, 1100.0, 5e-3
 BEAM = DENSITY * LENGTH * WIDTH * THICK  # kg

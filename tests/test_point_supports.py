@@ -7,7 +7,7 @@ import fem_reference
 import lumped
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes import Gravity, Material, Point, Scene, Sheet, free_rigid_motions
-from sheetbench.scenes.natural import Natural
+from sheetbench.scenes.objects.natural import Natural
 
 THREE = (
     Point(at=(0.05, 0.05)),

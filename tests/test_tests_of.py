@@ -30,4 +30,4 @@ def test_tests_beside_the_module_come_before_those_that_speak_of_its_folder():
         folder = "/".join(module.split("/")[:2])
         assert sum(test.startswith(f"tests/{folder}/") for test in of(module)[:4]) >= 3, of(module)[:4]
     assert "tests/lumped/actuators/test_division.py" in of("lumped/actuators/division.py")[:2]
-    assert of("comparisons/runs/store.py")[0].startswith("tests/comparisons/runs/")
+    assert of("comparisons/sweep/store.py")[0].startswith("tests/comparisons/sweep/")

@@ -15,9 +15,9 @@ from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table
 from sheetbench.scenes import Scene
-from sheetbench.scenes.grading import as_settings
-from sheetbench.scenes.toml import dumps
-from sheetbench.scenes.words import sheet_in_words
+from sheetbench.scenes.language.toml import dumps
+from sheetbench.scenes.meaning.words import sheet_in_words
+from sheetbench.scenes.objects.grading import as_settings
 
 
 @dataclass(frozen=True, repr=False)

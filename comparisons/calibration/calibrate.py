@@ -17,10 +17,11 @@ from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
+from sheetbench.answers.solution import Solution
 from sheetbench.choices import AUTO, EXTRAPOLATED
 from sheetbench.errors import BadInput, Implausible
-from sheetbench.scenes import AnyScene, Material, Scene, SceneError, Sheet, Solution, require_static, scene_of
-from sheetbench.scenes.plausibility import material_slips, sheet_slips
+from sheetbench.scenes import AnyScene, Material, Scene, SceneError, Sheet, require_static, scene_of
+from sheetbench.scenes.meaning.plausibility import material_slips, sheet_slips
 
 DENSITY = 1000.0  # kg/m³, unless given
 NEEDED = {"young": "young", "poisson": "poisson", "thickness": "thickness", "length_x": "side"}

@@ -24,7 +24,7 @@ from comparisons.modes.damping import ModeDamping, mode_damping
 from sheetbench.answers.table import MILLISECONDS, NUMBER, Table
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Relaxation, Scene
-from sheetbench.scenes.relaxation import A_DECADE
+from sheetbench.scenes.objects.relaxation import A_DECADE
 
 MODES = 10
 LEAST_SHARE = 1e-4  # of a branch that is kept

@@ -27,7 +27,7 @@ from typer.main import get_command
 from comparisons.cli import characters, interruption, messages, startup
 from comparisons.cli.arguments import Refused, refuse_removed, with_defaults
 from comparisons.cli.verb import as_verb
-from comparisons.runs import interrupts
+from comparisons.sweep import interrupts
 
 VERBS = (
     "new",

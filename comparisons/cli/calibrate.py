@@ -41,7 +41,7 @@ def command(
     cell: Annotated[
         str | None,
         option(
-            "What a repeated cell is as a sheet, its best coefficients, the error that no finer "
+            "Stiffness of a repeated cell as a sheet, its best coefficients, the error that no finer "
             "mesh removes: one-diagonal, alternate-diagonals, equilateral, unstructured (triangles with "
             "hinges), bricks, or a TOML file with periods, nodes and elements.",
             "CELL",

@@ -22,7 +22,7 @@ def command(
     *,
     schema: Annotated[
         bool,
-        option("Print the JSON Schema of a scene, for editors; --out writes it and a page of every key."),
+        option("Print the JSON Schema of scenes, for editors; --out writes it, and a page of every key."),
     ] = False,
     output: PictureOptions,
 ) -> Any:
@@ -40,7 +40,7 @@ def command(
     if schema:
         with output.open(variant={"--schema": True}) as out:
             found = Schema()
-            return out.show(found, instead=found.text)
+            return out.show(found, instead=None if output.out else found.text)
     if scene is None:
         with output.open() as out:
             return out.show(Catalogue())

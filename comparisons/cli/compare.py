@@ -75,11 +75,12 @@ def command(
 
     named = reference if isinstance(reference, str) else reference.label
     models = {"--reference": named, **({"--model": " ".join(map(str, model))} if model else {})}
+    size = None if elements is None else parse_elements(elements)
+    shared: dict[str, Any] = {"reference": reference, "elements": size, "law": law, "models": model or ()}
     if duration is not None:
-        from comparisons.motion.comparison import compare_motion
+        from comparisons.comparison.motion import compare_motion
 
         moving = scenes.scene_of(scene)
-        chosen = None if elements is None else parse_elements(elements)
         with output.open(scene=moving, variant={"--duration": duration, "--every": every, **models}) as out:
             for name in ("lumped", named, "difference") if output.out is not None else ():
                 out.reserve(f"{name}/")
@@ -87,18 +88,15 @@ def command(
                 moving,
                 duration,
                 lattice.spec,
-                reference,
-                elements=chosen,
-                law=law,
                 uncertainty=uncertainty is not False,
-                models=model or (),
                 every=every,
                 frames=FRAMES if output.out is not None else 0,
                 store=out.reserve("runs/"),
+                **shared,
             )
             return out.show(replace(both, animate=animate))
-    loaded, spec = load_static(scene), lattice.spec
-    size = None if elements is None else parse_elements(elements)
+    loaded = load_static(scene)
+    spec = lattice.spec.but(symmetry=symmetry, branch=branch or "path")
     models |= {"--calibration": "open" if spec.calibration is None and spec.k is None else "named"}
     with output.open(scene=loaded, variant=models) as out:
 
@@ -106,17 +104,7 @@ def command(
             out.keep(f"{solution.model}.vtu", lambda path: write_mesh(path, solution.mesh))
 
         with running(solved=keep):
-            comparison = compare(
-                loaded,
-                spec,
-                reference,
-                elements=size,
-                law=law,
-                uncertainty=uncertainty,
-                symmetry=symmetry,
-                branch=branch or "path",
-                models=model or (),
-            )
+            comparison = compare(loaded, spec, uncertainty=uncertainty, **shared)
         if export is not None:
-            out.export(export, loaded, resolve(loaded, spec).springs)
+            out.export(export, loaded, resolve(loaded, lattice.spec).springs)
         return out.show(comparison)

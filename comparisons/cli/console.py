@@ -16,7 +16,7 @@ from sheetbench.answers.escape import terminal
 
 if TYPE_CHECKING:
     from comparisons.pictures.work import Work
-    from comparisons.runs.campaign import Progress
+    from comparisons.sweep.campaign import Progress
     from sheetbench.answers.table import Table
 
 out = Console(highlight=False)
@@ -96,7 +96,7 @@ def campaign_progress() -> Iterator[Callable[[Progress], None]]:
 def _reported(progress: Progress, lines: Lines) -> None:
     """Print a line of every run that is done, and of those that have gone on for a while."""
     so_far = f"{progress.done}/{progress.total}"
-    from comparisons.runs.campaign import GOING
+    from comparisons.sweep.campaign import GOING
 
     if progress.status == GOING:
         lines.say(f"{so_far} going on: {_going(progress)}")

@@ -67,11 +67,10 @@ def command(
 
     An empty list leaves a model, or all external codes, out: --solid "". An interrupted run is resumed.
     """
-    from comparisons.crosscheck.candidates import candidates, load_scenes
-    from comparisons.crosscheck.crosscheck import crosscheck
+    from comparisons.comparison.crosscheck import candidates, crosscheck, load_scenes
+    from comparisons.comparison.motion import compare_motion
     from comparisons.external.installed import find_codes
     from comparisons.models.spec import Elements, Lattice, items
-    from comparisons.motion.comparison import compare_motion
     from sheetbench.errors import BadInput, require_effect
     from sheetbench.scenes import scene_of
 

@@ -15,7 +15,7 @@ from sheetbench.choices import ELEMENTS
 OF_SCENE = "scene measured unknown model elements law offset refine lattice grid calibration k"
 
 
-@no_effect(with_tensile=f"{OF_SCENE} layer_distance grading", without_tensile="area up_to")
+@no_effect(with_tensile=f"{OF_SCENE} layer_distance grading", without_tensile="area gauge up_to")
 def command(
     scene: Annotated[
         str | None,
@@ -45,8 +45,9 @@ def command(
     tensile: Annotated[
         list[str] | None,
         option(
-            "A tensile test instead: CSV with stretch (or strain) and engineering_stress, true_stress "
-            "or force; pure-shear=FILE or equibiaxial=FILE of other tests. May be repeated.",
+            "A tensile test instead: CSV with stretch, strain or displacement, and engineering_stress, "
+            "true_stress or force, each with its unit (force \\[N]); pure-shear=FILE or equibiaxial=FILE of "
+            "other tests. May be repeated.",
             "FILE",
         ),
     ] = None,
@@ -56,6 +57,10 @@ def command(
     area: Annotated[
         float | None,
         option("With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².", "M2", unit="m²"),
+    ] = None,
+    gauge: Annotated[
+        float | None,
+        option("With --tensile and a displacement: undeformed length, 33mm.", "M", unit="m"),
     ] = None,
     model: Annotated[str | None, option("lumped, shell or solid. Default: lumped.", "MODEL")] = None,
     elements: Annotated[
@@ -94,7 +99,7 @@ def command(
     if tensile:
         from comparisons.identification.tensile.tensile import identify_tensile
 
-        curves = identify_tensile(tensile, area=area, up_to=up_to)
+        curves = identify_tensile(tensile, area=area, gauge=gauge, up_to=up_to)
         with output.open(about={"tensile": list(map(str, tensile))}) as out:
             return out.show(curves)
     if scene is None or measured is None:

@@ -15,7 +15,7 @@ def installed_parts() -> str:
     from comparisons.external import memory, plugins
     from comparisons.external.installed import find_codes
     from comparisons.pictures import amounts, offscreen
-    from comparisons.runs import load, manifest
+    from comparisons.sweep import load, manifest
     from sheetbench import sources
     from sheetbench.numerics import pardiso
 

@@ -2,7 +2,7 @@
 
 Python heeds an interrupt between two of its own instructions, and a factorisation may last longer than that.
 So a thread that the signal wakes ends the process where it has not ended by then. Worker processes do not
-hear the interrupt: the process that started them ends them (`comparisons.runs.executors`).
+hear the interrupt: the process that started them ends them (`comparisons.sweep.executors`).
 """
 
 from __future__ import annotations

@@ -27,6 +27,9 @@ def command(
 
     The page is served on localhost only, at a secret URL. Ctrl-C ends it.
     """
+    import webbrowser
+    from tempfile import TemporaryDirectory
+
     from comparisons.cli.console import note
     from comparisons.comparison.comparison import load_static
     from comparisons.live import server
@@ -41,13 +44,11 @@ def command(
     meant = resolve(loaded, lattice.spec).spec
     panel = Panel(loaded, elements, meant.but(grid=lattice.grid))
 
-    with redirection() as leads_to:
+    with TemporaryDirectory(prefix="sheetbench-live-") as folder:  # of mode 700
 
         def opened(address: str) -> None:
             note(f"{address}\nCtrl-C ends it.")
             if browser:
-                import webbrowser
-
-                webbrowser.open(leads_to(address))
+                webbrowser.open(redirection(folder, address))
 
         server.run(panel, port, opened)

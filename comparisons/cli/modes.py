@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 from comparisons.cli.options import Elements, Large, LatticeOptions, Scene, option
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
+
+if TYPE_CHECKING:
+    from sheetbench.answers.solution import About
 
 
 @no_effect(with_state_space="count masses reference elements buckling", without_state_space="reduce")
@@ -35,10 +38,11 @@ def command(
             "About the flat, stress-free sheet, or its equilibrium under its loads (lattice and shell). "
             "Default: flat; deformed with --state-space.",
             "flat|deformed",
+            choices=("flat", "deformed"),
         ),
     ] = None,
     buckling: Annotated[
-        bool, option("Also at how many times its loads the flat sheet buckles, with the shapes paired.")
+        bool, option("Also the load factors at which the flat sheet buckles, with the shapes paired.")
     ] = False,
     state_space: Annotated[
         int | None,
@@ -76,17 +80,16 @@ def command(
     with output.open(scene=loaded, variant={"--state-space": state_space is not None}) as out:
         try:
             if state_space is not None:
-                size, around = state_space or None, about or "deformed"
+                size, around = state_space or None, cast("About", about or "deformed")
                 return out.show(linearise(loaded, lattice.spec, modes=size, reduce=reduce, about=around))
             return out.show(
                 spectra(
                     loaded,
-                    lattice.spec,
+                    lattice.spec.but(masses=masses),
                     count=count,
-                    masses=masses,
                     reference=REFERENCE if reference is None else reference,
                     elements=parse_elements(elements),
-                    about=about or "flat",
+                    about=cast("About", about or "flat"),
                     buckling=buckling,
                 )
             )

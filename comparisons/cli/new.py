@@ -50,8 +50,8 @@ def command(
     from sheetbench.errors import BadInput, Implausible
     from sheetbench.files import require_file
     from sheetbench.scenes import Pressure, Scene
-    from sheetbench.scenes.plausibility import slips
-    from sheetbench.scenes.schema import for_editors
+    from sheetbench.scenes.language.schema import for_editors
+    from sheetbench.scenes.meaning.plausibility import slips
     from sheetbench.scenes.template import SCHEMA, template
 
     require_file(file)
@@ -92,7 +92,7 @@ def _at_a_terminal() -> bool:
 def _edges(text: str) -> list[str]:
     """Return the edges named, with commas between them. Raises BadInput for what is none."""
     from sheetbench.errors import require_choice
-    from sheetbench.scenes.sheet import EDGES
+    from sheetbench.scenes.objects.sheet import EDGES
 
     edges = list(dict.fromkeys(edge.strip() for edge in text.split(",")))
     for edge in edges:
@@ -120,7 +120,7 @@ def _answers_from_terminal() -> tuple[dict[str, float], str, float]:
 
 def _quantity(key: str, usual: float) -> float:
     """Return the answer to a question, in SI units."""
-    from sheetbench.scenes.units import quantity
+    from sheetbench.scenes.language.units import quantity
 
     question, unit = QUESTIONS[key]
     return _until_valid(lambda: quantity(typer.prompt(question, default=f"{usual:g}"), unit))

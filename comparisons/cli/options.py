@@ -8,8 +8,8 @@ runs. Those of the output stand in `comparisons.cli.output`.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields, replace
 from inspect import Parameter
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, get_type_hints
 
@@ -27,14 +27,16 @@ def option(
     *names: str,
     unit: str | None = None,
     listed: bool = False,
+    choices: Iterable[str] = (),
     **settings: Any,
 ) -> Any:
     """Return an option of typer's; names: where they do not follow from the parameter; unit: SI, of a number
-    that may have a unit of its own, as `--thickness "2 mm"`; listed: a text of several with commas."""
+    that may have a unit of its own, as `--thickness "2 mm"`; listed: a text of several with commas;
+    choices: what alone it takes, checked before the command runs."""
     if unit is not None:
         settings["parser"] = quantity_in(unit)
     made = typer.Option(*names, help=help, metavar=metavar, **settings)
-    made.unit, made.listed = unit, listed
+    made.unit, made.listed, made.choices = unit, listed, tuple(choices)
     return made
 
 
@@ -43,7 +45,7 @@ def quantity_in(unit: str) -> Callable[[str], float]:
 
     def parse(text: str) -> float:
         from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
-        from sheetbench.scenes.units import quantity
+        from sheetbench.scenes.language.units import quantity
 
         try:
             return quantity(str(text), unit)
@@ -157,7 +159,7 @@ class LatticeGroup(Group):
         from comparisons.models.spec import Lattice  # help does not wait for models
 
         own = {name: value for name, value in vars(self).items() if name != "lattice" and value is not None}
-        return Lattice.given(self.lattice, own)
+        return replace(self.lattice or Lattice(), **own)
 
 
 @dataclass(frozen=True)
@@ -204,9 +206,10 @@ class SheetOptions(Group):
     poisson: Annotated[float | None, option("Poisson's ratio ν.", "NU", unit="")] = None
     thickness: Annotated[float | None, option("Thickness: 0.002 or 2mm.", "M", unit="m")] = None
     density: Annotated[
-        float | None, option("Density: 1100 or 1.1g/cm3; default: 1000 kg/m³.", "KG/M3", unit="kg/m³")
+        float | None,
+        option("Density: 1100 or 1.1g/cm3; default: 1000 kg/m³, of new 1100.", "KG/M3", unit="kg/m³"),
     ] = None
-    side: Annotated[str | None, option("Sides: 0.188, 0.188x0.3 (x by y) or 12cmx4cm.", "M")] = None
+    side: Annotated[str | None, option("Sides: 0.188, 0.188x0.3 (x by y) or 12x4cm.", "M")] = None
 
     @property
     def values(self) -> dict[str, Any]:

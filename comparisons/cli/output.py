@@ -22,7 +22,7 @@ from sheetbench import clock
 
 if TYPE_CHECKING:
     from comparisons.pictures.work import Work
-    from comparisons.runs.folder import Folder
+    from comparisons.sweep.folder import Folder
     from lumped import Calibration
     from sheetbench.answers.answer import Answer
     from sheetbench.answers.figure_style import FigureStyle
@@ -90,9 +90,9 @@ class Output:
         """Yield the keywords of a campaign: its store, in the folder or passing, workers, pool, progress."""
         from comparisons.cli import console
         from comparisons.models.context import context
-        from comparisons.runs.campaign import campaign
-        from comparisons.runs.executors import pool_of
-        from comparisons.runs.store import FILE
+        from comparisons.sweep.campaign import campaign
+        from comparisons.sweep.executors import pool_of
+        from comparisons.sweep.store import FILE
 
         with ExitStack() as stack:
             if self._folder is None:
@@ -230,7 +230,7 @@ class OutputOptions(Group):
             if scene is not None:
                 about = {"scene": scene.document()}
             if self.out is not None:
-                from comparisons.runs.folder import Folder
+                from comparisons.sweep.folder import Folder
                 from sheetbench.answers import files
                 from sheetbench.files import only_writer
 

@@ -19,7 +19,7 @@ def command(
     open_: Annotated[bool, option("Open the page in the browser.")] = False,
     json: Json = False,
 ) -> Path:
-    """Write one HTML file of what a folder holds.
+    """Write one HTML file with all runs below a folder.
 
     The folder and those below it are read; a study is what a verb wrote with --out, as its manifest says. The
     page has sheets to turn, tables to sort, figures, notes and manifests, and needs no network.

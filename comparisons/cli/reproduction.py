@@ -6,13 +6,13 @@ from typing import Annotated, Any
 
 from comparisons.cli.options import Elements, option
 from comparisons.cli.output import PictureOptions
-from sheetbench.choices import ELEMENTS
+from sheetbench.choices import ELEMENTS, REPRODUCED, listed
 
 
 def command(
     part: Annotated[
         list[str] | None,
-        option("Only errors, tables, settling or nearest; may be repeated. Default: all.", "NAME"),
+        option(f"Only {listed(REPRODUCED)}; may be repeated. Default: all.", "NAME", choices=REPRODUCED),
     ] = None,
     elements: Elements = str(ELEMENTS),
     *,
@@ -23,14 +23,11 @@ def command(
     With which sheets come nearest to the published tables, and what in them no sheet can have.
     """
     from comparisons.models.grids import parse_elements
-    from comparisons.reproduction.reproduction import PARTS, reproduce
-    from sheetbench.errors import require_choice
+    from comparisons.reproduction.reproduction import reproduce
 
-    for name in part or ():
-        require_choice("--part", name, PARTS)
-    parts = [name for name in PARTS if name in (part or PARTS)]
+    parts = [name for name in REPRODUCED if name in (part or REPRODUCED)]
     with output.open(variant={"--part": parts}) as out:
-        reproduction = reproduce(parts, elements=parse_elements(elements), progress=out.progress)
+        reproduction = reproduce(parts, parse_elements(elements))
         for name in reproduction.folders:
             out.reserve(name)
         return out.show(reproduction)

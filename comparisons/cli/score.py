@@ -10,6 +10,7 @@ import typer
 from comparisons.cli.options import option
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
+from sheetbench.choices import SUITES, listed
 
 
 @no_effect(without_answers="case")
@@ -25,9 +26,10 @@ def command(
     suite: Annotated[
         str | None,
         option(
-            "The suite answered or listed: statics, motion, modes, curves, natural or contact. Default: by "
-            "the header and cases of ANSWERS; all are listed.",
+            f"The suite answered or listed: {listed(SUITES)}. Default: by the header and cases of ANSWERS; "
+            "all are listed.",
             "NAME",
+            choices=SUITES,
         ),
     ] = None,
     case: Annotated[list[str] | None, option("Only this case; may be repeated.", "NAME")] = None,
@@ -40,13 +42,9 @@ def command(
     are left out. Of ANSWERS: errors, likely mistakes (units, signs, swapped probes), rank. Exit status 3
     where units, signs or probes are mistaken.
     """
-    from comparisons.scoring.cases import SUITES
     from comparisons.scoring.score import score
     from comparisons.scoring.suite import Suite
-    from sheetbench.errors import require_choice
 
-    if suite is not None:
-        require_choice("--suite", suite, SUITES)
     if answers is None:
         with output.open(variant={"--suite": suite}) as out:
             return out.show(Suite(suite))

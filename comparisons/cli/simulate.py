@@ -48,10 +48,10 @@ def command(
 
     Gravity and loads are on at t = 0. With --out the same command resumes a run.
     """
+    from comparisons.comparison.measured import read_measured, require_within
+    from comparisons.comparison.simulation import Simulation
     from comparisons.models.resolve import resolve
     from comparisons.models.solve import simulate
-    from comparisons.motion.answer import Simulation
-    from comparisons.motion.history import read_measured, require_within
     from comparisons.pictures.work import Pace, Work
     from sheetbench.scenes import scene_of
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from comparisons.cli.options import ClusterOptions, Large, LatticeOptions, Scene, option
 from comparisons.cli.output import PictureOptions
-from sheetbench.choices import REFERENCE, REFERENCES, listed
+from sheetbench.choices import REFERENCE, REFERENCES, VARIED, listed
 
 
 def command(
@@ -16,22 +16,25 @@ def command(
     vary: Annotated[
         list[str] | None,
         option(
-            "Only load, slenderness, young, grid, damping or time-step; may be repeated. Default: all.",
+            f"Only {listed(VARIED)}; may be repeated. Default: all.",
             "NAME",
+            choices=VARIED,
         ),
     ] = None,
-    reference: Annotated[str, option(f"What errors are against: {listed(REFERENCES)}.", "MODEL")] = REFERENCE,
+    reference: Annotated[
+        str, option(f"What errors are measured from: {listed(REFERENCES)}.", "MODEL")
+    ] = REFERENCE,
     elements: Annotated[int, option("Elements of the references along the shorter side.", "N", min=1)] = 12,
     large: Large = False,
     campaign: ClusterOptions,
     output: PictureOptions,
 ) -> Any:
-    """Map where each model holds, degrades, refuses or fails.
+    """Map where each model is accurate, degrades, refuses or fails.
 
     Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit
     integrators the largest stable step is measured. With --out an interrupted run is resumed.
     """
-    from comparisons.stability.extremes import VARIED, stability
+    from comparisons.stability.extremes import stability
     from sheetbench.answers.figure_style import parse_figure
     from sheetbench.errors import BadInput
     from sheetbench.scenes import scene_of

@@ -2,7 +2,8 @@
 
 Options have the function's names and defaults, `--layer-distance` in the terminal and `layer_distance` in
 Python; a parameter of a group's type stands for the group's options. What an option does only with or without
-another is declared by `no_effect` and refused in one way for all.
+another is declared by `no_effect`, what alone it takes by `choices` of `option`; both are refused in one way
+for all.
 """
 
 from __future__ import annotations
@@ -43,16 +44,6 @@ def no_effect(**rules: str) -> Callable[[Command], Command]:
     return declare
 
 
-def require_effects(rules: Mapping[str, str], given: Mapping[str, Any], shown: Callable[[str], str]) -> None:
-    """Raise BadInput for the first option that is given and has no effect with the others."""
-    from sheetbench.errors import require_effect  # with numpy and pydantic: help must not wait for them
-
-    for rule, names in rules.items():
-        how, _, other = rule.partition("_")
-        if (other in given) == (how == "with"):
-            require_effect(f"{how} {shown(other)}", {shown(name): name in given for name in names.split()})
-
-
 class _Declared:
     """A command's parameters, those of its groups one by one."""
 
@@ -82,6 +73,23 @@ class _Declared:
             if name in usual
             and not (value is None or value == [] or value == () or _same(value, usual[name]))
         }
+
+    def require(self, values: Mapping[str, Any], shown: Callable[[str], str]) -> None:
+        """Raise BadInput for the first option that has no effect with the others, or is none of its
+        choices."""
+        from sheetbench.errors import require_choice, require_effect  # with numpy: help must not wait
+
+        given = self.given(values)
+        for rule, names in self.rules.items():
+            how, _, other = rule.partition("_")
+            if (other in given) == (how == "with"):
+                options = {shown(name): name in given for name in names.split()}
+                require_effect(f"{how} {shown(other)}", options)
+        for one in self.each():
+            if (choices := getattr(_info(one.annotation), "choices", ())) and one.name in given:
+                value = given[one.name]
+                for each in value.split(",") if isinstance(value, str) else value:
+                    require_choice(shown(one.name), each.strip(), choices)
 
     def grouped(self, values: dict[str, Any], **of_output: Any) -> dict[str, Any]:
         """Return the values with those of each group in one."""
@@ -127,7 +135,7 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
     def run(*, quiet: bool, verbose: bool, **values: Any) -> None:
         resumed = of_campaign or values.get("duration") is not None
         interruption.promise(name, values.get("out"), resumed)
-        require_effects(declared.rules, declared.given(values), shown)
+        declared.require(values, shown)
         plain = {} if draws else {"no_pictures": values.pop("no_pictures")}
         grouped = declared.grouped(values, verb=name, **plain)
         try:
@@ -175,7 +183,8 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
 
     It takes what the command takes: a Scene or a Lattice as well as their names, a list where the command's
     option is repeated or has commas, a number as well as a quantity in words; `out` and what goes with it for
-    files; `progress`, called with what is being done. Raises BadInput in Python's names.
+    files; `progress`, called with what is being done. Raises BadInput in Python's names. Warns of what is
+    hardly meant in a Scene.
     """
     declared = _Declared(command)
     positional: list[Parameter] = []
@@ -205,12 +214,17 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
         from comparisons.cli.keywords import bound
         from comparisons.models.context import running
         from sheetbench.errors import BadInput
+        from sheetbench.scenes import Scene
+        from sheetbench.scenes.meaning.plausibility import warn_of_slips
 
         found = bound(name, own, values, named)
+        written = [one for one in found.values() if isinstance(one, Scene)]
+        if name != "check":  # whose answer has them
+            warn_of_slips(((f"scene '{one.name}'", one) for one in written), stacklevel=2)
         found = {key: converted.get(key, _as_it_is)(value) for key, value in found.items()}
         held = {"progress": found.pop("progress", None), "large": found.get("large", False)}
         try:
-            require_effects(declared.rules, declared.given(found), lambda option: option)
+            declared.require(found, lambda option: option)
             of_output = {"verb": name, "terminal": False} if has_output else {}
             said = nullcontext() if has_output else redirect_stdout(StringIO())
             with running(**{key: value for key, value in held.items() if value}), said:
@@ -252,7 +266,7 @@ def _conversion(parameter: Parameter) -> Callable[[Any], Any]:
         if value is None:
             return None
         if unit is not None:
-            from sheetbench.scenes.units import amount
+            from sheetbench.scenes.language.units import amount
 
             return amount(parameter.name, value, unit)
         if getattr(info, "listed", False) and not isinstance(value, str):

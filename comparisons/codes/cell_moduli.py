@@ -16,7 +16,7 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Column, Table, number
 from sheetbench.errors import BadInput, NoEquilibrium, require_effect
 from sheetbench.scenes import AnyScene, Scene, require_plain, scene_of
-from sheetbench.scenes.words import sheet_in_words
+from sheetbench.scenes.meaning.words import sheet_in_words
 
 UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
 MISSED = 0.01  # of the sheet's modulus 11
@@ -50,7 +50,7 @@ class CellModuli(Answer):
 
     Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
     nearest to the sheet's, and the error that they leave, where that is another. limit_error is None where it
-    cannot be told; missing: why.
+    is unknown; missing: why.
     """
 
     cell: Cell

@@ -17,12 +17,12 @@ from comparisons.codes.page import page
 from comparisons.codes.sofa import to_sofa
 from comparisons.codes.tables import natural, plan, tables
 from comparisons.pictures.array_files import write_mat, write_npz
-from comparisons.runs.folder import Folder
+from comparisons.sweep.folder import Folder
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.scenes import Scene
-from sheetbench.scenes.obstacles import require_no_obstacles
-from sheetbench.scenes.patches import require_flat_at_rest
+from sheetbench.scenes.meaning.composition import require_flat_at_rest
+from sheetbench.scenes.meaning.distances import require_no_obstacles
 
 if TYPE_CHECKING:
     from lumped import Calibration

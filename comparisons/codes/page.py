@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from comparisons.codes.arrays import NAMES
 from sheetbench.answers.escape import markdown
 from sheetbench.scenes import Scene
-from sheetbench.scenes.words import in_words
+from sheetbench.scenes.meaning.words import in_words
 from sheetbench.sources import version
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ supports and loads balance at rest.
 `nodes.csv` has the masses. Dampers resist the rates of what the springs resist: force c d|r|/dt along a
 link, the gradients above with c1 (da/dt)/a0 and (c1 de1/dt, c2 de2/dt, c3 dg/dt) in place of τ and t, and so
 of the couplings; of rubber those of its small strains, rows of kind `area` and `strain` without stiffness.
-Every mass is also dragged by {rate:g} 1/s × its mass × its velocity.
+Drag on every mass: {rate:g} 1/s × mass × velocity, against its motion.
 
 ## Supports and loads
 

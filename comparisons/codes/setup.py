@@ -42,8 +42,8 @@ from sheetbench.scenes import (
     require_uniform,
     scene_of,
 )
-from sheetbench.scenes.patches import require_flat_at_rest
-from sheetbench.scenes.words import sheet_in_words
+from sheetbench.scenes.meaning.composition import require_flat_at_rest
+from sheetbench.scenes.meaning.words import sheet_in_words
 
 SQUARES = 8  # along the shorter side
 LAYERED = "tetrahedra"
@@ -122,7 +122,7 @@ class CodeSetup(Answer):
 
     def notes(self) -> list[str]:
         chosen = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
-        notes = [f"Coefficients of hinges and springs: those that {chosen}."]
+        notes = [f"Coefficients of hinges and springs {chosen}."]
         if self.limit_error is not None:
             notes.append(
                 "Error of an infinitely fine mesh with them in this scene: "
@@ -263,7 +263,7 @@ def setup(
 
 
 def require_damper(code: str, material: Material, options: Mapping[str, object]) -> None:
-    """Raise BadInput where damping is asked for by these options, of which the code has nothing."""
+    """Raise BadInput where these options want damping, of which the code has nothing."""
     if why := undamped(CODES[code], material):
         require_effect(f"with --for {code}: {why}", options)
 

@@ -18,7 +18,7 @@ import numpy as np
 from comparisons.codes.springs import five
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, PointLoad, Scene
-from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.objects.grid import near_square
 
 ONE, ALTERNATE = "one-diagonal", "alternate-diagonals"
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sheetbench.scenes import Scene
-from sheetbench.scenes.patches import composition_at, shares_of
+from sheetbench.scenes.meaning.composition import composition_at, shares_of
 
 if TYPE_CHECKING:
     from lumped import Description

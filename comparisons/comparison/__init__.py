@@ -1,1 +1,1 @@
-"""Lattice and reference side by side: differences, and which exceed the reference's error bar."""
+"""Models of one scene side by side, at rest and in motion: differences, and which exceed the error bars."""

@@ -18,11 +18,11 @@ from comparisons.pictures.plan import plan_mesh
 from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.answers.table import Table
-from sheetbench.scenes import Solution, Status
-from sheetbench.scenes.summary import few
-from sheetbench.scenes.supports import named
-from sheetbench.scenes.words import sheet_in_words
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.meaning.words import sheet_in_words
+from sheetbench.scenes.objects.supports import named
 
 
 @dataclass(frozen=True, repr=False)

@@ -6,7 +6,7 @@ in the lattice's: what lies at the height z over the mid-surface is on its norma
     u(x, y, z) = u(x, y) + z (n − e_z).
 
 The model that stays near there has both equilibria, and that answer takes the place of the one on its own
-load path. Where neither does, there is no such equilibrium on this grid, or the answers are apart for another
+load path. Where neither does, there is no such equilibrium on this grid, or the answers differ for another
 reason (`far_apart`).
 """
 
@@ -19,7 +19,8 @@ import numpy as np
 from comparisons.models.resolve import Resolved
 from comparisons.models.spec import Elements, Lattice
 from comparisons.pictures.plan import on_sheet
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import Scene
 
 FAR = 0.2  # of the largest displacement, from which on another branch is looked for
 SAME = 0.5  # of the difference, by which an answer begun elsewhere must come nearer

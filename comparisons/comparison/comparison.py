@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Any
 
 from comparisons.comparison import branches
 from comparisons.comparison.answer import Comparison
@@ -13,28 +13,26 @@ from comparisons.comparison.error_bar import CHEAP, error_bar
 from comparisons.comparison.far_apart import far_apart_note
 from comparisons.comparison.strain_law import strain_law_note
 from comparisons.external.plugins import shown_name
-from comparisons.models.context import context, in_context
+from comparisons.models.context import context
 from comparisons.models.expected_error import expected_error
 from comparisons.models.grids import Elements as Count
-from comparisons.models.keywords import StaticKeywords
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
-from comparisons.pictures.work import Progress, silent
-from comparisons.runs.load import average
-from comparisons.runs.load import warnings as doubts
 from comparisons.sweep.differences import error as error  # where others take it from
 from comparisons.sweep.here import here, with_room
+from comparisons.sweep.load import average
+from comparisons.sweep.load import warnings as doubts
 from fem_reference.uncertainty import coarser
+from sheetbench.answers.solution import Status
 from sheetbench.choices import REFERENCE
-from sheetbench.scenes import AnyScene, Scene, SceneError, Status, require_static, scene_of
+from sheetbench.scenes import AnyScene, Scene, SceneError, require_static, scene_of
 
 COMPANION = "lumped-uniform"
 
 
-@in_context
 def compare(
     scene: Scene | str | Path,
-    lattice: Lattice | None = None,
+    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     reference: Elements | str = REFERENCE,
     *,
     elements: Count | None = None,
@@ -42,27 +40,16 @@ def compare(
     uncertainty: bool | None = None,
     companion: bool = True,
     models: Sequence[Spec | str] = (),
-    large: bool = False,
-    progress: Progress = silent,
-    **keywords: Unpack[StaticKeywords],
 ) -> Comparison:
     """Solve a scene with the lattice and with a reference, and put the answers side by side.
 
-    lattice, or its flat keywords: grid, masses, 9 by default: a number is along the shorter side, with
-    near-square cells; (nx, ny) or "9x13" along x and y; (nx, ny, layers). calibration: by default
-    `consistent`, and then the uniform calibration is solved too and shown alongside as `lumped-uniform`;
-    where `k` [N/m] is given the default is `uniform`, and where the scene brings its own [springs] they are
-    used alone; companion = False leaves it out. layer_distance [m]. grading: 0, cells of one size, to 1,
-    finest at the edges, or "auto", as the scene's layers need (`comparisons.models.grading`); the companion's
-    cells are of one size.
+    Where the lattice leaves its calibration open the uniform one is solved too, in cells of one size, and
+    shown alongside as `lumped-uniform`; companion = False leaves it out.
     reference: an `Elements` or its name; elements: along its shorter side, or (nx, ny); law: of strain, of a
     shell or solid (`sheetbench.choices.STRAIN_LAWS`). uncertainty: find the reference's error bar on coarser
-    meshes too; for plate and shell it is unless False, for others if True. symmetry: solve a half or a
-    quarter where scene and grid mirror themselves; solids are solved whole. branch: "path", or "buckled",
-    which leaves unstable equilibria along their buckling mode; of lattice and shell.
-    models: that stand in the table too, plug-ins or our own. A name that is taken is changed. large:
-    even where a model takes more memory than there is. progress: called with what is being done,
-    and with every iteration (`comparisons.pictures.work`).
+    meshes too; for plate and shell it is unless False, for others if True. The reference has the
+    lattice's symmetry and branch; solids are solved whole.
+    models: that stand in the table too, plug-ins or our own. A name that is taken is changed.
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
@@ -70,14 +57,13 @@ def compare(
     if not isinstance(scene, Scene):
         scene = load_static(scene)
     require_static(scene)
-    spec = Lattice.given(lattice, keywords)
-    whole = {"elements": elements, "law": law, "branch": spec.branch, "symmetry": spec.symmetry}
+    whole = {"elements": elements, "law": law, "branch": lattice.branch, "symmetry": lattice.symmetry}
     against = resolve(scene, Elements.given(reference, whole))
-    first = resolve(scene, spec)
+    first = resolve(scene, lattice)
     named: dict[str, Resolved[Any]] = {first.spec.model: first, against.spec.model: against}
-    left_open = spec.calibration is None and spec.k is None and first.spec.calibration is not None
+    left_open = lattice.calibration is None and lattice.k is None and first.spec.calibration is not None
     if companion and left_open and not scene.drawn_by:
-        named[COMPANION] = resolve(scene, spec.but(calibration="uniform", grading=None))
+        named[COMPANION] = resolve(scene, lattice.but(calibration="uniform", grading=None))
     for other in models:
         beside = resolve(scene, parse(other) if isinstance(other, str) else other)
         named[unlike(shown_name(beside.spec.model), named)] = beside

@@ -1,7 +1,7 @@
 """The error bar that a reference's mesh leaves at every probe of a comparison.
 
 The reference is solved on coarser meshes too (`fem_reference.uncertainty`); a model that differs from it by
-less than its bar is not distinguishable from it. The time that takes is reported apart.
+less than its bar is not distinguishable from it. Its time is reported separately.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from comparisons.models.grids import Elements as Count
 from comparisons.models.spec import Elements, counted
 from comparisons.sweep.limits import limit
 from comparisons.sweep.solved import Solved
-from sheetbench.scenes.summary import few
+from sheetbench.scenes.language.summary import few
 
 if TYPE_CHECKING:
     from fem_reference.uncertainty import Uncertainty
@@ -60,7 +60,7 @@ class ErrorBar:
             why = "no change but rounding"
         else:
             swing = int(np.sum(~found.trusted))
-            why = f"the meshes disagree in {swing} of {found.trusted.size} components"
+            why = f"in {swing} of {found.trusted.size} components the change does not fall with the mesh"
         meshes = f"{', '.join(finer)} and {coarsest} elements"
         return f"{model}: mesh error ± {few(100.0 * self.error)} % (from {meshes}; {why})."
 

@@ -22,7 +22,8 @@ from comparisons.comparison.rows import Difference
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.sweep.differences import error, relative
 from comparisons.sweep.model_error import ModelError, model_error
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import Scene
 
 ROUND_OFF = 1e-9  # of the largest displacement at a probe
 
@@ -34,7 +35,7 @@ class Compared:
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
     reference's mesh leaves uncertain, where that was requested; laws: a sentence where lattice and reference
     have laws of strain that differ by more. disagreement: a sentence where both are at rest and far apart.
-    expected: the error to expect of the chosen lattice's grid, or why none is told. several: whether more
+    expected: the error to expect of the chosen lattice's grid, or why there is none. several: whether more
     than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:
     sentences on times taken on a busy machine. law_chosen: the reference's law of strain, by the user.
     """

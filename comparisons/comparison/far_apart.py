@@ -18,9 +18,9 @@ from comparisons.models.layers import layers
 from comparisons.models.resolve import Resolved
 from comparisons.models.spec import Lattice, counted
 from comparisons.sweep.differences import error
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.choices import listed
-from sheetbench.scenes import Solution, Status
-from sheetbench.scenes.summary import few
+from sheetbench.scenes.language.summary import few
 
 FAR, SURE = 0.2, 1.0  # errors from which on a reason is looked for, and is not in springs or laws
 NEARER = 0.6  # of the error, that a finer grid leaves

@@ -22,8 +22,9 @@ from comparisons.pictures.stage import Stage
 from sheetbench.answers import style as plots
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.report import NoPicture
+from sheetbench.answers.solution import Solution
 from sheetbench.answers.style import GREY, plain
-from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes import Scene
 
 LINE = 105  # characters of a title in full size
 VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: what moves less than the first is drawn as the second

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from comparisons.comparison.errors import Compared
 from comparisons.models.grading import choice_notes
-from sheetbench.scenes.summary import few
+from sheetbench.scenes.language.summary import few
 
 BUCKLED = (
     "branch buckled: a model whose equilibrium under the whole load is unstable leaves it along its lowest "

@@ -1,7 +1,7 @@
 """The scene's probes as a plot: what every model is off by there, the reference's error bar as a band.
 
 Of each probe |u − u_ref| / |u_ref| [%], the column `difference` of the table; what lies in the band cannot be
-told from the reference. A probe that the reference leaves still has no such number and no place in the plot.
+separated from it. A probe that the reference leaves still has no such number and no place in the plot.
 """
 
 from __future__ import annotations

@@ -16,10 +16,11 @@ from comparisons.models.resolve import Resolved
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from fem_reference.pulled_strip import curving, laws_of, pulled
+from sheetbench.answers.solution import Solution
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.errors import NoEquilibrium
-from sheetbench.scenes import Sheet, Solution
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Sheet
+from sheetbench.scenes.language.summary import few
 
 UNSAID = 1e-3  # without an error bar
 LEAST = 0.4  # of c − c_ref that is looked for

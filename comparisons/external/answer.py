@@ -10,9 +10,11 @@ import numpy as np
 from comparisons.external.bricks import Bricks
 from comparisons.external.kratos.problem import Triangles
 from comparisons.external.plugins import Model
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import FieldMesh, Solution, Status
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, History, Scene, Solution, Status
-from sheetbench.scenes.kinematics import bent_or_tilted
+from sheetbench.scenes import Chain, EdgeLoad, Scene
+from sheetbench.scenes.meaning.kinematics import bent_or_tilted
 
 SUBSTEPS = 8  # of a motion between two samples
 BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"

@@ -3,10 +3,10 @@
 The plan mesh of the shell (`fem_reference.surface.mesh`), extruded: nodes lie at corners and mid-edges of
 layers of bricks, an even number, so that the mid-surface is a plane of eight-node faces. A column is the
 nodes over one plan node; its middle node is the mid-surface.
-Held is what a shell's support holds (`sheetbench.scenes.supports`): at a clamp every column keeps to its
+Held is what a shell's support holds (`scenes.objects.supports`): at a clamp every column keeps to its
 director and may stretch along it, at a hinge the mean of the column alone is held: a line of nodes gives
 way in a solid without end as bricks get smaller. A column may have axes of its own, turned as
-`sheetbench.scenes.kinematics` turns the edge.
+`sheetbench.scenes.meaning.kinematics` turns the edge.
 
 Numbering in an element is that of Abaqus, CalculiX and VTK: corners below, corners above, mid-edges below,
 above, upright. SI units. Beside the plan nothing is shared with our own solid.
@@ -45,10 +45,10 @@ from sheetbench.scenes import (
     held_axes,
     holds_director,
 )
-from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
-from sheetbench.scenes.masses import weights
-from sheetbench.scenes.shapes import Shape
-from sheetbench.scenes.supports import AnySupport, place
+from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
+from sheetbench.scenes.meaning.payloads import weights
+from sheetbench.scenes.objects.shapes import Shape
+from sheetbench.scenes.objects.supports import AnySupport, place
 
 GRADINGS = ("edges", "uniform")
 SITES = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0)])  # of a face's nodes

@@ -29,8 +29,10 @@ from types import ModuleType
 from typing import Any, Protocol, runtime_checkable
 
 from comparisons.external.program import PREFIX, Program
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import Solution
 from sheetbench.errors import BadInput, foreign
-from sheetbench.scenes import History, Scene, Solution
+from sheetbench.scenes import Scene
 
 GROUP = "sheetbench.models"
 OURS = {  # external codes that come with this package

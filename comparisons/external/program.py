@@ -27,11 +27,12 @@ from typing import Any
 import numpy as np
 
 from comparisons.external import memory
+from sheetbench.answers.solution import FieldMesh, Solution, Status
 from sheetbench.errors import BadInput, foreign
 from sheetbench.process import run
-from sheetbench.scenes import FieldMesh, Scene, Solution, Status
-from sheetbench.scenes.quantities import LARGEST
-from sheetbench.scenes.supports import named
+from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.quantities import LARGEST
+from sheetbench.scenes.objects.supports import named
 
 PREFIX = "exec:"
 SETTINGS = {"seconds": 60.0, "memory_mb": None}  # the limits; all others are the program's own

@@ -17,7 +17,7 @@ import numpy as np
 from comparisons.identification import c3d_reader
 from sheetbench.errors import BadInput
 from sheetbench.process import ONE_THREAD, run
-from sheetbench.scenes.units import quantity
+from sheetbench.scenes.language.units import quantity
 
 SECONDS, PER_MB = 20.0, 2.0  # s that reading may take, and more a megabyte of the file
 MEMORY_MB, LARGEST = 4096, 2**28  # of address space; bytes of a file

@@ -17,9 +17,9 @@ from math import isfinite, nan
 from pathlib import Path
 
 from sheetbench.errors import BadInput, foreign
-from sheetbench.scenes.quantities import LARGEST
-from sheetbench.scenes.reading import read_text
-from sheetbench.scenes.units import quantity
+from sheetbench.scenes.language.reading import read_text
+from sheetbench.scenes.language.units import quantity
+from sheetbench.scenes.objects.quantities import LARGEST
 
 LARGEST_FILE = 2**28  # bytes
 SEPARATORS = ";\t,"

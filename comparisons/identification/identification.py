@@ -24,7 +24,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import prod
 from pathlib import Path
-from typing import Unpack
 
 import numpy as np
 
@@ -41,18 +40,16 @@ from comparisons.identification.search import Nearest
 from comparisons.identification.starts import Fit, nearest
 from comparisons.identification.unknowns import DAMPING, VISCOUS, Unknown
 from comparisons.identification.unknowns import unknown as unknown_of
-from comparisons.models.context import context, in_context
+from comparisons.models.context import context
 from comparisons.models.grids import Elements as Count
-from comparisons.models.keywords import LatticeKeywords
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice, items
-from comparisons.pictures.work import Progress, silent
 from lumped import identifiability
 from sheetbench.choices import REFERENCES
 from sheetbench.errors import BadInput, require_choice, require_effect
 from sheetbench.scenes import AnyScene, Scene, SpringTable, require_static, scene_of
-from sheetbench.scenes.region import off_sheet
+from sheetbench.scenes.meaning.region import off_sheet
 
 __all__ = ["NotReached", "identify"]
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold
@@ -86,31 +83,24 @@ class _Question:
         return reference_model(resolve(self.scene, self.reference))
 
 
-@in_context
 def identify(
     scene: AnyScene,
     measured: Measured | Path | str,
     unknown: Sequence[str] | str = "young",
-    lattice: Lattice | None = None,
+    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     *,
     model: str | Elements = Lattice.NAME,
     elements: Count | None = None,
     law: str | None = None,
     offset: float = 0.0,
     refine: bool = True,
-    large: bool = False,
-    progress: Progress = silent,
-    **keywords: Unpack[LatticeKeywords],
 ) -> Identification:
     """Return the unknowns of these names, from measurements or a file of them (`measurements.read`).
 
-    grid (as `comparisons.models.grids` reads it; unless given, cells become smaller until the grid moves the
-    unknowns less than the noise does), calibration, grading (a number, or "auto" by the scene's own values,
-    see `comparisons.models.grading`): of the lattice; elements: of a reference; law: its law of strain
-    (`sheetbench.choices.STRAIN_LAWS`); offset [m]: where a cloud was taken along the surface's normal, 0 on
-    the mid-surface. refine: whether to look at other cells or elements too (not for motions).
-    large: even where a model takes more memory than there is.
-    progress: called with every evaluation, and every solve of a reference.
+    Unless the lattice has a grid, cells become smaller until the grid moves the unknowns less than the noise
+    does; its grading may be "auto", by the scene's own values. elements: of a reference; law: its law of
+    strain (`sheetbench.choices.STRAIN_LAWS`); offset [m]: where a cloud was taken along the surface's
+    normal, 0 on the mid-surface. refine: whether to look at other cells or elements too (not for motions).
 
     Raises BadInput for names, models and data that contradict each other, and NotReached where the model has
     no stable answer with the scene's own values.
@@ -120,15 +110,15 @@ def identify(
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
     names = items(unknown) if isinstance(unknown, str) else unknown
     unknowns = tuple(unknown_of(scene, name) for name in names)
-    reference, own = None, Lattice.given(lattice, keywords)
+    reference = None
     of_reference = {"elements": elements, "law": law}
     if model != Lattice.NAME:
         reference = Elements.given(model, of_reference)
         require_choice("model", reference.kind, MODELS)
-        require_effect(f"with the model {reference.kind}", own.settings)
+        require_effect(f"with the model {reference.kind}", lattice.settings)
     else:
         require_effect("with the model lumped", of_reference)
-    question = _Question(scene, unknowns, own, reference, offset, refine)
+    question = _Question(scene, unknowns, lattice, reference, offset, refine)
     _check(measured, question)
     return _answer(question, measured)
 

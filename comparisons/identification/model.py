@@ -15,8 +15,9 @@ from comparisons.identification.prediction import Predictor, lattice, motion, re
 from comparisons.models.grading import fixed, lines_on_shapes
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice
-from sheetbench.scenes import History, Scene
-from sheetbench.scenes.grading import as_settings
+from sheetbench.answers.history import History
+from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.grading import as_settings
 
 if TYPE_CHECKING:
     from lumped import Calibration

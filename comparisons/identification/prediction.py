@@ -22,8 +22,10 @@ from comparisons.identification.unknowns import Unknown, put
 from comparisons.models.resolve import Resolved
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, NoEquilibrium
-from sheetbench.scenes import History, Scene, Status
+from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
     from lumped import Calibration

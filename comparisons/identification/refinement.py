@@ -26,7 +26,7 @@ from comparisons.models.sizes import has_room
 from comparisons.models.spec import Lattice
 from lumped import Identifiability, identifiability
 from sheetbench.scenes import Scene
-from sheetbench.scenes.grading import of_settings
+from sheetbench.scenes.objects.grading import of_settings
 
 SHARE = 1.0 / 3.0
 NEGLIGIBLE = 2e-3  # of x

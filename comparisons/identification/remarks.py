@@ -15,7 +15,7 @@ from fem_reference.pulled_strip import curving, laws_of
 from sheetbench.answers.table import quantity
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import Scene
-from sheetbench.scenes.summary import few
+from sheetbench.scenes.language.summary import few
 
 NOTED = 0.01  # share of the force from which on it is reported
 RUBBERS = "neo-hookean"

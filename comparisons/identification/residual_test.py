@@ -21,7 +21,7 @@ from scipy.special import bdtrc
 from comparisons.identification.measurements import Displacements, Measured
 
 UNLIKELY = 1e-3  # probability below which as many equal signs are not noise
-SMALL = 2e-3  # standard deviation of residuals, of the largest measurement, that is not asked about
+SMALL = 2e-3  # standard deviation of residuals, of the largest measurement, below which no test is made
 POOR = 0.05  # and one that is more than noise usually is
 NEIGHBOURS = 12  # of a point, among which the spanning tree is looked for
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from sheetbench.answers.measured_history import COMPONENTS
 from sheetbench.errors import BadInput
-from sheetbench.scenes.measured_history import COMPONENTS
 
 NOISE = 0.1  # of the largest displacement
 

@@ -1,4 +1,4 @@
-"""Unknowns of an identification: parameters of a scene (`sheetbench.scenes.parameters`), and their scaling.
+"""Unknowns of an identification: parameters of a scene (`scenes.meaning.parameters`), and their scaling.
 
 Each is varied through a dimensionless x, 0 at the scene's own value: parameters above zero by their
 logarithm, value = start·eˣ; Poisson's ratio and a clamp's tilt by x = value − start; a curvature by
@@ -12,9 +12,9 @@ from math import exp, log, pi
 
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes import Scene
-from sheetbench.scenes.grid import grid_of
-from sheetbench.scenes.parameters import parameter, put
-from sheetbench.scenes.supports import LARGEST_TILT
+from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.objects.grid import grid_of
+from sheetbench.scenes.objects.supports import LARGEST_TILT
 
 DAMPING = ("damping_time", "damping_rate")
 VISCOUS = ("loss_factor", "share_", "time_", "drag")  # and these beginnings: no equilibrium depends on them

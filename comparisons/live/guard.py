@@ -13,13 +13,10 @@ from __future__ import annotations
 
 import os
 import secrets
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from email.message import Message
 from html import escape
 from http import HTTPStatus
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 LOOPBACK = "127.0.0.1"
 NAMES = (LOOPBACK, "localhost")
@@ -32,13 +29,24 @@ REDIRECTION = """<!doctype html>
 """
 
 
+HEADERS = {  # of every answer: scripts, styles and answers of this server alone, and nobody's frame
+    "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; "
+    "img-src 'self' data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cache-Control": "no-store",
+}
+
+
 class Guard:
     """The token of a server on a port, and what it lets in."""
 
     def __init__(self, port: int) -> None:
-        self.token = secrets.token_urlsafe(32)
+        self._token = secrets.token_urlsafe(32)
         self._hosts = {f"{name}:{port}" for name in NAMES}
-        self.address = f"http://{LOOPBACK}:{port}/{self.token}/"
+        self.address = f"http://{LOOPBACK}:{port}/{self._token}/"
 
     def refusal(self, path: str, headers: Message, own: bool = False) -> HTTPStatus | None:
         """Return why a request is not answered, None where it is; own: whether it must name its origin."""
@@ -46,49 +54,19 @@ class Guard:
         if len(hosts) != 1 or hosts[0].lower() not in self._hosts:
             return HTTPStatus.MISDIRECTED_REQUEST
         ours = {f"http://{host}" for host in self._hosts}
-        if len(origins) > 1 or (own and not origins) or not ours.issuperset(map(str.lower, origins)):
-            return HTTPStatus.FORBIDDEN
-        given = _plain(path).split("/")[1:2]
-        if not secrets.compare_digest((given or [""])[0].encode(), self.token.encode()):
-            return HTTPStatus.FORBIDDEN
-        return None
+        token = path.partition("?")[0].split("/")[1:2] or [""]
+        known = secrets.compare_digest(token[0].encode(), self._token.encode())
+        one = len(origins) <= 1 and (origins or not own) and ours.issuperset(map(str.lower, origins))
+        return None if known and one else HTTPStatus.FORBIDDEN
 
     def name(self, path: str) -> str:
         """Return what a path that was let in asks for, below the token."""
-        return _plain(path).removeprefix(f"/{self.token}").removeprefix("/")
-
-    @property
-    def headers(self) -> dict[str, str]:
-        """What every answer says: scripts, styles and answers of this server alone, and nobody's frame."""
-        policy = (
-            "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
-            "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-        )
-        return {
-            "Content-Security-Policy": policy,
-            "X-Content-Type-Options": "nosniff",
-            "Referrer-Policy": "no-referrer",
-            "Cross-Origin-Resource-Policy": "same-origin",
-            "Cross-Origin-Opener-Policy": "same-origin",
-            "Cache-Control": "no-store",
-        }
+        return path.partition("?")[0].removeprefix(f"/{self._token}").removeprefix("/")
 
 
-@contextmanager
-def redirection() -> Iterator[Callable[[str], str]]:
-    """What writes a file that leads to an address and returns the file's own, as file://…; at the end it is
-    removed."""
-    with TemporaryDirectory(prefix="sheetbench-live-") as folder:  # of mode 700
-
-        def leads_to(address: str) -> str:
-            file = Path(folder) / "live.html"
-            with os.fdopen(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as stream:
-                stream.write(REDIRECTION.format(address=escape(address)))
-            return file.as_uri()
-
-        yield leads_to
-
-
-def _plain(path: str) -> str:
-    """Return a request's path without its query."""
-    return path.partition("?")[0]
+def redirection(folder: str, address: str) -> str:
+    """Write a file that leads to an address into a folder of mode 700; return the file's own, as file://…"""
+    file = Path(folder) / "live.html"
+    with os.fdopen(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as stream:
+        stream.write(REDIRECTION.format(address=escape(address)))
+    return file.as_uri()

@@ -18,9 +18,9 @@ from comparisons.pages.sheets import eye, outline
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Curved, Scene, Sheet
-from sheetbench.scenes.grid import MASSES, near_square
-from sheetbench.scenes.loads import Pressure
-from sheetbench.scenes.parameters import parameter, put
+from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.objects.grid import MASSES, near_square
+from sheetbench.scenes.objects.loads import Pressure
 
 MASSES_CAP, ELEMENTS_CAP = 33, 16  # along the side of a square sheet, and as many in all on any other
 ELEMENTS = 8  # unless given: a shell of 8 × 8 elements answers in a tenth of a second

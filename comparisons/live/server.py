@@ -26,28 +26,28 @@ from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from http import HTTPStatus
-from http.server import BaseHTTPRequestHandler
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
 from itertools import count
-from socketserver import TCPServer, ThreadingMixIn
 from typing import Any
 
 from comparisons.calibration.answer import to_toml as springs_to_toml
 from comparisons.live import answers
 from comparisons.live.answers import Answered
-from comparisons.live.guard import LOOPBACK, Guard
+from comparisons.live.guard import HEADERS, LOOPBACK, Guard
 from comparisons.live.panel import Panel, Question
 from comparisons.models.resolve import resolve
 from comparisons.pages import viewer
-from comparisons.runs.executors import Processes, single_threaded
+from comparisons.sweep.executors import Processes, single_threaded
 from sheetbench.errors import BadInput
-from sheetbench.scenes.toml import to_toml
+from sheetbench.scenes.language.toml import to_toml
 
 MESSAGE = 4096  # bytes of a question at most
 CONNECTIONS = 32  # open at once
 KEPT = 16  # answers of the lattice, which the shell's are held against
 QUESTIONS = 10**6  # of one page
 SILENCE = 60.0  # s after which a connection that says nothing is closed
+FAULT = "a fault of the program; the terminal that it was started from says more"
 TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript"}
 
 
@@ -72,11 +72,8 @@ def served(panel: Panel, port: int = 0) -> Iterator[Server]:
         server.shells.abandon()
 
 
-class Server(ThreadingMixIn, TCPServer):
+class Server(ThreadingHTTPServer):
     """The panel, who may ask, and who answers."""
-
-    daemon_threads = True
-    allow_reuse_address = True
 
     def __init__(self, panel: Panel, port: int) -> None:
         try:
@@ -86,41 +83,31 @@ class Server(ThreadingMixIn, TCPServer):
         self.panel, self.guard, self.assets = panel, Guard(self.server_address[1]), _assets()
         self.lattice_turn, self.shells = threading.Lock(), Processes(1)
         self.answers: OrderedDict[int, Answered] = OrderedDict()  # by the numbers of their questions
-        self._numbers = count(0, QUESTIONS)
-        self._connections = threading.BoundedSemaphore(CONNECTIONS)
+        self.numbers = count(0, QUESTIONS)
+        self._open = threading.BoundedSemaphore(CONNECTIONS)
 
-    def process_request(self, request: Any, client_address: Any) -> None:
-        """Answer on a thread of the connection's own, or close it where too many are open."""
-        if self._connections.acquire(blocking=False):
-            super().process_request(request, client_address)
-        else:
-            self.shutdown_request(request)
+    def verify_request(self, request: Any, client_address: Any) -> bool:
+        """Return whether few enough connections are open for one more."""
+        return self._open.acquire(blocking=False)
 
     def process_request_thread(self, request: Any, client_address: Any) -> None:
         """Answer until the connection is closed."""
         try:
             super().process_request_thread(request, client_address)
         finally:
-            self._connections.release()
+            self._open.release()
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """A connection that breaks is nobody's fault here; anything else the terminal shows."""
         if not isinstance(error := sys.exception(), OSError):
             traceback.print_exception(error)
 
-    def document(self) -> dict[str, Any]:
-        """Return the panel for a page that opens, with the number that its questions begin with."""
-        return {**self.panel.document(), "number": next(self._numbers)}
-
     def warm_up(self) -> None:
         """Let both models solve the first question, so that nothing is left to import or compile."""
         first = self.panel.first()
-        scene = self.panel.scene_of(first)
-        with suppress(Exception):  # the page's first question tells
-            with single_threaded():  # as the process starts
-                self.shells.submit(answers.shell, scene, first, scene.probe_points())
-            with self.lattice_turn:
-                answers.lattice(scene, first)
+        with suppress(Exception), self.lattice_turn, single_threaded():  # the page's first question tells
+            found = answers.lattice(self.panel.scene_of(first), first)
+            self.shells.submit(answers.shell, found.scene, first, *found.places())
 
     def lattice(self, question: Question) -> dict[str, Any] | None:
         """Return the lattice's answer; None where it is the one that the page has already."""
@@ -137,8 +124,10 @@ class Server(ThreadingMixIn, TCPServer):
         """Return the shell's answer beside the lattice's; None where the lattice's is no longer kept."""
         if (answered := self.answers.get(question.number)) is None:
             return None
-        shell = self.shells.submit(answers.shell, answered.scene, answered.question, answered.masses)
-        return answers.compared(answered, shell.result())
+        found: dict[str, Any] = self.shells.submit(
+            answers.shell, answered.scene, answered.question, *answered.places()
+        ).result()
+        return found
 
     def text(self, question: Question) -> dict[str, Any]:
         """Return what is to be copied, as TOML: the lattice's [springs], or the scene."""
@@ -161,34 +150,34 @@ class Desk(BaseHTTPRequestHandler):
         """Requests are not logged: the address in them is secret."""
 
     def do_GET(self) -> None:
-        """Answer with a file of the page, or with its panel."""
-        if (refused := self.server.guard.refusal(self.path, self.headers)) is not None:
+        """Answer with a file of the page, or with its panel and the number that its questions begin with."""
+        server = self.server
+        if (refused := server.guard.refusal(self.path, self.headers)) is not None:
             self._reply(refused)
-        elif (name := self.server.guard.name(self.path)) == "panel":
-            self._reply(HTTPStatus.OK, self.server.document())
-        elif (asset := self.server.assets.get(name)) is None:
+        elif (name := server.guard.name(self.path)) == "panel":
+            self._reply(HTTPStatus.OK, {**server.panel.document(), "number": next(server.numbers)})
+        elif (asset := server.assets.get(name)) is None:
             self._reply(HTTPStatus.NOT_FOUND)
         else:
             self._send(HTTPStatus.OK, *asset)
 
     def do_POST(self) -> None:
         """Answer a question; one that contradicts itself is refused in a line."""
-        guard, length = self.server.guard, self.headers.get("Content-Length", "")
-        asked = {"lattice": self.server.lattice, "shell": self.server.shell, "text": self.server.text}
-        if (refused := guard.refusal(self.path, self.headers, own=True)) is not None:
+        server, length = self.server, self.headers.get("Content-Length", "")
+        ways = {"lattice": server.lattice, "shell": server.shell, "text": server.text}
+        if (refused := server.guard.refusal(self.path, self.headers, own=True)) is not None:
             return self._reply(refused)
         if not (length.isascii() and length.isdigit() and int(length) <= MESSAGE):
             return self._reply(HTTPStatus.REQUEST_ENTITY_TOO_LARGE)
-        if (answer := asked.get(guard.name(self.path))) is None:
+        if (answer := ways.get(server.guard.name(self.path))) is None:
             return self._reply(HTTPStatus.NOT_FOUND)
         try:
-            document = answer(self.server.panel.read(self.rfile.read(int(length))))
+            document = answer(server.panel.read(self.rfile.read(int(length))))
         except BadInput as error:
             return self._reply(HTTPStatus.BAD_REQUEST, {"said": str(error)})
         except Exception as error:  # a fault of the program: the page goes on, and the terminal shows it
             traceback.print_exception(error)
-            said = "a fault of the program; the terminal that it was started from says more"
-            return self._reply(HTTPStatus.INTERNAL_SERVER_ERROR, {"said": said})
+            return self._reply(HTTPStatus.INTERNAL_SERVER_ERROR, {"said": FAULT})
         self._reply(HTTPStatus.OK if document else HTTPStatus.NO_CONTENT, document)
 
     def _reply(self, status: HTTPStatus, document: dict[str, Any] | None = None) -> None:
@@ -201,10 +190,10 @@ class Desk(BaseHTTPRequestHandler):
 
     def _send(self, status: HTTPStatus, kind: str, body: bytes) -> None:
         self.send_response(status)
-        fixed = {"Content-Type": kind} if body else {}
-        closing = {"Connection": "close"} if self.close_connection else {}
-        length = {"Content-Length": str(len(body))} if status is not HTTPStatus.NO_CONTENT else {}
-        for name, value in {**self.server.guard.headers, **fixed, **closing, **length}.items():
+        own = {"Content-Type": kind} if body else {}
+        own |= {"Connection": "close"} if self.close_connection else {}
+        own |= {"Content-Length": str(len(body))} if status is not HTTPStatus.NO_CONTENT else {}
+        for name, value in {**HEADERS, **own}.items():
             self.send_header(name, value)
         self.end_headers()
         self.wfile.write(body)
@@ -215,6 +204,7 @@ def _assets() -> dict[str, tuple[str, bytes]]:
     folder = resources.files("comparisons.live").joinpath("page")
     own = {name: folder.joinpath(name).read_text("utf-8") for name in ("live.html", "live.css", "live.js")}
     texts = {**own, "viewer.js": viewer.script(), "viewer.css": viewer.style()}
-    kinds = {name: f"{TYPES[name.rpartition('.')[2]]}; charset=utf-8" for name in texts}
-    found = {name: (kinds[name], text.encode()) for name, text in texts.items()}
-    return {"": found.pop("live.html"), **found}
+    return {
+        name.replace("live.html", ""): (f"{TYPES[name.rpartition('.')[2]]}; charset=utf-8", text.encode())
+        for name, text in texts.items()
+    }

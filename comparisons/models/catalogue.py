@@ -11,8 +11,8 @@ from sheetbench.answers.files import to_json, write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Scene, catalogue, load
+from sheetbench.scenes.language.schema import for_editors
 from sheetbench.scenes.reference import markdown
-from sheetbench.scenes.schema import for_editors
 
 
 @dataclass(frozen=True)

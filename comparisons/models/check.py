@@ -1,6 +1,6 @@
 """A scene in words: its parts, whether it can rest, and what the models do with it by default.
 
-Nothing is solved. What is hardly meant (`sheetbench.scenes.plausibility`) stands among the complaints.
+Nothing is solved. What is hardly meant (`scenes.meaning.plausibility`) stands among the complaints.
 """
 
 from __future__ import annotations
@@ -20,9 +20,10 @@ from sheetbench.answers.table import Column, Table
 from sheetbench.choices import CALIBRATION, ELEMENTS
 from sheetbench.errors import Implausible
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
-from sheetbench.scenes.grid import elements_of
-from sheetbench.scenes.plausibility import slips
-from sheetbench.scenes.words import in_words
+from sheetbench.scenes.meaning.motion import kinks
+from sheetbench.scenes.meaning.plausibility import slips
+from sheetbench.scenes.meaning.words import in_words
+from sheetbench.scenes.objects.grid import elements_of
 
 
 @dataclass(frozen=True)
@@ -76,8 +77,10 @@ class Check(Answer):
         return scene_file(self.called)
 
     def notes(self) -> list[str]:
-        solve = f"Solve it with:\nsheetbench compare {shlex.quote(self.called)}"
-        return [] if self.free else [solve]
+        called, until = shlex.quote(self.called), max(kinks(self.scene), default=0.0)
+        statics = [] if self.free else [f"Solve it with:\nsheetbench compare {called}"]
+        motion = [f"Its motion:\nsheetbench compare {called} --duration {until:g}"] if until > 0.0 else []
+        return [*statics, *motion]
 
     def complaints(self) -> list[str]:
         floats = "the sheet can move as a rigid body: only `modes` and `simulate` can answer"

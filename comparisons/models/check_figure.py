@@ -18,9 +18,9 @@ from comparisons.pictures.plan import edge_ends, held_lines
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, plain
 from sheetbench.scenes import Cylinder, EdgeLoad, Scene, Sphere, holds_director
-from sheetbench.scenes.obstacles import AnyObstacle
-from sheetbench.scenes.shapes import Shape
-from sheetbench.scenes.supports import named, place
+from sheetbench.scenes.objects.obstacles import AnyObstacle
+from sheetbench.scenes.objects.shapes import Shape
+from sheetbench.scenes.objects.supports import named, place
 
 SHEET, PATCHES, LOAD, HELD = "#e8ebee", "YlOrBr", "#1b6ca8", "#8a939c"
 PAYLOAD, OBSTACLE = "#4a3f6b", "#d8d2c4"

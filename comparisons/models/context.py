@@ -1,7 +1,7 @@
 """Settings of everything that runs inside a call: progress, and whether large models are let through.
 
-`with running(large=True, progress=print):` holds for all that is solved in the block, in this thread. Public
-functions take `large` and `progress` as keywords by `in_context`; nothing below them passes them on.
+`with running(large=True, progress=print):` holds for all that is solved in the block, in this thread. Verbs
+have `large` and `progress` (`comparisons.cli.verb`), and nothing below them passes them on.
 """
 
 from __future__ import annotations
@@ -10,14 +10,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
-from functools import wraps
-from typing import Any, ParamSpec, TypeVar
+from typing import Any
 
 from comparisons.pictures.work import Progress, silent
-from sheetbench.scenes import Solution
-
-Parameters = ParamSpec("Parameters")
-Result = TypeVar("Result")
+from sheetbench.answers.solution import Solution
 
 
 @dataclass(frozen=True)
@@ -46,22 +42,3 @@ def running(**wanted: Any) -> Iterator[None]:
         yield
     finally:
         _CONTEXT.reset(before)
-
-
-def in_context(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
-    """Return the function; its keywords `large` and `progress`, where given, hold for all that it does."""
-    return _held(function, "large", "progress")
-
-
-def large_in_context(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
-    """Like `in_context`, for `large` alone, where the progress is a campaign's."""
-    return _held(function, "large")
-
-
-def _held(function: Callable[Parameters, Result], *names: str) -> Callable[Parameters, Result]:
-    @wraps(function)
-    def run(*values: Parameters.args, **named: Parameters.kwargs) -> Result:
-        with running(**{name: named[name] for name in names if name in named}):
-            return function(*values, **named)
-
-    return run

@@ -38,10 +38,11 @@ from comparisons.models.grids import scene_grid
 from comparisons.models.layers import layers
 from comparisons.models.spec import Lattice
 from comparisons.pictures.plan import inside
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.choices import EXTRAPOLATED
-from sheetbench.scenes import Scene, Solution, Status
-from sheetbench.scenes.grid import LAYERS, Grid
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.objects.grid import LAYERS, Grid
 
 FINER = 1.5  # times as many cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
@@ -49,6 +50,7 @@ FOLD = 1.5  # cells of the finer grid in the layer that a load bends (`compariso
 FAR = 0.5  # of the largest displacement
 LAW = 0.2  # of the largest stretch, that the laws of strain may put lattice and shell apart
 MOST = 5000  # masses in plan
+LARGE = 0.02  # above which a note says how to lower it
 ROUNDING = 1e-9  # of the largest displacement
 
 
@@ -67,7 +69,8 @@ class ExpectedError:
         return f"estimated from a second solve on {masses} masses, {1e3 * self.solve_seconds:.0f} ms"
 
     def __str__(self) -> str:
-        return f"expected grid error about {few(100 * self.value)} % ({self.reason})"
+        lower = ": a finer --grid or --grading auto lowers it" if self.value > LARGE else ""
+        return f"expected grid error about {few(100 * self.value)} %{lower} ({self.reason})"
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -139,10 +142,20 @@ def expected_error(
     stretch = largest_stretch(scene, fine, finer)
     value = grid_error(solution.displacement(points), fine.displacement(points), ratio, stretch)
     if value is None:
-        return NoEstimate(
-            f"on {masses} masses the answer is the same, too far away, or laws of strain would differ by more"
-        )
+        reason = _without(solution.displacement(points), fine.displacement(points), ratio)
+        return NoEstimate(f"displacements on {masses} masses {reason}")
     return ExpectedError(value, finer, fine.solve_seconds)
+
+
+def _without(coarse: np.ndarray, fine: np.ndarray, ratio: float) -> str:
+    """Return why no error follows from displacements (n, 3) on two grids, as the end of a sentence."""
+    size, difference = float(np.max(np.abs(fine))), float(np.max(np.abs(coarse - fine)))
+    if not difference > ROUNDING * size:
+        return "are the same but for rounding"
+    differ = f"differ by {few(100.0 * difference / size)} %"
+    if difference >= FAR * (1.0 - 1.0 / ratio) * size:
+        return f"{differ}, too much to extrapolate from"
+    return f"{differ}, less than the law of strain may change them at this stretch"
 
 
 def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float) -> float | None:

@@ -20,7 +20,9 @@ from comparisons.models.spec import GradingLike, Lattice, LatticePair
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, Scene
-from sheetbench.scenes.grading import (
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.meaning.region import sides_of_shapes
+from sheetbench.scenes.objects.grading import (
     Graded,
     Grading,
     lines_for_all,
@@ -29,10 +31,8 @@ from sheetbench.scenes.grading import (
     through,
     towards,
 )
-from sheetbench.scenes.grid import LAYERS
-from sheetbench.scenes.region import sides_of_shapes
-from sheetbench.scenes.summary import few
-from sheetbench.scenes.supports import place
+from sheetbench.scenes.objects.grid import LAYERS
+from sheetbench.scenes.objects.supports import place
 
 GRADED = 0.3  # what `auto` grades by towards all edges
 ONE_SIDED = 0.5  # and towards the one that holds the sheet

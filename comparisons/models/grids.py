@@ -1,6 +1,6 @@
 """Grids as the user writes them: `N` along the shorter side, `NxM` along x and y, `NxMxL` with layers.
 
-Masses of lattices, elements of references. What the numbers mean is explained in `sheetbench.scenes.grid`.
+Masses of lattices, elements of references. What the numbers mean is explained in `scenes.objects.grid`.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Sheet, SpringTable
-from sheetbench.scenes.grid import MASSES, Grid, grid_of
+from sheetbench.scenes.objects.grid import MASSES, Grid, grid_of
 
 GridLike = int | Sequence[int] | str | None
 Elements = int | tuple[int, int]

@@ -25,7 +25,7 @@ from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice
 from sheetbench.choices import AUTO, CALIBRATION
 from sheetbench.scenes import EDGES, Clamped, Curved, Hinged, Scene
-from sheetbench.scenes.grid import LAYERS
+from sheetbench.scenes.objects.grid import LAYERS
 
 MEMBRANE = "consistent-membrane"
 RUBBER = "hyperelastic"

@@ -22,8 +22,8 @@ from math import prod
 import numpy as np
 
 from comparisons.models.spec import LatticePair, counted
-from sheetbench.scenes import FieldMesh, Solution
-from sheetbench.scenes.balance import Balance
+from sheetbench.answers.balance import Balance
+from sheetbench.answers.solution import FieldMesh, Solution
 
 ORDER, REACH, UNSEEN = 2.0, 2.0, 0.2
 Field = Callable[[np.ndarray], np.ndarray]  # plan points (n, 2) [m] → (n, 3) [m]

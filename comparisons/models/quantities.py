@@ -7,14 +7,15 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes.refusals import in_one_line
-from sheetbench.scenes.units import amount, quantity
+from sheetbench.scenes.language.refusals import in_one_line
+from sheetbench.scenes.language.units import amount, quantity
 
 Quantities = TypeVar("Quantities", bound=BaseModel)
 
 
 def sides(text: Any) -> dict[str, float]:
-    """Sides along x and y [m] of `0.188` or `0.188x0.3`, or of one or two numbers; none of None."""
+    """Sides along x and y [m] of `0.188`, `0.188x0.3` or `120x80 mm` (a unit of both), or of one or two
+    numbers; none of None."""
     if text is None:
         return {}
     if not isinstance(text, str):
@@ -23,8 +24,12 @@ def sides(text: Any) -> dict[str, float]:
             f"length_{axis}": amount("--side", one, "m")
             for axis, one in zip("xy", (both[0], both[-1]), strict=True)
         }
+    parts = text.replace("×", "x").replace("X", "x").split("x")
+    unit = parts[-1].strip().lstrip("0123456789.eE+-")
+    if unit and len(parts) == 2 and parts[0].strip()[-1:].isdigit():
+        parts[0] += unit
     try:
-        lengths = [quantity(part, "m") for part in text.replace("×", "x").replace("X", "x").split("x")]
+        lengths = [quantity(part, "m") for part in parts]
     except BadInput as error:
         raise BadInput(f"--side = '{text}': {error}") from None
     if len(lengths) > 2:

@@ -20,6 +20,7 @@ from comparisons.models.method import resolve_calibration
 from comparisons.models.sizes import require_room, size
 from comparisons.models.spec import Elements, External, GradingLike, Lattice, LatticePair, Spec, counted
 from comparisons.models.symmetry import cut_axes
+from sheetbench.answers.size import Size
 from sheetbench.choices import (
     AUTO,
     BRANCHES,
@@ -32,11 +33,10 @@ from sheetbench.choices import (
 )
 from sheetbench.errors import BadInput, Implausible, require_choice, require_effect
 from sheetbench.scenes import Scene
-from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.natural_state import sheet_at_rest
-from sheetbench.scenes.plausibility import layer_slips
-from sheetbench.scenes.quantities import require_positive
-from sheetbench.scenes.size import Size
+from sheetbench.scenes.meaning.natural_state import sheet_at_rest
+from sheetbench.scenes.meaning.plausibility import layer_slips
+from sheetbench.scenes.objects.grid import Grid
+from sheetbench.scenes.objects.quantities import require_positive
 
 if TYPE_CHECKING:
     from lumped import Calibration

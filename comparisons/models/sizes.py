@@ -14,9 +14,9 @@ from comparisons.models.context import context
 from comparisons.models.spec import Spec
 from comparisons.models.symmetry import cut_axes
 from comparisons.pictures import amounts
+from sheetbench.answers.size import Size
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.size import Size
 
 
 def size(scene: Scene, spec: Spec) -> Size | None:
@@ -30,8 +30,8 @@ def size(scene: Scene, spec: Spec) -> Size | None:
 
 
 def has_room(scene: Scene, spec: Spec) -> bool:
-    """Return whether there is as much memory as a model takes, as far as either is known, or none is asked
-    for."""
+    """Return whether there is as much memory as a model takes, as far as either is known, or whether `large`
+    models are allowed."""
     room, needed = memory.available(), size(scene, spec)
     return context().large or room is None or needed is None or needed.memory <= room
 

@@ -20,12 +20,14 @@ from comparisons.models.sizes import mesh
 from comparisons.models.spec import Elements, Lattice, LatticePair
 from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.pictures.work import Work
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import FieldMesh, Iteration, Solution
 from sheetbench.choices import REFERENCES
 from sheetbench.clock import now
-from sheetbench.scenes import FieldMesh, History, Iteration, Scene, Solution, load
-from sheetbench.scenes.grading import mirrored
-from sheetbench.scenes.patches import composition_at
-from sheetbench.scenes.region import share_of
+from sheetbench.scenes import Scene, load
+from sheetbench.scenes.meaning.composition import composition_at
+from sheetbench.scenes.meaning.region import share_of
+from sheetbench.scenes.objects.grading import mirrored
 
 Watch = Callable[[Iteration], None]  # called once an iteration
 COARSE = (Lattice((3, 3, 2)), LatticePair((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))

@@ -24,9 +24,9 @@ from comparisons.models.grids import GridLike, parse_elements, scene_grid
 from sheetbench.choices import AUTO, ELEMENTS, EXTRAPOLATED, REFERENCES
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.grading import Graded, Grading
-from sheetbench.scenes.grid import LAYERS, elements_of
-from sheetbench.scenes.quantities import LARGEST
+from sheetbench.scenes.objects.grading import Graded, Grading
+from sheetbench.scenes.objects.grid import LAYERS, elements_of
+from sheetbench.scenes.objects.quantities import LARGEST
 
 GradingLike = Graded | str | None
 SIZES = ("grid", "coarser", "elements")
@@ -129,11 +129,6 @@ class Lattice(OnGrid):
     symmetry: bool = False
     branch: str = "path"
     masses: str | None = None
-
-    @classmethod
-    def given(cls, lattice: Lattice | None, keywords: Mapping[str, Any]) -> Lattice:
-        """Return the lattice that a function is called with, changed by its flat keywords."""
-        return replace(lattice or cls(), **keywords)
 
 
 @dataclass(frozen=True)

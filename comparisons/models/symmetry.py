@@ -17,18 +17,10 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.scenes import (
-    EDGES,
-    EdgeLoad,
-    FieldMesh,
-    Load,
-    PointLoad,
-    Scene,
-    Solution,
-    Symmetric,
-)
-from sheetbench.scenes.sheet import EdgeName
-from sheetbench.scenes.supports import AnySupport
+from sheetbench.answers.solution import FieldMesh, Solution
+from sheetbench.scenes import EDGES, EdgeLoad, Load, PointLoad, Scene, Symmetric
+from sheetbench.scenes.objects.sheet import EdgeName
+from sheetbench.scenes.objects.supports import AnySupport
 
 OTHER_END: dict[str, EdgeName] = {"x0": "x1", "x1": "x0", "y0": "y1", "y1": "y0"}
 CUT: tuple[EdgeName, EdgeName] = ("x1", "y1")

@@ -21,10 +21,11 @@ from comparisons.models.sizes import size
 from comparisons.models.spec import Elements, Lattice
 from comparisons.pictures.work import Work
 from lumped import Calibration, ModalTarget, StaticTarget
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Status
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import Grid
+from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
+from sheetbench.scenes.objects.grading import Graded
+from sheetbench.scenes.objects.grid import Grid
 
 POINTS = 8  # along each side
 FREQUENCIES = 4

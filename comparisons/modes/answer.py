@@ -17,11 +17,12 @@ from comparisons.modes.pairing import CELLS, Pair, Shaped, on_cells, pairs_of
 from comparisons.pictures.plan import plan_mesh
 from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
+from sheetbench.answers.modes import Buckling
 from sheetbench.answers.report import RASTER, Picture, Write
+from sheetbench.answers.solution import About
 from sheetbench.answers.table import HERTZ, NUMBER, PERCENT, Column, Table, number
-from sheetbench.scenes import About, Scene
-from sheetbench.scenes.modes import Buckling
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
 
 FLAT = 0.3  # displacement, in thicknesses, from which on stretching stiffens a plate by percents
 
@@ -87,7 +88,7 @@ class Spectra(Answer, Sequence[Spectrum]):
 
     about: "flat" or "deformed"; sag [m]: the largest displacement that the lattice's flat tangent gives under
     the scene's loads, None where there are none, or nothing that stops a rigid motion; buckling: of the
-    lattice first, then of the references, none unless asked for.
+    lattice first, then of the references, none unless requested.
     """
 
     file_name = "modes"
@@ -250,7 +251,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         return {spectrum.model: spectrum.settings for spectrum in self}
 
     def complaints(self) -> list[str]:
-        """That modes of the flat sheet were asked of one that its loads take far from flat."""
+        """A complaint where the modes are the flat sheet's and its loads take it far from flat."""
         thickness = self.scene.sheet.thickness
         if self.about == "deformed" or self.sag is None or self.sag < FLAT * thickness:
             return []

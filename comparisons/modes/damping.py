@@ -42,6 +42,6 @@ def mode_damping(material: Material, frequencies: Iterable[float]) -> tuple[Mode
         s = material.branches.pole(2.0 * pi * float(frequency), tau, alpha)
         swings = s.imag / (2.0 * pi)
         within = material.loss_factor and low <= swings <= high
-        asked = 0.5 * material.loss_factor if material.loss_factor and within else None
-        found.append(ModeDamping(number, swings, asked, -s.real / abs(s)))
+        wanted = 0.5 * material.loss_factor if material.loss_factor and within else None
+        found.append(ModeDamping(number, swings, wanted, -s.real / abs(s)))
     return tuple(found)

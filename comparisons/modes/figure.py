@@ -11,7 +11,7 @@ from comparisons.modes.answer import Spectra
 from comparisons.pictures.plan import inside, rims
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, GREY, plain
-from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.objects.grid import near_square
 
 MOST, CELLS = 6, 24  # modes; cells along the shorter side
 SHADES = "RdBu_r"

@@ -14,8 +14,8 @@ from collections import Counter
 import numpy as np
 
 from sheetbench.scenes import Scene
-from sheetbench.scenes.grid import near_square
-from sheetbench.scenes.supports import place
+from sheetbench.scenes.objects.grid import near_square
+from sheetbench.scenes.objects.supports import place
 
 BENDING, TWIST, ACROSS, IN_PLANE = "bending", "twist", "bending across", "in plane"
 STILL = 0.05  # of the largest |g|: a change of sign below it is the discretisation's

@@ -2,35 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Unpack
-
 import numpy as np
 
-from comparisons.models.context import context, in_context
-from comparisons.models.keywords import LatticeKeywords
+from comparisons.models.context import context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from comparisons.modes.state_space import Linearisation
-from comparisons.pictures.work import Progress, Work, silent
-from sheetbench.errors import BadInput, require_choice
+from comparisons.pictures.work import Work
+from sheetbench.answers.solution import About
+from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, scene_of
 
 MODES = 20
 BALANCED = "balanced"
-ABOUT = ("deformed", "flat")
 
 
-@in_context
 def linearise(
     scene: AnyScene,
-    lattice: Lattice | None = None,
+    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     *,
     modes: int | None = MODES,
     reduce: str | None = None,
-    about: str = "deformed",
-    large: bool = False,
-    progress: Progress = silent,
-    **keywords: Unpack[LatticeKeywords],
+    about: About = "deformed",
 ) -> Linearisation:
     """Return the lattice of a scene about its equilibrium under its loads, or about the flat sheet.
 
@@ -42,14 +35,13 @@ def linearise(
     import lumped
 
     scene = scene_of(scene)
-    require_choice("about", about, ABOUT)
     if modes is not None and modes < 1:
         raise BadInput(f"modes = {modes}: at least 1")
     order, tolerance = _balance(reduce)
-    model = resolve(scene, Lattice.given(lattice, keywords), "motion")
+    model = resolve(scene, lattice, "motion")
     springs = model.springs
     context().progress(Work("linearising the lattice", model.size))
-    found = lumped.linearise(scene, springs, "flat" if about == "flat" else "deformed")
+    found = lumped.linearise(scene, springs, about)
     most = found.mass.shape[0]
     space = found.state_space(None if modes is None else min(modes, most))
     balanced = None if reduce is None else space.balanced(order, tolerance)

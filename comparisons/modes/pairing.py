@@ -19,7 +19,7 @@ from scipy.optimize import linear_sum_assignment
 
 from comparisons.pictures.plan import inside
 from sheetbench.scenes import Scene, Sheet
-from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.objects.grid import near_square
 
 Modes = tuple[np.ndarray, np.ndarray]  # frequencies (count,) and shapes (count, n, 3) on equal plan cells
 CELLS = 32  # plan cells along the shorter side; the tenth mode has some five half-waves

@@ -11,60 +11,52 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import prod
-from typing import TYPE_CHECKING, Any, Unpack, cast, get_args
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from comparisons.models.context import context, in_context
+from comparisons.models.context import context
 from comparisons.models.expected_error import converges, finer_grid
 from comparisons.models.grids import Elements as Count
-from comparisons.models.keywords import ModesKeywords
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
 from comparisons.modes.pairing import expected_errors, on_cells
-from comparisons.pictures.work import Progress, Work, silent
+from comparisons.pictures.work import Work
+from sheetbench.answers.modes import Buckling
+from sheetbench.answers.solution import About
 from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
-from sheetbench.errors import BadInput, NoEquilibrium, require_choice
-from sheetbench.scenes import About, AnyScene, Scene, free_rigid_motions, scene_of
-from sheetbench.scenes.grading import as_settings
-from sheetbench.scenes.modes import Buckling
+from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
+from sheetbench.scenes.objects.grading import as_settings
 
 if TYPE_CHECKING:
     from lumped import Calibration
 
 
-@in_context
 def spectra(
     scene: AnyScene,
-    lattice: Lattice | None = None,
+    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     *,
     count: int = 10,
     reference: str | Elements | Sequence[str | Elements] = REFERENCE,
     elements: Count | None = None,
-    about: str = "flat",
+    about: About = "flat",
     buckling: bool = False,
-    large: bool = False,
-    progress: Progress = silent,
-    **keywords: Unpack[ModesKeywords],
 ) -> Spectra:
     """Return the spectra of the lattice and of the reference, or of each of several.
 
-    masses: how the lattice shares out its mass (`lumped.masses`), as `lumped.modes` has it unless given;
     about: "flat", or "deformed" under the scene's loads; buckling: also the load factors at which lattice and
-    references buckle (not the plate, which is linear); large: even where one takes more memory than there is;
-    progress: called with what is being done.
+    references buckle (not the plate, which is linear).
 
     Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
     that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.
     """
-    require_choice("--about", about, get_args(About))
-    around = cast(About, about)
     scene = scene_of(scene)
     if not isinstance(count, int) or count < 1:
         raise BadInput(f"--count = {count}: a whole number, at least 1")
-    own = resolve(scene, Lattice.given(lattice, keywords), "modes")
+    own = resolve(scene, lattice, "modes")
     references = [reference] if isinstance(reference, str | Elements) else reference
     models = [resolve(scene, Elements.given(one, {"elements": elements}), "modes") for one in references]
 
@@ -72,13 +64,13 @@ def spectra(
         context().progress(Work(f"modes of {model.spec.model}", model.size))
 
     starting(own)
-    first = _lattice(own, count, around)
-    found = [first if around == "flat" else _with_expected(own, first)]
+    first = _lattice(own, count, about)
+    found = [first if about == "flat" else _with_expected(own, first)]
     for model in models:
         starting(model)
-        found.append(_reference(model, count, around))
+        found.append(_reference(model, count, about))
     buckled = tuple(_buckling(own, models, count)) if buckling else ()
-    return Spectra(scene, tuple(found), around, _sag(scene, own.springs), buckled)
+    return Spectra(scene, tuple(found), about, _sag(scene, own.springs), buckled)
 
 
 def _buckling(own: Resolved[Lattice], models: Sequence[Resolved[Elements]], count: int) -> Iterator[Buckling]:

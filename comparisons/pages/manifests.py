@@ -13,7 +13,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, TypeAdapter, ValidationError
 from typing_extensions import TypedDict
 
-from comparisons.runs.folder import MANIFEST
+from comparisons.sweep.folder import MANIFEST
 from sheetbench.errors import BadInput, foreign
 
 LARGEST = 64_000_000  # bytes of a file that a page reads

@@ -26,12 +26,12 @@ from comparisons.pages.stage import stage
 from comparisons.pages.studies import FolderContents, Study
 from comparisons.pages.tables import tables
 from comparisons.pictures.amounts import memory
-from comparisons.runs.manifest import made_with
+from comparisons.sweep.manifest import made_with
 from sheetbench.answers.escape import terminal
 from sheetbench.answers.files import plain
 from sheetbench.answers.table import number, quantity
 from sheetbench.errors import BadInput
-from sheetbench.scenes.words import in_words
+from sheetbench.scenes.meaning.words import in_words
 
 PACKAGE = "comparisons.pages"
 AS_THEY_ARE = ("title", "verb", "place", "command", "date", "result", "notes", "complaints")  # of a study

@@ -15,8 +15,9 @@ import numpy as np
 
 from comparisons.pictures.arrows import load_arrows
 from comparisons.pictures.plan import PLAN_CELLS, eye_heading, rims
-from sheetbench.scenes import EDGES, FieldMesh, Scene, holds_director
-from sheetbench.scenes.supports import place
+from sheetbench.answers.solution import FieldMesh
+from sheetbench.scenes import EDGES, Scene, holds_director
+from sheetbench.scenes.objects.supports import place
 
 # corners of a brick's faces, outwards, as VTK numbers its nodes; those of quadratic ones come after them
 FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))

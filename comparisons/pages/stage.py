@@ -19,8 +19,9 @@ import numpy as np
 from comparisons.pages.sheets import displaced, eye, field, outline, viewer_sheet
 from comparisons.pages.studies import Study
 from comparisons.pictures.plan import PLAN_CELLS
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.errors import BadInput
-from sheetbench.scenes import FieldMesh, Scene
+from sheetbench.scenes import Scene
 
 FRAMES, MOVED = 60, 400_000  # moments of a motion on a page; numbers in all of them
 CELLS = 32  # a side of a plan grid on a page

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.pages.manifests import LARGEST, manifest
-from comparisons.runs import store
-from comparisons.runs.folder import MANIFEST
+from comparisons.sweep import store
+from comparisons.sweep.folder import MANIFEST
 from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes import Scene
 

@@ -15,7 +15,8 @@ import pyvista
 from comparisons.pictures.arrows import ALONG, edge_plan, load_arrows
 from comparisons.pictures.plan import on_sheet
 from comparisons.pictures.stage import Stage
-from sheetbench.scenes import EDGES, Chain, EdgeLoad, Solution
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import EDGES, Chain, EdgeLoad
 
 LOAD = "#1b6ca8"
 MOMENT = 0.035  # radius of a turned arrow, of the longer side

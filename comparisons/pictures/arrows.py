@@ -12,7 +12,7 @@ import numpy as np
 
 from comparisons.pictures.plan import edge_ends
 from sheetbench.scenes import AreaLoad, EdgeLoad, PointLoad, Pressure, Scene
-from sheetbench.scenes.shapes import Shape
+from sheetbench.scenes.objects.shapes import Shape
 
 POINT, EDGE, PRESSURE = 0.16, 0.1, 0.08  # lengths, of the sheet's longer side; of points the largest
 SHORTEST = 0.4  # of any other point's, of the largest

@@ -7,13 +7,15 @@ from functools import partial
 
 import numpy as np
 
-from sheetbench.scenes import FieldMesh, Scene, Support
-from sheetbench.scenes.grid import near_square
-from sheetbench.scenes.patches import shares_of
-from sheetbench.scenes.region import edge_parts, nearest
-from sheetbench.scenes.shapes import Shape
-from sheetbench.scenes.sheet import EDGES
-from sheetbench.scenes.supports import place
+from sheetbench.answers.solution import FieldMesh
+from sheetbench.scenes import Scene, Support
+from sheetbench.scenes.meaning.composition import shares_of
+from sheetbench.scenes.meaning.region import edge_parts
+from sheetbench.scenes.objects.cutouts import nearest
+from sheetbench.scenes.objects.grid import near_square
+from sheetbench.scenes.objects.shapes import Shape
+from sheetbench.scenes.objects.sheet import EDGES
+from sheetbench.scenes.objects.supports import place
 
 PLAN_CELLS = 64
 ASIDE = np.radians(24.0)  # from the free side's direction to the eye

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.files import whole
-from sheetbench.scenes import FieldMesh
 
 
 def write_mesh(path: Path, mesh: FieldMesh) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from comparisons.pictures.amounts import count, duration
 
 if TYPE_CHECKING:
-    from sheetbench.scenes.size import Size
+    from sheetbench.answers.size import Size
 
 Progress = Callable[["Work | str"], None]
 LONG = 2.0  # s, from which on people want to know
@@ -40,6 +40,8 @@ class Work:
             how_large = f" ({count(self.size.unknowns)} unknowns, about {duration(self.size.seconds)})"
         if self.share is None:
             return f"{self.doing}{how_large} …"
+        if self.share > 1.0:  # an iteration of a path that turns back
+            return f"{self.doing}{how_large}: following its path beyond the load"
         return f"{self.doing}{how_large}: {100.0 * self.share:.0f} % of the load"
 
 

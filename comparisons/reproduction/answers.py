@@ -14,11 +14,13 @@ from math import sqrt
 import lumped
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
+from comparisons.models.context import context
 from comparisons.models.grids import Elements
-from comparisons.pictures.work import Progress, Work, silent
+from comparisons.models.spec import Lattice
+from comparisons.pictures.work import Work
 from comparisons.reproduction.published import scene
-from sheetbench.scenes import Solution
-from sheetbench.scenes.habibi import published_inputs
+from sheetbench.answers.habibi import published_inputs
+from sheetbench.answers.solution import Solution
 
 SETS = ((1, 0), (2, 1), (2, -1))  # tests, and the sense of the rod
 
@@ -61,14 +63,14 @@ class ReproducedTest:
         return f"Test {self.test}{rod}"
 
 
-def answer(test: int, sense: int, elements: Elements, progress: Progress = silent) -> ReproducedTest:
+def answer(test: int, sense: int, elements: Elements) -> ReproducedTest:
     """Return a test by every model."""
     case = scene(test, sense or 1)
-    comparison = compare(case, grid=masses(), calibration="consistent", elements=elements, progress=progress)
+    comparison = compare(case, Lattice(masses(), "consistent"), elements=elements)
     of_seed = []
     for distance in (published_inputs()["thickness"], matched_layer_distance()):
         name = published_lattice(distance)
-        progress(Work(f"solving {name}"))
+        context().progress(Work(f"solving {name}"))
         springs = published_springs(distance)
         of_seed.append(replace(lumped.solve(case, springs, weights="full"), model=name))
     return ReproducedTest(test, sense, replace(comparison, solutions=(*comparison.solutions, *of_seed)))

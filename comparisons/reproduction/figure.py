@@ -11,8 +11,8 @@ from comparisons.reproduction.answers import ReproducedTest
 from comparisons.reproduction.published import COMPONENTS, SOURCES, published
 from comparisons.reproduction.settling import PROBE, Settling
 from sheetbench.answers.figure_style import FigureStyle
+from sheetbench.answers.habibi import PROBES
 from sheetbench.answers.style import DARK, GREY, SERIES
-from sheetbench.scenes.habibi import PROBES
 
 PUBLISHED = {"published model": ("s", DARK), "published experiment": ("D", GREY)}
 OURS = tuple(zip("oXvP", (SERIES[0], SERIES[5], SERIES[1], SERIES[2]), strict=True))

@@ -11,9 +11,9 @@ import numpy as np
 from comparisons.reproduction.answers import ReproducedTest, of_model
 from comparisons.reproduction.published import published
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling
+from sheetbench.answers.habibi import PROBES, published_inputs
+from sheetbench.answers.solution import Status
 from sheetbench.answers.table import Column, number, percent, quantity
-from sheetbench.scenes import Status
-from sheetbench.scenes.habibi import PROBES, published_inputs
 
 
 @dataclass(frozen=True)

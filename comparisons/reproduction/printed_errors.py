@@ -16,8 +16,8 @@ import numpy as np
 
 from comparisons.reproduction.findings import Finding
 from comparisons.reproduction.published import COMPONENTS, printed
+from sheetbench.answers.habibi import PROBES, published_errors, published_inputs
 from sheetbench.answers.table import PERCENT, Column, Table, percent
-from sheetbench.scenes.habibi import PROBES, published_errors, published_inputs
 
 TEXT = (
     "|model − experiment| of the published tables, relative to the one and to the other. * the printed error "

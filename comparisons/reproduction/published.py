@@ -11,9 +11,9 @@ from functools import cache
 
 import numpy as np
 
+from sheetbench.answers.habibi import PROBES, published_displacements, published_inputs
 from sheetbench.scenes import Scene, load
-from sheetbench.scenes.habibi import PROBES, published_displacements, published_inputs
-from sheetbench.scenes.parameters import put
+from sheetbench.scenes.meaning.parameters import put
 
 COMPONENTS = ("ux", "uy", "uz")
 SOURCES = ("model", "experiment")

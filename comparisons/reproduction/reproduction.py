@@ -8,17 +8,16 @@ nearest   which sheets come nearest to the tables, and what in the tables none o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Annotated, Any
 
 import numpy as np
 
+from comparisons.comparison.frames import write_frames
 from comparisons.models.grids import Elements
-from comparisons.motion.frames import write_frames
 from comparisons.pictures.vtk import write_mesh
-from comparisons.pictures.work import Work, silent
 from comparisons.reproduction import findings, nearest, printed_errors
 from comparisons.reproduction.answers import SETS, ReproducedTest, answer
 from comparisons.reproduction.findings import Finding
@@ -26,14 +25,13 @@ from comparisons.reproduction.published import SOURCES, published, scene
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling, settling
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
+from sheetbench.answers.habibi import KNOWN_FAULTS, PROBES, published_inputs
 from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.solution import Status
 from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Column, Table, percent
-from sheetbench.choices import ELEMENTS
-from sheetbench.scenes import Status
-from sheetbench.scenes.habibi import KNOWN_FAULTS, PROBES, published_inputs
-from sheetbench.scenes.words import sheet_in_words
+from sheetbench.choices import ELEMENTS, REPRODUCED
+from sheetbench.scenes.meaning.words import sheet_in_words
 
-PARTS = ("errors", "tables", "settling", "nearest")
 SEED = (
     "Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation "
     "continuum surfaces"
@@ -74,7 +72,7 @@ class RunRow:
 
 @dataclass(frozen=True, repr=False)
 class Reproduction(Answer):
-    """What each part found; empty, or None, where a part was not asked for."""
+    """What each part found; empty, or None, where a part was not requested."""
 
     file_name = "reproduction"
     parts: tuple[str, ...]
@@ -183,19 +181,14 @@ class Reproduction(Answer):
         return {"parts": list(self.parts), "elements": self.elements}
 
 
-def reproduce(
-    parts: Collection[str] = PARTS,
-    *,
-    elements: Elements = ELEMENTS,
-    progress: Callable[[str | Work], None] = silent,
-) -> Reproduction:
-    """Return these parts of the study; elements: of the shell; progress: called with what is being done."""
+def reproduce(parts: Collection[str] = REPRODUCED, elements: Elements = ELEMENTS) -> Reproduction:
+    """Return these parts of the study; elements: of the shell."""
     parts_done: dict[str, Any] = {}
     if "tables" in parts:
-        parts_done["answers"] = tuple(answer(*one, elements, progress) for one in SETS)
+        parts_done["answers"] = tuple(answer(*one, elements) for one in SETS)
     if "settling" in parts:
-        parts_done["settling"] = settling(progress=progress)
-    return Reproduction(tuple(part for part in PARTS if part in parts), elements, **parts_done)
+        parts_done["settling"] = settling()
+    return Reproduction(tuple(part for part in REPRODUCED if part in parts), elements, **parts_done)
 
 
 def displacements(one: ReproducedTest) -> Table:

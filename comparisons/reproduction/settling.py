@@ -8,21 +8,22 @@ full springs along edges, as theirs.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 
 import lumped
+from comparisons.models.context import context
 from comparisons.reproduction.answers import (
     masses,
     matched_layer_distance,
     published_lattice,
     published_springs,
 )
-from sheetbench.scenes import History, Scene, load
-from sheetbench.scenes.habibi import published_inputs
+from sheetbench.answers.habibi import published_inputs
+from sheetbench.answers.history import History
+from sheetbench.scenes import Scene, load
 
 SCENE, PROBE = "two-edges-settling", "P4"
 DURATION = 2.0  # s
@@ -83,7 +84,7 @@ class Settling:
         }
 
 
-def settling(duration: float = DURATION, progress: Callable[[str], None] = lambda what: None) -> Settling:
+def settling(duration: float = DURATION) -> Settling:
     """Both runs, and where they ought to end. Raises NoEquilibrium where a lattice has no stable one."""
     scene, distance = load(SCENE), matched_layer_distance()
     consistent = lumped.calibrate(scene.sheet, scene.material, grid=masses(), method="consistent")
@@ -95,7 +96,7 @@ def settling(duration: float = DURATION, progress: Callable[[str], None] = lambd
     _warm(scene)
     at = np.array([scene.probes[PROBE]])
     for name, (springs, weights) in lattices.items():
-        progress(f"simulating the settling sheet: {name}")
+        context().progress(f"simulating the settling sheet: {name}")
         runs[name] = lumped.simulate(scene, springs, duration, weights=weights, frames=FRAMES)
         still = lumped.solve(scene, springs, weights=weights)
         rest[name] = still.require_stable().displacement(at)[0]

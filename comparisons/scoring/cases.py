@@ -33,10 +33,9 @@ from sheetbench.scenes import (
     Sheet,
     load,
 )
-from sheetbench.scenes.supports import AnySupport, Motion
+from sheetbench.scenes.objects.supports import AnySupport, Motion
 
 AT_REST = ("statics", "curves", "natural", "contact")  # displacements without time
-SUITES = ("statics", "motion", "modes", "curves", "natural", "contact")
 FREQUENCIES = 6
 SEED = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
 NITRILE = Material(young=54.5e6, poisson=0.48, density=1678.0)

@@ -20,8 +20,8 @@ from sheetbench.scenes import (
     Scene,
     Sheet,
 )
-from sheetbench.scenes.obstacles import AnyObstacle
-from sheetbench.scenes.supports import Motion
+from sheetbench.scenes.objects.obstacles import AnyObstacle
+from sheetbench.scenes.objects.supports import Motion
 
 GRAVITY, DENSITY = 9.81, 1e3
 STRIP = Sheet(length_x=1.0, length_y=0.1, thickness=0.005)

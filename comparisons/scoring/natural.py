@@ -12,8 +12,8 @@ from math import pi
 import numpy as np
 
 from sheetbench.scenes import Clamped, Gravity, Material, Patch, Scene, Sheet, load
-from sheetbench.scenes.natural import Natural
-from sheetbench.scenes.shapes import Rectangle, Shape
+from sheetbench.scenes.objects.natural import Natural
+from sheetbench.scenes.objects.shapes import Rectangle, Shape
 
 STRIP = Sheet(length_x=0.18, length_y=0.06, thickness=0.003)
 RUBBER = Material(young=20e6, poisson=0.48, density=1100.0)

@@ -198,7 +198,7 @@ class Score(ShownAnswer):
             if any(one.seconds is not None for one in self.leaderboard if one.model != OWN):
                 made = document()["made_with"]["machine"].get("processor", "another machine")
                 notes.append(f"times of the others are geometric means, measured on {made}")
-                notes.append("on the front: no other model is both faster and better")
+                notes.append("on the front: no other model is both faster and more accurate")
             notes.append(self.place)
         return notes
 

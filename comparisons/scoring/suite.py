@@ -88,7 +88,7 @@ def suite(suite: str | None = None) -> Suite:
 
 
 def _toml(case: Reference) -> str:
-    from sheetbench.scenes.toml import to_toml
+    from sheetbench.scenes.language.toml import to_toml
 
     return to_toml(case.scene)
 
@@ -119,18 +119,19 @@ def _values(cases: Sequence[Reference]) -> str:
 
 
 def _form(cases: Sequence[Reference]) -> str:
-    """A file of answers with the numbers left out."""
+    """A file of answers with the numbers left out; x, y [m]: where the probe is."""
     suite = cases[0].suite
-    rows: list[list[Any]] = [[*HEADERS[suite], "seconds"]]
+    places = [] if suite == "modes" else ["x", "y"]
+    rows: list[list[Any]] = [[*HEADERS[suite], "seconds", *places]]
     for case in cases:
         if suite == "modes":
             rows += [[case.name, n + 1, "", ""] for n in range(len(case.values))]
         elif case.time is None:
-            rows += [[case.name, probe, "", "", "", ""] for probe in case.scene.probes]
+            rows += [[case.name, probe, "", "", "", "", *at] for probe, at in case.scene.probes.items()]
         else:
             rows += [
-                [case.name, probe, time, "", "", "", ""]
-                for probe in case.scene.probes
+                [case.name, probe, time, "", "", "", "", *at]
+                for probe, at in case.scene.probes.items()
                 for time in case.time.tolist()
             ]
     return _csv(rows)

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Annotated, Any
 
-from comparisons.stability.rows import LARGE, VARIED, Row, broken, place, verdict, who
+from comparisons.stability.rows import LARGE, Row, broken, place, verdict, who
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, Unit, number
+from sheetbench.choices import VARIED
 from sheetbench.scenes import Scene
 
 MICROSECONDS = Unit("s", "µs", 1e6)
@@ -116,7 +117,7 @@ def summary(maps: Stability) -> Table:
         holds, off, refuses, fails = (_ranges(of, end) for end in ("holds", "off", "refuses", "fails"))
         errors = [row["error"] for row in of if verdict(row) == "holds" and row["error"] is not None]
         rows.append(HoldsRow(VARIED[study], name, holds, off, refuses, fails, max(errors, default=None)))
-    return Table.of(HoldsRow, rows, "Where each model holds", "holds", grouped=True)
+    return Table.of(HoldsRow, rows, "Where each model is accurate", "holds", grouped=True)
 
 
 def _order(maps: Stability, row: Row) -> int:

@@ -17,33 +17,32 @@ largest displacement.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from typing import Any, Unpack
 
 import numpy as np
 
 import lumped
-from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
-from comparisons.runs.campaign import CampaignKeywords
-from comparisons.runs.store import Store
 from comparisons.stability.answer import Stability
 from comparisons.stability.limit import DefaultSteps
 from comparisons.stability.rows import Row
+from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.differences import error
 from comparisons.sweep.solved import Ask, Solved, sweep
-from comparisons.tradeoff.motion import explicit_limit, shortest_period
-from sheetbench.choices import INTEGRATORS, REFERENCE
-from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.layers import Layer
-from sheetbench.scenes.obstacles import farther
-from sheetbench.scenes.orthotropy import MODULI
-from sheetbench.scenes.parameters import put
-from sheetbench.scenes.patches import Patch
-from sheetbench.scenes.tables import FactorTable, Loading
+from comparisons.sweep.store import Store
+from sheetbench.answers.solution import Status
+from sheetbench.choices import INTEGRATORS, REFERENCE, VARIED
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Scene
+from sheetbench.scenes.meaning.distances import farther
+from sheetbench.scenes.meaning.parameters import put
+from sheetbench.scenes.objects.layers import Layer
+from sheetbench.scenes.objects.orthotropy import MODULI
+from sheetbench.scenes.objects.patches import Patch
+from sheetbench.scenes.objects.tables import FactorTable, Loading
 
 Cell = tuple[Ask, Ask | str | None]  # a run, and what its error is against, or why it is refused
 FACTORS = {
@@ -59,35 +58,30 @@ DIVISIONS = (200, 50, 20, 8, 4, 2, 1)  # steps a period
 FINE, SAMPLES = 400, 40  # steps of the midpoint rule and samples, a period
 PERIODS = 3.0  # of a run
 PARTS = ("patches", "layers")
-VARIED = (*FACTORS, "grid", "damping", "time-step")
 
 
-@large_in_context
 def stability(
     scene: Scene,
     store: Store,
     *,
-    varied: Sequence[str] = VARIED,
+    varied: Collection[str] = tuple(VARIED),
     lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     reference: str = REFERENCE,
     elements: int = 12,
-    large: bool = False,
     **how: Unpack[CampaignKeywords],
 ) -> Stability:
     """Vary a scene's sheet and solve it by every model, through a campaign's store.
 
-    varied: some of `VARIED`. lattice: with what is not varied. elements: of the references, along the shorter
-    side. Raises BadInput for what cannot be varied, for settings that contradict each other, and unless
-    `large` for models that take more memory than there is.
+    varied: some of `choices.VARIED`. lattice: with what is not varied. elements: of the references, along the
+    shorter side. Raises BadInput for what cannot be varied, for settings that contradict each other, and for
+    models that take more memory than there is.
     """
-    for name in varied:
-        require_choice("vary", name, VARIED)
     resolve(scene, lattice, "motion")
     resolve(scene, Elements(reference, elements))
     kinds = dict.fromkeys(("plate", "shell", reference))
     models = {lattice.model: lattice, **{kind: Elements(kind, elements) for kind in kinds}}
     moving = not {"damping", "time-step"}.isdisjoint(varied)
-    period = shortest_period(scene, resolve(scene, lattice).springs) if moving else 0.0
+    period = lumped.shortest_period(scene, resolve(scene, lattice).springs) if moving else 0.0
     truth = models[reference]
     makers: dict[str, Callable[[], Iterator[Cell]]] = {
         **{name: partial(_scaled, scene, name, models, truth) for name in FACTORS},
@@ -164,8 +158,8 @@ def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
     against = ask("midpoint", period / FINE)
     for name in INTEGRATORS:
         steps = [period / n for n in DIVISIONS]
-        if lumped.INTEGRATORS[name].explicit:
-            limit = explicit_limit(name, scene, resolve(scene, lattice).springs)
+        if lumped.INTEGRATORS[name].explicit and not scene.chains():  # else it is refused
+            limit = lumped.explicit_limit(name, scene, resolve(scene, lattice).springs)
             steps = [share * limit for share in SHARES]
         yield from ((ask(name, step), against) for step in steps)
 

@@ -7,8 +7,9 @@ from matplotlib.figure import Figure
 
 from comparisons.stability import tiles as maps
 from comparisons.stability.answer import Stability
-from comparisons.stability.rows import VARIED, place, who
+from comparisons.stability.rows import place, who
 from sheetbench.answers.figure_style import FigureStyle
+from sheetbench.choices import VARIED
 
 
 def compose(stability: Stability, style: FigureStyle) -> Figure:

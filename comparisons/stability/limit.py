@@ -17,7 +17,7 @@ import numpy as np
 import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from comparisons.runs.campaign import Run
+from comparisons.sweep.campaign import Run
 from comparisons.sweep.solved import Ask
 from lumped import Calibration, State, StepFailed, System
 from sheetbench.scenes import Clamped, Held, Hinged, Scene
@@ -103,7 +103,7 @@ def run(scene: dict[str, Any], lattice: dict[str, Any], integrator: str, period:
     at rest without loads, or where no step near the computed one is unstable. advised: the default step [s].
     """
     parsed = Scene.model_validate(scene)
-    springs = resolve(parsed, Lattice.given(None, lattice), "springs").springs
+    springs = resolve(parsed, Lattice(**lattice), "springs").springs
     duration, limits = PERIODS * period, dict.fromkeys(("computed", "measured", "advised"))
     if lumped.INTEGRATORS[integrator].explicit:
         equations = system(parsed.replace(gravity=None, loads=()), springs)

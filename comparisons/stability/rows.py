@@ -8,15 +8,6 @@ from typing import Any
 Row = dict[str, Any]
 Cell = dict[str, Any]
 LARGE = 0.05  # an error that has to be explained
-VARIED = {
-    "load": "loads, times the scene's",
-    "slenderness": "thickness, times the scene's",
-    "young": "E, times the scene's",
-    "obstacle": "distance of obstacles, times the scene's",
-    "grid": "cells along the shorter side",
-    "damping": "damping ratio of the lowest mode",
-    "time-step": "time step [ms]",
-}
 KEYS = {"grid": "cells", "damping": "damping_ratio", "time-step": "step"}  # else factor
 
 

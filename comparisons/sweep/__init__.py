@@ -1,1 +1,1 @@
-"""One table of solves: a row for a model on a scene, kept in a campaign's store, and what the rows say."""
+"""Campaigns of many solves, and one table of solves: a row for a model on a scene."""

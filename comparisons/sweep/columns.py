@@ -10,7 +10,8 @@ import numpy as np
 from comparisons.pictures.plan import inside
 from comparisons.sweep.differences import error
 from comparisons.sweep.model_error import model_error
-from sheetbench.scenes import Scene, Solution
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import Scene
 
 GAUSS_POINTS = 24  # along each side, for norms over the sheet
 

@@ -13,7 +13,7 @@ from math import isfinite
 import numpy as np
 
 from comparisons.sweep.model_error import left_for_grid
-from sheetbench.scenes.summary import few, milliseconds
+from sheetbench.scenes.language.summary import few, milliseconds
 
 TOLERANCES = (0.05, 0.01, 0.001)  # that are requested most
 FLOOR_FACTOR = 3.0  # errors closer to the reference's uncertainty than this say nothing about an order

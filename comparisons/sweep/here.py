@@ -15,9 +15,10 @@ from comparisons.models.sizes import has_room
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from comparisons.pictures.work import silent
-from comparisons.runs import load
+from comparisons.sweep import load
 from comparisons.sweep.solved import Ask, Solved
-from sheetbench.scenes import Scene, Solution
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import Scene
 
 QUICK = 0.2  # s, up to which solves are repeated
 

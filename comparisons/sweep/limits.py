@@ -19,8 +19,9 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from comparisons.sweep.solved import Solved
+from sheetbench.answers.solution import Status
 from sheetbench.answers.table import PERCENT, Column
-from sheetbench.scenes import Scene, Status
+from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
     from fem_reference.uncertainty import Uncertainty

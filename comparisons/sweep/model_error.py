@@ -7,7 +7,13 @@ thickness   (1.2 + 1.3 ν²) (h/a)², a the shorter side, 1.2 = 1/κ: shear-defo
             with clamp "mean" is 0.04 to 1.02 (h/a)² from the shell (12 elements, two layers), and CalculiX
             in one of them 1.4 (h/a)². Clamps hold the mean over the thickness there: held on the mid-line
             alone a face is dented by the shear force, the more the finer the mesh is, and no bar holds
-            that. Nothing for a solid
+            that. Nothing for a solid.
+            Or, where that is more, h/7.5 times the slope at which the shell leaves its clamp, the mean over
+            h/2: what a section that cannot warp leaves out at a clamp dies away as exp(−7.5 x/h), the least
+            root of sin 2z = 2z (Horgan & Knowles, Adv. Appl. Mech. 23 (1983) 179–269, flexure), so that
+            within that length its whole rise is in doubt, and beyond it a taut sheet is as far off as there.
+            It is more where a sheet is stretched so far that it turns within a thickness: 1.4 to 2.1 times
+            what inflated squares and strips of rubber are off the solid with the mean held
 strain law  1.7 times what Biot's and neo-Hooke's laws would move the probes by, to first order
             (`fem_reference.shell.other_laws`; 0.6 to 1.64 times that is what ten of eleven sheets' moved by,
             near folds too). Where that is not known, of a solid and of sheets that are not the same all over,
@@ -29,13 +35,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sheetbench.scenes import Clamped, Curved, Scene, Solution, Status
-from sheetbench.scenes.summary import few
+import numpy as np
+
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import EDGES, Clamped, Curved, Scene, Symmetric
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.meaning.kinematics import UP, bent_or_tilted
+from sheetbench.scenes.objects.supports import holds_director, place
 
 MODELS = ("shell", "solid")
 SHEAR, NORMAL = 1.2, 1.3
 LAW, FIRST_ORDER = 2.3, 1.7
 CLAMP = 0.75
+DECAY, LEAVING = 7.498, 0.5  # per thickness; thicknesses
+ALONG = 31  # points of an edge where its rise is looked at
 
 
 @dataclass(frozen=True)
@@ -76,15 +89,47 @@ def model_error(scene: Scene, answer: Solution, law_chosen: bool = False) -> Mod
     user's."""
     if answer.status is not Status.CONVERGED or answer.stretch is None or answer.model not in MODELS:
         return None
-    slenderness, poisson = scene.sheet.thickness / min(scene.sheet.lengths), scene.material.poisson
+    slenderness, poisson = scene.sheet.thickness / min(_whole(scene)), scene.material.poisson
     clamped = any(isinstance(support, Clamped | Curved) for support in scene.supports)
     stated = scene.material.law is not None and answer.settings.get("law") == scene.material.law
     solid = answer.model == "solid"
     return ModelError(
-        thickness=0.0 if solid else (SHEAR + NORMAL * poisson**2) * slenderness**2,
+        thickness=0.0 if solid else max((SHEAR + NORMAL * poisson**2) * slenderness**2, _rise(scene, answer)),
         strain_law=0.0 if law_chosen or stated else _strain_law(scene, answer),
         clamp=CLAMP * abs(poisson) / (1.0 - poisson) * slenderness if clamped else 0.0,
     )
+
+
+def _whole(scene: Scene) -> list[float]:
+    """Return the sides [m] of the sheet of which planes of symmetry leave a part; infinite between two."""
+    planes = [EDGES[one.edge].normal_axis for one in scene.supports if isinstance(one, Symmetric)]
+    return [side * (1.0, 2.0, np.inf)[planes.count(axis)] for axis, side in enumerate(scene.sheet.lengths)]
+
+
+def _rise(scene: Scene, answer: Solution) -> float:
+    """Return h/7.5 times the slope at which the sheet leaves a clamp, along its director, where that is most,
+    as a share of the largest displacement at the probes."""
+    largest = float(np.abs(answer.displacement(scene.probe_points())).max(initial=0.0))
+    driven = {edge.edge: edge for edge in bent_or_tilted(scene.supports, scene.sheet)}
+    rises = [0.0]
+    for support in scene.supports:
+        if place(support) is not None or not holds_director(support):
+            continue
+        edge, ends = EDGES[support.edge], np.array(scene.sheet.edge_ends(support.edge))
+        points = ends[0] + np.linspace(0.0, 1.0, ALONG + 2)[1:-1, None] * (ends[1] - ends[0])
+        step = np.zeros((1, 3))
+        step[0, edge.normal_axis] = (-1.0 if edge.far_end else 1.0) * LEAVING * scene.sheet.thickness
+        inside = np.ones(ALONG, bool)
+        if scene.pierced:
+            from shapely import contains_xy  # plain sheets do not wait for it
+
+            inside = contains_xy(scene.region, *(points + 0.5 * step[:, :2]).T)
+            inside &= contains_xy(scene.region, *(points + step[:, :2]).T)
+        points = points[inside]
+        turned = driven[support.edge].placed(points).director if support.edge in driven else 0.0
+        moved = answer.displacement(points + step[:, :2]) - answer.displacement(points) + step
+        rises.append(float(np.abs(np.sum(moved * (UP + turned), axis=1)).max(initial=0.0)))
+    return max(rises) / (LEAVING * DECAY * largest) if largest > 0.0 else 0.0
 
 
 def _strain_law(scene: Scene, answer: Solution) -> float:

@@ -16,9 +16,11 @@ import numpy as np
 
 from comparisons.external import plugins
 from comparisons.models.spec import Elements, External, Spec
-from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
-from comparisons.runs.store import Store
-from sheetbench.scenes import History, Scene, Status, comparable
+from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
+from comparisons.sweep.store import Store
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import Status, comparable
+from sheetbench.scenes import Scene
 
 
 @dataclass(frozen=True)
@@ -153,7 +155,7 @@ class Solved:
 
 def sweep(asks: Sequence[Ask], store: Store, **how: Unpack[CampaignKeywords]) -> list[Solved]:
     """Return a row for every solve that is wanted, in their order, through a campaign's store; how: as
-    `comparisons.runs.campaign.carry_out` takes it."""
+    `comparisons.sweep.campaign.carry_out` takes it."""
     done = carry_out([ask.task for ask in asks], store, **how)
     return [
         Solved(ask, one.status, one.message, one.row, one.started, one.finished, one.seconds)

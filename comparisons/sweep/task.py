@@ -18,10 +18,11 @@ from comparisons.models.sizes import size
 from comparisons.models.solve import simulate, warm
 from comparisons.models.solve import solve as answer
 from comparisons.models.spec import Elements, spec_of
-from comparisons.runs import load
-from comparisons.runs.peak_memory import with_peak_memory
+from comparisons.sweep import load
 from comparisons.sweep.columns import COLUMNS
-from sheetbench.scenes import Scene, Solution, Status
+from comparisons.sweep.peak_memory import with_peak_memory
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import Scene
 
 SETTLED, MOST = 0.1, 25
 

@@ -1,1 +1,1 @@
-"""What accuracy costs: error against time over models, grids, calibrations, time steps."""
+"""Error against cost over models of a scene, and the cheapest model within a tolerance."""

@@ -9,15 +9,16 @@ from dataclasses import asdict, dataclass, replace
 from math import inf
 from typing import Annotated, Any
 
-from comparisons.runs import load
+from comparisons.sweep import load
 from comparisons.sweep.front import cheapest, error_order, front, grouped, order
 from comparisons.sweep.model_error import share_of_tolerance
 from comparisons.tradeoff.row import MotionRow, TradeoffRow
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
+from sheetbench.answers.solution import Status, comparable
 from sheetbench.answers.table import NUMBER, Column, Table
-from sheetbench.scenes import Scene, Status, comparable
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
 
 STATED = 0.01  # the tolerance whose parts are said
 SHOWN = (

@@ -6,9 +6,9 @@
     of steps  the same against the same lattice, moved by the energy-conserving midpoint rule with `REFERENCE`
               steps in the period: what its steps alone miss
 
-Period and damping are those of `comparisons.motion.measures`; cost is the solver's time per simulated second.
-The reference's uncertainty is its grid convergence index from n, ¾ n and ½ n elements a side, and a third of
-what steps twice as long change, for it is of second order. Steps of a lattice are the period over
+Period and damping are those of `comparisons.comparison.measures`; cost is the solver's time per simulated
+second. The reference's uncertainty is its grid convergence index from n, ¾ n and ½ n elements a side, and a
+third of what steps twice as long change, for it is of second order. Steps of a lattice are the period over
 `divisions`, the period being the lowest mode's about the flat sheet or about its equilibrium, the shorter of
 the two: a sheet that hangs is stiffer than it was flat. Where an integrator converges with none of them its
 steps are halved until it does, down to the midpoint rule's. Explicit integrators take shares of their
@@ -18,32 +18,27 @@ stability limit instead. Plate, shell and solid keep their steps to an error.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from functools import partial
-from typing import TYPE_CHECKING, Unpack
+from typing import Unpack
 
 import numpy as np
 
-from comparisons.models.context import large_in_context
+from comparisons.comparison.measures import largest
+from comparisons.comparison.moving import require_motion
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
-from comparisons.motion.measures import largest
-from comparisons.motion.run import require_motion
-from comparisons.runs.campaign import CampaignKeywords
-from comparisons.runs.store import Store
+from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.limits import limit
 from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.sweep.store import Store
 from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow
 from comparisons.tradeoff.statics import finest_shell
 from fem_reference.uncertainty import coarser
+from sheetbench.answers.solution import Status
 from sheetbench.choices import INTEGRATORS
-from sheetbench.errors import NoEquilibrium
-from sheetbench.scenes import Scene, SceneError, Status
-from sheetbench.scenes.quantities import require_positive
-
-if TYPE_CHECKING:
-    from lumped import Calibration
+from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.quantities import require_positive
 
 DIVISIONS = (20, 40, 100, 200, 400)  # steps in the lowest period
 SHARES = (0.9, 0.45)  # of the explicit integrator's limit
@@ -54,7 +49,6 @@ FINEST = 16  # elements of the reference along the shorter side, at least
 SAMPLES = 20  # in the lowest period; no step of a lattice is longer than the time between samples
 
 
-@large_in_context
 def dynamic_tradeoff(
     scene: Scene,
     duration: float,
@@ -66,26 +60,24 @@ def dynamic_tradeoff(
     integrators: Sequence[str] = tuple(sorted(INTEGRATORS)),
     divisions: Sequence[int] = DIVISIONS,
     fine: int = REFERENCE,
-    large: bool = False,
     **how: Unpack[CampaignKeywords],
 ) -> DynamicTradeoff:
     """Measure every integrator at every step on every lattice, and the other models.
 
     others: plate, shell and solid, or models from outside that move; reference: what all are measured
-    against; fine: steps of the midpoint rule in a period; large: even if it takes more memory than there is.
-    Raises BadInput for an integrator that does not exist and for a model that does not move. A run that
-    diverges is a row with its status.
+    against; fine: steps of the midpoint rule in a period. Raises BadInput for an integrator
+    that does not exist and for a model that does not move. A run that diverges is a row with its status.
     """
     import lumped
 
-    require_positive("duration", duration, "s")
+    require_positive("--duration", duration, "s")
     for name in integrators:
         lumped.require_integrator(name)
     finest = reference or finest_shell(others, FINEST)
     for other in (*others, finest):
         require_motion(scene, other)
     meant = [resolve(scene, one, "motion") for one in lattices]
-    periods = [shortest_period(scene, one.springs) for one in meant]
+    periods = [lumped.shortest_period(scene, one.springs) for one in meant]
     ask = partial(Ask, scene, duration=duration, every=min(periods) / SAMPLES)
 
     def of_lattice(number: int, name: str, step: float, repeats: int = 1) -> Ask:
@@ -100,8 +92,8 @@ def dynamic_tradeoff(
     for number, (one, period) in enumerate(zip(meant, periods, strict=True)):
         for name in integrators:
             steps = [period / n for n in divisions]
-            if lumped.INTEGRATORS[name].explicit:
-                largest_step = explicit_limit(name, scene, one.springs)
+            if lumped.INTEGRATORS[name].explicit and not scene.chains():  # else it is refused
+                largest_step = lumped.explicit_limit(name, scene, one.springs)
                 steps = [share * largest_step for share in SHARES]
             asks += [of_lattice(number, name, step) for step in steps]
     for other in others:
@@ -164,24 +156,3 @@ def _unsolved(rows: Sequence[Solved]) -> list[tuple[int, str]]:
             case = row.ask.tags["lattice"], row.ask.run["integrator"]
             ended[case] = ended.get(case, False) or row.usable or row.status == Status.REFUSED
     return [case for case, some in ended.items() if not some and not lumped.INTEGRATORS[case[1]].explicit]
-
-
-def shortest_period(scene: Scene, springs: Calibration) -> float:
-    """The lowest mode's period [s] about the flat sheet or about its equilibrium, the shorter."""
-    import lumped
-
-    found = [lumped.modes(scene, springs, 1, springs.masses)]
-    with suppress(NoEquilibrium, SceneError):  # where there is none, the flat sheet's it is
-        found.append(lumped.modes(scene, springs, 1, springs.masses, "deformed"))
-    return 1.0 / max(float(modes.frequencies[0]) for modes in found)
-
-
-def explicit_limit(integrator: str, scene: Scene, springs: Calibration) -> float:
-    """Stability limit [s] of an explicit integrator about the flat sheet."""
-    import lumped
-
-    problem = lumped.build_problem(scene, springs)
-    system, flat = lumped.System(scene, problem), np.zeros_like(problem.loads.dead)
-    limit = lumped.INTEGRATORS[integrator].limit(system, flat)
-    assert limit is not None
-    return limit.step

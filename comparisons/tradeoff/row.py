@@ -9,12 +9,12 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from comparisons.comparison.measures import difference, largest, measured_alike
 from comparisons.external.plugins import shown_name
 from comparisons.models.spec import counted
-from comparisons.motion.measures import difference, largest, measured_alike
 from comparisons.sweep.solved import Solved
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Unit
-from sheetbench.scenes.summary import milliseconds
+from sheetbench.scenes.language.summary import milliseconds
 
 MEMORY = Unit("B", "MB", 1e-6)
 FRONT = Column(words=("yes", ""))
@@ -137,7 +137,7 @@ class MotionRow:
     size: the grid, or the elements; step [s]: fixed, or the mean of steps that keep to an error;
     seconds_per_second: the solver's time in a simulated second; error: the largest of the displacement's,
     a fraction of the reference's largest; step_error: likewise against the same lattice in fine steps;
-    period [s] and damping ratio as `comparisons.motion.measures` has them, and how far they are off: the
+    period [s] and damping ratio as `comparisons.comparison.measures` has them, and how far they are off: the
     period by a fraction, the damping by a difference. None where a run has no answer, or does not swing.
     """
 

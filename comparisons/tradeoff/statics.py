@@ -17,15 +17,14 @@ from typing import Unpack
 
 import numpy as np
 
-from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Spec
-from comparisons.runs.campaign import CampaignKeywords
-from comparisons.runs.store import Store
+from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.columns import field_points
 from comparisons.sweep.differences import error
 from comparisons.sweep.limits import limit
 from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.sweep.store import Store
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from fem_reference.uncertainty import coarser
@@ -35,7 +34,6 @@ REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the
 TRADED = ("field", "bar", "model_error")  # columns
 
 
-@large_in_context
 def tradeoff(
     scene: Scene,
     candidates: Sequence[Spec],
@@ -43,15 +41,13 @@ def tradeoff(
     *,
     reference: Elements | None = None,
     repeats: int = 5,
-    large: bool = False,
     reasons: tuple[str, ...] = (),
     **how: Unpack[CampaignKeywords],
 ) -> Tradeoff:
     """Measure every candidate on a scene, through the campaign's store.
 
     reference: by default the shell with twice as many elements as the finest shell among the candidates, and
-    32 at least. large: even where one takes more memory than there is. reasons: sentences that the report
-    shall give on the candidates.
+    32 at least. reasons: sentences that the report shall give on the candidates.
     Raises SceneError for a scene without a static answer and, before anything is solved,
     BadInput for a model or setting that does not exist. A solve that fails is a row with its status.
     """

@@ -1,4 +1,4 @@
-"""What a trade-off measures unless it is told otherwise, for the command and the function; lists as text."""
+"""Default models of a trade-off, for the command and the function; lists as text."""
 
 from __future__ import annotations
 

@@ -22,8 +22,9 @@ from scipy.sparse.linalg import splu
 
 from comparisons.external.answer import BRICK_MOMENTS, refusal, require, solution
 from comparisons.external.bricks import GRADINGS, Bricks, Held, forces, held
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Pressure, Scene, Solution, Status
+from sheetbench.scenes import Material, Pressure, Scene
 
 CORRECTION = 1e-9  # of the displacement: where a step ends
 ITERATIONS, LEAST = 15, 1.0 / 64.0  # of a step, and the smallest step
@@ -118,7 +119,7 @@ def _linear(material: Material) -> Response:
 
 
 def _rubber(material: Material) -> Response:
-    """S = 2 (f′ + c₀₁ I₁) − 2 c₀₁ C + (Λ ln J − m) C⁻¹ of the energy of `sheetbench.scenes.material`."""
+    """S = 2 (f′ + c₀₁ I₁) − 2 c₀₁ C + (Λ ln J − m) C⁻¹ of the energy of `scenes.objects.material`."""
     energy, bulk = material.energy, material.energy.volume(material.poisson)
 
     def response(f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

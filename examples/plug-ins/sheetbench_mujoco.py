@@ -21,10 +21,11 @@ from typing import Any, ClassVar
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
+from sheetbench.answers.solution import FieldMesh, Solution, Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EDGES, Clamped, FieldMesh, Hinged, PointLoad, Scene, Solution, Status
-from sheetbench.scenes.grid import near_square
-from sheetbench.scenes.quantities import PlanPoint
+from sheetbench.scenes import EDGES, Clamped, Hinged, PointLoad, Scene
+from sheetbench.scenes.objects.grid import near_square
+from sheetbench.scenes.objects.quantities import PlanPoint
 
 AT_REST = 1e-8  # displacement, in sides of the sheet, that one more step would add
 STEPS = 30_000

@@ -17,13 +17,12 @@ from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import Shape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.discrete.static import Forces, State, Static
-from fem_reference.surface.actuator_forces import OnEdge, exerted
 from fem_reference.surface.balance import left_over
 from fem_reference.surface.location import interpolate
+from sheetbench.answers.contact import contact_notes
+from sheetbench.answers.solution import FieldMesh, Solution, Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.path import Path
-from sheetbench.scenes import FieldMesh, Solution, Status
-from sheetbench.scenes.contact import contact_notes
 
 EPSILON = float(np.finfo(float).eps)
 
@@ -68,21 +67,15 @@ def answer(
     balance (`scenes.Balance`), which there is only where `balanced`."""
     sheet.grow(share)
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
-    edges = list[OnEdge]()
-    if rods:
-        pull = rods.pull(q, rods.stress(sheet.shape(q, share))) - share * rods.weight(scene)
-        edges = sheet.on_edges(q, pull)
-    wrenches, line = exerted(scene, edges, sheet.supports.moved, sheet.exerted(q, residual))
+    shape = sheet.shape(q, share)
+    edges, wrenches, line = sheet.wrenches(shape, residual)
     reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(q)
     held = sheet.holding(q, residual, share)
-    shape = sheet.shape(q, share)
     for item in sheet.items:
         for name, (places, forces) in item.holds(shape).items():
             reactions[name] = forces.reshape(-1, 3).sum(axis=0)
-            held.append((places, forces))
-    reactions |= {each.name: each.exerted(shape) for each in sheet.contacts}
+            held.append((places.reshape(-1, 3), forces.reshape(-1, 3)))
     contacts = {each.name: each.report(shape) for each in sheet.contacts}
-    held += [pair for each in sheet.contacts for pair in each.on_points(shape)]
     if contacts:
         energies |= {"contact": sum(each.potential(shape) for each in sheet.contacts)}
         own["remarks"] = (*own.get("remarks", ()), *contact_notes(contacts))

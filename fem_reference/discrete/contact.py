@@ -13,7 +13,7 @@ with o = h/2 of a mid-surface, 0 of faces. The work of the pressure p = k ⟨dep
 
 A node's area is ∫ N dA, all positive on nine nodes, where it is Simpson's rule; those at Gauss points are
 nine constraints on four nodes an element, whose pressures scatter. k = E/h; see
-`sheetbench.scenes.obstacles` for what the words mean.
+`sheetbench.scenes.objects.obstacles` for what the words mean.
 """
 
 from __future__ import annotations
@@ -25,8 +25,9 @@ from fem_reference.discrete.shape import Shape
 from fem_reference.surface.biquadratic import AT_GAUSS, areas
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan
-from sheetbench.scenes import ContactState, Plane, Scene
-from sheetbench.scenes.obstacles import SLIP_SPEED, AnyObstacle
+from sheetbench.answers.contact import ContactState
+from sheetbench.scenes import Plane, Scene
+from sheetbench.scenes.objects.obstacles import SLIP_SPEED, AnyObstacle
 
 TOUCH = 1e-9  # of the thickness, that a sheet which lies on a plane is held by it
 UNDECIDED = 1e-6
@@ -41,6 +42,7 @@ class Touching(Item):
     def __init__(self, scene: Scene, plan: Plan, name: str, obstacle: AnyObstacle, moving: bool, solid: bool):
         self.name, self.obstacle, self.moving = name, obstacle, moving
         self.plane = isinstance(obstacle, Plane)
+        self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
         self.radius = np.inf if isinstance(obstacle, Plane) else obstacle.radius
         along = obstacle.direction
         self._normal, self._across = along, np.eye(3) - (0.0 if self.plane else np.outer(along, along))
@@ -63,17 +65,9 @@ class Touching(Item):
         self._rounded = ROUNDED * thickness if moving else np.zeros(count)
         self.resists = moving and bool(obstacle.friction or obstacle.contact_damping)
 
-    def moved(self, at: float) -> np.ndarray:
+    def _way(self, at: float) -> np.ndarray:
         """How far the obstacle is (3,) [m] at a load factor or time."""
         return self.obstacle.displacement(1.0, at) if self.moving else self.obstacle.displacement(at)
-
-    def soft_share(self, load: float, travel: float, size: float) -> float:
-        """Return the share of k that a load [Pa] sinks into by 0.02 of the size or of a fifth of the radius;
-        what bends the sheet by a travel [m] counts as the load that does so."""
-        rigidity = float((self.full * self.thickness**4).max()) / 12.0
-        travel = max(travel, float(np.abs(self.moved(1.0)).max()))
-        soft = max(load, 8.0 * rigidity * travel / size**4) / (0.02 * min(size, 0.2 * self.radius))
-        return min(1.0, soft / float(self.full.min())) if soft > 0.0 else 1.0
 
     def points(self, vectors: np.ndarray) -> np.ndarray:
         """Return x (faces, n, 3) [m] of vectors (m, 18, 3)."""
@@ -82,8 +76,11 @@ class Touching(Item):
 
     def _relative(self, shape: Shape) -> np.ndarray:
         """Return w (faces, n, 3) [m]."""
-        origin = self.obstacle.position + self.moved(shape.at)
-        w: np.ndarray = (self.points(shape.vectors) - origin) @ self._across
+        return self._across_from(shape.vectors, shape.at)
+
+    def _across_from(self, vectors: np.ndarray, at: float) -> np.ndarray:
+        origin = self.obstacle.position + self._way(at)
+        w: np.ndarray = (self.points(vectors) - origin) @ self._across
         return w
 
     def _sunk(self, shape: Shape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -211,22 +208,20 @@ class Touching(Item):
             taken += h * float(self._rubbed(shape, depth, normal).sum(axis=(0, 1)) @ velocity)
         return float(taken), work
 
+    def holds(self, shape: Shape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        return {self.name: (self.points(shape.vectors), self._pulled(shape))}
+
     def exerted(self, shape: Shape) -> np.ndarray:
         """Return its force (3,) [N] on the sheet."""
         total: np.ndarray = self._pulled(shape).sum(axis=(0, 1))
         return total
 
-    def on_points(self, shape: Shape) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Return where its forces act, and which, pairs (n, 3) [m], [N] of each face."""
-        return list(zip(self.points(shape.vectors), self._pulled(shape), strict=True))
-
-    def leads_through(self, before: np.ndarray, after: np.ndarray, at: float) -> bool:
-        """Whether a straight way between vectors (m, 18, 3) leads any point nearer to the obstacle's middle
-        than half its radius."""
+    def leads_through(self, before: np.ndarray, since: float, after: np.ndarray, at: float) -> bool:
+        """Whether a straight way between vectors (m, 18, 3) at two load factors leads any point nearer to
+        the obstacle's middle than half its radius."""
         if self.plane:
             return False
-        origin = self.obstacle.position + self.moved(at)
-        x, end = ((self.points(vectors) - origin) @ self._across for vectors in (before, after))
+        x, end = (self._across_from(*each) for each in ((before, since), (after, at)))
         way = end - x
         nearest = np.clip(-(x * way).sum(axis=2) / np.maximum((way * way).sum(axis=2), 1e-300), 0.0, 1.0)
         return bool((np.linalg.norm(x + nearest[..., None] * way, axis=2) < CORE * self.radius).any())

@@ -10,10 +10,10 @@ from collections.abc import Iterator
 from typing import Any, Protocol
 
 from sheetbench.scenes import Chain, Scene
-from sheetbench.scenes.actuators import CurvatureTable
-from sheetbench.scenes.motion import let_go
-from sheetbench.scenes.sheet import Gravity
-from sheetbench.scenes.tables import PiecewiseLinear
+from sheetbench.scenes.meaning.motion import let_go
+from sheetbench.scenes.objects.actuators import CurvatureTable
+from sheetbench.scenes.objects.sheet import Gravity
+from sheetbench.scenes.objects.tables import PiecewiseLinear
 
 
 class Growing(Protocol):

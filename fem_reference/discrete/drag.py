@@ -1,4 +1,4 @@
-"""Quadratic drag of still air on the mid-surface (`sheetbench.scenes.air`), by quadrature.
+"""Quadratic drag of still air on the mid-surface (`sheetbench.scenes.objects.air`), by quadrature.
 
     f = −∫ ½ ρ c_d |v_n| v_n N a dr ds,   a = φ,r × φ,s,   v_n = v·a/|a|,
     ∂f/∂v = −∫ ρ c_d |v_n| N N a aᵀ/|a| dr ds

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.discrete.relaxation import Strained
+from fem_reference.discrete.relaxation import Strained, gain, with_branches
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import Shape
 from fem_reference.discrete.sheet import Discrete
@@ -73,16 +73,9 @@ class DiscreteElements(Discrete):
     def short(self, shape: Shape) -> np.ndarray:
         """The step (N,) to what is prescribed and onto the constraints, linear in both."""
 
-    def grow(self, at: float) -> None:
-        self.element.grow(*self.instant(at))
-
-    @property
-    def grows(self) -> bool:
-        return self.element.grows
-
     def stress(self, shape: Shape) -> np.ndarray:
         """s + τ D ė (m, k) and what the branches add."""
-        stress = shape.elastic + self.memory.added(shape.elastic) if self.memory else shape.elastic
+        stress = with_branches(shape.elastic, shape.branches)
         return stress + self.tau * weighed(shape.moduli, shape.rate) if self.tau else stress
 
     def elements_internal(self, shape: Shape) -> np.ndarray:
@@ -97,12 +90,8 @@ class DiscreteElements(Discrete):
             stress = stress + self.tau * weighed(element.moduli(0.5 * (first + last)), rate)
         return self.scatter(element.forces(element.operator(0.5 * (before + after)), stress))
 
-    def tangent(
-        self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
-    ) -> csr_matrix:
-        self.memory.now = time
-        shape = self.shape(q, time, v)
-        moduli = (1.0 + by_v * self.tau + self.memory.gain) * shape.moduli
+    def tangent(self, shape: Shape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
+        moduli = (1.0 + by_v * self.tau + gain(shape.branches)) * shape.moduli
         on_rods = [body.stress(shape) for body in self.bodies]
         return self.system(shape, moduli, self.stress(shape), on_rods, residual, by_a, by_v)[0]
 

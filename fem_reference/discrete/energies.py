@@ -11,7 +11,7 @@ from fem_reference.discrete.sheet import Discrete
 
 
 @dataclass(frozen=True)
-class Motion:
+class SheetMotion:
     """Coordinates, their rates, accelerations and the algorithm's (N,) at a time [s]; exerted: M a + g;
     memory: of the material's branches."""
 
@@ -32,35 +32,32 @@ class Energies(NamedTuple):
     potential: float
 
 
-def energies(sheet: Discrete, q: np.ndarray, v: np.ndarray, time: float) -> Energies:
-    """Return the energies of a state."""
-    sheet.memory.now = time
+def energies(sheet: Discrete, motion: SheetMotion) -> Energies:
+    """Return the energies of a motion."""
+    q, v, time = motion.q, motion.v, motion.time
     sheet.grow(time)
     shape = sheet.shape(q, time, v)
     potential = sum(item.stored(shape) for item in sheet.items)
     elastic = sheet.elastic(q) + sum(body.energy(q, time) for body in sheet.bodies)
-    stored = sheet.memory.stored(sheet.strains(q)) if sheet.memory else 0.0
+    stored = sheet.branches.stored(motion.memory) if sheet.branches.times else 0.0
     return Energies(0.5 * float(v @ (sheet.mass @ v)), elastic + stored, potential)
 
 
-def spent(sheet: Discrete, start: Motion, end: Motion, late: float) -> np.ndarray:
+def spent(sheet: Discrete, start: SheetMotion, end: SheetMotion, late: float) -> np.ndarray:
     """Return energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
     forces times changes, of dampers those that the step balances. late: the end's share in them."""
     h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
     rate = (1.0 - late) * start.v + late * end.v
     damped = sheet.tau * sheet.stiffness_of(middle, step, rate) if sheet.tau else 0.0
     damped += sheet.alpha * float(step @ (sheet.sheet_mass @ rate))
-    sheet.memory.since(start.time, start.memory)
-    sheet.memory.now = end.time
-    sheet.grow(end.time)
-    damped += sheet.memory.dissipated(sheet.strains(end.q)) if sheet.memory else 0.0
+    damped += sheet.branches.dissipated(start.memory, end.memory) if sheet.branches.times else 0.0
     exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
     work = float(sheet.of_supports(exerted) @ step)
     for body in sheet.bodies:
         damped += body.dissipated(middle, step, rate)
         for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
             work += 0.5 * (body.energy(q, end.time) - body.energy(q, start.time))
-    for sign, time in ((1.0, end.time), (-1.0, start.time)) if sheet.grows else ():
+    for sign, time in ((1.0, end.time), (-1.0, start.time)) if sheet.natural is not None else ():
         sheet.grow(time)
         work += 0.5 * sign * (sheet.elastic(start.q) + sheet.elastic(end.q))
     shape = sheet.shape(middle, half_way, step / h)

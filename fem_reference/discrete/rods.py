@@ -107,6 +107,11 @@ class Rods:
         gradient = self._gradient(self.gather(shape.q))
         return stiff.tangent(gradient, 0.0 * stress if self._linear else stress) + by_a * self._inertia()
 
+    def inertial(self, a: np.ndarray) -> np.ndarray:
+        """M a of accelerations (N,) on the sides' vectors, (k, a, 3)."""
+        found: np.ndarray = np.einsum("eij,ejc->eic", self._mass, self.gather(a))
+        return found
+
     def driving(self, shape: Shape) -> np.ndarray:
         """Force of the commands on the sides' vectors (k, a, 3)."""
         return self.pull(shape.q, self.elements.stiffness * self._intrinsic(shape.at))

@@ -7,13 +7,22 @@ from typing import Any
 
 import numpy as np
 
+from sheetbench.scenes.objects.relaxation import BranchStep
+
 
 class Shape:
     """Coordinates q and rates v (N,), 0 where None, of a sheet (`discrete.sheet`), at a load factor or time
-    [s] `at`."""
+    [s] `at`; branches: the step of its Maxwell branches that ends there."""
 
-    def __init__(self, sheet: Any, q: np.ndarray, at: float, v: np.ndarray | None = None):
-        self.sheet, self.q, self.at, self.v = sheet, q, at, v
+    def __init__(
+        self,
+        sheet: Any,
+        q: np.ndarray,
+        at: float,
+        v: np.ndarray | None = None,
+        branches: BranchStep | None = None,
+    ):
+        self.sheet, self.q, self.at, self.v, self.branches = sheet, q, at, v, branches
 
     @cached_property
     def vectors(self) -> Any:

@@ -16,7 +16,7 @@ Internal forces are those of the elements and of the rods (`discrete.rods`), ext
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -24,24 +24,24 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.discrete.contact import Touching
-from fem_reference.discrete.course import commands_of, loads_of
+from fem_reference.discrete.course import Factor, commands_of, factor_at, loads_of
 from fem_reference.discrete.drag import Drag
 from fem_reference.discrete.items import Dead, Following, Item
 from fem_reference.discrete.output import Output
-from fem_reference.discrete.relaxation import Memory, Strained
+from fem_reference.discrete.relaxation import Strained
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import Shape
 from fem_reference.surface import loads
+from fem_reference.surface.actuator_forces import OnEdge, exerted
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.supports import Supports
-from sheetbench.errors import BadInput, NoEquilibrium
-from sheetbench.numerics.continuation.stability import require_stable
+from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import Scene, Status, outside_model
-from sheetbench.scenes.motion import NO_START, at_start, kinks, starts_flat
-from sheetbench.scenes.natural_state import sources_of
-from sheetbench.scenes.obstacles import obstacles_by_name
-from sheetbench.scenes.relaxation import Branches
+from sheetbench.scenes import Scene, outside_model
+from sheetbench.scenes.meaning.distances import obstacles_by_name
+from sheetbench.scenes.meaning.motion import kinks
+from sheetbench.scenes.meaning.natural_state import NaturalState, sources_of
+from sheetbench.scenes.objects.relaxation import Branches, BranchStep
 
 Binding = Callable[[Scene], BoundRods]
 
@@ -62,6 +62,7 @@ class Discrete(Output):
     conservative: bool
     any_strain: bool = False
     own: bool = False
+    natural: NaturalState | None = None
     supports: Supports
     rods: Rods
     unknowns: int
@@ -75,10 +76,11 @@ class Discrete(Output):
             raise BadInput(
                 f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
             )
-        self.memory = Memory(material.branches if moving else Branches((), ()))
+        self.branches = material.branches if moving else Branches((), ())
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
         self.items: list[Item] = []
         self.contacts: list[Touching] = []
+        self._weights: list[tuple[np.ndarray, Factor]] = []
 
     def bind(
         self, bind: Binding, bound: BoundRods, rows: np.ndarray, places: np.ndarray | None = None
@@ -93,7 +95,8 @@ class Discrete(Output):
             nodal, followers = loads.of_scene(alone, self.plan)
             dead = self.on_coordinates(nodal)
             for body in self.bodies:
-                dead = dead + body.scatter(body.weight(alone))
+                self._weights.append((body.weight(alone), factor))
+                dead = dead + body.scatter(self._weights[-1][0])
             self.items += [Dead(dead, factor)] if dead.any() else []
             self.items += [Following(load, factor) for load in followers]
         if moving and scene.air:
@@ -155,14 +158,10 @@ class Discrete(Output):
         """Times [s] at which something prescribed bends its course."""
         return np.array(kinks(self.scene))
 
-    @abstractmethod
     def grow(self, at: float) -> None:
         """Set the sheet's natural state to that at a load factor or time [s], where it has one."""
-
-    @property
-    @abstractmethod
-    def grows(self) -> bool:
-        """Whether the natural state changes over time."""
+        if self.natural is not None:
+            self.natural.grow(*self.instant(at))
 
     def jumps(self, time: float) -> bool:
         """Whether what is prescribed changes its velocity at once."""
@@ -211,9 +210,11 @@ class Discrete(Output):
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
         """Those (N,) of the mean strains of a step and their mean rate."""
 
-    def shape(self, q: np.ndarray, at: float, v: np.ndarray | None = None) -> Shape:
-        """The sheet at coordinates and rates (N,)."""
-        return Shape(self, q, at, v)
+    def shape(
+        self, q: np.ndarray, at: float, v: np.ndarray | None = None, branches: BranchStep | None = None
+    ) -> Shape:
+        """The sheet at coordinates and rates (N,), at the end of a step of its branches."""
+        return Shape(self, q, at, v, branches)
 
     def external(self, shape: Shape) -> np.ndarray:
         """Forces (N,) of all items."""
@@ -226,11 +227,24 @@ class Discrete(Output):
             out = out + body.scatter(body.pull(shape.q, body.stress(shape)))
         return out
 
-    def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+    def wrenches(
+        self, shape: Shape, residual: np.ndarray, a: np.ndarray | None = None
+    ) -> tuple[list[OnEdge], dict[str, np.ndarray], np.ndarray]:
+        """What the rods exert on their edges; the force and moment (segments, 6) [N, N·m] of every actuator's
+        segments on the sheet; the line force (n, 3) [N/m]. residual: M ü + g (N,); a: ü (N,), 0 unless given.
+        """
+        edges = list[OnEdge]()
+        for body in self.bodies:
+            pull = body.pull(shape.q, body.stress(shape))
+            for weight, factor in self._weights:
+                pull = pull - factor_at(factor, shape.at) * weight
+            edges += self.on_edges(shape.q, pull if a is None else pull + body.inertial(a))
+        held = self.exerted(shape.q, residual)
+        return edges, *exerted(self.scene, edges, self.supports.moved, held)
+
+    def forces(self, shape: Shape) -> np.ndarray:
         """g (N,): internal and viscous less external forces."""
-        self.memory.now = time
-        shape = self.shape(q, time, v)
-        return self._damped(self.internal(shape) - self.external(shape), v)
+        return self._damped(self.internal(shape) - self.external(shape), shape.v)
 
     def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
         """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
@@ -244,13 +258,12 @@ class Discrete(Output):
             out = out - item.mean_force(*shapes)
         return self._damped(out, v)
 
-    def _damped(self, forces: np.ndarray, v: np.ndarray) -> np.ndarray:
-        return forces + self.alpha * (self.sheet_mass @ v) if self.alpha else forces
+    def _damped(self, forces: np.ndarray, v: np.ndarray | None) -> np.ndarray:
+        damped = self.alpha and v is not None
+        return forces + self.alpha * (self.sheet_mass @ v) if damped else forces
 
     @abstractmethod
-    def tangent(
-        self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
-    ) -> csr_matrix:
+    def tangent(self, shape: Shape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         """Zᵀ (by_a M + by_v C + K) Z, and what the constraints add under a residual (N,)."""
 
     @abstractmethod
@@ -277,7 +290,7 @@ class Discrete(Output):
 
     @abstractmethod
     def strains(self, q: np.ndarray) -> Strained:
-        """Strains, and the elastic stresses that go with them, as `memory` takes them."""
+        """Strains, and the elastic stresses that go with them, as `relaxation` takes them."""
 
     @abstractmethod
     def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
@@ -291,23 +304,7 @@ class Discrete(Output):
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         """Δeᵀ D Δe' [J] of the strains of a step (N,) from q and of another one."""
 
-    # where a motion starts, and when it means nothing
-
-    def start(self) -> np.ndarray:
-        """q (N,) at t = 0: flat, or the equilibrium to start from (`sheetbench.scenes.motion`). Raises
-        NoEquilibrium where there is no stable one."""
-        if starts_flat(self.scene):
-            return self.placed(np.zeros(self.size), 0.0)
-        q, status, notes = self.equilibrium(at_start(self.scene))
-        try:
-            require_stable(self.model, status, notes)
-        except NoEquilibrium as error:
-            raise NoEquilibrium(f"{NO_START}: {error}") from None
-        return self.placed(q, 0.0)
-
-    def equilibrium(self, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
-        """q (N,) under the full load of a scene, of this one's sheet; how the path there ended, and notes."""
-        raise NotImplementedError
+    # when a state means nothing
 
     def inside_out(self, q: np.ndarray) -> str:
         """A sentence on the element that has turned inside out, "" for none."""

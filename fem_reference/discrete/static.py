@@ -64,7 +64,7 @@ class Static(Creeping[State, Forces]):
 
     @property
     def prestrained(self) -> bool:
-        return self.sheet.element.prestrain is not None
+        return self.sheet.natural is not None
 
     def rest(self) -> State:
         """Flat, and free of stress where nothing acts on it."""
@@ -93,8 +93,8 @@ class Static(Creeping[State, Forces]):
         external = sheet.external(shape)
         residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
         size = sheet.measured(external, sheet.scale) + sheet.measured(sheet.of_held_positions(residual))
-        if (natural := sheet.element.prestrain) is not None:  # often all that loads it
-            pull = sheet.element.forces(shape.operator, sheet.element.stress(natural))
+        if sheet.natural is not None:  # often all that loads it
+            pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.natural.now))
             size += sheet.measured(sheet.scatter(pull), sheet.scale)
         residual -= external
         on_rods = tuple(body.stress(shape) for body in sheet.bodies)

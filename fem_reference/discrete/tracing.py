@@ -3,6 +3,8 @@ obstacles."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from fem_reference.discrete.contact import Touching
@@ -10,75 +12,49 @@ from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.static import Forces, State, Static
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
-from sheetbench.numerics.continuation.path import Fault, Inspect, Path, Progress, Settle
-from sheetbench.numerics.continuation.stiffening import trace_stiffening
+from sheetbench.numerics.continuation.path import Inspect, Path, Settle
+from sheetbench.numerics.continuation.stiffening import Penalties, trace_stiffening
 from sheetbench.numerics.continuation.trace import trace_path
-from sheetbench.scenes import Status
 
 
-class Softness:
-    """The penalties of a sheet's contacts (`sheetbench.numerics.continuation.stiffening`)."""
+def penalties(structure: Static) -> Penalties[State]:
+    """Return the penalties of a sheet's contacts."""
+    sheet = structure.sheet
+    flat = sheet.shape(np.zeros(sheet.size), 1.0)
+    others = [item for item in sheet.items if not isinstance(item, Touching)]
+    dead = sheet.displacement(sum((item.force(flat) for item in others), np.zeros(sheet.size)))
+    flat_q = np.zeros(sheet.size)
+    moved = np.abs(sheet.on_surface(sheet.placed(flat_q, 1.0)) - sheet.on_surface(flat_q)).max(axis=(0, 2))
 
-    def __init__(self, sheet: DiscreteElements):
-        self._sheet = sheet
-        flat = sheet.shape(np.zeros(sheet.size), 1.0)
-        others = [item for item in sheet.items if not isinstance(item, Touching)]
-        dead = sum((item.force(flat) for item in others), np.zeros(sheet.size))
-        self._force = float(np.abs(sheet.displacement(dead)).sum())
-        placed = sheet.displacement(sheet.placed(np.zeros(sheet.size), 1.0))
-        self._travel = float(np.abs(placed).max())
+    def passes(start: State, since: float, end: State, load_factor: float) -> bool:
+        ways = sheet.on_surface(start.q), since, sheet.on_surface(end.q), load_factor
+        return any(one.leads_through(*ways) for one in sheet.contacts)
 
-    @property
-    def soft(self) -> float | None:
-        """The share of the stiffness to begin with."""
-        each = self._sheet.contacts
-        loads = [self._force / float(one.area.sum()) for one in each]
-        size = self._sheet.longest
-        return min(one.soft_share(load, self._travel, size) for one, load in zip(each, loads, strict=True))
+    def restart(state: State) -> Start[State]:
+        balanced = structure.potential(state, 1.0)[1]
+        return Start(structure.unextrapolated(state), 1.0, 1.0, balanced)
 
-    def soften(self, share: float) -> None:
-        """Give the contacts a share of their stiffness."""
-        for one in self._sheet.contacts:
-            one.share = share
+    force = float(np.abs(dead).sum())
+    travel = float(max(moved[:9].max(), sheet.longest * moved[9:].max()))  # a director's turn moves the end
+    return Penalties(sheet.contacts, force, travel, sheet.longest, False, passes, restart)
 
 
 def trace(
     sheet: DiscreteElements,
     inspect: Inspect[State, Forces],
     settle: Settle[State, Forces] | None,
-    progress: Progress | None = None,
-    near: Start[State] | None = None,
-    slenderness: float = 0.0,
     limits: Limits | None = None,
-    buckled: bool = False,
+    **options: Any,
 ) -> Path[State, Forces]:
-    """Return the path of a sheet, as `trace_path` does; with obstacles from rest, whatever is near."""
+    """Return the path of a sheet, as `trace_path` does with these options; with obstacles from rest, whatever
+    is near."""
     structure, limits = Static(sheet), limits or Limits()
     if not sheet.contacts:
-        return trace_path(
-            structure, sheet.solver(), inspect, settle, progress, near, slenderness, limits, buckled
-        )
-    before = structure.rest(), 0.0
+        return trace_path(structure, sheet.solver(), inspect, settle, limits=limits, **options)
+    buckled, from_rest = options.pop("buckled", False), options | {"near": None}
 
-    def kept_out(path: Path[State, Forces]) -> Fault | None:
-        nonlocal before
-        start = before[0] if 0.0 < before[1] <= path.load_factor else structure.rest()
-        before = path.state, path.load_factor
-        ends = (sheet.on_surface(state.q) for state in (start, path.state))
-        from_, to = ends
-        if any(one.leads_through(from_, to, path.load_factor) for one in sheet.contacts):
-            return Fault(Status.STEP_LIMIT, "a step led through an obstacle")
-        return inspect(path)
+    def soft(limits: Limits, inspect: Inspect[State, Forces]) -> Path[State, Forces]:
+        return trace_path(structure, sheet.solver(), inspect, settle, limits=limits, **from_rest)
 
-    def soft() -> Path[State, Forces]:
-        return trace_path(
-            structure, sheet.solver(), kept_out, settle, progress, None, slenderness, limits.direct
-        )
-
-    path = Path(structure, sheet.solver(), structure.rest(), limits=limits, progress=progress)
-
-    def restart(state: State) -> Start[State]:
-        balanced = structure.potential(state, 1.0)[1]
-        return Start(structure.unextrapolated(state), 1.0, 1.0, balanced)
-
-    return trace_stiffening(Softness(sheet), path, soft, kept_out, settle, restart, buckled)
+    path = Path(structure, sheet.solver(), structure.rest(), limits=limits, progress=options.get("progress"))
+    return trace_stiffening(penalties(structure), path, soft, inspect, settle, buckled)

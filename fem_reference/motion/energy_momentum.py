@@ -14,9 +14,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.motion.generalised_alpha import ConstrainedAlpha
-from fem_reference.motion.moving import Motion
-from sheetbench.numerics.time.method import StepFailed
+from fem_reference.discrete.energies import SheetMotion
+from fem_reference.motion.generalised_alpha import ConstrainedAlpha, Linear
+from sheetbench.numerics.time.rule import MidpointStep
 
 SOLVED = 1e-13  # last correction, relative to the displacement
 CORRECTIONS = 30
@@ -26,35 +26,27 @@ REUSED = 0.3  # a correction's share of the one before, up to which factors are 
 class EnergyMomentum(ConstrainedAlpha):
     """Steps of a reference, of a fixed length."""
 
-    def _advanced(self, motion: Motion, h: float) -> Motion:
+    def _advanced(self, motion: SheetMotion, h: float) -> SheetMotion:
         self.late = 0.5
         model, half_way, time = self._model, motion.time + 0.5 * h, motion.time + h
+        rule = MidpointStep(h, motion.q, motion.v)
 
-        def at(q: np.ndarray) -> Motion:
-            v = 2.0 * (q - motion.q) / h - motion.v
-            a = (v - motion.v) / h
-            return Motion(time, q, v, a, a, model.mass @ a + model.mean_forces(motion.q, q, h, half_way))
+        def at(q: np.ndarray) -> SheetMotion:
+            v, a = rule.velocity(q), rule.acceleration(q)
+            return SheetMotion(time, q, v, a, a, model.mass @ a + model.mean_forces(motion.q, q, h, half_way))
 
-        found = at(model.placed(motion.q + h * motion.v, time))
-        size = max(self._largest, float(np.abs(model.displacement(found.q)).max()))
-        last: float | None = None
-        if self._taken != h:
-            self._factor = None
-        for _ in range(CORRECTIONS):
-            middle, rate = 0.5 * (motion.q + found.q), (found.q - motion.q) / h
-            basis = model.basis(middle)
-            if self._factor is None:
-                stiffness = model.tangent(middle, rate, half_way, found.exerted, 4.0 / h**2, 2.0 / h)
-                self._factor, self._taken = self._solver.factor(stiffness), h
-            step = basis @ self._factor.solve_unrefined(-2.0 * (basis.T @ found.exerted))
-            length = float(np.abs(model.displacement(step)).max())
-            if not np.isfinite(length):
-                raise StepFailed("a number overflowed")
-            found = at(model.moved(found.q, step))
-            share = length / last if last else 1.0
-            if length <= SOLVED * size or (length <= 1e-10 * size and share > REUSED):  # rounding is left
-                return found
-            if last and share > REUSED:
-                self._factor = None
-            last = length
-        raise StepFailed("the corrections do not shrink")
+        def linear(found: SheetMotion) -> Linear:
+            middle, rate = rule.place(found.q), rule.rate(found.q)
+            basis, shape = model.basis(middle), model.shape(middle, half_way, rate)
+            return (
+                basis,
+                lambda: model.tangent(shape, found.exerted, 4.0 / h**2, 2.0 / h),
+                2.0 * (basis.T @ found.exerted),
+            )
+
+        def solved(length: float, share: float, largest: float) -> bool:
+            rounding = length <= 1e-10 * largest and share > REUSED
+            return length <= SOLVED * largest or rounding
+
+        guess = at(model.placed(motion.q + h * motion.v, time))
+        return self._solved(h, guess, at, linear, solved, REUSED, CORRECTIONS)

@@ -12,16 +12,21 @@ longer lets them double. As Rannacher 1984 (Numer. Math. 43, 309–327) begins C
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.sparse import csc_matrix, csr_matrix
 
-from fem_reference.motion.moving import Motion, Moving, spent
+from fem_reference.discrete.energies import SheetMotion, spent
+from fem_reference.discrete.relaxation import remembered
+from fem_reference.motion.moving import MovingSheet
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
-from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted
+from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted, step_of
+from sheetbench.scenes.objects.relaxation import BranchStep
 
 RADIUS = 0.8
 ERROR = 1e-5  # of a step, relative to the largest displacement so far
@@ -35,6 +40,7 @@ SMALLEST = 1e-9  # step, relative to the run
 EULER = 2  # steps behind a jump whose length does not double
 TAKEN = 1e-3  # of the kinetic energy, that the first of them may take
 
+Linear = tuple[csc_matrix, Callable[[], csr_matrix], np.ndarray]  # Z, the matrix of x, and what is left of x
 REMEMBERED = ("_before", "_largest", "_local", "_euler", "failed")
 
 
@@ -42,7 +48,7 @@ class Sampled(NamedTuple):
     """Motions at k moments (k,) [s], and the energies (k,) [J] dissipated and put in since a step began."""
 
     time: np.ndarray
-    motions: list[Motion]
+    motions: list[SheetMotion]
     dissipated: np.ndarray
     work: np.ndarray
 
@@ -55,9 +61,11 @@ class ConstrainedAlpha:
     small strains that a cubic between the ends of a step leaves, steps end at samples.
     """
 
-    state = Motion
+    state = SheetMotion
 
-    def __init__(self, model: Moving, step: float | None, error: float, first: float, radius: float = RADIUS):
+    def __init__(
+        self, model: MovingSheet, step: float | None, error: float, first: float, radius: float = RADIUS
+    ):
         self._usual = generalised(radius)
         self.late = 1.0 - self._usual.af
         self._model, self.adapts, self._error = model, step is None, error
@@ -67,10 +75,8 @@ class ConstrainedAlpha:
         self._before, self._taken = 0.0, 0.0  # the last step, and the one that factors are of
         self._factor: Factor | None = None
         self._solver = model.solver()
-        self._largest, self._local = (
-            LEAST * model.longest,
-            1.0,
-        )  # displacement [m], and the last step's error over that allowed
+        self._largest = LEAST * model.longest  # displacement [m]
+        self._local = 1.0  # the last step's error over that allowed
         self._euler = 0  # steps to come by backward Euler
         self.failed = 0
 
@@ -101,50 +107,66 @@ class ConstrainedAlpha:
         for name in REMEMBERED:
             setattr(self, name, type(getattr(self, name))(memory[name]))
 
-    def start(self) -> Advance[Motion]:
+    def start(self) -> Advance[SheetMotion]:
         """Return the motion at t = 0, with the work of what moves at once."""
         q = self._model.start()
         return self._begun(0.0, q, np.zeros_like(q))
 
-    def _begun(self, time: float, q: np.ndarray, v: np.ndarray) -> Advance[Motion]:
+    def _branches(self, motion: SheetMotion, time: float) -> BranchStep | None:
+        """The step of the branches from a motion to a time [s], if there are any."""
+        branches = self._model.branches
+        return branches.step(motion.memory, time - motion.time) if branches.times else None
+
+    def _begun(
+        self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None
+    ) -> Advance[SheetMotion]:
         """The motion from a time on, with the work of what changes its velocity at once."""
-        motion, mass = self.begin(time, q, v), self._model.mass
+        motion, mass = self.begin(time, q, v, branches), self._model.mass
         work = 0.5 * float(motion.v @ (mass @ motion.v) - v @ (mass @ v))
         return Advance(motion, 0.0, work)
 
-    def go(self, motion: Motion, at_most: float) -> Advance[Motion]:
+    def go(self, motion: SheetMotion, at_most: float) -> Advance[SheetMotion]:
         """Return a step, begun anew where what is prescribed changes its velocity at once. Raises
         StepFailed."""
         model, work = self._model, 0.0
         for kink in self.kinks[np.abs(self.kinks - motion.time) < 1e-9 * self.kinks].tolist():
             if model.jumps(kink):
-                model.memory.since(motion.time, motion.memory)
-                begun = self._begun(kink, model.placed(motion.q, kink), motion.v)
+                branches = self._branches(motion, kink)
+                begun = self._begun(kink, model.placed(motion.q, kink), motion.v, branches)
                 motion, work = begun.state, begun.work
         after = self.advance(motion, at_most)
         self._step = motion, spent(model, motion, after, self.late), work
         return Advance(after, float(self._step[1][0]), work + float(self._step[1][1]))
 
-    def at(self, times: np.ndarray, last: Advance[Motion]) -> Sampled:
+    def at(self, times: np.ndarray, last: Advance[SheetMotion]) -> Sampled:
         """Return the motions at times (k,) [s] within the last step; energies since it began."""
         end = last.state
         if end.time == times[0]:
             return Sampled(times, [end], np.array([last.dissipated]), np.array([last.work]))
         start, spent, work = self._step
         motions = [between(start, end, time) for time in times.tolist()]
+        if self._model.branches.times:
+            motions = [
+                replace(m, memory=self._remembered(m.q, self._branches(start, m.time))) for m in motions
+            ]
         share = np.array([(m.time - start.time) / (end.time - start.time) for m in motions])
         return Sampled(times, motions, share * spent[0], work + share * spent[1])
 
-    def begin(self, time: float, q: np.ndarray, v: np.ndarray) -> Motion:
+    def _remembered(self, q: np.ndarray, branches: BranchStep | None) -> np.ndarray:
+        return remembered(self._model.branches, self._model.strains(q), branches)
+
+    def begin(
+        self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None
+    ) -> SheetMotion:
         """The motion from a time on, its velocities as motions have them and with the accelerations of its
-        forces."""
+        forces. branches: their step until then; at rest without one."""
         model = self._model
         basis = model.basis(q)
         rate = model.rate_placed(q, v, time)
         factor = model.solver().factor((basis.T @ model.mass @ basis).tocsr())
         rate = rate - basis @ factor.solve(basis.T @ (model.mass @ (rate - v)))
         a = model.centripetal(q, rate)
-        forces = model.forces(q, rate, time)
+        forces = model.forces(model.shape(q, time, rate, branches))
         a = a - basis @ factor.solve(basis.T @ (model.mass @ a + forces))
         self._before, self._factor = 0.0, None
         self._euler = EULER if np.any(rate != v) else 0
@@ -156,15 +178,14 @@ class ConstrainedAlpha:
             twice_kinetic = max(float(u @ (model.mass @ u)) for u in (v, rate))
             taken = float(a @ (model.mass @ a))  # h² times half of it
             self._control.step = min(self._control.step, np.sqrt(TAKEN * twice_kinetic / max(taken, 1e-30)))
-        remembered = model.memory.after(model.strains(q))
-        return Motion(time, q, rate, a, a, model.mass @ a + forces, remembered)
+        return SheetMotion(time, q, rate, a, a, model.mass @ a + forces, self._remembered(q, branches))
 
-    def advance(self, motion: Motion, at_most: float) -> Motion:
+    def advance(self, motion: SheetMotion, at_most: float) -> SheetMotion:
         """One step of at most so long [s]. Raises StepFailed."""
         control, largest = self._control, self._largest
         control.order = self._rule.order
 
-        def attempt(h: float) -> tuple[tuple[Motion, float], float, float]:
+        def attempt(h: float) -> tuple[tuple[SheetMotion, float], float, float]:
             nonlocal largest
             old = shifted(motion.a, motion.algorithm, h, self._before)
             after = self._halving(motion, h)
@@ -189,12 +210,12 @@ class ConstrainedAlpha:
             self._factor = self._factor if self._euler else None
         return after
 
-    def _local_error(self, after: Motion, before: np.ndarray, h: float) -> float:
+    def _local_error(self, after: SheetMotion, before: np.ndarray, h: float) -> float:
         """Of the displacement [m] in a step; before: its a'₀."""
         jump = after.a if self._euler else after.algorithm - before
         return h * h * self._rule.error * float(np.abs(self._model.displacement(jump)).max())
 
-    def _halving(self, motion: Motion, h: float, times: int = 0) -> Motion:
+    def _halving(self, motion: SheetMotion, h: float, times: int = 0) -> SheetMotion:
         """A step, in halves where it is fixed and fails. Raises StepFailed, SingularMatrixError."""
         try:
             after = self._advanced(motion, h)
@@ -209,51 +230,72 @@ class ConstrainedAlpha:
             self._before = h
         return after
 
-    def _advanced(self, motion: Motion, h: float) -> Motion:
-        model, time = self._model, motion.time + h
-        model.memory.since(motion.time, motion.memory)
-        am, af, gamma, beta, by_old, *_ = rule = self._rule
-        self.late = 1.0 - af
+    def _advanced(self, motion: SheetMotion, h: float) -> SheetMotion:
+        model, time, rule = self._model, motion.time + h, self._rule
+        branches = self._branches(motion, time)
+        self.late = 1.0 - rule.af
         old = shifted(motion.a, motion.algorithm, h, self._before)
-        by_a, by_v = rule.by_a(h), rule.by_v(h)
-        start = motion.q + h * motion.v + h * h * by_old * old
+        step = step_of(rule, h, motion.q, motion.v, motion.a, old)
 
-        def at(q: np.ndarray) -> Motion:
-            new = (q - start) / (beta * h * h)
-            v = motion.v + h * ((1.0 - gamma) * old + gamma * new)
-            a = ((1.0 - am) * new + am * old - af * motion.a) / (1.0 - af)
-            return Motion(time, q, v, a, new, model.mass @ a + model.forces(q, v, time))
+        def at(q: np.ndarray) -> SheetMotion:
+            v, a = step.velocity(q), step.acceleration(q)
+            exerted = model.mass @ a + model.forces(model.shape(q, time, v, branches))
+            return SheetMotion(time, q, v, a, step.algorithm(a), exerted)
 
-        found = at(model.placed(start + h * h * beta * old, time))
+        def linear(found: SheetMotion) -> Linear:
+            basis = model.basis(found.q)
+            return (
+                basis,
+                lambda: model.tangent(
+                    model.shape(found.q, time, found.v, branches), found.exerted, step.by_a, step.by_v
+                ),
+                basis.T @ found.exerted,
+            )
+
+        def solved(length: float, share: float, largest: float) -> bool:
+            enough = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
+            return length * min(share, 1.0) <= enough
+
+        found = self._solved(h, at(model.placed(step.guess, time)), at, linear, solved, QUICK)
+        return replace(found, memory=self._remembered(found.q, branches)) if branches else found
+
+    def _solved(
+        self,
+        h: float,
+        found: SheetMotion,
+        at: Callable[[np.ndarray], SheetMotion],
+        linear: Callable[[SheetMotion], Linear],
+        solved: Callable[[float, float, float], bool],
+        quick: float,
+        corrections: int = CORRECTIONS,
+    ) -> SheetMotion:
+        """Return the end of a step of h [s] by Newton's iteration from a guess, factors kept as long as
+        corrections shrink to the share `quick`. at: the motion at q; solved: whether it ends by the length
+        of a correction, its share of the one before and the largest displacement. Raises StepFailed."""
+        model = self._model
         largest = max(self._largest, float(np.abs(model.displacement(found.q)).max()))
-        enough = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
         if self._taken != h:
             self._factor = None
         last: float | None = None
-        for _ in range(CORRECTIONS):
-            basis = model.basis(found.q)
+        for _ in range(corrections):
+            basis, matrix, left = linear(found)
             if self._factor is None:
-                matrix = model.tangent(found.q, found.v, time, found.exerted, by_a, by_v)
-                self._factor, self._taken = self._solver.factor(matrix), h
-            step = basis @ self._factor.solve_unrefined(-(basis.T @ found.exerted))
+                self._factor, self._taken = self._solver.factor(matrix()), h
+            step = basis @ self._factor.solve_unrefined(-left)
             length = float(np.abs(model.displacement(step)).max())
             if not np.isfinite(length):
                 raise StepFailed("a number overflowed")
             found = at(model.moved(found.q, step))
-            share = length / last if last is not None else 1.0
-            if length * min(share, 1.0) <= enough:
-                return (
-                    replace(found, memory=model.memory.after(model.strains(found.q)))
-                    if model.memory
-                    else found
-                )
-            if last is not None and share > QUICK:
+            share = length / last if last else 1.0
+            if solved(length, share, largest):
+                return found
+            if last is not None and share > quick:
                 self._factor = None
             last = length
         raise StepFailed("the corrections do not shrink")
 
 
-def between(start: Motion, end: Motion, time: float) -> Motion:
+def between(start: SheetMotion, end: SheetMotion, time: float) -> SheetMotion:
     """The motion within a step: coordinates cubic in time, all else linear."""
     h = end.time - start.time
     s = min((time - start.time) / h, 1.0)
@@ -265,4 +307,4 @@ def between(start: Motion, end: Motion, time: float) -> Motion:
         (1.0 - s) * getattr(start, name) + s * getattr(end, name)
         for name in ("v", "a", "algorithm", "exerted")
     )
-    return Motion(time, cubic, v, a, algorithm, exerted)
+    return SheetMotion(time, cubic, v, a, algorithm, exerted)

@@ -1,18 +1,18 @@
-"""What a run says of its samples: energies, probes and reactions as rows of numbers; strains, and elements
-that turn inside out."""
+"""What a run says of its samples: energies, probes, reactions and forces of actuators as rows of numbers;
+strains, and elements that turn inside out."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 
+from fem_reference.discrete.energies import energies
 from fem_reference.motion.generalised_alpha import Sampled
-from fem_reference.motion.moving import Moving, energies
+from fem_reference.motion.moving import MovingSheet
+from sheetbench.answers.history import ENERGIES
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.runs.columns import Part
-from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.history import ENERGIES
+from sheetbench.scenes import Scene
 
 
 class ReferenceObserver:
@@ -20,27 +20,32 @@ class ReferenceObserver:
 
     least_energy = 0.0
 
-    def __init__(self, model: Moving, scene: Scene):
+    def __init__(self, model: MovingSheet, scene: Scene):
         self._model, self._points = model, scene.probe_points()
-        self._reactions = list(model.reactions(np.zeros(model.mass.shape[0])))
+        nothing = np.zeros(model.size)
+        self._reactions = list(model.reactions(nothing))
+        wrenches = model.wrenches(model.shape(nothing, 0.0), nothing)[1]
         self.columns: list[Part] = [
             ("time", "", ()),
             *(("energy", name, ()) for name in ENERGIES),
             *(("probe", name, (3,)) for name in scene.probes),
             *(("reaction", name, (3,)) for name in self._reactions),
             *(("reaction", one.name, (3,)) for one in model.contacts),
+            *(("actuator", name, wrench.shape) for name, wrench in wrenches.items()),
         ]
 
     def rows(self, samples: Sampled) -> np.ndarray:
         """Return the numbers of samples, (k, width)."""
         model, rows = self._model, []
         for motion in samples.motions:
-            kinds = energies(model, motion.q, motion.v, motion.time)
+            kinds = energies(model, motion)
             probes = model.sample(model.displacement(motion.q), self._points)
             reactions = model.reactions(motion.exerted)
             forces = [reactions[name] for name in self._reactions]
             shape = model.shape(motion.q, motion.time, motion.v)
             forces += [one.exerted(shape) for one in model.contacts]
+            wrenches = model.wrenches(shape, motion.exerted, motion.a)[1]
+            forces += [wrench.ravel() for wrench in wrenches.values()]
             rows.append(np.concatenate([[0.0, *kinds, 0.0, 0.0], probes.ravel(), *forces]))
         found = np.array(rows)
         found[:, 0], found[:, 4], found[:, 5] = samples.time, samples.dissipated, samples.work
@@ -53,10 +58,9 @@ class ReferenceObserver:
                 return i, Fault(Status.INVERTED, inverted)
         return count, None
 
-    def stretches(self, samples: Sampled, count: int) -> Iterator[float]:
-        """Yield how far the sheet is strained in the first samples."""
-        for motion in samples.motions[:count]:
-            yield self._model.stretch(motion.q)
+    def stretches(self, samples: Sampled, count: int) -> np.ndarray:
+        """Return how far the sheet is strained in the first samples, (count,)."""
+        return np.array([self._model.stretch(motion.q) for motion in samples.motions[:count]])
 
     def beyond(self, stretch: float) -> str:
         """Return a clause where the law of strain does not hold that far, else ""."""

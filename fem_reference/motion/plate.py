@@ -6,14 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fem_reference.motion.moving import MovingSheet
 from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.plate.statics import equilibrium
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeMotion, Scene, Status
+from sheetbench.scenes import EdgeMotion, Scene
 
 
-class MovingPlate(DiscretePlate):
+class MovingPlate(DiscretePlate, MovingSheet):
     """The plate of a scene in motion."""
 
     def __init__(self, scene: Scene, elements: Elements = 16, graded: bool | None = None):

@@ -6,14 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fem_reference.motion.moving import MovingSheet
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.statics import discretise, elements_of, trace_on
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, plan_of
+from sheetbench.answers.solution import Status
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.scenes import Scene, Status
+from sheetbench.scenes import Scene
 
 
-class MovingShell(DiscreteShell):
+class MovingShell(DiscreteShell, MovingSheet):
     """The shell of a scene in motion."""
 
     def __init__(self, scene: Scene, elements: Elements = 16, graded: bool = True, law: str = STRAIN_LAW):

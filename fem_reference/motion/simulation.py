@@ -2,7 +2,7 @@
 
 Gravity, loads and commands act from t = 0 on, loads scaled by their histories. The sheet starts flat and at
 rest; with a curved support or a tilted clamp, in the shape that supports alone give it; with `[initial]` in
-that of statics (`sheetbench.scenes.motion`). Steps are as long as
+that of statics (`sheetbench.scenes.meaning.motion`). Steps are as long as
 their error allows; samples lie within them, cubic in time between their ends.
 """
 
@@ -16,24 +16,27 @@ from typing import Any
 import numpy as np
 
 from fem_reference.defaults import with_defaults
+from fem_reference.discrete.energies import SheetMotion
 from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
-from fem_reference.motion.moving import Motion, Moving
+from fem_reference.motion.moving import MovingSheet
 from fem_reference.motion.observer import ReferenceObserver
 from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
 from fem_reference.motion.solid import MovingSolid
 from fem_reference.vibration import modes
+from sheetbench.answers.contact import friction_notes
+from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE, STRAIN_LAW, listed
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.runs.record import Recipe, record
 from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, require_error, sample_count
-from sheetbench.scenes import AnyScene, History, Scene, require_no_branches, scene_of
-from sheetbench.scenes.obstacles import require_no_obstacles
-from sheetbench.scenes.quantities import require_positive
+from sheetbench.scenes import AnyScene, Scene, require_no_branches, scene_of
+from sheetbench.scenes.meaning.distances import require_no_obstacles
+from sheetbench.scenes.objects.quantities import require_positive
 
-MODELS: dict[str, Callable[..., Moving]] = {
+MODELS: dict[str, Callable[..., MovingSheet]] = {
     "plate": MovingPlate,
     "shell": MovingShell,
     "solid": MovingSolid,
@@ -106,7 +109,7 @@ def simulate(
         "settings": settings,
         "every": every,
     }
-    recipe: Recipe[Motion] = Recipe(
+    recipe: Recipe[SheetMotion] = Recipe(
         label=moving.label,
         integrator=integrator,
         settings=settings,
@@ -117,6 +120,7 @@ def simulate(
         observer=ReferenceObserver(moving, requested),
         start=lambda method: method.start(),
         rows=len(flat),
+        notes=tuple(friction_notes(requested)),
     )
     history = record(recipe, frames, store, progress, began)
     of_model = {"mesh": moving.mesh(flat), "sample": moving.sample, "unknowns": moving.unknowns}

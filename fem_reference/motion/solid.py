@@ -6,15 +6,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fem_reference.motion.moving import MovingSheet
 from fem_reference.motion.plate import refuse_edge_motions
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.statics import columns_of, discretise, plan_mesh, trace_on
 from fem_reference.surface.mesh import Elements, divisions
+from sheetbench.answers.solution import Status
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.scenes import Scene, Status
+from sheetbench.scenes import Scene
 
 
-class MovingSolid(DiscreteSolid):
+class MovingSolid(DiscreteSolid, MovingSheet):
     """The solid of a scene in motion."""
 
     def __init__(

@@ -9,29 +9,31 @@ displacements and ρh³/12 on the tilts.
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 from typing import ClassVar
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity
 from skfem import MeshQuad
 
-from fem_reference.discrete.relaxation import Strained
+from fem_reference.discrete.relaxation import Strained, gain, with_branches
 from fem_reference.discrete.shape import Shape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import TILT_X, PlateElements, W
-from fem_reference.plate.natural import NaturalPlate
+from fem_reference.plate.natural import OwnStrains, own_strains
 from fem_reference.plate.validity import TURN_LIMIT, strained
 from fem_reference.surface import carried, rod
 from fem_reference.surface import supports as surface_supports
-from fem_reference.surface.actuator_forces import Held, OnEdge, on_edges
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, on_edges
 from fem_reference.surface.balance import Surface
-from fem_reference.surface.biquadratic import GAUSS, integrated, shape
+from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS, integrated, shape
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.materials import Section, constants_of, section_at
 from fem_reference.surface.mesh import field_mesh, on_boundary, plan_of, require_upright
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import EDGES, FieldMesh, Scene, outside_model
+from sheetbench.scenes import EDGES, Scene, outside_model
+from sheetbench.scenes.meaning.natural_state import natural_at
 
 PARTS = ("membrane", "bending", "shear")
 
@@ -61,7 +63,6 @@ class DiscretePlate(Discrete):
         self.plan = plan = plan_of(mesh)
         nodes, self.elements = plan.nodes, PlateElements.build(plan.elements, plan.nodes)
         self.section = section or section_at(scene, plan.corners)
-        self.natural = NaturalPlate(scene, self.elements, plan.corners, self.section)
         self._cut = 5 * len(nodes)
 
         def bind(of: Scene) -> BoundRods:
@@ -84,21 +85,13 @@ class DiscretePlate(Discrete):
         self.unknowns, self.scale = len(self.free), np.full(self.size, self.lever)
         self.scale[number[: len(nodes)]] = 1.0
         self.bind(bind, bound, number[bound.sites].reshape(-1, 27))
-        self._grow(None)
-
-    def grow(self, at: float) -> None:
-        if (state := self.natural.state) is not None:
-            share, time = self.instant(at)
-            self._grow(share * state.factors(time))
-
-    def _grow(self, factors: np.ndarray | None) -> None:
-        self._natural = self.natural.strains(factors)
-        self._pull = self.natural.force(self.size, factors)
-        self._stored = self.natural.stored(factors)
+        if (state := natural_at(scene, AT_GAUSS[0] @ plan.corners)) is not None:
+            self.natural = state.made(partial(own_strains, self.elements, self.section, self.size))
 
     @property
-    def grows(self) -> bool:
-        return self.natural.moves
+    def at_rest(self) -> OwnStrains:
+        """What it has at rest."""
+        return OwnStrains() if self.natural is None else self.natural.now
 
     @cached_property
     def stiffness(self) -> csr_matrix:
@@ -161,23 +154,19 @@ class DiscretePlate(Discrete):
 
     def elements_internal(self, shape: Shape) -> np.ndarray:
         self.grow(shape.at)
-        elastic = self.stiffness @ shape.q
-        out = elastic + self.memory.added(elastic) if self.memory else elastic
+        out = with_branches(self.stiffness @ shape.q, shape.branches)
         viscous = 0.0 if shape.v is None else self.tau * (self.stiffness @ shape.v)
-        return np.asarray(out + viscous - self._pull)
+        return np.asarray(out + viscous - self.at_rest.force)
 
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
         return self.elements_internal(Shape(self, 0.5 * (start + end), 0.0, (end - start) / h))
 
-    def tangent(
-        self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
-    ) -> csr_matrix:
-        self.memory.now = time
-        return self.whole_tangent(self.shape(q, time, v), by_a, by_v)[self.free][:, self.free]
+    def tangent(self, shape: Shape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
+        return self.whole_tangent(shape, by_a, by_v)[self.free][:, self.free]
 
     def whole_tangent(self, shape: Shape, by_a: float = 0.0, by_v: float = 0.0) -> csr_matrix:
         """by_a M + by_v C + K of all coordinates."""
-        whole = (1.0 + self.tau * by_v + self.memory.gain) * self.stiffness
+        whole = (1.0 + self.tau * by_v + gain(shape.branches)) * self.stiffness
         if by_a or by_v:
             whole = (by_a + self.alpha * by_v) * self.sheet_mass + whole
         for body in self.bodies:
@@ -224,7 +213,7 @@ class DiscretePlate(Discrete):
         return q, self.stiffness @ q
 
     def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
-        own = dict(zip(PARTS, self._natural, strict=False))
+        own = dict(zip(PARTS, self.at_rest.strains, strict=False))
         nodal, out = q[self.elements.unknowns], {}
         for name, operator, section in zip(PARTS, self._strains, self.section, strict=True):
             strain = (operator @ nodal[:, None, :, None])[..., 0] - own.get(name, 0.0)
@@ -233,7 +222,8 @@ class DiscretePlate(Discrete):
         return out
 
     def elastic(self, q: np.ndarray) -> float:
-        return 0.5 * self.stiffness_of(q, q, q) - float(self._pull @ q) + self._stored
+        own = self.at_rest
+        return 0.5 * self.stiffness_of(q, q, q) - float(np.sum(own.force * q)) + own.stored
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         return float(step @ (self.stiffness @ other))
@@ -263,10 +253,10 @@ class DiscretePlate(Discrete):
         """The flat one, on which everything acts."""
         return Surface(self.plan, self.flat, np.tile([0.0, 0.0, 1.0], (self.nodes, 1)), self.own)
 
-    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         nodal = self._fields(exerted)  # of the tilts' forces f the couple is e_z × f
         couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])
-        return Held(np.concatenate([nodal[:, :3], couple], axis=1), self.surface(q).position)
+        return HoldingForces(np.concatenate([nodal[:, :3], couple], axis=1), self.surface(q).position)
 
     def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
         surface = self.surface(q)

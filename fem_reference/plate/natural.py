@@ -4,48 +4,32 @@ f = ∫ (Bᵀ A e0 − Bᵀ D k0) dA,    W = ½ ∫ (e − e0)·A (e − e0) + (
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from fem_reference.plate.element import PlateElements
 from fem_reference.surface.materials import Section
-from fem_reference.surface.natural import at_gauss, in_voigt
-from sheetbench.scenes import Scene
 
 
-class NaturalPlate:
-    """The natural state of elements at their Gauss points, of nodes (m, 9, 2) [m] and a section."""
+class OwnStrains(NamedTuple):
+    """Membrane and bending strains (m, 9, 3) without stress; f (N,) [N, N·m] on all unknowns; W₀ [J]."""
 
-    def __init__(self, scene: Scene, elements: PlateElements, corners: np.ndarray, section: Section):
-        self.state, self._elements = at_gauss(scene, corners), elements
-        self._parts = (section.membrane, section.bending)
+    strains: tuple[np.ndarray | float, np.ndarray | float] = (0.0, 0.0)
+    force: np.ndarray | float = 0.0
+    stored: float = 0.0
 
-    @property
-    def moves(self) -> bool:
-        """Whether it changes over time."""
-        return self.state is not None and self.state.moves
 
-    def strains(self, factors: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Membrane and bending strains (m, 9, 3) at factors of its sources, the last ones unless given."""
-        if self.state is None:
-            none = np.zeros((*self._elements.areas.shape, 3))
-            return none, none
-        strain, curvature = self.state.at(self.state.factors() if factors is None else factors)
-        return in_voigt(strain), -in_voigt(curvature)
-
-    def force(self, size: int, factors: np.ndarray | None = None) -> np.ndarray:
-        """f (size,) [N, N·m] on all unknowns."""
-        out = np.zeros(size)
-        if self.state is None:
-            return out
-        elements = self._elements
-        operators = elements.membrane, elements.curvature
-        for operator, own, strain in zip(operators, self._parts, self.strains(factors), strict=True):
-            stress = elements.areas[..., None] * (own @ strain[..., None])[..., 0]
-            np.add.at(out, elements.unknowns, np.einsum("mqic,mqi->mc", operator, stress))
-        return out
-
-    def stored(self, factors: np.ndarray | None = None) -> float:
-        """W₀ [J], of the flat plate."""
-        parts = zip(self._parts, self.strains(factors), strict=True)
-        density = sum(np.einsum("mqi,mqi->mq", e, (own @ e[..., None])[..., 0]) for own, e in parts)
-        return 0.5 * float(np.sum(self._elements.areas * density))
+def own_strains(
+    elements: PlateElements, section: Section, size: int, strain: np.ndarray, curvature: np.ndarray
+) -> OwnStrains:
+    """Return those of e0 and k0 at the Gauss points (m, 9, 2, 2)."""
+    xx_yy_2xy = np.array([1.0, 1.0, 2.0])
+    strains = [xx_yy_2xy * form[..., [0, 1, 0], [0, 1, 1]] for form in (strain, -curvature)]
+    force, stored = np.zeros(size), 0.0
+    parts = (elements.membrane, section.membrane), (elements.curvature, section.bending)
+    for (operator, stiffness), own in zip(parts, strains, strict=True):
+        stress = elements.areas[..., None] * (stiffness @ own[..., None])[..., 0]
+        np.add.at(force, elements.unknowns, np.einsum("mqic,mqi->mc", operator, stress))
+        stored += 0.5 * float(np.sum(own * stress))
+    return OwnStrains((strains[0], strains[1]), force, stored)

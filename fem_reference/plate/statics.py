@@ -7,7 +7,7 @@ each other: no stiffening by stretching, no shortening by bending; where that st
 `fem_reference.plate.validity`. Loads act on the flat sheet: pressure
 along +z, an edge moment m as −m on the tilt towards the outward normal. Actuators are linearised about the
 flat sheet (`rods`), and their forces' moments taken there. So are bent, tilted and moved edges (the first
-orders of `sheetbench.scenes.kinematics`): the shortening of a bent edge's mid-line is of second order.
+orders of `scenes.meaning.kinematics`): the shortening of a bent edge's mid-line is of second order.
 
 Along an edge whose director nothing holds (free, hinged, held) the twisting moment fades within a layer of
 width √(D66/κGh) = h/√10, far less than an element. On equal elements the answer then converges like the width
@@ -29,11 +29,12 @@ from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.plate.validity import judge
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from sheetbench.answers.solution import Iteration, Solution, Status
 from sheetbench.clock import now
 from sheetbench.numerics.direct import SingularMatrixError, solve_free
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Iteration, Scene, Solution, Status
-from sheetbench.scenes.rigid_motions import require_static
+from sheetbench.scenes import Scene
+from sheetbench.scenes.meaning.rigid_motions import require_static
 
 ROUNDINGS = 4.0  # of a term of K u: K is Bᵀ C B times an area
 
@@ -123,5 +124,7 @@ def equilibrium(sheet: DiscretePlate) -> tuple[np.ndarray, Status, tuple[str, ..
             q = solve_free(matrix, applied(sheet), q, sheet.free)
         except SingularMatrixError as error:
             return q, Status.SINGULAR, (str(error),)
-    natural = sheet.natural.strains()[0]
-    return q, *judge(sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, natural)
+    sheet.grow(1.0)
+    return q, *judge(
+        sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, sheet.at_rest.strains[0]
+    )

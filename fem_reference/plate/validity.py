@@ -24,9 +24,10 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 from fem_reference.plate.element import UX, UY, PlateElements, W
 from fem_reference.surface.biquadratic import NODES
 from fem_reference.surface.materials import Section
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import Scene, Status, outside_model
+from sheetbench.scenes import Scene, outside_model
 
 TURN_LIMIT = 1.0
 SLIGHT = 1.0  # a² |N|/D, below which in-plane forces do not buckle a sheet
@@ -39,11 +40,11 @@ def judge(
     solution: np.ndarray,
     system: csr_matrix,
     free: np.ndarray,
-    natural: np.ndarray | float = 0.0,
+    own: np.ndarray | float = 0.0,
 ) -> tuple[Status, tuple[str, ...]]:
     """Status and notes of the unknowns (5 n,), or with those of rods behind, of a stiffness and its free
-    unknowns; natural: strains (m, q, 3) of the membrane without stress."""
-    strain = _nodal(elements, elements.membrane, solution) - natural
+    unknowns; own: strains (m, q, 3) of the membrane without stress."""
+    strain = _nodal(elements, elements.membrane, solution) - own
     if outside := outside_model(scene, _mean_stretch(elements, strain)):
         return Status.STRAIN_OUTSIDE_MODEL, (outside,)
     if (turn := largest_turn(elements, solution)) > TURN_LIMIT:

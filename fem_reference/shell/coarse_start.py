@@ -23,10 +23,11 @@ from fem_reference.shell.discrete import UP, DiscreteShell
 from fem_reference.shell.element import GRIDS, MEMBRANE
 from fem_reference.surface.biquadratic import interpolation, jacobians, product_grid, shape
 from fem_reference.surface.location import interpolate
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Path
-from sheetbench.scenes import Scene, Status
+from sheetbench.scenes import Scene
 
 Shape = Callable[[np.ndarray], np.ndarray]
 

@@ -26,7 +26,7 @@ digits in a sheet of any thinness. No penalty, no stabilisation, no spurious mod
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -45,9 +45,9 @@ from fem_reference.surface.biquadratic import (
     shape,
 )
 from fem_reference.surface.materials import Section
-from fem_reference.surface.natural import AtRest
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
 GRIDS = {**TYING, "rs": (THREE, THREE)}
@@ -94,12 +94,14 @@ _OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are their
 
 
 @dataclass(frozen=True)
-class Element(AtRest):
-    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]."""
+class Element:
+    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]; natural:
+    strains (m, 54) of a sheet that is not flat at rest."""
 
     reference: np.ndarray
     stiffness: np.ndarray
     areas: np.ndarray
+    natural: NaturalState | None = field(default=None, kw_only=True)
 
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Element:
@@ -121,8 +123,9 @@ class Element(AtRest):
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors: its product with
-        their derivatives half way, which keeps the digits of a small one."""
-        return strain_of(self.reference + 0.5 * change, change)
+        their derivatives half way, which keeps the digits of a small one; less the natural ones."""
+        found = strain_of(self.reference + 0.5 * change, change)
+        return found if self.natural is None else found - self.natural.now
 
     def operator(self, change: np.ndarray) -> np.ndarray:
         """Nodal vectors Q (m, 18, 3), which B = H Q is made of, at a change q (m, 18, 3)."""
@@ -172,7 +175,8 @@ class Element(AtRest):
     def dragged(self, strain: np.ndarray, drag: float) -> Element:
         """Elements of stresses (1 + σ) D e − σ D e_n: a step of creep from strains e_n (m, 54), drag σ."""
         past = strain * (drag / (1.0 + drag))
-        return DraggedElement(self.reference, (1.0 + drag) * self.stiffness, self.areas, past)
+        slow = (1.0 + drag) * self.stiffness
+        return DraggedElement(self.reference, slow, self.areas, past, natural=self.natural)
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@
     rubbers               W = f(I₁ − 3) + c₀₁ (I₂ − 3) − m ln J + ½ Λ ln² J,   m = 2 f′(0) + 4 c₀₁
 
 C of the first two is the plane-stress stiffness of `surface.materials`, which all have at small strain; f,
-c₀₁ and Λ are those of `sheetbench.scenes.material`. With s = tr U, j = det U, P = ∂j/∂E = j C⁻¹ and
+c₀₁ and Λ are those of `sheetbench.scenes.objects.material`. With s = tr U, j = det U, P = ∂j/∂E = j C⁻¹ and
 g = ∂s/∂E = (1 + P)/s, and K = E/(1 − ν²), Biot's law is
 
     W = ½ K ((s − 2)² − 2 (1 − ν) det(U − 1)),     S = K ((s − 2) g + (1 − ν) (g − P)).
@@ -31,7 +31,7 @@ import numpy as np
 from fem_reference.surface.materials import plane_stress, shear_modulus
 from fem_reference.surface.rubber import slopes
 from sheetbench.scenes import Material
-from sheetbench.scenes.material import WORDS, Energy
+from sheetbench.scenes.objects.material import WORDS, Energy
 
 _ONE = np.array([1.0, 1.0, 0.0])
 _COFACTOR = np.array([[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, -1.0]])  # ∂(cof C)/∂E

@@ -20,10 +20,11 @@ from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import mesh_of
+from sheetbench.answers.solution import Solution
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes import Scene
 
 OTHERS = ("biot", "neo-hookean")
 SAME = 1e-6  # residual, relative to the forces, up to which the answer's state is that of the mesh rebuilt
@@ -31,7 +32,7 @@ SAME = 1e-6  # residual, relative to the forces, up to which the answer's state 
 
 def shift(scene: Scene, answer: Solution) -> float | None:
     """Return how far the shells of `OTHERS` are from a shell's answer, whichever is farther, as a share of
-    the largest displacement at the scene's probes; None where that cannot be told: of sheets that are not the
+    the largest displacement at the scene's probes; None where it is unknown: of sheets that are not the
     same all over, actuators, sections and meshes of the caller's own, and sheets solved by halves."""
     settings = answer.settings
     whole = {"elements", "graded", "law"} == set(settings) and settings["law"] == STRAIN_LAW

@@ -9,6 +9,7 @@ and follower loads. Rotations may be large; the weight has no couple on the dire
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,12 +24,14 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.natural import NaturalElement
+from fem_reference.shell.natural import natural_strains
 from fem_reference.shell.validity import STRETCHED, inspector
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.materials import Section, section_at
 from fem_reference.surface.mesh import Elements, Plan, divisions, has_lines, mesh_of, plan_of
+from fem_reference.surface.natural import grown
 from fem_reference.surface.rubber import limit_notes, require_law
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
@@ -36,9 +39,9 @@ from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.pseudo_transient import relax
-from sheetbench.scenes import Scene, Solution, Status, require_uniform
-from sheetbench.scenes.patches import require_flat_at_rest
-from sheetbench.scenes.rigid_motions import require_static
+from sheetbench.scenes import Scene, require_uniform
+from sheetbench.scenes.meaning.composition import require_flat_at_rest
+from sheetbench.scenes.meaning.rigid_motions import require_static
 
 LIMITS = Limits()
 
@@ -146,7 +149,8 @@ def _run(
     elif near is not None:
         begin_at = coarse_start.start(near.sheet, near.path.state.q, sheet)
     slenderness = scene.sheet.thickness / sheet.lever
-    path = trace(sheet, inspector(graded), relax, progress, begin_at, slenderness, limits or LIMITS, buckled)
+    options = {"progress": progress, "near": begin_at, "slenderness": slenderness, "buckled": buckled}
+    path = trace(sheet, inspector(graded), relax, limits or LIMITS, **options)
     path.factor = None  # a run is kept longer than that
     return _Run(sheet, path, ready - begin, now() - ready)
 
@@ -199,7 +203,9 @@ def elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> 
     material, thickness = scene.material, scene.sheet.thickness
     require_law(law, LAWS, material)
     if law == STRAIN_LAW:
-        return NaturalElement.of(nodes, section or section_at(scene, nodes), scene)
+        own = section or section_at(scene, nodes)
+        plain = Element.build(nodes, grown(own, scene, nodes))
+        return replace(plain, natural=natural_strains(scene, nodes))
     require_flat_at_rest(scene, f"the shell's law '{law}'")
     require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
     if section is not None:

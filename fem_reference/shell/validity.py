@@ -24,9 +24,9 @@ from fem_reference.discrete.answer import sheet_of
 from fem_reference.discrete.static import Forces, State
 from fem_reference.shell.element import BENDING, MEMBRANE, Element
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault, Inspect, Path
 from sheetbench.numerics.continuation.stability import stability
-from sheetbench.scenes import Status
 
 STRETCH_LIMIT = 5.0
 STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much they bend: divide it evenly")

@@ -23,17 +23,18 @@ from fem_reference.discrete.shape import Shape
 from fem_reference.solid.element import Bricks, tangent
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
-from fem_reference.solid.natural import NaturalBricks
+from fem_reference.solid.natural import at_rest
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.supports import components, from_forces, into_forces, of_scene, vectors
 from fem_reference.surface import carried, rod
-from fem_reference.surface.actuator_forces import Held, OnEdge
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal
 from fem_reference.surface.stretch import largest_stretch
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import Constants, FieldMesh, Material, Scene
+from sheetbench.scenes import Constants, Material, Scene
 
 
 class DiscreteSolid(DiscreteElements):
@@ -57,7 +58,8 @@ class DiscreteSolid(DiscreteElements):
         self.conservative, self.any_strain = law == STRAIN_LAW, LAWS[law].stands_any_strain
         stacks = columns.positions.reshape(-1, 3)[columns.stacks]
         positions = np.concatenate([stacks[:, place] for place in columns.places])
-        self.element = NaturalBricks.of(Bricks.build(positions, LAWS[law], material), scene)
+        self.element = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)
+        self.natural, self._products = self.element.natural, plain.products
         self.per_vector = np.ones(27)
 
         def bind(of: Scene) -> BoundRods:
@@ -85,7 +87,7 @@ class DiscreteSolid(DiscreteElements):
     def _inertia(self) -> np.ndarray:
         """∫ ρ N N dV of the stacks, with what payloads add to columns' means and directors, (m, 3 s, 3 s)."""
         payloads = carried.of_scene(self.scene, self.plan)
-        blocks = self._stack(np.einsum("eij,cd->eicjd", self.element.products(), np.eye(3)))
+        blocks = self._stack(np.einsum("eij,cd->eicjd", self._products(), np.eye(3)))
         blocks[payloads.elements] += self._of_columns(payloads.on_surface())
         return blocks
 
@@ -278,10 +280,10 @@ class DiscreteSolid(DiscreteElements):
         mean, director = np.einsum("pl,nlc->pnc", self.columns.averages, position)
         return Surface(self.plan, mean, director, self.own)
 
-    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         columns, displacement = self.columns, self._on_columns(q)
         middle = (columns.positions + displacement)[:, columns.layers]
-        return Held(columns.about_middle(displacement, self._on_columns(exerted)), middle)
+        return HoldingForces(columns.about_middle(displacement, self._on_columns(exerted)), middle)
 
     def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
         columns, bound, displacement = self.columns, self.rods.bound, self._on_columns(q)

@@ -38,9 +38,10 @@ from skfem.refdom import RefHex
 
 from fem_reference.solid.materials import PAIRS, SolidLaw
 from fem_reference.surface.biquadratic import THREE, TYING, lagrange
-from fem_reference.surface.natural import AtRest
+from fem_reference.surface.materials import pulled_back
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Constants, Material
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 NODES = 27
 RETAINED_SHEAR = (
@@ -100,10 +101,11 @@ def reference() -> Reference:
 
 
 @dataclass(frozen=True)
-class Bricks(AtRest):
+class Bricks:
     """m elements of one material, or each of its own constants (m, 1). positions: X (m, 27, 3) [m].
 
-    to_strain: (m, q, 6, k) Cartesian strain of the samples; volumes: (m, q) [m³].
+    to_strain: (m, q, 6, k) Cartesian strain of the samples; volumes: (m, q) [m³]; natural: strains (m, k) of
+    a sheet that is not flat at rest.
     """
 
     positions: np.ndarray
@@ -111,6 +113,7 @@ class Bricks(AtRest):
     material: Material | Constants
     to_strain: np.ndarray
     volumes: np.ndarray
+    natural: NaturalState | None = None
 
     @classmethod
     def build(cls, positions: np.ndarray, law: SolidLaw, material: Material | Constants) -> Bricks:
@@ -119,7 +122,7 @@ class Bricks(AtRest):
         _, slope = shape(ref.points)
         jacobian = np.einsum("eac,abq->eqcb", positions, slope)  # X_c,ξ_b
         volumes = ref.weights * np.abs(np.linalg.det(jacobian))
-        pull_back = _pull_back(np.linalg.inv(jacobian))
+        pull_back = pulled_back(np.linalg.inv(jacobian), PAIRS)
         share = volumes[:, None, :] * ref.levels / (volumes @ ref.levels)[:, :, None]
         firm = _kept(jacobian)[:, None, None, None]
         lost = pull_back @ ref.lost
@@ -133,8 +136,10 @@ class Bricks(AtRest):
         return np.atleast_1d(self.law.bulk(self.material))
 
     def strain(self, change: np.ndarray) -> np.ndarray:
-        """Sampled strains (m, k) of displacements (m, 27, 3): ½ (x H x − X H X) = ½ u H (2X + u)."""
-        return 0.5 * np.einsum("ekic,eic->ek", self.gradient(self.positions + change), change)
+        """Sampled strains (m, k) of displacements (m, 27, 3), ½ (x H x − X H X) = ½ u H (2X + u), less the
+        natural ones."""
+        found = 0.5 * np.einsum("ekic,eic->ek", self.gradient(self.positions + change), change)
+        return found if self.natural is None else found - self.natural.now
 
     def gradient(self, change: np.ndarray) -> np.ndarray:
         """B = ∂e/∂u (m, k, 27, 3) at displacements (m, 27, 3)."""
@@ -163,9 +168,6 @@ class Bricks(AtRest):
 
     def products(self) -> np.ndarray:
         """∫ ρ N_i N_j dV (m, 27, 27) [kg]."""
-        return self._products()
-
-    def _products(self) -> np.ndarray:
         values, _ = shape(reference().points)
         weighed = self.material.density * self.volumes
         return np.einsum("eq,iq,jq->eij", weighed, values, values, optimize=True)
@@ -255,16 +257,6 @@ def _kept(jacobian: np.ndarray) -> np.ndarray:
     """α (m,): what bricks with X_c,ξ_b (m, q, c, b) keep of the dropped in-plane shear."""
     sides = np.linalg.norm(jacobian[..., :2], axis=-2).mean(axis=1)
     return np.sqrt(np.maximum(RETAINED_SHEAR**2 - 2.5 * (sides.min(axis=1) / sides.max(axis=1)) ** 2, 0.0))
-
-
-def _pull_back(inverse: np.ndarray) -> np.ndarray:
-    """Cartesian strain of covariant strain, (…, 6, 6), both with engineering shears; inverse: ξ_b,x_c."""
-    out = np.zeros((*inverse.shape[:-2], 6, 6))
-    for row, (i, j) in enumerate(PAIRS):
-        for column, (a, b) in enumerate(PAIRS):
-            both = inverse[..., a, i] * inverse[..., b, j] + inverse[..., b, i] * inverse[..., a, j]
-            out[..., row, column] = both * (0.5 if i == j else 1.0)
-    return out
 
 
 def _product(axes: list[np.ndarray]) -> np.ndarray:

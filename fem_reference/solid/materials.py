@@ -10,7 +10,7 @@
     rubbers               W₀ = f(x) + c₀₁ (I₂ − 3) − m ln J   ϑ = ln J,   C = 2E + 1,   J² = det C
 
 with x = I₁ − 3 = 2 tr E, I₂ − 3 = 2 x + ½ x² − 2 E : E and m = 2 f′(0) + 4 c₀₁; f, c₀₁ and Λ are those of
-`sheetbench.scenes.material`.
+`sheetbench.scenes.objects.material`.
 
 Green–Lagrange strain E and second Piola–Kirchhoff stress in Voigt order (xx, yy, zz, 2xy, 2yz, 2xz), stresses
 without the 2. Every law is a triad: density → stress → tangent, of W₀ and of ϑ. All have the
@@ -31,7 +31,7 @@ import numpy as np
 from fem_reference.surface.plies import in_space
 from fem_reference.surface.rubber import slopes
 from sheetbench.scenes import Constants, Material
-from sheetbench.scenes.material import WORDS, Energy
+from sheetbench.scenes.objects.material import WORDS, Energy
 
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 _TRACE = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])

@@ -19,7 +19,8 @@ from skfem import Basis, ElementHex2, ElementQuad2, MeshQuad
 
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Plan, quarters
-from sheetbench.scenes import FieldMesh, Sheet
+from sheetbench.answers.solution import FieldMesh
+from sheetbench.scenes import Sheet
 
 
 @dataclass(frozen=True)

@@ -29,23 +29,15 @@ from fem_reference.solid.mesh import Columns
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.mesh import Elements, divisions, has_lines, mesh_of, require_upright
 from fem_reference.surface.rubber import limit_notes, require_law
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.path import Fault, Path, Progress
-from sheetbench.scenes import (
-    Constants,
-    EdgeLoad,
-    Material,
-    Pressure,
-    Scene,
-    Solution,
-    Status,
-    require_uniform,
-)
-from sheetbench.scenes.orthotropy import Ply, impossible_in_space
-from sheetbench.scenes.patches import constants_at, of_sheet, require_flat_at_rest
-from sheetbench.scenes.rigid_motions import require_static
+from sheetbench.scenes import Constants, EdgeLoad, Material, Pressure, Scene, require_uniform
+from sheetbench.scenes.meaning.composition import constants_at, of_sheet, require_flat_at_rest
+from sheetbench.scenes.meaning.rigid_motions import require_static
+from sheetbench.scenes.objects.orthotropy import Ply, impossible_in_space
 
 GRADINGS = ("edges", "uniform")
 MOST_BRICKS = 12  # through the thickness of a laminate
@@ -97,7 +89,7 @@ def _solved(
     sheet = discretise(mesh, scene, layers, law, clamp)
     sheet.own = own
     ready = now()
-    path = trace(sheet, inspected, None, progress)
+    path = trace(sheet, inspected, None, progress=progress)
     done = now()
     status, notes = judge(sheet, path)
     return answered(

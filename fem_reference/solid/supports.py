@@ -35,7 +35,7 @@ from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Symmetric, holds_director
-from sheetbench.scenes.supports import named
+from sheetbench.scenes.objects.supports import named
 
 CLAMPS = ("shell-like", "mean", "full")
 

@@ -27,11 +27,12 @@ from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan, elements_in, facets_on
-from sheetbench.scenes import Balance, EdgeLoad, PointLoad, Pressure, Scene, dead_force
-from sheetbench.scenes.loads import AreaLoad
-from sheetbench.scenes.masses import Mass
-from sheetbench.scenes.quantities import PlanPoint
-from sheetbench.scenes.shapes import Shape
+from sheetbench.answers.balance import Balance, dead_force
+from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene
+from sheetbench.scenes.objects.loads import AreaLoad
+from sheetbench.scenes.objects.masses import Mass
+from sheetbench.scenes.objects.quantities import PlanPoint
+from sheetbench.scenes.objects.shapes import Shape
 
 _VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
 _AT_GAUSS, _ = shape(*GAUSS)  # (9 points, 9 nodes)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from sheetbench.scenes import EdgeLoad, Scene
-from sheetbench.scenes.cells import Constants
-from sheetbench.scenes.shapes import COINCIDENT, Shape
-from sheetbench.scenes.supports import Point, place
+from sheetbench.scenes.objects.cells import Constants
+from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
+from sheetbench.scenes.objects.supports import Point, place
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry

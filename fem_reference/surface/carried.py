@@ -1,4 +1,4 @@
-"""The scene's payloads in a reference (`sheetbench.scenes.masses`): what they add to the mass of elements.
+"""The scene's payloads in a reference (`scenes.objects.masses`): what they add to the mass of elements.
 
     at a point      m N Nᵀ on the mid-surface,    N Nᵀ J on the director
     over a part     m/A ∫ N Nᵀ dA on the mid-surface

@@ -33,7 +33,7 @@ from fem_reference.surface.location import locate
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan, elements_in, facets_on
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, encloses_volume
-from sheetbench.scenes.loads import AreaLoad
+from sheetbench.scenes.objects.loads import AreaLoad
 
 # Local nodes of the four sides, in scikit-fem's order of facets: corner, mid-side, corner.
 _SIDES = np.array([[0, 4, 1], [1, 5, 2], [2, 6, 3], [0, 7, 3]])

@@ -16,14 +16,15 @@ from skfem import Dofs, ElementQuad2, MeshQuad
 
 from fem_reference.surface.borders import Borders, borders_of, shapes_of
 from fem_reference.surface.outlined import LAYERS, quadrilaterals
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes import EDGES, EdgeLoad, FieldMesh, PiecewiseLinear, Scene, Sheet, Symmetric
-from sheetbench.scenes.grading import is_mirrored, line_numbers
-from sheetbench.scenes.grid import MESH, elements_of
-from sheetbench.scenes.plan_mesh import divided
-from sheetbench.scenes.region import area_in, edge_length
-from sheetbench.scenes.shapes import COINCIDENT, Shape
+from sheetbench.scenes import EDGES, EdgeLoad, PiecewiseLinear, Scene, Sheet, Symmetric
+from sheetbench.scenes.meaning.region import area_in, edge_length
+from sheetbench.scenes.objects.grading import is_mirrored, line_numbers
+from sheetbench.scenes.objects.grid import MESH, elements_of
+from sheetbench.scenes.objects.plan_mesh import divided
+from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -36,7 +37,7 @@ _QUARTERS = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
 
 
 def divisions(sheet: Sheet, elements: Elements) -> tuple[int, int]:
-    """Elements along x and y: a pair as given, or as `sheetbench.scenes.grid.elements_of` counts them.
+    """Elements along x and y: a pair as given, or as `scenes.objects.grid.elements_of` counts them.
 
     Raises BadInput for fewer than one element.
     """

@@ -1,6 +1,6 @@
 """Stiffness of sheets with fibres: orthotropic plies at angles, one or several through the thickness.
 
-In a ply's own axes, plane stress (`sheetbench.scenes.orthotropy`), with ν₂₁ = ν₁₂ E₂/E₁:
+In a ply's own axes, plane stress (`sheetbench.scenes.objects.orthotropy`), with ν₂₁ = ν₁₂ E₂/E₁:
 
     Q = 1/(1 − ν₁₂ ν₂₁) [[E₁, ν₁₂ E₂, 0], [ν₁₂ E₂, E₂, 0], [0, 0, (1 − ν₁₂ ν₂₁) G₁₂]],    C = Tᵀ Q T,
 
@@ -23,7 +23,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from sheetbench.scenes.orthotropy import Ply
+from sheetbench.scenes.objects.orthotropy import Ply
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)  # exact for g², of the fourth power
 

@@ -1,4 +1,4 @@
-"""The part f(I₁ − 3) of a rubber's energy (`sheetbench.scenes.material`): its slopes, and what is not linear.
+"""The part f(I₁ − 3) of a rubber's energy (`scenes.objects.material`): its slopes, and what is not linear.
 
 A law with constants of its own is a row of that table and its slopes here.
 """
@@ -10,9 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Material, Status
-from sheetbench.scenes.material import WORDS, Energy, limit_note
+from sheetbench.scenes import Material
+from sheetbench.scenes.objects.material import WORDS, Energy, limit_note
 
 
 class Slopes(NamedTuple):

@@ -1,7 +1,7 @@
 """What supports and moved edges hold in the sheet, as a function of the load factor or of time.
 
 Of every node the position φ = X + u and the director d may be held. Where a bent rod, a tilted clamp or a
-motion puts them is the scene's to say (`sheetbench.scenes.kinematics`); statics take the last pose of a
+motion puts them is the scene's to say (`scenes.meaning.kinematics`); statics take the last pose of a
 motion and the last sample of a support that moves. Where two supports share a corner both hold what they
 hold. A corner of a moved edge belongs to the motion and not to a support beside it, which scenes refuse if
 it contradicts; two motions share its force.
@@ -19,10 +19,10 @@ from skfem import MeshQuad
 from fem_reference.surface.mesh import elements_in, nodes_of, on_boundary
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Scene, Symmetric, held_axes, holds_director
-from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, Placed, bent_or_tilted
-from sheetbench.scenes.shapes import COINCIDENT
-from sheetbench.scenes.supports import Point, named, place
-from sheetbench.scenes.tables import PiecewiseCurve
+from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, Placed, bent_or_tilted
+from sheetbench.scenes.objects.shapes import COINCIDENT
+from sheetbench.scenes.objects.supports import Point, named, place
+from sheetbench.scenes.objects.tables import PiecewiseCurve
 
 ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
 

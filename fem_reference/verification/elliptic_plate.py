@@ -56,7 +56,7 @@ def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
     free[columns.edge("outer"), :, :2] = False
     free[columns.edge("outer"), columns.layers, 2] = False
     unknowns = np.flatnonzero(free.ravel())
-    matrix = sheet.tangent(rest, rest, 0.0, rest, 0.0, 0.0)
+    matrix = sheet.tangent(sheet.shape(rest, 0.0), rest, 0.0, 0.0)
     force = np.zeros(free.shape)
     force[:, -1, 2] = -PRESSURE * _shares(columns)
     displacement = solve_free(matrix, force.ravel(), np.zeros(free.size), unknowns)

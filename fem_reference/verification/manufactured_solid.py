@@ -58,7 +58,7 @@ def error(poisson: float, elements: int) -> float:
     force = np.zeros((columns.positions.size // 3, 3))
     np.add.at(force, nodes, shares)
 
-    matrix = sheet.tangent(rest, rest, 0.0, rest, 0.0, 0.0)
+    matrix = sheet.tangent(sheet.shape(rest, 0.0), rest, 0.0, 0.0)
     positions = columns.positions.reshape(-1, 3)
     low, high = positions.min(axis=0), positions.max(axis=0)
     inside = np.all((positions > low + 1e-9) & (positions < high - 1e-9), axis=1)

@@ -18,7 +18,8 @@ import numpy as np
 from fem_reference import solve
 from fem_reference.surface.materials import bending_stiffness
 from fem_reference.verification.rows import OURS, Row, absolutely, relatively
-from sheetbench.scenes import EDGES, Clamped, Gravity, Hinged, Material, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import EDGES, Clamped, Gravity, Hinged, Material, Scene, Sheet
 
 TOLERANCE = 3e-3
 ELEMENTS = 16

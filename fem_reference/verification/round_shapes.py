@@ -33,10 +33,11 @@ from fem_reference.surface.materials import bending_stiffness
 from fem_reference.surface.mesh import mesh_of, nodes_of, quarters
 from fem_reference.verification.rows import THEORY, Row, absolutely, relatively
 from fem_reference.vibration import modes
-from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet, Solution
-from sheetbench.scenes.loads import AreaLoad
-from sheetbench.scenes.region import Cutout
-from sheetbench.scenes.shapes import Circle, Shape
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet
+from sheetbench.scenes.objects.cutouts import Cutout
+from sheetbench.scenes.objects.loads import AreaLoad
+from sheetbench.scenes.objects.shapes import Circle, Shape
 
 TOLERANCE, OF_FREQUENCY, OF_ORDER = 5e-3, 1e-2, 0.5
 ELEMENTS, ACROSS = 32, 32  # of the disc, of the strip's width

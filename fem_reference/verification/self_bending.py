@@ -16,40 +16,36 @@ from fem_reference.shell.statics import solve
 from fem_reference.verification.rows import EXACT, Row, relatively
 from fem_reference.vibration import modes
 from sheetbench.scenes import Clamped, Hinged, Material, Scene, Sheet, Support
-from sheetbench.scenes.natural import Natural
+from sheetbench.scenes.objects.natural import Natural
 
 YOUNG, POISSON, DENSITY = 1e6, 0.3, 1e3
-LENGTH, SIDE, THICKNESS = 0.2, 0.2, 0.002
+LENGTH, THICKNESS = 0.2, 0.002
+TIP = np.array([[LENGTH, 0.25 * LENGTH]])
 KIRCHHOFF = "Kirchhoff's plate"
 
 
 def rows(name: str) -> Iterator[Row]:
     """The rows of a case."""
     k, mesh = 0.5 * np.pi / LENGTH, "16 × 8"
-    held = _scene(0.5 * LENGTH, THICKNESS, (Clamped(edge="x0"),), Natural(curvature=(k, 0.0, 0.0)))
-    tip = solve(held, (16, 8)).displacement(np.array([[LENGTH, 0.05]]))[0]
+    curled = _scene(0.5 * LENGTH, THICKNESS, Natural(curvature=(k, 0.0, 0.0)), Clamped(edge="x0"))
+    tip = solve(curled, (16, 8)).displacement(TIP)[0]
     yield relatively(name, "ux of the tip of a quarter turn [m]", mesh, 1.0 / k - LENGTH, EXACT, tip[0], 1e-6)
     yield relatively(name, "uz of the tip of a quarter turn [m]", mesh, 1.0 / k, EXACT, tip[2], 1e-6)
-    hinges = tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
-    strain = np.pi**2 * THICKNESS**2 / (6.0 * (1.0 + POISSON) * SIDE**2)
-    heated = _scene(SIDE, THICKNESS, hinges, Natural((strain, strain, 0.0)))
+    hinges = [Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1")]
+    strain = np.pi**2 * THICKNESS**2 / (6.0 * (1.0 + POISSON) * LENGTH**2)
+    heated = _scene(LENGTH, THICKNESS, Natural((strain, strain, 0.0)), *hinges)
     found = float(buckling(heated, "shell", 12).load_factors[0]) * strain
-    yield relatively(
-        name, "strain at which a heated plate buckles", "12 × 12", strain, KIRCHHOFF, found, 0.012
-    )
-    h, tension, q = THICKNESS / 8.0, 0.05, 2.0 * np.pi**2 / SIDE**2
-    stretched = _scene(SIDE, h, hinges, Natural(pretension=(tension, tension)))
+    said = "strain at which a heated plate buckles"
+    yield relatively(name, said, "12 × 12", strain, KIRCHHOFF, found, 0.012)
+    h, tension, q = THICKNESS / 8.0, 0.05, 2.0 * np.pi**2 / LENGTH**2
+    stretched = _scene(LENGTH, h, Natural(pretension=(tension, tension)), *hinges)
     rigidity = YOUNG * h**3 / (12.0 * (1.0 - POISSON**2))
     exact = np.sqrt((rigidity * q**2 + tension * q) / (DENSITY * h)) / (2.0 * np.pi)
     lowest = float(modes(stretched, "shell", 8, 1, about="deformed").frequencies[0])
     yield relatively(name, "frequency of a stretched plate [Hz]", "8 × 8", exact, KIRCHHOFF, lowest, 1e-3)
 
 
-def _scene(width: float, thickness: float, supports: tuple[Support, ...], natural: Natural) -> Scene:
-    return Scene(
-        name="self-bending",
-        sheet=Sheet(length_x=LENGTH, length_y=width, thickness=thickness),
-        material=Material(young=YOUNG, poisson=POISSON, density=DENSITY),
-        supports=supports,
-        natural=natural,
-    )
+def _scene(width: float, thickness: float, natural: Natural, *supports: Support) -> Scene:
+    sheet = Sheet(length_x=LENGTH, length_y=width, thickness=thickness)
+    material = Material(young=YOUNG, poisson=POISSON, density=DENSITY)
+    return Scene(name="self-bending", sheet=sheet, material=material, supports=supports, natural=natural)

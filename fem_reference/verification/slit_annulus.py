@@ -15,7 +15,8 @@ from skfem import MeshQuad, MeshQuad2
 
 from fem_reference.shell import statics as shell
 from fem_reference.verification.rows import Row, mesh_change, relatively
-from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet
 
 TOLERANCE = 5e-3
 RADIAL, AROUND = 6, 48

@@ -5,7 +5,7 @@
     St Venant–Kirchhoff             ½ λ (λ² − 1)                   ½ λ (λ² − 1)
 
 P is the force per area of the unstrained section; a strip that is sheared keeps its width. Of a rubber
-(`sheetbench.scenes.material`), with the stretches (λ, t, t), (λ, 1, t) or (λ, λ, t),
+(`sheetbench.scenes.objects.material`), with the stretches (λ, t, t), (λ, 1, t) or (λ, λ, t),
 
     P_i = 2 λ_i (f′ + c₀₁ (I₁ − λ_i²)) + (Λ ln J − m)/λ_i
 

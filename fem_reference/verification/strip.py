@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from fem_reference import solve
-from sheetbench.scenes import Clamped, Material, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Material, Scene, Sheet
 
 
 def strip(length: float, width: float, thickness: float, young: float, **requested: Any) -> Scene:

@@ -9,7 +9,7 @@ point and director where it stands, so at a corner it holds the other chain's en
 to the sheet: corners that another support or a motion takes.
 
 What two chains both hold must be one equation, or the equations are singular. Scenes refuse what holds a
-chain along itself twice (`sheetbench.scenes.corners`). Across the sheet, with n the director's small tilt
+chain along itself twice (`scenes.meaning.corners`). Across the sheet, with n the director's small tilt
 (n_x, n_y), a chain along x has one n_y throughout, for it is untwisted, and, "inplane", one n_x too:
 
     z(end) − z(start) + L n_x = 0,      n and z of the corner = n and z of both chains' ends

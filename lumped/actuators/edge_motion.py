@@ -1,6 +1,6 @@
 """A prescribed motion of an edge as an actuator: every bound mass moves as on a rigid bar.
 
-Where the bar is the scene says (`sheetbench.scenes.kinematics`). What it exerts on the sheet is what holding
+Where the bar is the scene says (`scenes.meaning.kinematics`). What it exerts on the sheet is what holding
 the motion takes.
 """
 
@@ -11,7 +11,7 @@ import numpy as np
 from lumped.actuators.actuator import Acting, Drive
 from lumped.lattice import Lattice
 from sheetbench.scenes import EdgeMotion, Sheet
-from sheetbench.scenes.kinematics import MovedEdge
+from sheetbench.scenes.meaning.kinematics import MovedEdge
 
 
 class RigidMotion:

@@ -14,9 +14,9 @@ from lumped.spring_constants import Springs
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Table
 from sheetbench.scenes import Sheet, SpringSet
-from sheetbench.scenes.grading import Graded, as_settings, remark
-from sheetbench.scenes.grid import Grid
-from sheetbench.scenes.springs import Distribution
+from sheetbench.scenes.objects.grading import Graded, as_settings, remark
+from sheetbench.scenes.objects.grid import Grid
+from sheetbench.scenes.objects.springs import Distribution
 
 
 @dataclass(frozen=True, repr=False)

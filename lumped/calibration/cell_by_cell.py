@@ -16,8 +16,8 @@ from lumped.grid_lines import Lines, grid_lines
 from lumped.sections import Section
 from lumped.spring_constants import Springs
 from sheetbench.scenes import Constants, Material, Sheet
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.objects.grading import Graded
+from sheetbench.scenes.objects.grid import Grid
 
 
 class EachCell(NamedTuple):
@@ -68,6 +68,8 @@ def each_cell(
             lambda part: part[None, None] if even else np.broadcast_to(part, (*shape, *part.shape))
         )
     sides = np.stack(np.meshgrid(*widths), axis=-1)
+    if cells is not None and cells.growth is not None:
+        sides = sides * cells.growth
     return EachCell(grid, grading, lines, cells, sides, section, section.bending[..., 0, 0] > 0.0)
 
 

@@ -21,7 +21,7 @@ from lumped.spring_constants import Springs
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import Cells, Material, Sheet
-from sheetbench.scenes.grading import Graded
+from sheetbench.scenes.objects.grading import Graded
 
 
 def _tables(

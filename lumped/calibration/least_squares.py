@@ -42,7 +42,7 @@ def fit_moduli(
 ) -> Calibration:
     """The springs of least weighted miss.
 
-    Unknowns: the five link families, axial and cross along x and y apart, and the strain springs, all ≥ 0;
+    Unknowns: the five link families, axial and cross each along x and y, the strain springs, all ≥ 0;
     area, mid_area of any sign; the layer distance unless given. kz as in the closed form.
     """
     from scipy.optimize import least_squares

@@ -19,9 +19,9 @@ from lumped.spring_constants import Springs, require_cells
 from sheetbench import choices
 from sheetbench.errors import Impossible
 from sheetbench.scenes import Scene, SpringTable
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import MASSES, grid_of
-from sheetbench.scenes.natural_state import sheet_at_rest
+from sheetbench.scenes.meaning.natural_state import sheet_at_rest
+from sheetbench.scenes.objects.grading import Graded
+from sheetbench.scenes.objects.grid import MASSES, grid_of
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def given(
 ) -> Calibration:
     """The springs of the scene's own [springs] table, with their moduli report.
 
-    grid: as `sheetbench.scenes.grid` reads it; by default the table's own, or nine masses along the shorter
+    grid: as `scenes.objects.grid` reads it; by default the table's own, or nine masses along the shorter
     side where it names none; grading: the table's own unless given. Raises Impossible when the scene has no
     springs, or those of another lattice.
     """

@@ -15,7 +15,7 @@ from lumped.spring_constants import COUPLINGS, MID_COUPLINGS, Springs
 from sheetbench.answers.table import number
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet, SpringSet
-from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.objects.grid import Grid
 
 ALIKE = 1e-9
 
@@ -34,14 +34,14 @@ def report(
     Raises BadInput where area springs leave a cell without positive energy.
     """
     sides, section = each.present()
-    asked = moduli.of_section(section, sides)
+    sheet = moduli.of_section(section, sides)
     whole = moduli.of_cells(springs, each.sides, each.grid[2]) if whole is None else whole
     there = np.broadcast_to(each.there, whole.shear.shape[:2])
     got = moduli.Moduli(whole.membrane[there], whole.bending[there], whole.shear[there])
-    rigidity, other = asked.bending[:, 0, 0], asked.bending[:, 1, 1]
+    rigidity, other = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
     square = np.abs(sides[:, 0] - sides[:, 1]) < ALIKE * sides[:, 0]
-    named = bool(np.all(square & (np.abs(rigidity - other) < ALIKE * rigidity))), bool(asked.oblique.any())
-    names = asked.named(*named)
+    named = bool(np.all(square & (np.abs(rigidity - other) < ALIKE * rigidity))), bool(sheet.oblique.any())
+    names = sheet.named(*named)
     targets, found = (np.array([*of.values()]) for of in (names, got.named(*named)))
     likes = np.array([names[_like(name)] for name in names])
     misses = (found - targets) / np.where(targets == 0.0, np.abs(likes), targets)

@@ -1,7 +1,7 @@
 """A sheet of rubber as a lattice, in closed form, for any strain and any ν below ½ (docs/theory.md).
 
 Each of L layers is a membrane of thickness h/L with the energy of the material's law
-(`sheetbench.scenes.material`), of its cells' mean sides and with the thickness at which nothing pulls
+(`sheetbench.scenes.objects.material`), of its cells' mean sides and with the thickness at which nothing pulls
 (`lumped.springs.laws`). Layers are h/√(L² − 1) apart, so that Σ z_k² h/L = h³/12 and bending is D exactly.
 Transverse shear is the upright faces', with S* of the grid, MacNeal's; a share d of it has the faces over the
 cells' diagonals. Against a bending wave of wave number q at the angle θ to the grid the stiffness of square
@@ -35,8 +35,8 @@ from lumped.sections import Section
 from lumped.spring_constants import Springs, by_direction
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Sheet
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.orthotropy import FIBRES
+from sheetbench.scenes.objects.grading import Graded
+from sheetbench.scenes.objects.orthotropy import FIBRES
 
 ALIKE = 1e-9  # of D/A, that of one thickness
 

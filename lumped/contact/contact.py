@@ -36,10 +36,12 @@ from lumped.actuators import Drive
 from lumped.assembly import Assembly
 from lumped.contact.law import rounded_law, side_rule
 from lumped.contact.surface import At, ObstacleSurface
+from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
-from sheetbench.scenes import ContactState, Scene, free_rigid_motions
-from sheetbench.scenes.obstacles import SLIP_SPEED, AnyObstacle, obstacles_by_name
-from sheetbench.scenes.patches import constants_at
+from sheetbench.scenes import Scene, free_rigid_motions
+from sheetbench.scenes.meaning.composition import constants_at
+from sheetbench.scenes.meaning.distances import obstacles_by_name
+from sheetbench.scenes.objects.obstacles import SLIP_SPEED, AnyObstacle
 
 if TYPE_CHECKING:
     from lumped.statics.problem import Problem
@@ -72,7 +74,8 @@ class Contact:
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.surface = name, obstacle, ObstacleSurface(obstacle)
-        self.moves = obstacle.motion is not None
+        self.moves, self.radius = obstacle.motion is not None, self.surface.radius
+        self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
         lattice = assembly.lattice
         columns, areas = lattice.columns(), lattice.cell_areas
         # cells' sides as far as they are across the obstacle's axis
@@ -116,24 +119,12 @@ class Contact:
         self.slots = assembly.pattern.among(self.nodes)
         self._eps = assembly.rounding
 
-    @property
-    def moved(self) -> float:
-        """How far the obstacle goes in all [m]."""
-        return float(np.abs(self.obstacle.displacement(1.0)).max())
-
-    def soft_share(self, load: float, travel: float, size: float) -> float:
-        """Return the share of k with which a load [Pa], or what bends a sheet of this size by a travel of it
-        or of the obstacle [m], leaves depths of two hundredths of the size or, if less, of a fifth of the
-        radius."""
-        bending = float((self.full * self.thickness**4).max()) / 12.0
-        load = max(load, 8.0 * bending * max(self.moved, travel) / size**4)
-        soft = load / (0.02 * min(size, 0.2 * self.surface.radius))
-        return min(1.0, soft / float(self.full.min())) if soft > 0.0 else 1.0
+    def _origin(self, drive: Drive) -> np.ndarray:
+        return self.obstacle.position + self.obstacle.displacement(drive.load_factor, drive.time)
 
     def _at(self, u: np.ndarray, drive: Drive, far: bool = False) -> _Touching:
         """Where patches are that may touch, or all."""
-        origin = np.array(self.obstacle.position) + self.obstacle.displacement(drive.load_factor, drive.time)
-        places = self._rest + u[self.nodes] - origin
+        places = self._rest + u[self.nodes] - self._origin(drive)
         which = np.arange(len(places))
         if len(self.weights) > 1 and not far:  # no point is farther from the middle than the farthest mass
             middle = places.mean(axis=1, keepdims=True)
@@ -277,13 +268,14 @@ class Contact:
         """Return its power [W] at a time [s]."""
         return float(force @ self._velocity(time))
 
-    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive) -> float:
-        """Return the share of a move (n, 3) [m] that takes no point deeper than half a radius, nor
-        through."""
+    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:
+        """Return the share of a move (n, 3) [m] that takes no point deeper than half a radius, nor through;
+        since: where the obstacle is as it begins."""
         if self.surface.flat:
             return 1.0
-        x = self._at(u, drive, True).at.across
-        v = (self.weights @ move[self.nodes]) @ self.surface.projector
+        x = self._at(u, since or drive, True).at.across
+        moved = self._origin(drive) - self._origin(since or drive)
+        v = (self.weights @ move[self.nodes] - moved) @ self.surface.projector
         core = DEEPEST * self.surface.radius + 0.5 * self.thickness
         a, b, c = (v * v).sum(axis=-1), (x * v).sum(axis=-1), (x * x).sum(axis=-1) - core**2
         hit = (b * b > a * c) & (b < 0.0) & (c > 0.0)

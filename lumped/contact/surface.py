@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sheetbench.scenes import Plane
-from sheetbench.scenes.obstacles import AnyObstacle
+from sheetbench.scenes.objects.obstacles import AnyObstacle
 
 
 class At(NamedTuple):

@@ -4,6 +4,7 @@ from lumped.dynamics.explicit.step_limit import StepLimit, step_limit, turn_limi
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator
 from lumped.dynamics.runs.simulation import simulate
+from lumped.dynamics.scales import explicit_limit, shortest_period
 from lumped.dynamics.system import State, System
 
 __all__ = [
@@ -13,7 +14,9 @@ __all__ = [
     "StepFailed",
     "StepLimit",
     "System",
+    "explicit_limit",
     "require_integrator",
+    "shortest_period",
     "simulate",
     "step_limit",
     "turn_limit",

@@ -1,4 +1,4 @@
-"""Quadratic drag of still air on the masses (`sheetbench.scenes.air`), compiled.
+"""Quadratic drag of still air on the masses (`sheetbench.scenes.objects.air`), compiled.
 
 Every mass has its part A of the current area as a vector and the velocity v along it:
 

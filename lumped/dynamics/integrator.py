@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -63,7 +64,7 @@ class Integrator(ABC):
         """One: steps end at samples."""
         return 1
 
-    @property
+    @cached_property
     def kinks(self) -> np.ndarray:
         """Times [s] at which something changes its course; for steps of one length those farther from each
         other than that, as a table with more samples than there are steps has no corner to step onto."""

@@ -1,7 +1,7 @@
 """Maxwell branches beside every spring in motion: a law that remembers its measure.
 
 X = (S, δg) are a spring's elastic stress and the change of its measure (`lumped.springs.laws`). In a step
-branches keep R = w X + c (`sheetbench.scenes.relaxation`), so that the spring has its own law, stiffer,
+branches keep R = w X + c (`scenes.objects.relaxation`), so that the spring has its own law, stiffer,
 beside a constant stress: (1 + Σ a w) S + Σ a c_S. In a stage of a Runge–Kutta method of diagonal γ, which
 takes ẏ = R/τ with y = X − R at its own order,
 
@@ -19,7 +19,7 @@ import numpy as np
 from lumped.springs.families import Family
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Branches
-from sheetbench.scenes.relaxation import BranchStep
+from sheetbench.scenes.objects.relaxation import BranchStep
 
 
 class Maxwell:

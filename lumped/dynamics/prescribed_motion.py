@@ -9,8 +9,8 @@ import numpy as np
 from lumped.actuators import Drive
 from lumped.statics.problem import Problem
 from sheetbench.scenes import Scene, held_axes, holds_director
-from sheetbench.scenes.supports import named
-from sheetbench.scenes.tables import PiecewiseCurve
+from sheetbench.scenes.objects.supports import named
+from sheetbench.scenes.objects.tables import PiecewiseCurve
 
 ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
 

@@ -9,7 +9,7 @@ M is diagonal on the lattice and constant throughout. Units: m, s, N, kg, J.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -29,7 +29,7 @@ from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.motion import kinks
+from sheetbench.scenes.meaning.motion import kinks
 
 ROUNDED = 1e-9  # of the energy of a natural state on the flat sheet
 
@@ -96,7 +96,8 @@ class System:
         self.solve_mass = _mass_solver(self.reduced_mass)
         branches = scene.material.branches
         self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
-        if self.maxwell is not None and self.natural is not None and self.natural.state.moves:
+        self.growing = self.natural if self.natural is not None and self.natural.moves else None
+        if self.maxwell is not None and self.growing is not None:
             raise BadInput(
                 f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
             )
@@ -110,7 +111,7 @@ class System:
     def working(self) -> bool:
         """Whether some loads have no potential: they follow the sheet, or change over time, as a natural
         state may."""
-        return not self.problem.loads.potential or (self.natural is not None and self.natural.state.moves)
+        return not self.problem.loads.potential or self.growing is not None
 
     @property
     def resists(self) -> bool:
@@ -179,6 +180,11 @@ class System:
             self.maxwell.add_branch_force(state.u, state.memory, force)
             power += float(np.sum(force * state.v))
         return power
+
+    def loads(self, times: Sequence[float]) -> np.ndarray:
+        """Loads at times if they change, those that do not follow the sheet, (k or 1, n, 3) [N]."""
+        dead = self.problem.loads.dead
+        return np.array([self.external(dead, time) for time in (times if self.working else times[:1])])
 
     def external(self, u: np.ndarray, time: float) -> np.ndarray:
         """External force."""

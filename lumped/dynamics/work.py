@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.system import State, System
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
 
@@ -28,7 +29,7 @@ def work(system: System, before: State, after: State) -> float:
         then, now = system.drive(before.time), system.drive(after.time)
         for u in (before.u, after.u):
             done += 0.5 * coupling.command_work(u, then, now)
-    for u in (before.u, after.u) if system.natural is not None else ():
+    for u in (before.u, after.u):
         done += 0.5 * natural_work(system, u, before.time, after.time)
     return done
 
@@ -40,7 +41,7 @@ def kinetic_of(system: System, rate: np.ndarray) -> float:
 
 def kinetic_of_placed(system: System, state: State) -> float:
     """Return the kinetic energy [J] of what is prescribed, whose gain is work done on the masses: all but
-    that of the free unknowns, which is apart since Tᵀ M ġ = 0."""
+    that of the free unknowns, which is separate since Tᵀ M ġ = 0."""
     momentum = system.mass @ state.v.ravel()
     free = system.moving_part.T @ momentum
     return 0.5 * float(state.v.ravel() @ momentum - free @ system.solve_mass(free))
@@ -68,27 +69,24 @@ def obstacle_power(system: System, state: State) -> float:
 
 def natural_work(system: System, u: np.ndarray, then: float, now: float) -> float:
     """Return the work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""
-    if system.natural is None or not system.natural.state.moves:
+    if (state := system.growing) is None:
         return 0.0
-    energies = []
-    for time in (then, now):
-        system.assembly.grow(time=time)
-        energies.append(system.assembly.force(u)[0])
-    return energies[1] - energies[0]
+    return _gain(system, state, u, state.factors(then), state.factors(now))
 
 
 def natural_power(system: System, u: np.ndarray, time: float, before: bool = False) -> float:
     """Return its power [W] from a moment on, or until then: of a difference that is exact but for third
     powers of the change."""
-    natural = system.natural
-    if natural is None or not natural.state.moves:
+    if (state := system.growing) is None or not (rate := state.rates(time, before)).any():
         return 0.0
-    at, rate = natural.state.factors(time), natural.state.rates(time, before)
-    if not rate.any():
-        return 0.0
-    step = NATURAL_STEP / np.abs(rate).max()
+    at, step = state.factors(time), NATURAL_STEP / np.abs(rate).max()
+    return _gain(system, state, u, at - step * rate, at + step * rate) / (2.0 * step)
+
+
+def _gain(system: System, state: NaturalState, u: np.ndarray, *factors: np.ndarray) -> float:
+    """Return how much more energy [J] the springs have at the second factors of their state."""
     energies = []
-    for sign in (1.0, -1.0):
-        natural.set(at + sign * step * rate)
+    for each in factors:
+        state.set(each)
         energies.append(system.assembly.force(u)[0])
-    return (energies[0] - energies[1]) / (2.0 * step)
+    return float(energies[1] - energies[0])

@@ -33,8 +33,8 @@ from lumped.vibration import frequency_slopes
 from sheetbench.answers.table import PERCENT, Table
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Scene, Sheet
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.summary import few
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.objects.grading import Graded
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
 FIXED_CONSTANTS = ("vertical", "layer_distance", "stretch", *EDGES_OWN, *RIMS_OWN)

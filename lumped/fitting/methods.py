@@ -13,9 +13,9 @@ from sheetbench import choices
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Cells, Material, Sheet
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import MASSES, grid_of
-from sheetbench.scenes.quantities import require_positive
+from sheetbench.scenes.objects.grading import Graded
+from sheetbench.scenes.objects.grid import MASSES, grid_of
+from sheetbench.scenes.objects.quantities import require_positive
 
 CALIBRATIONS = described({**MAKERS, "fit-static": fit_static, "fit-modal": fit_modal})
 UNITS = {"k": "N/m", "layer_distance": "m"}
@@ -34,7 +34,7 @@ def calibrate(
 ) -> Calibration:
     """Springs of a grid for a sheet of this material, by a named method.
 
-    grid: masses along the shorter side, (nx, ny) or (nx, ny, layers), see `sheetbench.scenes.grid`.
+    grid: masses along the shorter side, (nx, ny) or (nx, ny, layers), see `sheetbench.scenes.objects.grid`.
     k [N/m] and layer_distance [m] are for the methods that take them; the fitted methods need targets.
     grading: how much smaller the cells are at the edges, 0 to 1 (`lumped.grid_lines`). cells: what each is
     made of, where they differ. Raises BadInput for an

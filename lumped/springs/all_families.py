@@ -29,7 +29,7 @@ from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import SpringSet
-from sheetbench.scenes.springs import DamperSet
+from sheetbench.scenes.objects.springs import DamperSet
 
 
 class SpringArrays(NamedTuple):

@@ -17,7 +17,7 @@ Laws of cells take and return one measure more, s = q·q of what the corners hav
 
 A rubber membrane, at any strain, is per volume and with C the cell's deformation tensor in its plane,
 T = tr C, A = det C and θ = t² of the thickness stretch t at which nothing pulls there
-(`sheetbench.scenes.material` has f, c₀₁ and Λ),
+(`sheetbench.scenes.objects.material` has f, c₀₁ and Λ),
 
     W = f(x) + c₀₁ (A + θ T − 3) − p/2 ln(A θ) + Λ/8 ln²(A θ),  x = T + θ − 3,  p = 2 f′(0) + 4 c₀₁,
     0 = θ (f′ + c₀₁ T) − p/2 + Λ/4 ln(A θ).

@@ -124,6 +124,23 @@ def elongations(u: np.ndarray, links: LinkArrays) -> np.ndarray:
 
 
 @njit(cache=True, error_model="numpy")
+def largest_strains(states: np.ndarray, links: LinkArrays) -> np.ndarray:
+    """Return the largest relative change of length of the links in a layer, of displacements (k, n, 3) [m]:
+    of those with the largest and least δg/g₀."""
+    out = np.empty(len(states))
+    for k in range(len(states)):
+        least = most = 0.0
+        for m in range(len(links.nodes)):
+            if links.offset[m, 2] == 0.0:
+                change, _, _ = measure(states[k], links.nodes, links.offset, m)
+                change, length = natural(change, links.rest_length, m)
+                share = change / (length * length)
+                least, most = min(least, share), max(most, share)
+        out[k] = max(most / (1.0 + np.sqrt(1.0 + most)), -least / (1.0 + np.sqrt(1.0 + least)))
+    return out
+
+
+@njit(cache=True, error_model="numpy")
 def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: bool) -> np.ndarray:
     """What the linearisation at u predicts after a step (n, 3) [m], (m,): ½ k e [N] of the elongation e; else
     the stress S + D ġ, which goes with that of rubber, links along whose sides its cells take off again."""

@@ -21,7 +21,7 @@ from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStra
 from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.objects.grid import Grid
 
 LINKS, DIRECTIONAL, CELLS, RUBBER_CELLS, FACES = range(5)
 BLOCK = int(LANES)

@@ -17,9 +17,10 @@ from lumped.statics.balance import balance
 from lumped.statics.energy_descent import LatticePath
 from lumped.statics.fields import LatticeMesh, field_mesh
 from lumped.statics.problem import LatticeState, Problem
-from sheetbench.scenes import Scene, Solution, Status
-from sheetbench.scenes.contact import contact_notes
-from sheetbench.scenes.grading import as_settings
+from sheetbench.answers.contact import contact_notes
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.grading import as_settings
 
 
 @dataclass(frozen=True)

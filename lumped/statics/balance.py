@@ -12,7 +12,8 @@ import numpy as np
 from lumped.actuators import Drive
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.structure import LIMITS
-from sheetbench.scenes import Balance, Scene, dead_force
+from sheetbench.answers.balance import Balance, dead_force
+from sheetbench.scenes import Scene
 
 
 def balance(

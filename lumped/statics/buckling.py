@@ -8,11 +8,11 @@ from lumped.calibration import Calibration, default
 from lumped.mid_surface import MidSurface
 from lumped.statics.solver import build_problem
 from lumped.statics.structure import LatticeStructure
+from sheetbench.answers.modes import STILL, Buckling, require_flat_and_dead
 from sheetbench.clock import now
 from sheetbench.numerics.continuation.buckling import buckling_modes
 from sheetbench.scenes import AnyScene, require_static, scene_of
-from sheetbench.scenes.grading import as_settings
-from sheetbench.scenes.modes import STILL, Buckling, require_flat_and_dead
+from sheetbench.scenes.objects.grading import as_settings
 
 
 def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int = 1) -> Buckling:

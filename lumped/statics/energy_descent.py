@@ -16,10 +16,10 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 from lumped.actuators import Drive
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.structure import LatticeForces, LatticeStructure
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.direct import Factor, SingularMatrixError
-from sheetbench.scenes import Status
 
 LatticePath = Path[LatticeState, LatticeForces]
 

@@ -11,8 +11,8 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.statics.soundness import first_collapsed, first_inverted
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
-from sheetbench.scenes import Status
 
 COLLAPSED = 1e-6  # of a link's rest length
 

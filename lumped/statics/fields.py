@@ -17,7 +17,7 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.springs.families import SpringCells
-from sheetbench.scenes import FieldMesh
+from sheetbench.answers.solution import FieldMesh
 
 NO_FIELDS: Mapping[str, np.ndarray] = {}
 SMALL = 1e-12  # of a displacement: what is left that is not linear in it

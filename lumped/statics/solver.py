@@ -12,8 +12,8 @@ from lumped.actuators import Coupling
 from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
-from lumped.contact import ContactPenalties, contacts
-from lumped.lattice import Lattice, Weights
+from lumped.contact import contacts
+from lumped.lattice import Weights
 from lumped.loads import Loads
 from lumped.sections import require_alike
 from lumped.statics import validity
@@ -22,13 +22,13 @@ from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import LatticePath, settle
 from lumped.statics.fields import SMALL
 from lumped.statics.problem import LatticeState, Problem
-from lumped.statics.structure import STRETCH, LatticeStructure
+from lumped.statics.structure import STRETCH, LatticeForces, LatticeStructure
 from lumped.supports import constrain
+from sheetbench.answers.solution import Iteration, Solution, Status
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_effect
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.continuation.newton import Start
-from sheetbench.numerics.continuation.path import Path, Progress
+from sheetbench.numerics.continuation.path import Inspect, Path, Progress
 from sheetbench.numerics.continuation.stiffening import trace_stiffening
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.reduced import SingularMatrixError
@@ -37,20 +37,17 @@ from sheetbench.scenes import (
     AnyScene,
     Clamped,
     Gravity,
-    Iteration,
     Material,
     Scene,
     Sheet,
-    Solution,
-    Status,
     outside_model,
     require_static,
     scene_of,
 )
-from sheetbench.scenes.material import limit_note
-from sheetbench.scenes.natural_state import NaturalState, natural_of_cells
-from sheetbench.scenes.obstacles import require_no_obstacles
-from sheetbench.scenes.orthotropy import FIBRES
+from sheetbench.scenes.meaning.distances import require_no_obstacles
+from sheetbench.scenes.meaning.natural_state import natural_of_cells
+from sheetbench.scenes.objects.material import limit_note
+from sheetbench.scenes.objects.orthotropy import FIBRES
 
 Branch = Literal["path", "stable"]
 
@@ -143,7 +140,13 @@ def build_problem(
         require_alike(scene, f"the calibration {calibration.method}", instead)
     couple = partial(Coupling, scene) if scene.actuators else None
     assembly = Assembly(
-        scene.sheet, calibration, weights, couple, precision, scene.twisting_edges(), natural_of(scene)
+        scene.sheet,
+        calibration,
+        weights,
+        couple,
+        precision,
+        scene.twisting_edges(),
+        partial(natural_of_cells, scene),
     )
     size = max(scene.sheet.lengths)
     alike = same is not None and same.assembly.lattice is assembly.lattice
@@ -154,11 +157,6 @@ def build_problem(
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
     return Problem(assembly, constraints, Loads(scene, assembly), size, contacts(scene, assembly))
-
-
-def natural_of(scene: Scene) -> Callable[[Lattice], NaturalState | None]:
-    """Return what finds the natural state of a lattice's cells."""
-    return lambda lattice: natural_of_cells(scene, lattice.lines[0].at, lattice.lines[1].at)
 
 
 def flat_step(scene: Scene, problem: Problem) -> Outcome:
@@ -174,7 +172,7 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
     path.state = LatticeState(u, 1.0)
     links = problem.assembly.links
     problem.assembly.grow(SMALL)
-    strain = links.largest_strain(links.elongations(SMALL * u)) / SMALL
+    strain = links.largest_strain(SMALL * u) / SMALL
     if outside := outside_model(scene, strain, STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, path, (outside,))
     return Outcome(Status.CONVERGED, path)
@@ -194,20 +192,16 @@ def solve_path(
     slenderness = scene.sheet.thickness / problem.size
     down = settle if problem.descends else None
 
-    def trace(limits: Limits, buckled: bool = False) -> LatticePath:
-        return trace_path(
-            structure, structure, structure.inspect, down, progress, start, slenderness, limits, buckled
-        )
+    def trace(
+        limits: Limits, inspect: Inspect[LatticeState, LatticeForces], buckled: bool = False
+    ) -> LatticePath:
+        return trace_path(structure, structure, inspect, down, progress, start, slenderness, limits, buckled)
 
-    buckled = branch == "stable"
+    buckled, inspect = branch == "stable", structure.inspect
     if not problem.items:
-        return classify(scene, problem, trace(structure.limits, buckled))
-    penalties = ContactPenalties(problem)
-    path = trace_stiffening(
-        penalties, Path(structure, structure, structure.rest(), limits=structure.limits, progress=progress),
-        lambda: trace(structure.limits.direct), structure.inspect, down,
-        lambda state: Start(LatticeState(state.u, 1.0), 1.0, 1.0, 0.0), buckled,
-    )  # fmt: skip
+        return classify(scene, problem, trace(structure.limits, inspect, buckled))
+    path = Path(structure, structure, structure.rest(), limits=structure.limits, progress=progress)
+    path = trace_stiffening(structure.penalties(), path, trace, inspect, down, buckled)
     return classify(scene, problem, path)
 
 
@@ -256,11 +250,13 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
     if path.fault is not None:
         if scene.material.limit and any(support.motion is not None for support in scene.supports):
             notes.append(limit_note(scene.material))
+        if problem.assembly.precision == "single" and (lost := _rounded(problem, path)):
+            notes.append(lost)
         return Outcome(status, path, tuple(notes))
     links = problem.assembly.links
     problem.assembly.grow(state.load_factor)
     elongations = links.elongations(state.u)
-    outside = outside_model(scene, links.largest_strain(elongations), STRETCH)
+    outside = outside_model(scene, links.largest_strain(state.u), STRETCH)
     if outside and not problem.assembly.any_strain:
         status = Status.STRAIN_OUTSIDE_MODEL
         notes.insert(0, outside)
@@ -278,6 +274,8 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
             ],
         )
     )
+    if status is Status.UNSTABLE:
+        notes.append(validity.slender_cells(problem.assembly.lattice))
     if not problem.assembly.conservative:
         notes.append(
             "per-direction springs: not central, they have no energy and keep no moments; solved with an "
@@ -285,4 +283,14 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
         )
     elif not problem.conservative:
         notes.append("follower loads: solved with an unsymmetric tangent")
-    return Outcome(status, path, tuple(notes), energies)
+    return Outcome(status, path, tuple(filter(None, notes)), energies)
+
+
+def _rounded(problem: Problem, path: LatticePath) -> str:
+    """Return in a sentence what rounding may have moved the last equilibrium of a path by, if not little."""
+    try:
+        factor = path.factored(path.tangent(path.state, path.load_factor))
+    except SingularMatrixError:
+        return ""
+    found = validity.digits(problem, path.state, factor)
+    return "" if found is None else found.message

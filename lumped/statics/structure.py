@@ -14,14 +14,16 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.actuators import Drive
+from lumped.contact import Contact
 from lumped.statics.faults import broken
 from lumped.statics.problem import LatticeState, Problem, Residual
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Path
+from sheetbench.numerics.continuation.stiffening import Penalties
 from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.direct import Count, Factor, iterated
-from sheetbench.scenes import Scene, Status, outside_model
+from sheetbench.scenes import Scene, outside_model
 
 STRETCH = "largest in-plane link strain"
 ITERATED = 5000  # unknowns from which a factorisation costs as much as ten solutions
@@ -55,7 +57,6 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def __init__(self, scene: Scene, problem: Problem):
         self.scene, self.problem, self.limits = scene, problem, LIMITS
         self._moves = bool(problem.prescribed(1.0).any())
-        self._before = self.rest()  # the last equilibrium inspected
         self._iterates = problem.descends and problem.system.unknowns > ITERATED
         if problem.assembly.precision == "single":  # whose corrections never are idle
             self.limits = replace(LIMITS, idle=np.inf)
@@ -134,18 +135,33 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def has_meaning(self, state: LatticeState) -> bool:
         links = self.problem.assembly.links
         self.problem.assembly.grow(state.load_factor)
-        return not outside_model(self.scene, links.largest_strain(links.elongations(state.u)), STRETCH)
+        return not outside_model(self.scene, links.largest_strain(state.u), STRETCH)
 
     def inspect(self, path: Path[LatticeState, LatticeForces]) -> Fault | None:
         """Return why the path's last equilibrium means nothing, if it does."""
-        state, before = path.state, self._before
-        if self.problem.items:
-            before = before if 0.0 < before.load_factor <= path.load_factor else self.rest()
-            self._before = state
-            drive = Drive(path.load_factor)
-            if any(one.step_share(before.u, state.u - before.u, drive) < 1.0 for one in self.problem.items):
-                return Fault(Status.STEP_LIMIT, "a step led through an obstacle")
-        return broken(self.problem.assembly, state.u[None])[1]
+        return broken(self.problem.assembly, path.state.u[None])[1]
+
+    def penalties(self) -> Penalties[LatticeState]:
+        """Return the penalties of the problem's contacts."""
+        problem = self.problem
+        contacts = [item for item in problem.items if isinstance(item, Contact)]
+        placed, lattice = problem.prescribed(1.0), problem.assembly.lattice
+        layers = placed[lattice.columns()]  # a column that is turned moves the end of the sheet
+        turn = float(np.abs(layers[..., -1, :] - layers[..., 0, :]).max()) / lattice.spacing[2]
+
+        def passes(start: LatticeState, since: float, end: LatticeState, load_factor: float) -> bool:
+            ways = start.u, end.u - start.u, Drive(load_factor), Drive(since)
+            return any(one.step_share(*ways) < 1.0 for one in contacts)
+
+        return Penalties(
+            contacts,
+            float(np.abs(problem.external(np.zeros_like(problem.loads.dead), 1.0)).sum()),
+            max(float(np.abs(placed).max()), problem.size * turn),
+            problem.size,
+            any(one.radius < one.cell for one in contacts),
+            passes,
+            lambda state: Start(LatticeState(state.u, 1.0), 1.0, 1.0, 0.0),
+        )
 
     def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
         return self.problem.system.factor(blocks, more)

@@ -1,4 +1,4 @@
-"""What makes an equilibrium doubtful: lost digits, layers thinner than the grid's cells.
+"""What makes an equilibrium doubtful: lost digits, layers thinner than the grid's cells, slender cells.
 
 digits     a link's elongation is rounded as the scalar product of its rest vector and its ends' relative
            displacement Δu is, its force by k Δu ε: K⁻¹ times random forces of that size tells, at a few
@@ -14,6 +14,8 @@ layers     A thin sheet that curves by κ both ways keeps its stretching within 
            an equilibrium of this grid, too stiff, and not the sheet's. κ is √|κ₁κ₂|, and a sheet that
            bends one way only has next to no energy in the layers' mean stretch. In the studies of
            docs/stability.md all that are off by more than 5 % for this reason are reported, and a few others.
+slender    masses of cells many times as long as wide, as strong grading makes them at a clamp, move to and
+           fro along them where the sheet is bent sharply: unstable, within 0.1 % of the sheet's equilibrium
 
 Each is reported with the place on the sheet where it is worst and what to change.
 """
@@ -25,19 +27,22 @@ from functools import lru_cache
 import numpy as np
 
 from lumped.assembly import Assembly
+from lumped.lattice import Lattice
 from lumped.statics.faults import place
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.soundness import carried_by_links, sharpest_bend
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.kept import frozen
-from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.summary import few
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
 
 DOUBTFUL, LOST = 1e-2, 0.05  # displacement by rounding over the largest: that it may be, that it is
 MAY_BE_LOST = 0.1  # in single precision: a sheet of h/a = 1e-4, of 0.5, was 61 % off
 BEYOND_DOUBT = 1e-6  # of one sample: no other one is ten thousand times as large
 SAMPLES = 3
+SLENDER = 9.0  # length over width of a cell; 9.5 is the least that gave way, in strips bent through 80°
 RESOLVED = 2.0  # cells' length over the width of a layer
 FREE_OF_STRETCH = 0.025  # share of energy in the layers' mean stretch below which there is nothing to resolve
 
@@ -96,6 +101,18 @@ def layers(scene: Scene, assembly: Assembly, u: np.ndarray, elongations: np.ndar
     return (
         f"not unique to the sheet but to this grid: cells {few(ratio)} times as long as the layer in which "
         f"it stretches ({few(1e3 * width)} mm near {where}); refine the grid until the answer stays"
+    )
+
+
+def slender_cells(lattice: Lattice) -> str:
+    """Return a sentence where an unstable lattice has cells so long and narrow that they may give way."""
+    x, y = (line.widths for line in lattice.lines)
+    times = max(x.max() / y.min(), y.max() / x.min())
+    if times < SLENDER:
+        return ""
+    return (
+        f"cells are up to {few(times)} times as long as wide, and may give way where the sheet does not: use "
+        "less grading, or more masses across"
     )
 
 

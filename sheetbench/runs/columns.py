@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,7 +12,7 @@ Part = tuple[str, str, tuple[int, ...]]  # kind, name, shape
 
 def width(columns: Sequence[Part]) -> int:
     """How many numbers a row has."""
-    return sum(int(np.prod(shape)) for _, _, shape in columns)
+    return sum(math.prod(shape) for _, _, shape in columns)
 
 
 def split(columns: Sequence[Part], rows: np.ndarray) -> dict[str, dict[str, np.ndarray]]:
@@ -19,7 +20,7 @@ def split(columns: Sequence[Part], rows: np.ndarray) -> dict[str, dict[str, np.n
     parts: dict[str, dict[str, np.ndarray]] = {kind: {} for kind, _, _ in columns}
     first = 0
     for kind, name, shape in columns:
-        numbers = int(np.prod(shape))
+        numbers = math.prod(shape)
         parts[kind][name] = rows[:, first : first + numbers].reshape(len(rows), *shape)
         first += numbers
     return parts

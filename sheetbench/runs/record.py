@@ -1,4 +1,4 @@
-"""A motion as a `History`: what runs, where its samples go, and what is told of it."""
+"""A motion as a `History`: what runs, where its samples go, its notes."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any, Generic
 
 import numpy as np
 
+from sheetbench.answers.history import History
 from sheetbench.clock import now
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod
@@ -17,13 +18,12 @@ from sheetbench.runs.columns import split, width
 from sheetbench.runs.run import Observer, Run
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
-from sheetbench.scenes import History
 
 
 @dataclass(frozen=True)
 class Recipe(Generic[AnyState]):
     """A motion to be run. schedule: of a run that begins, to `duration` [s]; key: JSON-able, on what its
-    numbers depend; rows: of a frame; notes: more to be told; start: of the method, the state
+    numbers depend; rows: of a frame; notes: of the answer; start: of the method, the state
     to begin in, with the work of what moves at once."""
 
     label: str

@@ -14,6 +14,7 @@ from typing import Any, Generic, Protocol
 
 import numpy as np
 
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod, StepFailed
@@ -21,7 +22,6 @@ from sheetbench.runs.columns import Part
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.runs.watch import GROWN, Watch
-from sheetbench.scenes import Status
 
 MOST_STEPS = 100_000  # of a method that adapts them, between two samples
 
@@ -40,11 +40,11 @@ class Observer(Protocol):
     def broken(self, samples: Any, count: int) -> tuple[int, Fault | None]:
         """Return how many of the first `count` samples mean something, and why the next does not."""
 
-    def stretches(self, samples: Any, count: int) -> Iterable[float]:
-        """Return how far the sheet is strained at the first `count` samples, as `beyond` takes it."""
+    def stretches(self, samples: Any, count: int) -> np.ndarray:
+        """Return how far the sheet is strained at the first samples, (count,), as `beyond` takes it."""
 
     def beyond(self, stretch: float) -> str:
-        """Return a clause where the model does not hold that far, else ""."""
+        """Return a clause where the model does not hold that far, or farther, else ""."""
 
     def fastest(self, samples: Any, i: int) -> str:
         """Return where the sheet is fastest at sample i, in words."""
@@ -144,8 +144,7 @@ class Run(Generic[AnyState]):
         if fault is None:
             count = sound
         self.watch.take(rows[:count])
-        for time, stretch in zip(rows[:count, 0].tolist(), observer.stretches(samples, count), strict=True):
-            self.watch.strained(time, stretch, bool(observer.beyond(stretch)))
+        self.watch.strained(rows[:count, 0], observer.stretches(samples, count), observer.beyond)
         if count == len(rows):
             return count, None
         when = f"at {rows[count, 0]:.6g} s"

@@ -66,16 +66,16 @@ class MemoryStore:
 class FolderStore:
     """Samples in a folder, open while it is entered.
 
-    asked: JSON-able description of the run, beside which the code is noted. plan: how the run there is
+    description: JSON-able description of the run, beside which the code is noted. plan: how the run there is
     sampled, None in a new folder.
     Entering raises BadInput for a folder of another run, one that another process writes to or that cannot be
     written, and for damaged files.
     """
 
-    def __init__(self, folder: Path, width: int, rows: int, asked: dict[str, Any]):
+    def __init__(self, folder: Path, width: int, rows: int, description: dict[str, Any]):
         self.folder, self._width, self._rows = folder, width, rows
         code = {"version": version(), "source": source()}
-        self._asked = json.loads(json.dumps({**asked, **code}))
+        self._description = json.loads(json.dumps({**description, **code}))
         self._held = ExitStack()
         self._checksums = dict.fromkeys(APPENDED, 0)
         self.plan: dict[str, Any] | None = None
@@ -100,7 +100,7 @@ class FolderStore:
         """Note the run's settings and how it is to be sampled."""
         if plan != self.plan:
             with whole(self.folder / "run.json") as partial:
-                text = json.dumps({"asked": self._asked, "plan": plan}, sort_keys=True)
+                text = json.dumps({"asked": self._description, "plan": plan}, sort_keys=True)
                 partial.write_text(text, encoding="utf-8")
         self.plan = plan
 
@@ -164,19 +164,20 @@ class FolderStore:
             return None
         try:
             kept = json.loads(path.read_text(encoding="utf-8"))
-            asked, plan = dict(kept["asked"]), dict(kept["plan"])
+            other, plan = dict(kept["asked"]), dict(kept["plan"])
         except (OSError, ValueError, TypeError, LookupError) as error:
             raise self._damaged(path, f"is damaged ({error})") from None
-        other = [name for name in {**asked, **self._asked} if asked.get(name) != self._asked.get(name)]
-        if other and set(other) <= {"version", "source"}:
+        own = self._description
+        off = [name for name in {**other, **own} if other.get(name) != own.get(name)]
+        if off and set(off) <= {"version", "source"}:
             raise BadInput(
                 f"{self.folder}: holds a run that another state of sheetbench's code began "
-                f"({asked.get('version')}, source {asked.get('source')}), which this one does not go on "
+                f"({other.get('version')}, source {other.get('source')}), which this one does not go on "
                 "with; choose another folder or remove this one"
             )
-        if other:
+        if off:
             raise BadInput(
-                f"{self.folder}: holds another run (of another {', '.join(other)}); choose another folder or "
+                f"{self.folder}: holds another run (of another {', '.join(off)}); choose another folder or "
                 "remove this one"
             )
         return plan

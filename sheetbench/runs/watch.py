@@ -9,13 +9,14 @@ end none either: the run that came to them says so, and from when on.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import astuple, dataclass
 from typing import Self
 
 import numpy as np
 
+from sheetbench.answers.solution import Status
 from sheetbench.answers.table import number
-from sheetbench.scenes import Status
 
 GROWN = 0.1
 TOLD = 0.01
@@ -35,11 +36,13 @@ class Watch:
     stretch: float = 0.0
     since: float = np.nan
 
-    def strained(self, time: float, stretch: float, beyond: bool) -> None:
-        """Note how far the sheet is strained at a sample."""
-        self.stretch = max(self.stretch, stretch)
-        if beyond and np.isnan(self.since):
-            self.since = time
+    def strained(self, times: np.ndarray, stretches: np.ndarray, beyond: Callable[[float], str]) -> None:
+        """Note how far the sheet is strained at samples (k,); beyond: a clause where that is too far."""
+        largest = float(stretches.max(initial=-1.0))
+        if largest >= self.stretch:
+            self.stretch = largest
+            if np.isnan(self.since) and beyond(largest):
+                self.since = float(times[[bool(beyond(one)) for one in stretches.tolist()].index(True)])
 
     def grown(self, rows: np.ndarray) -> np.ndarray:
         """Energy from nowhere at samples (k,), over the largest until then; nan where that is no number.
@@ -65,15 +68,15 @@ class Watch:
     def ending(self, outside: str, steps: str = "") -> tuple[Status, str]:
         """Return the status of a run that came to its end, and what there is to say; outside: a clause on the
         strains that went farthest beyond the model; steps: one on the steps."""
-        told = [f"from {number(self.since, '.4g')} s on {outside}"] if outside else []
+        notes = [f"from {number(self.since, '.4g')} s on {outside}"] if outside else []
         if self.largest > 0.0 and self.off > TOLD * self.largest:
             share = number(100.0 * self.off / self.largest, ".2g")
-            told.append(
+            notes.append(
                 f"the energy balance is off by {share} % of the largest energy at some sample: energies are "
                 "good to no more; smaller steps (--error, --step) keep it better"
             )
-        told += [steps] if steps else []
-        return Status.STRAIN_OUTSIDE_MODEL if outside else Status.CONVERGED, "; ".join(told)
+        notes += [steps] if steps else []
+        return Status.STRAIN_OUTSIDE_MODEL if outside else Status.CONVERGED, "; ".join(notes)
 
     def memory(self) -> np.ndarray:
         """What a resumed run needs."""

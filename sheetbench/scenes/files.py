@@ -5,14 +5,13 @@ from __future__ import annotations
 import tomllib
 from importlib import resources
 from pathlib import Path
-from warnings import warn
 
 from pydantic import ValidationError
 
-from sheetbench.errors import BadInput, Implausible, SceneError, foreign
-from sheetbench.scenes.plausibility import slips
-from sheetbench.scenes.reading import read_text
-from sheetbench.scenes.refusals import did_you_mean, in_one_line
+from sheetbench.errors import BadInput, SceneError, foreign
+from sheetbench.scenes.language.reading import read_text
+from sheetbench.scenes.language.refusals import did_you_mean, in_one_line
+from sheetbench.scenes.meaning.plausibility import warn_of_slips
 from sheetbench.scenes.scene import Scene
 
 
@@ -63,6 +62,5 @@ def load(scene: str | Path) -> Scene:
         loaded = Scene.model_validate(data)
     except ValidationError as error:
         raise SceneError(f"{scene}: {in_one_line(error, Scene)}") from None
-    for slip in slips(loaded):
-        warn(Implausible(f"{scene}: {slip}"), stacklevel=2)
+    warn_of_slips([(str(scene), loaded)], stacklevel=2)
     return loaded

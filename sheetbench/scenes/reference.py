@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from typing import Any
 
+from sheetbench.scenes.language.schema import branches, json_schema, kind, resolved
 from sheetbench.scenes.scene import Scene
-from sheetbench.scenes.schema import branches, json_schema, kind, resolved
 
 HEAD = """# Every key of a scene
 

@@ -1,119 +1,36 @@
 """A scene: the question to a model, in raw physics (E, ν, ρ, geometry, supports, loads, probes; SI).
 
 A scene knows no solver. It is read from TOML (`sheetbench.scenes.files`) or built as `Scene(…)`, validated
-once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads` for what the words mean.
+once, and frozen. Its keys are in `scenes.objects.fields`; what they mean, in the other files there.
 """
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Sequence
 from difflib import get_close_matches
-from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-from warnings import warn
+from typing import Any
 
-import numpy as np
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import model_validator
 
-from sheetbench.errors import Implausible, SceneError
-from sheetbench.scenes import corners, obstacles, region, summary
-from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion
-from sheetbench.scenes.air import Air
-from sheetbench.scenes.initial import Initial
-from sheetbench.scenes.layers import Layer, misfit
-from sheetbench.scenes.loads import AreaLoad, Load
-from sheetbench.scenes.masses import Mass
-from sheetbench.scenes.material import Material
-from sheetbench.scenes.natural import Natural, Temperature
-from sheetbench.scenes.obstacles import Obstacle
-from sheetbench.scenes.orthotropy import FIBRES
-from sheetbench.scenes.patches import Patch, mismatched, misplaced
-from sheetbench.scenes.plausibility import slips
-from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
-from sheetbench.scenes.region import Cutout
-from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
-from sheetbench.scenes.springs import DamperSet, SpringTable
-from sheetbench.scenes.supports import Point, Support, held_axes, lets_twist_go, place
-from sheetbench.scenes.words import in_words
-
-if TYPE_CHECKING:
-    from shapely import Polygon
-
-LISTS = {  # by their keys in Python: those in a file, where each entry is a table
-    "layers": "layer", "patches": "patch", "cutouts": "cutout", "supports": "support", "loads": "load",
-    "masses": "mass", "obstacles": "obstacle", "actuators": "actuator",
-}  # fmt: skip
-SHAPED = (
-    "sheet.outline", "sheet.mesh", "cutout", "support.where", "load.where", 'load.kind = "area"',
-    "mass.where", 'support.kind = "point"',
-)  # fmt: skip
-OURS = {"sheetbench", "lumped", "fem_reference", "comparisons", "studies"}
+from sheetbench.errors import SceneError
+from sheetbench.scenes.language import summary
+from sheetbench.scenes.meaning import corners, distances, region
+from sheetbench.scenes.meaning.words import in_words
+from sheetbench.scenes.objects.cutouts import nearest
+from sheetbench.scenes.objects.fields import LISTS, SceneFields
+from sheetbench.scenes.objects.layers import misfit
+from sheetbench.scenes.objects.patches import mismatched, misplaced
+from sheetbench.scenes.objects.quantities import PlanPoint
+from sheetbench.scenes.objects.sheet import EDGES, Sheet
+from sheetbench.scenes.objects.supports import held_axes, place
 
 
-class Scene(Frozen):
+class Scene(SceneFields):
     """A sheet with supports, loads, actuators and probes.
 
     Lists are tuples; in TOML they are [[support]], [[load]], [[actuator]].
     """
-
-    model_config = ConfigDict(alias_generator=lambda key: LISTS.get(key, key))
-
-    name: str = Field(min_length=1)
-    """A short name, for tables and messages."""
-    title: str = Field(default="", kw_only=True)
-    """A line for headings and pictures."""
-    sheet: Sheet
-    """The flat, stress-free sheet."""
-    material: Material
-    """What the sheet is made of."""
-    layers: tuple[Layer, ...] = Field(default=(), kw_only=True)
-    """Plies of a laminate, from the lower face up, symmetric about the middle; none for one material."""
-    patches: tuple[Patch, ...] = Field(default=(), kw_only=True)
-    """Parts of the sheet with a thickness or a material of their own; where they overlap later ones win."""
-    cutouts: tuple[Cutout, ...] = Field(default=(), kw_only=True)
-    """Holes and notches: parts of the plan where there is no sheet."""
-    natural: Natural | None = Field(default=None, kw_only=True)
-    """Strain and curvature of a sheet that is not flat and free of stress at rest."""
-    temperature: Temperature | None = Field(default=None, kw_only=True)
-    """How much warmer the sheet is than where it was flat."""
-    gravity: Gravity | None = None
-    """The sheet's weight; without this table the sheet is weightless."""
-    air: Air | None = Field(default=None, kw_only=True)
-    """Still air, which resists where the sheet moves along its normal; without this table there is none."""
-    supports: tuple[Support, ...] = ()
-    """How edges are held, at most one support an edge, and parts of the sheet."""
-    loads: tuple[Load, ...] = ()
-    """Forces, moments and pressures, which add up."""
-    masses: tuple[Mass, ...] = Field(default=(), kw_only=True)
-    """Payloads: they weigh under gravity and are inert in motion, and stiffen nothing."""
-    obstacles: tuple[Obstacle, ...] = Field(default=(), kw_only=True)
-    """Rigid bodies that the sheet may touch from one side, without friction at rest."""
-    actuators: tuple[Actuator, ...] = ()
-    """What moves edges that have no support."""
-    initial: Initial | None = Field(default=None, kw_only=True)
-    """The shape that a motion starts from; without this table nothing but the supports shapes the sheet."""
-    springs: SpringTable | None = None
-    """The lattice's own spring constants, as `sheetbench calibrate --toml` writes them; no other model reads
-    them. Where cells differ, on a graded grid, a constant is a list of rows of cells from y0 to y1, each from
-    x0 to x1."""
-    dampers: DamperSet | None = None
-    """The lattice's own dampers along its links in `simulate`, in place of the material's damping_time, which
-    area and strain springs keep."""
-    probes: Annotated[dict[str, PlanPoint], Unit("m")] = Field(default_factory=dict)
-    """Named plan points [x, y] of the undeformed sheet where displacements are told; without this table P1 is
-    the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4,
-    each a quarter of the sheet inside where it would lie on an edge that is held; where there is no sheet,
-    the nearest point of it."""
-
-    if not TYPE_CHECKING:  # type checkers read the signature off the fields
-
-        def __init__(self, *values: Any, **keys: Any) -> None:
-            super().__init__(*values, **keys)
-            _warn_author(self)
-
-        __init__.__pydantic_base_init__ = True
 
     @model_validator(mode="after")
     def _with_probes(self) -> Scene:
@@ -123,7 +40,7 @@ class Scene(Frozen):
             held += [motion.edge for motion in self.motions().values()]
             probes = default_probes(self.sheet, [support.edge for support in on_edges], held)
             if self.pierced:
-                probes = {name: region.nearest(self.region, point) for name, point in probes.items()}
+                probes = {name: nearest(self.region, point) for name, point in probes.items()}
             vars(self)["probes"] = probes  # the scene is frozen, but not whole yet
         return self
 
@@ -156,7 +73,7 @@ class Scene(Frozen):
         held = next((n for n, load in enumerate(self.loads, start=1) if load.hold), 0)
         alone = 'has no effect without [initial] shape = "static", which lets the load go at t = 0'
         yield f"load {held}.hold = true: ", alone if held and self.initial is None else None
-        yield from obstacles.conflicts(self)
+        yield from distances.conflicts(self)
         yield from corners.conflicts(self.actuators, self.supports, self.sheet)
 
     def _unnatural(self) -> str:
@@ -196,9 +113,7 @@ class Scene(Frozen):
         )
         if redrawn and "probes" not in values and self.probes == super().replace(probes={}).probes:
             values["probes"] = {}
-        changed = super().replace(**values)
-        _warn_author(changed, known=self)
-        return changed
+        return super().replace(**values)
 
     def __repr__(self) -> str:
         return summary.text(*self._summary())
@@ -209,113 +124,11 @@ class Scene(Frozen):
     def _summary(self) -> tuple[str, summary.Facts]:
         return f"Scene {self.name}", in_words(self)
 
-    def document(self) -> dict[str, Any]:
-        """The scene as in a file, for JSON: plain lists, dicts, numbers and texts."""
-        return self.model_dump(mode="json", by_alias=True, exclude_none=True)
-
-    def named_actuators(self) -> dict[str, Actuator]:
-        """The actuators in their order by their names: an actuator's is its edge, or, where an edge has
-        several, its edge and its number."""
-        names = [str(actuator.edge) for actuator in self.actuators]
-        if len(set(names)) < len(names):
-            names = [f"{edge}.{i + 1}" for i, edge in enumerate(names)]
-        return dict(zip(names, self.actuators, strict=True))
-
-    def motions(self) -> dict[str, EdgeMotion]:
-        """The edge motions by their names."""
-        return {name: a for name, a in self.named_actuators().items() if isinstance(a, EdgeMotion)}
-
-    def chains(self) -> dict[str, dict[str, Chain]]:
-        """The chains by their names, of every edge with some."""
-        by_edge: dict[str, dict[str, Chain]] = {}
-        for name, actuator in self.named_actuators().items():
-            if isinstance(actuator, Chain):
-                by_edge.setdefault(str(actuator.edge), {})[name] = actuator
-        return by_edge
-
-    @property
-    def homogeneous(self) -> bool:
-        """Whether the sheet is as thick and of the same material all over."""
-        return not (any(p.own for p in self.patches) or self.sheet.taper_x or self.sheet.taper_y)
-
-    @property
-    def uniform(self) -> bool:
-        """Whether it is so, and isotropic."""
-        return not self.varied_by
-
-    @property
-    def varied_by(self) -> str:
-        """The words by which it is not, "" where it is."""
-        fibres = [FIBRES] if self.material.kind == "orthotropic" else []
-        tapers = [f"sheet.{name}" for name in ("taper_x", "taper_y") if getattr(self.sheet, name) is not None]
-        own = any(patch.own for patch in self.patches)
-        drawn = [name for name, given in (("layer", self.layers), ("patch", own)) if given]
-        return ", ".join([*fibres, *tapers, *drawn])
-
-    @property
-    def natural_by(self) -> str:
-        """The words by which it is not flat and free of stress at rest, "" where it is."""
-        given = [key for key in ("natural", "temperature") if getattr(self, key) is not None]
-        each = enumerate(self.patches, start=1)
-        return ", ".join([*given, *(f"patch {n}.natural" for n, one in each if one.natural is not None)])
-
-    @property
-    def pierced(self) -> bool:
-        """Whether the sheet is no whole rectangle."""
-        return bool(self.cutouts) or self.sheet.drawn
-
-    @cached_property
-    def region(self) -> Polygon:
-        """The sheet's plan [m], with its holes, as shapely has it."""
-        return region.region(self.sheet, self.cutouts)
-
-    @property
-    def shaped_by(self) -> str:
-        """The words by which it is no whole rectangle held and loaded at edges, at points or all over."""
-        given = (
-            self.sheet.outline is not None,
-            self.sheet.mesh is not None,
-            bool(self.cutouts),
-            any(place(one) is not None and not isinstance(one, Point) for one in self.supports),
-            any(getattr(load, "where", None) is not None for load in self.loads),
-            any(isinstance(load, AreaLoad) for load in self.loads),
-            any(payload.where is not None for payload in self.masses),
-            any(isinstance(support, Point) for support in self.supports),
-        )
-        return ", ".join(word for word, drawn in zip(SHAPED, given, strict=True) if drawn)
-
-    @property
-    def drawn_by(self) -> str:
-        """The words of these, by which the sheet is no plain one."""
-        return ", ".join(filter(None, [self.varied_by, self.shaped_by, self.natural_by]))
-
-    def twisting_edges(self) -> frozenset[str]:
-        """The edges along which nothing holds the director: free, hinged and held ones."""
-        bound = {actuator.edge for actuator in self.actuators}
-        return frozenset(e for e in EDGES if e not in bound and lets_twist_go(e, self.supports))
-
     def save(self, path: str | Path) -> None:
         """Write the scene as TOML, from which `load` reads an equal one."""
-        from sheetbench.scenes.toml import to_toml  # a scene that is only solved need not know how
+        from sheetbench.scenes.language.toml import to_toml  # a scene that is only solved need not know how
 
         Path(path).write_text(to_toml(self), encoding="utf-8")
-
-    def probe_points(self) -> np.ndarray:
-        """Plan points of the probes, (n, 2) [m], in the order of `probes`."""
-        return np.array(list(self.probes.values()), dtype=float).reshape(-1, 2)
-
-
-def _warn_author(scene: Scene, known: Scene | None = None) -> None:
-    """Warn whoever writes a scene in Python of what is hardly meant and was not so in the scene `known`.
-
-    What our own packages make of a scene is not its author's.
-    """
-    if sys._getframe(2).f_globals.get("__name__", "").partition(".")[0] in OURS:
-        return
-    before = () if known is None else slips(known)
-    for slip in slips(scene):
-        if slip not in before:
-            warn(Implausible(f"scene '{scene.name}': {slip}"), stacklevel=3)
 
 
 def default_probes(sheet: Sheet, supported: Sequence[str], held: Sequence[str]) -> dict[str, PlanPoint]:

@@ -10,13 +10,13 @@ from collections.abc import Mapping, Sequence
 from textwrap import wrap
 from typing import Any
 
-from sheetbench.scenes.loads import Pressure
-from sheetbench.scenes.material import Material
+from sheetbench.scenes.language.schema import branches, json_schema, kind
+from sheetbench.scenes.language.toml import keys, line
+from sheetbench.scenes.objects.loads import Pressure
+from sheetbench.scenes.objects.material import Material
+from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
+from sheetbench.scenes.objects.supports import Clamped
 from sheetbench.scenes.scene import Scene
-from sheetbench.scenes.schema import branches, json_schema, kind
-from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
-from sheetbench.scenes.supports import Clamped
-from sheetbench.scenes.toml import keys, line
 
 WIDTH = 100  # of a comment
 SCHEMA = "scene.schema.json"  # beside the file, for editors
@@ -44,7 +44,7 @@ def template(
     parts = [
         f"#:schema {SCHEMA}\n"
         '# A scene for sheetbench. Numbers are in SI units (m, N, Pa, kg, s, rad); others are text: "2 mm".\n'
-        "# What it means, in words:  sheetbench check FILE\n"
+        "# What will be solved, in words:  sheetbench check FILE\n"
         "# Both models, side by side:  sheetbench compare FILE\n",
         _block("", {"name": name, "title": ""}),
         _block("[sheet]", given["sheet"]),
@@ -52,7 +52,7 @@ def template(
         _block("[gravity]", given["gravity"]),
         *(_block("[[support]]", one, about=n == 0) for n, one in enumerate(given.get("support", ()))),
         *(_block("[[load]]", one, about=n == 0) for n, one in enumerate(given.get("load", ()))),
-        '# What else there may be: take away the "# " of a block\'s lines.\n'
+        '# Optional parts: delete the "# " at the start of a block\'s lines to use it.\n'
         "# All keys: sheetbench check --schema --out DIR, in scene.md\n",
     ]
     shown = {"[[support]]", *(["[[load]]"] if loads else [])}

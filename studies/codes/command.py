@@ -9,7 +9,7 @@ import typer
 from comparisons.cli import console
 from comparisons.cli.options import option
 from comparisons.cli.output import PictureOptions
-from sheetbench.errors import require_choice
+from sheetbench.choices import listed
 from studies.codes.answer import codes
 from studies.codes.models import LADDERS, climb, stand
 from studies.codes.trials import run_trials
@@ -23,13 +23,18 @@ def command(
     seconds: Annotated[float, typer.Option(help="Limit of a run, of processor time.")] = 60.0,
     budget: Annotated[float, typer.Option(help="Seconds after which no further run of a code begins.")] = 1e9,
     ladder: Annotated[
-        list[str] | None, option(f"Measure sizes of {', '.join(LADDERS)} on test 1; may be repeated.", "NAME")
+        list[str] | None,
+        option(
+            f"Measure sizes of {listed(LADDERS)} on test 1; may be repeated.", "NAME", choices=LADDERS
+        ),
     ] = None,
     standing: Annotated[
         bool, option("Measure models on a suite, into the reference set's file.", None, "--standing")
     ] = False,
     model: Annotated[list[str] | None, option("With --standing: as mujoco:grid=9.", "MODEL")] = None,
-    suite: Annotated[str, option("With --standing: statics or curves.", "SUITE")] = "statics",
+    suite: Annotated[
+        str, option("With --standing: statics or curves.", "SUITE", choices=("statics", "curves"))
+    ] = "statics",
     *,
     output: PictureOptions,
 ) -> None:
@@ -37,9 +42,6 @@ def command(
 
     CODE=PYTHON runs what is missing or changed of a code; rows with the same inputs stay.
     """
-    require_choice("--suite", suite, ("statics", "curves"))
-    for name in ladder or ():
-        require_choice("--ladder", name, LADDERS)
     with output.open() as out:
         for text in code or ():
             name, _, python = text.partition("=")

@@ -24,9 +24,10 @@ from comparisons.codes.sheet_mesh import refusal
 from comparisons.codes.table import CODES
 from comparisons.scoring.reference import Reference
 from comparisons.sweep.differences import error
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.process import ONE_THREAD, run
-from sheetbench.scenes import Scene, Status
+from sheetbench.scenes import Scene
 from studies.codes.results import CASES, OURS, RESULTS, SCENES, Trial, read_results, write_results
 
 CALIBRATED = {name: case for name, case in CASES.items() if not refusal(case.scene)}

@@ -39,8 +39,9 @@ from comparisons.scoring.curves import NARROW as NARROW_WIDTH
 from comparisons.scoring.reference import references
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
+from sheetbench.answers.solution import Solution
 from sheetbench.answers.table import Column, Table
-from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes import Scene
 from studies.codes.results import OURS, every_result
 from studies.master_curves.twist import tip
 

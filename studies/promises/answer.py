@@ -16,7 +16,7 @@ import numpy as np
 
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import NUMBER, PERCENT, Column, Table
-from sheetbench.scenes.summary import few
+from sheetbench.scenes.language.summary import few
 
 GOALS = {"bar": (0.95, 5.0, np.inf), "expected error": (0.8, np.inf, 3.0), "advice": (0.95, np.inf, np.inf)}
 

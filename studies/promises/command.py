@@ -7,8 +7,7 @@ from typing import Annotated
 from comparisons.cli import console
 from comparisons.cli.options import CampaignOptions, option
 from comparisons.cli.output import OutputOptions
-from sheetbench.choices import REFERENCES
-from sheetbench.errors import require_choice
+from sheetbench.choices import REFERENCES, listed
 from studies.promises import study
 from studies.promises.answer import Promise, Promises
 from studies.promises.expected import expected_errors, solve_again
@@ -18,14 +17,16 @@ PARTS = ("bars", "expected", "advice")
 
 def command(
     part: Annotated[
-        list[str] | None, option("Only bars, expected or advice; may be repeated. All unless given.", "NAME")
+        list[str] | None,
+        option(f"Only {listed(PARTS)}; may be repeated. All unless given.", "NAME", choices=PARTS),
     ] = None,
     scenes: Annotated[
         int, option("Scenes drawn, for bars half a minute of one processor each.", "N", min=1)
     ] = study.SCENES,
     seed: Annotated[int, option("Seed of the scenes.", "N", min=0)] = study.SEED,
     model: Annotated[
-        list[str] | None, option("Bars of plate, shell or solid; may be repeated.", "NAME")
+        list[str] | None,
+        option(f"Bars of {listed(REFERENCES)}; may be repeated.", "NAME", choices=REFERENCES),
     ] = None,
     anew: Annotated[
         bool, option("Solve the stored scenes of expected errors again.", None, "--anew")
@@ -36,12 +37,8 @@ def command(
 ) -> None:
     """Measure how often promised errors hold: the references' bars, expected errors, advice's tolerance.
 
-    Exit status 3 unless as many hold as are asked for. With --out an interrupted study is resumed.
+    Exit status 3 unless as many hold as required. With --out an interrupted study is resumed.
     """
-    for name in part or ():
-        require_choice("--part", name, PARTS)
-    for name in model or ():
-        require_choice("model", name, REFERENCES)
     parts, rows, skipped = part or PARTS, list[Promise](), dict[str, str]()
     with output.open() as out:
         if anew:

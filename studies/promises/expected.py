@@ -1,9 +1,10 @@
 """The expected error of a lattice's grid on a hundred stored scenes, beside the true one.
 
-`results/promises.json` has every scene (some that an earlier rule by the layers' widths got wrong, the
-catalogue, the transfer study's and fifty drawn at random), and the displacements [m] of its probes: by the
-shell of 16 elements along the shorter side, and by the lattices of 5, 9 and 17 masses and the finer ones that
-the estimate takes. The estimates are computed from these by the rule of today.
+`results/promises.json` has every scene (some that an earlier rule by the layers' widths got wrong, eight that
+were drawn up by somebody else, the catalogue, the transfer study's and fifty drawn at random), and the
+displacements [m] of its probes: by the shell of 16 elements along the shorter side, and by the lattices of 5,
+9 and 17 masses and the finer ones that the estimate takes. The estimates are computed from these by the rule
+of today.
 """
 
 from __future__ import annotations
@@ -22,8 +23,9 @@ from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.sweep.differences import error
 from sheetbench.answers.files import write_text
-from sheetbench.scenes import Scene, Solution
-from sheetbench.scenes.grid import grid_of
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.grid import grid_of
 from studies.pages import RESULTS
 from studies.promises.answer import Promise
 

@@ -19,15 +19,16 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from comparisons.advice.advisor import advise
 from comparisons.models.spec import Elements, Spec, lattices, references, spec_of
-from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
-from comparisons.runs.store import Store
+from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
 from comparisons.sweep.differences import error
 from comparisons.sweep.limits import limit
 from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.sweep.store import Store
+from comparisons.tradeoff.advisor import advise
 from fem_reference.uncertainty import coarser
-from sheetbench.scenes import Scene, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Scene
 from studies.promises.answer import Promise
 from studies.promises.scenes import SEED, drawn_scenes
 

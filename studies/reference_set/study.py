@@ -21,19 +21,21 @@ import numpy as np
 
 import fem_reference
 import lumped
+from comparisons.comparison.measures import largest
+from comparisons.comparison.motion import LONGER
 from comparisons.models.spec import Lattice
-from comparisons.motion.comparison import LONGER
-from comparisons.motion.measures import largest
-from comparisons.runs.manifest import machine
 from comparisons.scoring.cases import AT_REST, FREQUENCIES, Case, cases
 from comparisons.scoring.reference import LICENCE, VERSION, document
 from comparisons.sweep import task
 from comparisons.sweep.differences import error
+from comparisons.sweep.manifest import machine
 from comparisons.sweep.solved import Ask, Solved
 from fem_reference.surface.mesh import Elements
 from fem_reference.uncertainty import coarser, of_answers, solve_with_bar
 from sheetbench.answers.files import plain
-from sheetbench.scenes import History, Scene, Status
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Scene
 from sheetbench.sources import version
 
 ELEMENTS, ACROSS = 24, 8  # of the shell along the shorter side; of strips four times as long as wide

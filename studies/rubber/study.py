@@ -25,20 +25,10 @@ import lumped
 from comparisons.identification.tensile.curves import read
 from comparisons.identification.tensile.laws import Fit, stress
 from comparisons.identification.tensile.tensile import TensileFit, identify_tensile
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, Column, Unit, unit
 from sheetbench.errors import BadInput
-from sheetbench.scenes import (
-    Clamped,
-    EdgeLoad,
-    Gravity,
-    Held,
-    Material,
-    Pressure,
-    Scene,
-    Sheet,
-    Solution,
-    Status,
-)
+from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Held, Material, Pressure, Scene, Sheet
 
 SILICONES = ("Ecoflex 00-30", "Ecoflex 00-50", "Dragon Skin 10 MEDIUM", "Dragon Skin 30")
 TRELOAR = "Treloar 1944"

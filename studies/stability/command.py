@@ -7,14 +7,15 @@ from typing import Annotated
 from comparisons.cli.options import ClusterOptions, option
 from comparisons.cli.output import PictureOptions
 from sheetbench.answers.figure_style import parse_figure
-from sheetbench.errors import BadInput, require_choice
+from sheetbench.choices import listed
+from sheetbench.errors import BadInput
 from studies.stability.study import PARTS, maps
 
 
 def command(
     part: Annotated[
         list[str] | None,
-        option("Only published, pressed, bent, mass, stiffness or family; may be repeated.", "NAME"),
+        option(f"Only {listed(PARTS)}; may be repeated.", "NAME", choices=PARTS),
     ] = None,
     *,
     campaign: ClusterOptions,
@@ -27,8 +28,6 @@ def command(
     """
     if parse_figure(output.figure).narrow:
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
-    for name in part or ():
-        require_choice("--part", name, PARTS)
     with output.open() as out:
         with out.campaign(campaign) as run:
             made = maps(parts=part or PARTS, **run)

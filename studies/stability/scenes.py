@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, load
-from sheetbench.scenes.sheet import EdgeName
+from sheetbench.scenes.objects.sheet import EdgeName
 
 PUBLISHED = ("two-edges-clamped", "one-edge-clamped", "curved-edge")
 SIDE, GRAVITY, POISSON = 0.188, 9.81, 0.48  # of Habibi et al.'s sheet, of the Earth

@@ -20,14 +20,14 @@ import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
-from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
-from comparisons.runs.store import Store
 from comparisons.stability import tiles
 from comparisons.stability.answer import Stability, limits, summary
 from comparisons.stability.extremes import scaled, stability
 from comparisons.stability.limit import energy, measured_limit, noise, start, system
 from comparisons.stability.rows import Row, broken, percent
+from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
 from comparisons.sweep.differences import error
+from comparisons.sweep.store import Store
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.report import Picture

@@ -9,7 +9,7 @@ from comparisons.cli import console
 from comparisons.cli.options import CampaignOptions, Grading, Large, option
 from comparisons.cli.output import OutputOptions
 from comparisons.models.spec import items
-from sheetbench.choices import AUTO, CALIBRATIONS
+from sheetbench.choices import AUTO, CALIBRATIONS, listed
 from sheetbench.errors import BadInput, require_choice
 from studies.transfer.scenes import transfer_scenes
 from studies.transfer.study import METHODS, PARTS, transfer
@@ -32,9 +32,7 @@ def command(
     scenes: Annotated[str | None, option("Scenes of the study; all unless given.", "NAMES")] = None,
     part: Annotated[
         list[str] | None,
-        option(
-            "static, limits, modal, aspect, left-out or drawn; may be repeated. All unless given.", "NAME"
-        ),
+        option(f"Only {listed(PARTS)}; may be repeated. All unless given.", "NAME", choices=PARTS),
     ] = None,
     elements: Annotated[int, option("Elements of the shell along a side.", "N", min=1)] = 24,
     train: Annotated[bool, option("Only train the calibration central, and write its table.", None)] = False,
@@ -48,7 +46,7 @@ def command(
     On drawn sheets lattices stand beside the shell with its bar. With --out an interrupted study is resumed.
     """
     calibrations = _known("--methods", items(methods), (*CALIBRATIONS, AUTO))
-    names, parts = _known("--scenes", items(scenes), transfer_scenes()), _known("--part", part, PARTS)
+    names = _known("--scenes", items(scenes), transfer_scenes())
     sizes = _masses(grids)
     if train:
         console.tell(f"{write_table()}: written")
@@ -61,7 +59,7 @@ def command(
                 grids=sizes,
                 grading=grading,
                 scenes=names or None,
-                parts=parts or PARTS,
+                parts=part or PARTS,
                 elements=elements,
                 large=large,
             )

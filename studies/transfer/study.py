@@ -23,12 +23,13 @@ import numpy as np
 from comparisons.models.resolve import resolve, resolve_each
 from comparisons.models.sizes import require_room
 from comparisons.models.spec import Elements, GradingLike, Lattice, Spec, lattices
-from comparisons.runs.campaign import CampaignKeywords, Run, carry_out
-from comparisons.runs.store import Finished, Store
+from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
 from comparisons.sweep.differences import error
 from comparisons.sweep.solved import Ask
+from comparisons.sweep.store import Finished, Store
+from sheetbench.answers.solution import comparable
 from sheetbench.choices import AUTO, CALIBRATIONS
-from sheetbench.scenes import Scene, comparable
+from sheetbench.scenes import Scene
 from studies.transfer.answer import Transfer
 from studies.transfer.drawn_scenes import drawn_sheets
 from studies.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes

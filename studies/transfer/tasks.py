@@ -17,7 +17,8 @@ from comparisons.identification.surface import plan_grid, plan_points
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from fem_reference.surface.materials import Section
-from sheetbench.scenes import Scene, Sheet, Solution
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import Scene, Sheet
 
 POINTS = 5  # along each side
 FREQUENCIES = 3

@@ -31,7 +31,7 @@ import lumped
 from fem_reference.surface.materials import Section, section_of
 from sheetbench.answers.files import write_text
 from sheetbench.scenes import Clamped, Gravity, Hinged, Load, PointLoad, Scene, load
-from sheetbench.scenes.supports import AnySupport
+from sheetbench.scenes.objects.supports import AnySupport
 
 POISSON = (-0.8, -0.4, 0.0, 0.1, 0.2, 0.3, 1.0 / 3.0, 0.4, 0.45, 0.49)
 RATIOS = np.linspace(0.22, 0.64, 8)  # b/a

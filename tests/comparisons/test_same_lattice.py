@@ -1,4 +1,4 @@
-"""The same words mean the same lattice, whichever verb or function is asked: its constants, caught where the
+"""The same words mean the same lattice, in every verb and function: its constants, caught where the
 solver gets them."""
 
 from collections.abc import Callable
@@ -9,14 +9,13 @@ from commands import run
 
 import lumped
 import sheetbench as sb
-from comparisons.advice.trials import TrialSolves
 from comparisons.live import server
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from comparisons.runs.campaign import function
 from comparisons.sweep import solved, task
-from comparisons.tradeoff import motion
+from comparisons.sweep.campaign import function
+from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.scenes import SpringTable
 
 CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe", "build_problem")
@@ -59,8 +58,8 @@ def caught(monkeypatch):
     for name in CONSUMERS:
         monkeypatch.setattr(lumped, name, used)
     monkeypatch.setattr(solved, "carry_out", carried_out)
-    monkeypatch.setattr(motion, "shortest_period", lambda *_: 1.0)
-    monkeypatch.setattr(motion, "explicit_limit", lambda *_: 1.0)
+    monkeypatch.setattr(lumped, "shortest_period", lambda *_: 1.0)
+    monkeypatch.setattr(lumped, "explicit_limit", lambda *_: 1.0)
     for module in (solvers, task):
         monkeypatch.setattr(module, "warm", lambda _: None)
     monkeypatch.setattr(server, "run", lambda panel, *_: used(panel.scene, _of_panel(panel)))
@@ -154,10 +153,10 @@ def test_the_same_words_are_the_same_lattice(name, tmp_path):
             continue
         usual = {**LISTS, **({"calibration": "uniform"} if "k" in options else {})} if name in NAMED else {}
         meant = Lattice(**{**usual, **options})
-        with pytest.raises(Used) as asked:
+        with pytest.raises(Used) as used:
             ask(SCENE, tmp_path, **{**usual, **options})
         expected = resolve(scene, meant).springs
-        assert constants(asked) == constants(expected), options
+        assert constants(used) == constants(expected), options
 
 
 def test_k_alone_is_the_uniform_lattice_of_that_k():
@@ -172,9 +171,9 @@ def test_a_spec_is_what_its_flat_keywords_are(name, tmp_path):
     spec = sb.Lattice(grid=5, calibration="uniform", k=550.0)
     expected = constants(resolve(sb.load(SCENE), spec.but(layer_distance=0.004)).springs)
     listed = {"grid": 5, "calibration": "uniform"} if name in NAMED else {}
-    with pytest.raises(Used) as asked:
+    with pytest.raises(Used) as used:
         VERBS[name][0](SCENE, tmp_path, **listed, lattice=spec, layer_distance=0.004)
-    assert constants(asked) == expected
+    assert constants(used) == expected
 
 
 @pytest.mark.parametrize("name", [name for name in VERBS if name not in CHOSEN])
@@ -190,10 +189,10 @@ def test_so_are_a_scene_s_own_springs(name, tmp_path):
     (tmp_path / "measured.csv").write_text(FILE, encoding="utf-8")
     for options in ({}, {"calibration": "van-gelder"}, {"k": 550.0}):
         if words >= options.keys() and not (name == "live" and options):  # whose grid is the slider's
-            with pytest.raises(Used) as asked:
+            with pytest.raises(Used) as used:
                 ask(str(tmp_path / "own.toml"), tmp_path, **options)
             expected = resolve(scene, Lattice(**options), own=name not in ANEW).springs
-            assert constants(asked) == constants(expected), options
+            assert constants(used) == constants(expected), options
             assert tuple(expected.grid) == (4, 6, 2)
 
 

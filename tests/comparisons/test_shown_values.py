@@ -9,7 +9,6 @@ from matplotlib.pyplot import subplots
 
 import fem_reference
 import lumped
-from comparisons.advice import trials
 from comparisons.cli import modes
 from comparisons.models.spec import spec_of
 from comparisons.modes.spectra import spectra
@@ -17,6 +16,7 @@ from comparisons.modes.state_space import Linearisation
 from comparisons.reproduction import figure, nearest
 from comparisons.stability import tiles as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure
+from comparisons.tradeoff import trials
 from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from lumped.calibration.tables import moduli
@@ -51,8 +51,8 @@ def test_time_is_predicted_by_the_models_own_family():
     shell, plate = (spec_of(model, {"elements": [8, 8]}) for model in ("shell", "plate"))
     took = ((lattice(5), 0.001), (shell, 0.1), (lattice(9), 0.008))
     rows = {one: SimpleNamespace(ask=SimpleNamespace(spec=one), seconds=seconds) for one, seconds in took}
-    asked = (shell, lattice(17), shell.but(count=(16, 16)), plate)
-    found = [trials.TrialSolves.predicted_seconds(SimpleNamespace(rows=rows), one) for one in asked]
+    models = (shell, lattice(17), shell.but(count=(16, 16)), plate)
+    found = [trials.TrialSolves.predicted_seconds(SimpleNamespace(rows=rows), one) for one in models]
     # as measured; 8 times as long for 4 times the cells; by the usual power of one; by the unknowns alone
     assert found == pytest.approx([0.1, 0.064, 0.1 * 4**trials.EXPONENT, trials.unknowns(plate) * 1e-5])
 
@@ -83,8 +83,8 @@ def test_a_front_without_a_bar_has_every_row_that_errs_less_for_more_time():
 
 
 def test_unless_told_otherwise_functions_and_commands_ask_for_as_many_modes():
-    asked = (spectra, lumped.modes, fem_reference.modes, modes.command)
-    assert [signature(call).parameters["count"].default for call in asked] == [10] * 4
+    calls = (spectra, lumped.modes, fem_reference.modes, modes.command)
+    assert [signature(call).parameters["count"].default for call in calls] == [10] * 4
 
 
 def test_a_pole_is_shown_in_hertz_and_its_damping_in_percent():

@@ -1,4 +1,4 @@
-"""Sizes told before anything is built: near what is measured, and a refusal where they do not fit."""
+"""Sizes predicted before anything is built: near what is measured, and a refusal where they do not fit."""
 
 import json
 import subprocess
@@ -13,12 +13,12 @@ from comparisons.external import memory
 from comparisons.models import sizes
 from comparisons.models.spec import spec_of
 from comparisons.pictures import amounts
-from comparisons.runs.campaign import campaign
+from comparisons.sweep.campaign import campaign
 from comparisons.tradeoff.statics import tradeoff
 from fem_reference.footprint import footprint as of_reference
 from sheetbench import scenes
+from sheetbench.answers.size import factors
 from sheetbench.errors import BadInput
-from sheetbench.scenes.size import factors
 
 GB = 10**9
 SCENE = "two-edges-clamped"
@@ -40,7 +40,7 @@ PEAK = """
 import json, sys
 import sheetbench as sb
 from comparisons.models.solve import warm
-from comparisons.runs.peak_memory import with_peak_memory
+from comparisons.sweep.peak_memory import with_peak_memory
 from sheetbench.heap import keep_freed_memory
 
 keep_freed_memory()  # as the command line does
@@ -52,17 +52,17 @@ print(with_peak_memory(lambda: sb.solve("two-edges-clamped", model, **settings))
 
 def test_peaks_are_within_a_factor_of_two_of_what_is_told():
     """In processes of their own, above what the code takes."""
-    asked = {"lumped": {"grid": [33, 33, 2]}, "shell": {"elements": 20}}
+    settings_of = {"lumped": {"grid": [33, 33, 2]}, "shell": {"elements": 20}}
     running = {
         model: subprocess.Popen(
             [sys.executable, "-c", PEAK, model, json.dumps(settings)], stdout=subprocess.PIPE, text=True
         )
-        for model, settings in asked.items()
+        for model, settings in settings_of.items()
     }
     for model, process in running.items():
         peak = int(process.communicate()[0])
-        told = sizes.size(scenes.load(SCENE), spec_of(model, asked[model]))
-        assert told is not None and 0.5 < told.memory / peak < 2.0
+        predicted = sizes.size(scenes.load(SCENE), spec_of(model, settings_of[model]))
+        assert predicted is not None and 0.5 < predicted.memory / peak < 2.0
 
 
 def test_sizes_grow_with_every_count():
@@ -92,15 +92,15 @@ def test_a_strip_is_banded_and_a_square_dissected():
 
 
 def test_a_grid_of_six_gigabytes_needs_a_machine_that_has_them(monkeypatch):
-    scene, asked = scenes.load(SCENE), spec_of("lumped", {"grid": 257})
+    scene, spec = scenes.load(SCENE), spec_of("lumped", {"grid": 257})
     room(monkeypatch, 16 * GB)
-    sizes.require_room(scene, asked)
+    sizes.require_room(scene, spec)
     room(monkeypatch, 4 * GB)
     with pytest.raises(
         BadInput, match=r"lumped 257x257x2: 396 294 unknowns take about .* GB of memory"
-    ) as told:
-        sizes.require_room(scene, asked)
-    fitting = int(str(told.value).split("--lumped ")[1].split()[0])
+    ) as predicted:
+        sizes.require_room(scene, spec)
+    fitting = int(str(predicted.value).split("--lumped ")[1].split()[0])
     sizes.require_room(scene, spec_of("lumped", {"grid": fitting}))
     with pytest.raises(BadInput):
         sizes.require_room(scene, spec_of("lumped", {"grid": fitting + 1}))
@@ -135,7 +135,7 @@ def test_every_candidate_is_looked_at_before_the_first_run(tmp_path, monkeypatch
         with pytest.raises(BadInput, match=r"solid 64x64x1: .*--solid \d+ would fit"):
             tradeoff(scene, listed, store, reference=judge, pool=pytest.fail)
         with pytest.raises(BadInput, match=r"shell 128x128: .*--elements \d+ would fit"):
-            tradeoff(scene, [spec_of("shell", {"elements": 64})], store, large=False, pool=pytest.fail)
+            tradeoff(scene, [spec_of("shell", {"elements": 64})], store, pool=pytest.fail)
 
 
 MEASURED = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"
@@ -171,6 +171,7 @@ def test_every_verb_refuses_what_does_not_fit(verb, arguments, capsys):
     assert "of memory, and 0.001 MB are free here" in said and "--large" in said
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("verb", ["compare", "compare motions", "identify", "modes", "simulate"])
 def test_large_goes_on_all_the_same(verb, arguments, capsys):
     assert json_of(capsys, verb.partition(" ")[0], *arguments, "--large")

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from commands import one_line, run
 
-from comparisons.runs.folder import Folder
+from comparisons.sweep.folder import Folder
 from sheetbench.answers.files import folder
 from sheetbench.answers.report import Report
 from sheetbench.files import only_writer, require_file, whole, writing
@@ -64,18 +64,18 @@ def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path):
 
 @pytest.mark.parametrize("kind", ["link", "folder", "pipe"])
 @pytest.mark.parametrize(
-    "asked",
+    "arguments",
     [("report", "{folder}", "--out", "{file}"), ("new", "{file}", "--overwrite")],
-    ids=lambda asked: asked[0],
+    ids=lambda arguments: arguments[0],
 )
-def test_verbs_that_write_one_file_replace_no_other_kind(tmp_path, capsys, asked, kind):
-    name = "page.html" if asked[0] == "report" else "page.toml"
+def test_verbs_that_write_one_file_replace_no_other_kind(tmp_path, capsys, arguments, kind):
+    name = "page.html" if arguments[0] == "report" else "page.toml"
     studies, path = tmp_path / "studies", tmp_path / "pages" / name
     Folder(studies, "modes", ["sheetbench", "modes"]).report(Report("modes", "t", {}))
     path.parent.mkdir()
     stand(path, kind)
     before = path.lstat()
-    assert run(*(word.format(folder=studies, file=path) for word in asked)) == 2
+    assert run(*(word.format(folder=studies, file=path) for word in arguments)) == 2
     assert f"{path}: cannot be written, a " in one_line(capsys)
     assert path.lstat() == before and [found.name for found in path.parent.iterdir()] == [name]
 

@@ -7,7 +7,8 @@ from rod_cases import driven, shell
 
 import fem_reference
 import lumped
-from sheetbench.scenes import EdgeMotion, Gravity, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import EdgeMotion, Gravity
 
 
 def motion(displacement, rotation, edge="x1"):

@@ -11,7 +11,8 @@ import pytest
 import fem_reference
 import lumped
 from comparisons.comparison.branches import shape
-from sheetbench.scenes import Curved, Gravity, Material, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Curved, Gravity, Material, Scene, Sheet
 
 LIMIT, AT_LIMIT = 0.7645, -15.1e-3  # shares of the weight, and uz at P3 [m], by CalculiX
 SHARES = (0.0, 0.4, 0.65, 0.74, 0.995 * LIMIT, 1.005 * LIMIT)

@@ -10,8 +10,9 @@ from numpy.testing import assert_allclose
 import fem_reference
 import lumped
 from sheetbench import scenes
-from sheetbench.scenes import Chain, Clamped, Curved, EdgeMotion, Held, Hinged, Scene, Status, Symmetric
-from sheetbench.scenes.supports import Motion
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Chain, Clamped, Curved, EdgeMotion, Held, Hinged, Scene, Symmetric
+from sheetbench.scenes.objects.supports import Motion
 
 WEIGHT = 9.81 * 1200.0 * 0.005 * 0.2 * 0.1
 CORNER = (0.2, 0.0)
@@ -28,17 +29,17 @@ def chain(**changes):
     return Chain(**{**data, **changes})
 
 
-def scene(supports, *actuators, gravity=GRAVITY):
+def make_scene(supports, *actuators, gravity=GRAVITY):
     return Scene(
         name="corner", sheet=OBLONG, material=SILICONE, gravity=gravity, support=supports, actuator=actuators
     )
 
 
-def solve(asked, model, elements=(12, 6), grid=(21, 11)):
+def solve(scene, model, elements=(12, 6), grid=(21, 11)):
     if model == "lumped":
-        found = lumped.solve(asked, lumped.calibrate(OBLONG, SILICONE, grid))
+        found = lumped.solve(scene, lumped.calibrate(OBLONG, SILICONE, grid))
     else:
-        found = fem_reference.solve(asked, model=model, elements=elements)
+        found = fem_reference.solve(scene, model=model, elements=elements)
     assert found.status is Status.CONVERGED, found.message
     return found
 
@@ -60,9 +61,10 @@ COMPATIBLE = {
 def answer(name, model):
     """Of a compatible case: what several tests look at."""
     supports, *actuators = COMPATIBLE[name]
-    return solve(scene(supports, *actuators), model)
+    return solve(make_scene(supports, *actuators), model)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", COMPATIBLE)
 def test_models_agree_where_both_can_be_obeyed(name):
     """Within 1 % of the largest displacement; the moved edge is where it was put, corners included."""
@@ -84,10 +86,10 @@ def test_the_plate_is_their_limit_of_small_motions(name):
         displacement=tuple(1e-4 * np.array(one.displacement[0])),
         rotation=tuple(1e-4 * np.array(one.rotation[0])),
     )
-    asked = scene(supports, small, gravity=None)
+    scene = make_scene(supports, small, gravity=None)
     points = np.random.default_rng(3).uniform(0.0, 1.0, (60, 2)) * OBLONG.lengths
-    truth = solve(asked, "shell").displacement(points)
-    plate = solve(asked, "plate")
+    truth = solve(scene, "shell").displacement(points)
+    plate = solve(scene, "plate")
     assert np.abs(plate.displacement(points) - truth)[:, 2].max() < 1e-3 * np.abs(truth).max()
     total = sum(plate.reactions[s.edge] for s in supports) + plate.actuators["x1"][0, :3]
     assert_allclose(total, 0.0, atol=1e-9 * np.abs(plate.actuators["x1"]).max())
@@ -97,7 +99,7 @@ def test_the_plate_is_their_limit_of_small_motions(name):
 def test_a_chain_goes_where_the_corner_goes_in_whatever_order(model):
     bound, moved = chain(curvature=2.0), motion(displacement=LIFT)
     first, second = (
-        solve(scene((CLAMP,), *both), model, (4, 2), (9, 5)) for both in ((bound, moved), (moved, bound))
+        solve(make_scene((CLAMP,), *both), model, (4, 2), (9, 5)) for both in ((bound, moved), (moved, bound))
     )
     assert_allclose(
         first.displacement([CORNER, (0.1, 0.0)]), second.displacement([CORNER, (0.1, 0.0)]), atol=1e-9
@@ -113,9 +115,9 @@ def test_wrenches_are_about_the_middle_of_the_moved_edge():
 
     A balance, which holds on any mesh.
     """
-    asked = scene((), motion(displacement=(0.0, 0.03, 0.02), rotation=(0.0, np.pi / 2.0, 0.0)))
+    scene = make_scene((), motion(displacement=(0.0, 0.03, 0.02), rotation=(0.0, np.pi / 2.0, 0.0)))
     for model in ("lumped", "shell", "solid"):
-        wrench = solve(asked, model, (4, 2), (9, 5)).actuators["x1"][0]
+        wrench = solve(scene, model, (4, 2), (9, 5)).actuators["x1"][0]
         assert_allclose(wrench, [0.0, 0.0, WEIGHT, 0.0, 0.0, 0.0], atol=1e-3 * WEIGHT * 0.2, err_msg=model)
 
 
@@ -144,7 +146,7 @@ def test_wrenches_are_about_the_middle_of_the_moved_edge():
 )
 def test_what_cannot_both_be_obeyed_is_refused(supports, actuators, said):
     with pytest.raises(ValueError, match=said):
-        scene(supports, *actuators)
+        make_scene(supports, *actuators)
 
 
 def test_a_motion_is_looked_at_all_the_time():
@@ -153,7 +155,7 @@ def test_a_motion_is_looked_at_all_the_time():
     a_turn = {"time": (0.0, 1.0), "rotation": ((0, 0, 0), (2.0 * np.pi, 0, 0))}
     for table, at in ((there_and_back, "t = 1 s"), (a_turn, r"t = 0\.")):
         with pytest.raises(ValueError, match=at):
-            scene((CLAMP, Hinged(edge="y0")), EdgeMotion(kind="motion", edge="x1", **table))
+            make_scene((CLAMP, Hinged(edge="y0")), EdgeMotion(kind="motion", edge="x1", **table))
 
 
 def test_a_turn_about_the_corner_itself():
@@ -161,21 +163,21 @@ def test_a_turn_about_the_corner_itself():
     arm = np.array([0.0, -0.05])
     turned = np.array([[np.cos(0.4), -np.sin(0.4)], [np.sin(0.4), np.cos(0.4)]]) @ arm
     pose = (*(arm - turned), 0.0)
-    scene((Hinged(edge="y0"),), motion("x1", pose, (0.0, 0.0, 0.4)))
+    make_scene((Hinged(edge="y0"),), motion("x1", pose, (0.0, 0.0, 0.4)))
     table = {"time": (0.0, 1.0), "rotation": ((0, 0, 0), (0, 0, 0.4)), "displacement": ((0, 0, 0), pose)}
     with pytest.raises(ValueError, match=r"y by 0.000925 m at t = 0\.382 s"):
-        scene((Hinged(edge="y0"),), EdgeMotion(kind="motion", edge="x1", **table))
+        make_scene((Hinged(edge="y0"),), EdgeMotion(kind="motion", edge="x1", **table))
 
 
 def test_a_support_that_moves_counts_at_all_times_and_in_statics_where_it_ends():
     table = {"time": (0.0, 1.0, 2.0), "displacement": ((0, 0, 0), LIFT, (0, 0, 0))}
     moving = Clamped(edge="y0", motion=Motion(**table, interpolation="linear"))  # as the edge's
-    asked = scene((moving,), EdgeMotion(kind="motion", edge="x1", **table), gravity=None)
-    assert not lumped.solve(asked, lumped.calibrate(OBLONG, SILICONE, (5, 3))).displacement([CORNER]).any()
+    scene = make_scene((moving,), EdgeMotion(kind="motion", edge="x1", **table), gravity=None)
+    assert not lumped.solve(scene, lumped.calibrate(OBLONG, SILICONE, (5, 3))).displacement([CORNER]).any()
     with pytest.raises(ValueError, match=r"z by 0.01 m at t = 1 s"):
-        scene((CLAMP, Clamped(edge="y0")), *asked.actuators)
+        make_scene((CLAMP, Clamped(edge="y0")), *scene.actuators)
     stays = {"time": (0.0, 1.0), "displacement": ((0, 0, 0), LIFT)}
-    lifted = scene(
+    lifted = make_scene(
         (Clamped(edge="y0", motion=Motion(**stays)),),
         EdgeMotion(kind="motion", edge="x1", **stays),
         gravity=None,
@@ -190,17 +192,19 @@ def test_supports_that_move_their_corner_apart_are_refused():
         ValueError,
         match=r"clamped support on edge y0 moves .* support on edge x0 holds: z by 0.01 m at t = 1",
     ):
-        scene((CLAMP, Clamped(edge="y0", motion=table)))
-    scene((CLAMP.replace(motion=table), Clamped(edge="y0", motion=table)))
+        make_scene((CLAMP, Clamped(edge="y0", motion=table)))
+    make_scene((CLAMP.replace(motion=table), Clamped(edge="y0", motion=table)))
     sideways = Motion(time=(0.0, 1.0), displacement=((0, 0, 0), (0.01, 0, 0)))
-    scene((CLAMP, Held(edge="y0", components=("z",), motion=sideways)))  # along x it holds nothing
+    make_scene((CLAMP, Held(edge="y0", components=("z",), motion=sideways)))  # along x it holds nothing
 
 
 def test_in_dynamics_too_the_corner_follows_the_motion():
     table = {"time": (0.0, 0.02), "displacement": ((0.0, 0.0, 0.0), PULL)}
-    asked = scene((CLAMP, Held(edge="y0", components=("z",))), EdgeMotion(kind="motion", edge="x1", **table))
-    asked = asked.model_copy(update={"probes": {"corner": CORNER, "far": (0.2, 0.1)}})
-    run = lumped.simulate(asked, lumped.calibrate(OBLONG, SILICONE, (5, 3)), 0.02)
+    scene = make_scene(
+        (CLAMP, Held(edge="y0", components=("z",))), EdgeMotion(kind="motion", edge="x1", **table)
+    )
+    scene = scene.model_copy(update={"probes": {"corner": CORNER, "far": (0.2, 0.1)}})
+    run = lumped.simulate(scene, lumped.calibrate(OBLONG, SILICONE, (5, 3)), 0.02)
     for place in run.probes.values():
         assert_allclose(place[:, 0], 0.5 * run.time, atol=1e-12)
         assert_allclose(place[:, 1:], 0.0, atol=1e-12)
@@ -209,7 +213,7 @@ def test_in_dynamics_too_the_corner_follows_the_motion():
 def test_a_tilt_that_a_motion_forbids_is_not_sought():
     from comparisons.identification.unknowns import BadInput, unknown
 
-    asked = scene((Clamped(edge="y0"),), motion())
+    scene = make_scene((Clamped(edge="y0"),), motion())
     with pytest.raises(BadInput, match=r"allow no tilt.*x1"):
-        unknown(asked, "tilt_y0")
-    assert scenes.free_rigid_motions(asked) == []
+        unknown(scene, "tilt_y0")
+    assert scenes.free_rigid_motions(scene) == []

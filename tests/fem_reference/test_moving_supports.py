@@ -6,8 +6,9 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
-from sheetbench.scenes import Clamped, EdgeMotion, Gravity, Held, Hinged, Material, Scene, Sheet, Status
-from sheetbench.scenes.supports import Motion
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, EdgeMotion, Gravity, Held, Hinged, Material, Scene, Sheet
+from sheetbench.scenes.objects.supports import Motion
 
 SHEET = Sheet(length_x=0.1, length_y=0.04, thickness=0.002)
 RUBBER = Material(young=1e6, poisson=0.3, density=1100.0)
@@ -18,18 +19,18 @@ POINTS = np.array([(0.05, 0.02), (0.1, 0.0), (0.02, 0.04)])
 MODELS = ["lumped", "plate", "shell", "solid"]
 
 
-def scene(*supports, actuators=(), gravity=WEIGHT):
+def make_scene(*supports, actuators=(), gravity=WEIGHT):
     return Scene(
         name="moved", sheet=SHEET, material=RUBBER, gravity=gravity, supports=supports, actuators=actuators
     )
 
 
-def solve(asked, model):
+def solve(scene, model):
     if model == "lumped":
         springs = lumped.calibrate(SHEET, RUBBER, grid=(11, 5), method="consistent")
-        found = lumped.solve(asked, springs)
+        found = lumped.solve(scene, springs)
     else:
-        found = fem_reference.solve(asked, model=model, elements=2)
+        found = fem_reference.solve(scene, model=model, elements=2)
     assert found.status is Status.CONVERGED, found.message
     return found
 
@@ -37,9 +38,9 @@ def solve(asked, model):
 @pytest.mark.parametrize("model", MODELS)
 def test_a_clamp_that_moves_is_an_edge_moved_rigidly(model):
     still = Clamped(edge="x0")
-    moved = solve(scene(still, Clamped(edge="x1", motion=Motion(**COURSE))), model)
+    moved = solve(make_scene(still, Clamped(edge="x1", motion=Motion(**COURSE))), model)
     edge = EdgeMotion(kind="motion", edge="x1", **COURSE)
-    same = solve(scene(still, actuators=(edge,)), model)
+    same = solve(make_scene(still, actuators=(edge,)), model)
     assert_allclose(moved.displacement(POINTS)[1], LIFT, atol=1e-12)
     assert_allclose(moved.displacement(POINTS), same.displacement(POINTS), atol=1e-10)
     assert_allclose(moved.reactions["x1"], same.reactions["x1"], rtol=1e-6, atol=1e-9)
@@ -52,8 +53,8 @@ def test_sheets_and_all_their_supports_move_as_one(model):
     free_along = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.5, 0.5, 0.004)))
     supports = (Hinged(edge="x0", motion=along), Held(edge="x1", components=("z",), motion=free_along))
     light = Gravity(acceleration=(0.0, 0.0, -0.981))  # the plate's slopes stay below 1
-    still = solve(scene(Hinged(edge="x0"), Held(edge="x1", components=("z",)), gravity=light), model)
-    moved = solve(scene(*supports, gravity=light), model)
+    still = solve(make_scene(Hinged(edge="x0"), Held(edge="x1", components=("z",)), gravity=light), model)
+    moved = solve(make_scene(*supports, gravity=light), model)
     expected = still.displacement(POINTS) + np.array([0.003, 0.0, 0.004])
     assert_allclose(moved.displacement(POINTS), expected, atol=1e-8)
 
@@ -62,10 +63,12 @@ def test_a_run_that_settles_ends_where_statics_are():
     """The hinge's corner masses, held by a clamp that moves alike, are moved once."""
     rise = Motion(time=(0.0, 0.05), displacement=((0.0, 0.0, 0.0), LIFT))
     damped = RUBBER.replace(damping_time=0.02)
-    asked = scene(Clamped(edge="x0", motion=rise), Hinged(edge="y0", motion=rise)).replace(material=damped)
-    asked = asked.replace(probes={"P": (0.1, 0.04), "corner": (0.0, 0.0)})
+    scene = make_scene(Clamped(edge="x0", motion=rise), Hinged(edge="y0", motion=rise)).replace(
+        material=damped
+    )
+    scene = scene.replace(probes={"P": (0.1, 0.04), "corner": (0.0, 0.0)})
     springs = lumped.calibrate(SHEET, damped, grid=(7, 3), method="consistent")
-    run = lumped.simulate(asked, springs, 1.5, every=0.5, integrator="esdirk")
+    run = lumped.simulate(scene, springs, 1.5, every=0.5, integrator="esdirk")
     assert_allclose(run.probes["corner"][-1], LIFT, atol=1e-12)
-    rest = lumped.solve(asked, springs).displacement([(0.1, 0.04)])[0]
+    rest = lumped.solve(scene, springs).displacement([(0.1, 0.04)])[0]
     assert_allclose(run.probes["P"][-1], rest, atol=1e-4 * np.abs(rest).max())

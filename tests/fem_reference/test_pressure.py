@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from dynamic_cases import scene
+from dynamic_cases import make_scene
 from lattice_cases import derivative
 
 import fem_reference
@@ -11,8 +11,9 @@ from fem_reference.discrete.static import Static
 from fem_reference.shell.statics import discretise
 from fem_reference.solid import statics as solid
 from fem_reference.surface.mesh import mesh_of
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.direct import SymmetricPartFactor
-from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Status
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet
 
 EDGES = ("x0", "x1", "y0", "y1")
 CLAMPED = [{"edge": edge, "kind": "clamped"} for edge in EDGES]
@@ -25,11 +26,13 @@ FREE = [{"edge": edge, "kind": "clamped"} for edge in EDGES[:3]]
 
 def pressed(supports, value=300.0, **material):
     """The catalogue's sheet under pressure alone."""
-    return scene(supports=supports, loads=[{"kind": "pressure", "value": value}], gravity=False, **material)
+    return make_scene(
+        supports=supports, loads=[{"kind": "pressure", "value": value}], gravity=False, **material
+    )
 
 
-def problem_of(asked, grid=(4, 5, 2)):
-    return lumped.build_problem(asked, lumped.calibrate(asked.sheet, asked.material, grid=grid))
+def problem_of(scene, grid=(4, 5, 2)):
+    return lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid))
 
 
 def bent(problem, seed=0):
@@ -93,10 +96,10 @@ def test_on_a_free_edge_the_tangent_is_unsymmetric_and_solved_with_its_symmetric
 
 @pytest.mark.parametrize("supports", [CLAMPED, HINGED, FREE], ids=["clamped", "hinged", "free"])
 def test_lattice_and_shell_agree_under_pressure(supports):
-    asked = pressed(supports)
+    scene = pressed(supports)
     points = np.array([[0.094, 0.094], [0.094, 0.15], [0.188, 0.188]])
-    found = lumped.solve(asked, lumped.calibrate(asked.sheet, asked.material, grid=(17, 17)))
-    truth = fem_reference.solve(asked, "shell", elements=8)
+    found = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(17, 17)))
+    truth = fem_reference.solve(scene, "shell", elements=8)
     assert found.status is truth.status is Status.CONVERGED
     assert ("unsymmetric" in found.message) == (supports is FREE)
     miss = np.abs(found.displacement(points) - truth.displacement(points)).max()
@@ -105,8 +108,8 @@ def test_lattice_and_shell_agree_under_pressure(supports):
 
 @pytest.mark.parametrize("supports, symmetric", [(CLAMPED, True), (ACROSS, True), (FREE, False)])
 def test_the_shells_tangent_is_symmetric_where_its_pressure_has_a_potential(supports, symmetric):
-    asked = pressed(supports)
-    sheet = discretise(mesh_of(asked, (3, 2)), asked)
+    scene = pressed(supports)
+    sheet = discretise(mesh_of(scene, (3, 2)), scene)
     structure = Static(sheet)
     assert structure.symmetric is symmetric
     state = structure.rest()
@@ -132,9 +135,9 @@ def arch(value):
 @pytest.mark.parametrize("value, side", [(400.0, -1.0), (1000.0, 1.0)], ids=["held", "through"])
 def test_an_arch_is_pressed_through_in_lattice_and_shell(value, side):
     """Their paths go past folds and end at stable shapes: the inertia and the energy of a pressure tell."""
-    asked, middle = arch(value), np.array([[0.094, 0.094]])
-    lattice = lumped.solve(asked, lumped.calibrate(asked.sheet, asked.material, grid=(13, 3)))
-    shell = fem_reference.solve(asked, "shell", elements=(8, 2))
+    scene, middle = arch(value), np.array([[0.094, 0.094]])
+    lattice = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(13, 3)))
+    shell = fem_reference.solve(scene, "shell", elements=(8, 2))
     assert lattice.status is shell.status is Status.CONVERGED
     heights = [side * found.displacement(middle)[0, 2] for found in (lattice, shell)]
     assert min(heights) > 0.01 and heights[0] == pytest.approx(heights[1], rel=0.1)

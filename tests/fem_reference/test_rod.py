@@ -12,7 +12,8 @@ from fem_reference.surface.actuator_forces import by_segment
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification import heavy_elastica
 from sheetbench import scenes
-from sheetbench.scenes import Gravity, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Gravity
 
 
 @pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])
@@ -94,6 +95,7 @@ def test_a_rod_on_a_face_stretches_the_edge(face):
     np.testing.assert_allclose(far, expected, atol=2e-4)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", CHAINS)
 def test_agrees_with_a_chain_of_many_segments_on_a_fine_lattice(name):
     """Two derivations that share nothing; what is left is the lattice's and the chain's discretisation."""

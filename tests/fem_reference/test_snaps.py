@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from one_unknown import Spring
 
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.path import LoadStepFailed
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import Status
 
 pytestmark = pytest.mark.smoke
 

@@ -7,6 +7,7 @@ from dynamic_cases import springs
 
 import fem_reference
 import lumped
+from sheetbench.answers.solution import Status
 from sheetbench.scenes import (
     Clamped,
     EdgeLoad,
@@ -14,7 +15,6 @@ from sheetbench.scenes import (
     Gravity,
     Material,
     Scene,
-    Status,
     outside_model,
     weight_strain,
 )

@@ -8,13 +8,13 @@ import pytest
 
 import fem_reference
 from comparisons.comparison.comparison import compare
-from comparisons.models.spec import Elements
+from comparisons.models.spec import Elements, Lattice
 from comparisons.sweep import here as table
 from fem_reference.edge_layer import Missed, missed_by
 from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
-from sheetbench.scenes import Status
+from sheetbench.answers.solution import Status
 
 SIZES = [1 / 16, 1 / 12, 1 / 8]
 
@@ -125,8 +125,10 @@ def test_misuse(count, sizes):
 
 def test_meshes():
     assert coarser(16) == [16, 12, 8] and coarser(2) == [2, 1] and coarser(1) == [1]
+    assert coarser((16, 40)) == [(16, 40), (12, 30), (8, 20)]
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("name", "model"),
     [
@@ -177,7 +179,7 @@ def by_mesh(monkeypatch):
 @pytest.mark.parametrize(("lumped", "told_apart"), [(-0.0100, False), (-0.0101, True)])
 def test_compare_says_what_its_mesh_cannot_tell_apart(by_mesh, lumped, told_apart):
     by_mesh["lumped"] = lumped
-    found = compare("one-edge-clamped", calibration="consistent", elements=8)
+    found = compare("one-edge-clamped", Lattice(calibration="consistent"), elements=8)
     assert found.bar is not None
     layer = missed_by(found.scene, {"elements": 8}).stiffening
     assert 1.35 * 0.08 / 64 < 1.0001 * found.bar.error < 1.35 * (0.08 / 64 + 0.3 * layer)
@@ -194,14 +196,14 @@ def test_compare_says_what_its_mesh_cannot_tell_apart(by_mesh, lumped, told_apar
 
 
 def test_it_is_off_when_not_wanted_and_for_the_solid_unless_wanted(by_mesh):
-    def asked(**settings):
-        return compare("one-edge-clamped", calibration="consistent", **settings).bar is not None
+    def wanted(**settings):
+        return compare("one-edge-clamped", Lattice(calibration="consistent"), **settings).bar is not None
 
-    assert asked() and asked(reference="plate")
-    assert not asked(uncertainty=False)
-    assert not asked(reference="solid") and asked(reference="solid", uncertainty=True)
-    assert not asked(elements=1)
-    without = compare("one-edge-clamped", calibration="consistent", uncertainty=False)
+    assert wanted() and wanted(reference="plate")
+    assert not wanted(uncertainty=False)
+    assert not wanted(reference="solid") and wanted(reference="solid", uncertainty=True)
+    assert not wanted(elements=1)
+    without = compare("one-edge-clamped", Lattice(calibration="consistent"), uncertainty=False)
     assert "uncertainty" not in without.document()["solutions"][1]
     assert {d.distinguishable for d in without.differences} == {None}
 

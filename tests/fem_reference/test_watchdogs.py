@@ -14,12 +14,13 @@ from lumped.dynamics.runs.observer import LatticeObserver
 from lumped.dynamics.system import State
 from lumped.statics import faults
 from lumped.statics.solver import build_problem
+from sheetbench.answers.solution import Status
 from sheetbench.runs.columns import width
 from sheetbench.runs.run import Run
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import MemoryStore
 from sheetbench.runs.watch import Watch
-from sheetbench.scenes import EdgeLoad, Status
+from sheetbench.scenes import EdgeLoad
 from studies.stability.scenes import sheet
 
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not
@@ -78,6 +79,7 @@ def test_a_number_out_of_range_is_told_with_its_place(problem):
     assert fault is not None and fault.status is Status.NON_FINITE and "x = 0.188 m" in fault.message
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("share", [1.0, 5.0, 50.0])
 def test_a_crushed_sheet_ends_in_a_status(share):
     scene = pressed(share)

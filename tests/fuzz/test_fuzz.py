@@ -1,4 +1,4 @@
-"""Whatever is asked: an exit status, words and numbers as documented, and no file but where it was requested.
+"""An exit status, words and numbers as documented, and no file but where it was requested.
 
 A few hundred examples, the same ones every time; `make fuzz` draws 24 000 others (`fuzz.long`).
 """
@@ -56,14 +56,14 @@ def test_a_scene_of_shapes_is_refused_or_solved_in_balance(folder, data):
 
 
 @tries(30)
-@given(asked=command_lines())
-def test_a_command_line_is_obeyed_or_refused(folder, asked):
+@given(arguments=command_lines())
+def test_a_command_line_is_obeyed_or_refused(folder, arguments):
     place = folder / "commands"
     place.mkdir(exist_ok=True)
-    trials.obeys(place, asked)
+    trials.obeys(place, arguments)
 
 
 @tries(30)
-@given(asked=measured())
-def test_a_measured_file_is_read_or_refused(folder, asked):
-    trials.measures(folder, asked)
+@given(example=measured())
+def test_a_measured_file_is_read_or_refused(folder, example):
+    trials.measures(folder, example)

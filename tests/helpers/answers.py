@@ -4,11 +4,11 @@ from collections.abc import Callable
 from typing import Any
 
 from comparisons.models.resolve import Resolved
-from sheetbench.scenes import Solution
+from sheetbench.answers.solution import Solution
 
 
 def once(ask: Callable[..., Solution]) -> Callable[..., Solution]:
-    """A question that was answered before has the same answer, whoever is told of its progress."""
+    """A question that was answered before has the same answer, whoever follows its progress."""
     answers: dict[str, Solution] = {}
 
     def answer(model: Resolved[Any], *name: str) -> Solution:

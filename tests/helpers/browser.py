@@ -34,10 +34,10 @@ class Watch:
 
     def __init__(self, page: Any) -> None:
         self.said: list[str] = []
-        self.asked: list[str] = []
+        self.requests: list[str] = []
         page.on("console", lambda m: self.said.append(m.text) if m.type in ("error", "warning") else None)
         page.on("pageerror", lambda error: self.said.append(str(error)))
-        page.on("request", lambda request: self.asked.append(request.url))
+        page.on("request", lambda request: self.requests.append(request.url))
 
     @property
     def troubles(self) -> list[str]:

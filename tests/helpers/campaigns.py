@@ -9,8 +9,8 @@ from concurrent.futures import Executor, Future
 from pathlib import Path
 from typing import Any
 
-from comparisons.runs.campaign import Run
 from comparisons.stability import extremes
+from comparisons.sweep.campaign import Run
 
 
 def task(name: str, **arguments: object) -> Run:

@@ -12,7 +12,8 @@ from typing import Any
 import fem_reference
 import lumped
 from sheetbench import scenes
-from sheetbench.scenes import Scene, Solution
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import Scene
 
 FILE = Path(__file__).with_name("catalogue.json")
 GRID, ELEMENTS = 5, 4
@@ -47,8 +48,11 @@ CASES = [
 
 def answer(name: str, model: str) -> dict[str, Any]:
     """Status and the probes' displacements [m] of a scene by a model."""
-    scene = scenes.load(name)
-    found = MODELS[model](scene)
+    return document(scenes.load(name), MODELS[model](scenes.load(name)))
+
+
+def document(scene: Scene, found: Solution) -> dict[str, Any]:
+    """Status and the probes' displacements [m] of a solution."""
     displacement = found.displacement(scene.probe_points()).round(DIGITS).tolist()
     return {"status": str(found.status), "displacement": dict(zip(scene.probes, displacement, strict=True))}
 

@@ -2,7 +2,7 @@
 
     python tests/helpers/drawn_obstacles.py [COUNT] [FIRST]
 
-prints a line a fault; nothing is asked of a solver that says it has found no equilibrium.
+prints a line a fault; a solver that reports no equilibrium is not judged.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from collections import Counter
 import numpy as np
 
 import lumped
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
 from sheetbench.scenes import (
     Clamped,
@@ -28,12 +29,10 @@ from sheetbench.scenes import (
     Scene,
     SceneError,
     Sheet,
-    Solution,
     Sphere,
-    Status,
 )
 
-INSIDE = 4  # points a side of a cell, that the sheet is looked at in
+INSIDE = 8  # points a side of a cell, that the sheet is looked at in
 
 
 def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
@@ -45,10 +44,11 @@ def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
     kind = Clamped if rng.random() < 0.7 else Hinged
     if len(held) == 1:
         kind = Clamped
-    depth = rng.uniform(0.0, 0.25) * long
+    depth = rng.uniform(0.0, 0.1) * long
     at = [*(rng.uniform(0.2, 0.9, 2) * lengths), 0.0]
     thickness = 10 ** rng.uniform(-2.7, -1.7) * short
-    radius = 10 ** rng.uniform(-1.3, 0.0) * short
+    cells = int(rng.integers(4, 13))  # along the shorter side
+    radius = max(10 ** rng.uniform(-0.6, 1.0) * short / cells, 0.07 * short / cells)
     below = [at[0], at[1], -depth - radius - thickness / 2]
     turn, lean = rng.uniform(0.0, np.pi), rng.uniform(-0.3, 0.3, 2)
     obstacle = [
@@ -58,34 +58,42 @@ def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
             position=tuple(below), axis=(np.cos(turn), np.sin(turn), 0.0), radius=radius, **more
         ),
         lambda **more: Cylinder(position=tuple(below), axis=(0.0, 1.0, 0.0), radius=radius, **more),
-    ][rng.integers(4)]
-    rise = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, float(0.5 * depth))))
+    ][rng.choice(4, p=(0.1, 0.4, 0.25, 0.25))]
+    up = float(depth + rng.uniform(0.0, 0.1) * long)  # into the sheet as it is flat
+    rise = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, up)))
     push = PointLoad(
         at=tuple(rng.uniform(0.3, 1.0, 2) * lengths), force=(0.0, 0.0, -float(10 ** rng.uniform(-3, -0.5)))
     )
+    heavy = 10 ** rng.uniform(0.0, 2.7)  # ρ g h L³/B, that a strip hangs straight down of from 50 on
     scene = Scene(
         name=f"drawn {number}",
         sheet=Sheet(length_x=lengths[0], length_y=lengths[1], thickness=thickness),
-        material=Material(young=10 ** rng.uniform(5.7, 7.5), poisson=rng.uniform(0.0, 0.48), density=1100.0),
+        material=Material(
+            young=12.0 * 1100.0 * 9.81 * long**3 / (heavy * thickness**2),
+            poisson=rng.uniform(0.0, 0.48),
+            density=1100.0,
+        ),
         gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
         supports=tuple(kind(edge=edge) for edge in held),
-        loads=(push,) if rng.random() < 0.4 else (),
-        obstacles=(obstacle(**({"motion": rise} if rng.random() < 0.3 else {})),),
+        loads=(push,) if rng.random() < 0.3 else (),
+        obstacles=(obstacle(**({"motion": rise} if rng.random() < 0.4 else {})),),
     )
-    cells = rng.integers(4, 13)
     grid = tuple(max(3, round(cells * length / short) + 1) for length in lengths)
     return scene, (min(grid[0], 33), min(grid[1], 33), 2)
 
 
 def surface(solution: Solution, grid: tuple[int, int, int], scene: Scene) -> np.ndarray:
-    """Return places (m, n, 3) of points INSIDE a cell on the deformed mid-surface."""
-    axes = [
-        np.linspace(0.0, length, INSIDE * (n - 1) + 1)
-        for length, n in zip(scene.sheet.lengths, grid, strict=False)
-    ]
+    """Return places (m, n, 3) of points INSIDE a cell on the deformed mid-surface, straight between
+    masses."""
+    axes = [np.linspace(0.0, length, n) for length, n in zip(scene.sheet.lengths, grid, strict=False)]
     x, y = np.meshgrid(*axes, indexing="ij")
     plan = np.column_stack([x.ravel(), y.ravel()])
-    return (np.column_stack([plan, np.zeros(len(plan))]) + solution.displacement(plan)).reshape(*x.shape, 3)
+    masses = np.column_stack([plan, np.zeros(len(plan))]) + solution.displacement(plan)
+    within = [np.linspace(0.0, n - 1.0, INSIDE * (n - 1) + 1) for n in grid[:2]]
+    along_x, along_y = (
+        np.maximum(0.0, 1.0 - np.abs(at[:, None] - np.arange(n))) for at, n in zip(within, grid, strict=False)
+    )
+    return np.einsum("ai,bj,ijk->abk", along_x, along_y, masses.reshape(*x.shape, 3))
 
 
 def crossings(places: np.ndarray, start: np.ndarray, way: float) -> int:
@@ -104,20 +112,34 @@ def crossings(places: np.ndarray, start: np.ndarray, way: float) -> int:
     return found
 
 
+def sunk(scene: Scene, grid: tuple[int, int, int], places: np.ndarray) -> tuple[float, float]:
+    """Return how deep the surface is in the obstacle [m], and how deep it may be: between points that lie on
+    a ball of radius R, two of them √2 d apart, a straight line is d²/4R deep at most, twice that with what
+    the points themselves give; and a tenth of the thickness."""
+    (obstacle,) = scene.obstacles
+    centre = np.array(obstacle.position) + obstacle.displacement(1.0)
+    half = 0.5 * scene.sheet.thickness
+    if isinstance(obstacle, Plane):
+        return half - float(((places - centre) @ obstacle.direction).min()), 0.2 * half
+    across = np.eye(3) - np.outer(obstacle.direction, obstacle.direction)
+    reach = np.linalg.norm((places - centre) @ across, axis=2).min()
+    cells = [length / (n - 1) for length, n in zip(scene.sheet.lengths, grid, strict=False)]
+    apart = min(0.5 * obstacle.radius, 0.5 * max(cells))
+    return obstacle.radius + half - float(reach), apart**2 / (2.0 * obstacle.radius) + 0.2 * half
+
+
 def fault(scene: Scene, grid: tuple[int, int, int], solution: Solution) -> str:
     """Return what is wrong with an answer, "" for nothing."""
     if solution.status not in (Status.CONVERGED, Status.UNSTABLE) or solution.load_factor < 1.0:
         return ""
     places, (obstacle,) = surface(solution, grid, scene), scene.obstacles
-    centre = np.array(obstacle.position) + obstacle.displacement(1.0)
-    half = 0.5 * scene.sheet.thickness
+    rim = INSIDE // 4  # beyond the last points of a free edge, a quarter of a cell, a mass may sink
+    deep, allowed = sunk(scene, grid, places[rim:-rim, rim:-rim])
+    if deep > allowed:
+        return f"the surface is {deep:.3g} m deep in it, and may be {allowed:.3g} m"
     if isinstance(obstacle, Plane):
-        deepest = half - float(((places[::INSIDE, ::INSIDE] - centre) @ obstacle.direction).min())
-        return f"{deepest:.3g} m below the plane" if deepest > 0.1 * half else ""
-    across = np.eye(3) - np.outer(obstacle.direction, obstacle.direction)
-    reach = np.linalg.norm((places - centre) @ across, axis=2).min()
-    if reach < 0.7 * obstacle.radius:
-        return f"a point is {reach:.3g} m from the middle, of radius {obstacle.radius:.3g} m"
+        return ""
+    centre = np.array(obstacle.position) + obstacle.displacement(1.0)
     held = {support.edge for support in scene.supports}
     middles = [centre]
     if isinstance(obstacle, Cylinder):

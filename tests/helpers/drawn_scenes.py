@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from sheetbench.scenes import Scene
-from sheetbench.scenes.region import off_sheet
+from sheetbench.scenes.meaning.region import off_sheet
 
 Document = dict[str, Any]
 CHANGES = ("mirrored", "turned by 90°", "upside down", "ten times as large")

@@ -10,10 +10,10 @@ from sheetbench import scenes
 ROD = {"edge": "x1", "segments": 8, "bending_stiffness": 0.05, "line_density": 0.05, "radius": 1.5e-3}
 
 
-def scene(base="two-edges-clamped", actuators=(), gravity=True, supports=None, loads=(), **material):
+def make_scene(base="two-edges-clamped", actuators=(), gravity=True, supports=None, loads=(), **material):
     """A catalogue scene with actuators, without its gravity or supports, or of another material."""
-    asked = scenes.load(base)
-    data = asked.model_dump(by_alias=True, exclude_none=True)
+    scene = scenes.load(base)
+    data = scene.model_dump(by_alias=True, exclude_none=True)
     data["actuator"] = [{**ROD, **a} if a.get("kind") != "motion" else a for a in actuators]
     data["material"].update(material)
     data["load"] = list(loads)
@@ -24,15 +24,15 @@ def scene(base="two-edges-clamped", actuators=(), gravity=True, supports=None, l
     return scenes.Scene.model_validate(data)
 
 
-def springs(asked, n=5):
+def springs(scene, n=5):
     """Consistent springs of an n × n × 2 lattice."""
-    return lumped.calibrate(asked.sheet, asked.material, grid=(n, n))
+    return lumped.calibrate(scene.sheet, scene.material, grid=(n, n))
 
 
-def system(asked, n=5):
+def system(scene, n=5):
     """The equations of motion and the state at rest."""
-    calibration = springs(asked, n)
-    equations = System(asked, build_problem(asked, calibration))
+    calibration = springs(scene, n)
+    equations = System(scene, build_problem(scene, calibration))
     return equations, initial_state(equations, calibration, "tributary")
 
 

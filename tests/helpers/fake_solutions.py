@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.scenes import FieldMesh, Scene, Solution, Status
+from sheetbench.answers.solution import FieldMesh, Solution, Status
+from sheetbench.scenes import Scene
 
 
 def solution(scene: Scene, model: str = "lumped", size: float = -0.01, **changes: Any) -> Solution:

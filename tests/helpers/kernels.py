@@ -13,11 +13,11 @@ DURATION = 1e-3  # s: kernels are compiled whatever the duration
 
 def equilibria() -> None:
     """What statics, the linear algebra and implicit integrators call."""
-    from dynamic_cases import scene, springs
+    from dynamic_cases import make_scene, springs
 
     import lumped
 
-    still, damped = scene(), scene(damping_time=1e-3)
+    still, damped = make_scene(), make_scene(damping_time=1e-3)
     for precision in ("double", "single"):
         lumped.solve(still, springs(still, 3), precision=precision)
     lumped.modes(still, springs(still, 3), 3)
@@ -27,13 +27,13 @@ def equilibria() -> None:
 
 def explicit() -> None:
     """What explicit integrators and the shell call."""
-    from dynamic_cases import scene, springs
+    from dynamic_cases import make_scene, springs
 
     import fem_reference
     import lumped
 
-    fem_reference.solve(scene(), "shell", elements=2)
-    damped = scene(damping_time=1e-3)
+    fem_reference.solve(make_scene(), "shell", elements=2)
+    damped = make_scene(damping_time=1e-3)
     for precision in ("double", "single"):
         lumped.simulate(damped, springs(damped, 3), DURATION, integrator="verlet", precision=precision)
 

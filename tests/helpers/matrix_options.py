@@ -31,6 +31,10 @@ FILES = {
     "vertical = 5000.0\nlayer_distance = 0.003\n",
     "pressed": '[[load]]\nkind = "pressure"\nvalue = 20.0\n[[load]]\nkind = "edge"\nedge = "x1"\n'
     "force_per_length = [0.1, 0.0, 0.05]\n",
+    "natural": "[natural]\nstrain = [0.002, 0.0, 0.0]\ncurvature = [3.0, 0.0, 1.0]\n"
+    "history = { time = [0.0, 0.002], factor = [0.0, 1.0] }\n[[patch]]\n"
+    "shape = { rectangle = { x = [0.03, 0.07], y = [0.0, 0.1] } }\n"
+    "natural = { curvature = [9.0, 0.0, 0.0] }\n",
     "weightless": "",
 }
 SHEET = """name = "{name}"

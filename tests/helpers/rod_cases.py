@@ -6,21 +6,22 @@ import numpy as np
 from cases import GRAVITY, RUBBER, SHEET
 
 import fem_reference
-from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet, Solution
+from sheetbench.answers.solution import Solution
+from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet
 
 STRIP = Sheet(length_x=0.02, length_y=1.0, thickness=0.0005)
 FLOPPY = Material(young=1e2, poisson=0.0, density=1e-3)  # a sheet that the rod does not feel
 
 
-def chain(**asked: Any) -> Chain:
+def chain(**settings: Any) -> Chain:
     values = {"edge": "x1", "segments": 24, "bending_stiffness": 0.2, "line_density": 0.05, "radius": 1.5e-3}
-    return Chain(**{**values, **asked})
+    return Chain(**{**values, **settings})
 
 
-def alone(gravity: Gravity | None = None, sheet: Sheet = STRIP, **asked: Any) -> Scene:
+def alone(gravity: Gravity | None = None, sheet: Sheet = STRIP, **settings: Any) -> Scene:
     """A rod of length 1, EI = 1 and 1 kg/m along a floppy strip."""
     values = {"edge": "x0", "segments": 16, "bending_stiffness": 1.0, "line_density": 1.0, "radius": 1e-3}
-    only = Chain(**{**values, "base": "middle", **asked})
+    only = Chain(**{**values, "base": "middle", **settings})
     return Scene(name="rod", sheet=sheet, material=FLOPPY, gravity=gravity, actuators=(only,))
 
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 import lumped
+from sheetbench.answers.solution import Solution
 from sheetbench.scenes import (
     Clamped,
     Curved,
@@ -22,7 +23,6 @@ from sheetbench.scenes import (
     Pressure,
     Scene,
     Sheet,
-    Solution,
     catalogue,
     load,
 )

@@ -22,9 +22,9 @@ from rich.console import Console
 from comparisons.cli import characters, console
 from comparisons.cli.output import Output, OutputOptions
 from comparisons.pictures import offscreen
-from comparisons.runs import executors
-from comparisons.runs.campaign import carry_out
 from comparisons.stability import extremes
+from comparisons.sweep import executors
+from comparisons.sweep.campaign import carry_out
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.figure_style import PLAIN
 

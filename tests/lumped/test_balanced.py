@@ -83,11 +83,11 @@ def test_what_cannot_be_balanced_is_refused(whole):
 
 
 def test_the_verb_says_what_it_promises(tmp_path, capsys):
-    asked = ["two-edges-settling", "--lumped", "3", "--state-space", "0", "--about", "flat", "--json"]
-    assert run("modes", *asked, "--reduce", "balanced:6", "--out", str(tmp_path)) == 0
+    arguments = ["two-edges-settling", "--lumped", "3", "--state-space", "0", "--about", "flat", "--json"]
+    assert run("modes", *arguments, "--reduce", "balanced:6", "--out", str(tmp_path)) == 0
     document = json.loads(capsys.readouterr().out)["state_space"]
     assert len(document["poles"]) == 6 and document["bound"] > 0.0 and len(document["hankel"]) == 48
     assert loadmat(tmp_path / "linear.mat")["ss_A"].shape == (6, 6)
     for wrong in ("balanced", "balanced:-1", "balanced:0", "modal:3", "balanced:nan", "balanced:1e400"):
-        assert run("modes", *asked, "--reduce", wrong) == 2
+        assert run("modes", *arguments, "--reduce", wrong) == 2
         one_line(capsys)

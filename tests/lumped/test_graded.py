@@ -15,8 +15,9 @@ from lumped.assembly import Assembly
 from lumped.calibration import edge_twist
 from lumped.grid_lines import grid_lines
 from lumped.masses import masses
-from sheetbench.scenes import BadInput, Clamped, PointLoad, Scene, Sheet, SpringTable, Status, load
-from sheetbench.scenes.grading import Grading, as_settings
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import BadInput, Clamped, PointLoad, Scene, Sheet, SpringTable, load
+from sheetbench.scenes.objects.grading import Grading, as_settings
 from studies.transfer.scenes import transfer_scenes
 
 GRADINGS = (0.5, 0.8, Grading(0.6, ("x0",)))
@@ -119,6 +120,7 @@ def shell_of(young, name):
     return scene, fem_reference.solve(scene, model="shell", elements=16).displacement(scene.probe_points())
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     "method, young, name, masses_, held",
     [

@@ -9,11 +9,13 @@ import lumped
 from comparisons.comparison.comparison import error
 from comparisons.models.grading import ONE_SIDED, grading_of, parse_grading
 from comparisons.models.spec import Lattice
+from comparisons.scoring.curves import cantilever
 from lumped.grid_lines import grid_lines
 from lumped.spring_constants import of_edge_cells
+from sheetbench.answers.solution import Status
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, load
-from sheetbench.scenes.grading import Grading, as_settings, of_settings, towards
+from sheetbench.scenes.objects.grading import Grading, as_settings, of_settings, towards
 from studies.transfer.scenes import transfer_scenes
 from studies.transfer.tasks import points
 
@@ -75,9 +77,9 @@ def test_the_twist_of_either_edge_is_that_of_the_strip_that_begins_with_it():
 
 def test_a_half_is_cut_only_where_its_image_is_the_other():
     scene = transfer_scenes()["opposite-edges-hinged"]
-    asked = {"grid": 5, "calibration": "consistent", "symmetry": True}
-    assert solve(scene, "lumped", grading=0.5, **asked).settings["symmetry"] == ["x", "y"]
-    assert solve(scene, "lumped", grading="0.5:x0", **asked).settings["symmetry"] == ["y"]
+    settings = {"grid": 5, "calibration": "consistent", "symmetry": True}
+    assert solve(scene, "lumped", grading=0.5, **settings).settings["symmetry"] == ["x", "y"]
+    assert solve(scene, "lumped", grading="0.5:x0", **settings).settings["symmetry"] == ["y"]
 
 
 def test_auto_grades_towards_the_one_edge_that_holds_the_sheet():
@@ -101,3 +103,15 @@ def test_towards_the_clamp_a_soft_sheet_is_nearer():
     springs = {"calibration": "consistent-membrane"}
     off = [error(solve(scene, "lumped", grading=g, **springs).displacement(at), truth) for g in (0.3, "auto")]
     assert off[0] == pytest.approx(0.0111, abs=1e-3) and off[1] == pytest.approx(0.0072, abs=1e-3)
+
+
+@pytest.mark.parametrize("grading", ["0.9:x0", "0.75:x0"])
+def test_cells_that_give_way_and_not_the_sheet_are_said_to(grading):
+    """A strip of 33 × 3 masses bent by its weight: beside the clamp cells 30 or 14 times as long as wide, of
+    which the longer ones give way; the tip is the same."""
+    scene = cantilever(10.0)
+    found = solve(scene, "lumped", grid=(33, 3), grading=grading)
+    slender = grading == "0.9:x0"
+    assert (found.status is Status.UNSTABLE) is slender
+    assert ("times as long as wide" in found.message) is slender
+    assert found.displacement("tip")[2] == pytest.approx(-0.14012, rel=2e-4)

@@ -8,7 +8,8 @@ import lumped
 from comparisons.pictures.vtk import write_mesh
 from lumped.fitting.fits import StaticTarget
 from lumped.grid_lines import grid_lines
-from sheetbench.scenes import Status, load
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import load
 
 GRADING = 0.6
 SCENE = load("two-edges-clamped")

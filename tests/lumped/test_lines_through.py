@@ -10,9 +10,9 @@ from lumped.coverage import held_crossings
 from lumped.grid_lines import grid_lines
 from lumped.supports import constrain
 from sheetbench.scenes import Sheet, load
-from sheetbench.scenes.grading import as_settings, of_settings, through
-from sheetbench.scenes.region import sides_of_shapes
-from sheetbench.scenes.shapes import Shape
+from sheetbench.scenes.meaning.region import sides_of_shapes
+from sheetbench.scenes.objects.grading import as_settings, of_settings, through
+from sheetbench.scenes.objects.shapes import Shape
 
 SHEET = Sheet(length_x=0.16, length_y=0.04, thickness=1e-3)
 

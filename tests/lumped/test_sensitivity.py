@@ -7,8 +7,8 @@ from cases import with_material
 import lumped
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, EdgeLoad
-from sheetbench.scenes.parameters import put
-from sheetbench.scenes.patches import Patch
+from sheetbench.scenes.meaning.parameters import put
+from sheetbench.scenes.objects.patches import Patch
 
 GRID = (7, 7)
 DRAWN = {

@@ -6,7 +6,8 @@ from comparisons.external.plugins import plugin
 from comparisons.identification import columns
 from sheetbench.errors import FOREIGN, BadInput, foreign
 from sheetbench.process import run
-from sheetbench.scenes import SceneError, load, mesh_files
+from sheetbench.scenes import SceneError, load
+from sheetbench.scenes.objects import mesh_files
 
 LONG = "reason " * 500
 

@@ -121,25 +121,25 @@ def test_grids_are_numbers_or_tuples():
 
 
 def test_a_trade_off_is_asked_in_lists(monkeypatch):
-    asked: list[Any] = []
-    monkeypatch.setattr(choices, "tradeoff", lambda scene, candidates, store, **_: asked.extend(candidates))
+    passed: list[Any] = []
+    monkeypatch.setattr(choices, "tradeoff", lambda scene, candidates, store, **_: passed.extend(candidates))
     none: dict[str, Any] = {"plate": (), "solid": ""}
     sb.tradeoff(NAME, grid=(3, (5, 7)), calibration=("consistent", "uniform"), shell=(4,), **none)
-    assert [one.settings.get("grid") for one in asked] == [[3, 3, 2], [5, 7, 2], [3, 3, 2], [5, 7, 2], None]
-    assert [one.model for one in asked] == 4 * ["lumped"] + ["shell"]
+    assert [one.settings.get("grid") for one in passed] == [[3, 3, 2], [5, 7, 2], [3, 3, 2], [5, 7, 2], None]
+    assert [one.model for one in passed] == 4 * ["lumped"] + ["shell"]
 
 
 def test_a_trade_off_of_a_motion_is_asked_in_lists(monkeypatch):
-    asked: dict[str, Any] = {}
+    passed: dict[str, Any] = {}
 
     def moved(scene, duration, *, lattices, others, store, **settings):
-        asked.update(duration=duration, lattices=lattices, others=others, **settings)
+        passed.update(duration=duration, lattices=lattices, others=others, **settings)
 
     monkeypatch.setattr(choices, "dynamic_tradeoff", moved)
     sb.tradeoff(NAME, duration="50 ms", grid=(5,), integrator=("esdirk",), plate="", shell=(2,), solid=())
-    assert asked["duration"] == 0.05 and asked["integrators"] == ["esdirk"]
-    assert [one.label for one in asked["lattices"]] == ["lumped grid 5"]
-    assert [one.label for one in asked["others"]] == ["shell elements 2"]
+    assert passed["duration"] == 0.05 and passed["integrators"] == ["esdirk"]
+    assert [one.label for one in passed["lattices"]] == ["lumped grid 5"]
+    assert [one.label for one in passed["others"]] == ["shell elements 2"]
 
 
 def test_a_saved_scene_holds_every_digit(tmp_path):

@@ -11,7 +11,7 @@ import time
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from dynamic_cases import scene, springs
+from dynamic_cases import make_scene, springs
 from llvmlite.binding import get_host_cpu_features
 from numba import njit
 from numba.core import event
@@ -50,10 +50,10 @@ def test_matrices_are_alike_to_kernels_whatever_integers_scipy_takes():
 
 
 def test_steps_are_compiled_once_whether_edges_are_driven_or_not():
-    """Tables whose rows are apart are other arrays to a kernel, which takes ten seconds to compile."""
+    """Tables whose rows have gaps are other arrays to a kernel, which takes ten seconds to compile."""
     lifted = [[0.0] * 3, [0.0, 0.0, 0.01]]
     motion = {"kind": "motion", "edge": "x1", "time": [0.0, 1.0], "displacement": lifted}
-    driven = scene("one-edge-clamped", [motion])
+    driven = make_scene("one-edge-clamped", [motion])
     lumped.simulate(driven, springs(driven, 3), 1e-4, integrator="verlet")
     layouts = {getattr(kind, "layout", "C") for signature in march.signatures for kind in signature}
     assert layouts == {"C"}
@@ -143,13 +143,13 @@ def test_the_processor_is_the_common_one_unless_numba_is_there_before():
     show = "import os; print(os.environ.get('NUMBA_CPU_NAME'))"
     env = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_CPU")}
 
-    def told(*lines):
+    def printed(*lines):
         command = [sys.executable, "-c", "\n".join([*lines, show])]
         return subprocess.run(command, env=env, cwd=ROOT, capture_output=True, text=True, check=True).stdout
 
     common = all(map(get_host_cpu_features().get, X86_64_V3)) and platform.machine() == "x86_64"
-    assert told("import sheetbench.kernels") == f"{'x86-64-v3' if common else None}\n"
-    assert told("import numba", "import sheetbench.kernels") == "None\n"
+    assert printed("import sheetbench.kernels") == f"{'x86-64-v3' if common else None}\n"
+    assert printed("import numba", "import sheetbench.kernels") == "None\n"
 
 
 def test_kernels_of_former_sources_go_after_a_month(tmp_path):

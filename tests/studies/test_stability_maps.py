@@ -13,7 +13,8 @@ from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.stability import extremes, limit
 from comparisons.stability.rows import LARGE
-from sheetbench.scenes import Gravity, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Gravity
 from studies.stability import study
 from studies.stability.scenes import bent, pressed, sheet
 
@@ -94,7 +95,7 @@ def test_single_precision_calls_nothing_converged_that_has_no_digits_left():
     scene = sheet(1e-5, 1.0)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=17)
     single = lumped.solve(scene, springs, precision="single")
-    assert single.status is not Status.CONVERGED and single.message
+    assert single.status is not Status.CONVERGED and "rounding" in single.message
     assert lumped.solve(scene, springs).status is Status.CONVERGED
 
 

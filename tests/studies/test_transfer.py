@@ -8,7 +8,7 @@ import pytest
 from commands import one_line, run
 
 import lumped  # noqa: F401  (rslab is to be imported by the thread that lives longest)
-from comparisons.runs.campaign import campaign
+from comparisons.sweep.campaign import campaign
 from lumped.calibration.central_table import ROWS
 from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Clamped, EdgeLoad, Held
@@ -28,9 +28,9 @@ def study(tmp_path_factory):
     """The study in this process; runs are kept from one test to the next."""
     with campaign(tmp_path_factory.mktemp("transfer")) as store:
 
-        def carried_out(**asked):
-            asked = {"elements": 10, **asked}
-            found = transfer(store, pool=lambda workers: ThreadPoolExecutor(1), **asked)
+        def carried_out(**settings):
+            settings = {"elements": 10, **settings}
+            found = transfer(store, pool=lambda workers: ThreadPoolExecutor(1), **settings)
             assert found.failed == []
             return found
 

@@ -222,7 +222,7 @@ if __name__ == "__main__":
         sys.exit("usage: python read_lattice.py DIR [STEPS]")
     lattice = dict(np.load(f"{sys.argv[1]}/lattice.npz"))
     if len(lattice["pressure"]) or len(lattice["couple_moment"]):
-        sys.exit("this reader knows dead loads only")
+        sys.exit("this reader solves dead loads only; the folder has pressures or moments")
     along, states, forces = differences(lattice), lattice["state_displacement"], lattice["state_force"]
     found = np.array([gradient(lattice, along, state)[1] for state in states])
     largest = np.abs(found - forces).max() / np.abs(forces).max()

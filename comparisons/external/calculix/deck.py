@@ -21,7 +21,6 @@ import numpy as np
 
 from comparisons.external.bricks import Bricks, forces, held, materials
 from sheetbench.scenes import Material, Pressure, Scene
-from sheetbench.scenes.orthotropy import Ply
 
 RESIDUAL, CORRECTION = 1e-7, 1e-7  # of the mean force, of the displacement: where an increment ends
 FIRST, LEAST, LARGEST = 1.0, 1e-6, 1.0
@@ -91,7 +90,7 @@ def deck(scene: Scene, bricks: Bricks, linear: bool, motion: Steps | None = None
 
 def _elasticity(material: Material, axes_name: str) -> list[str]:
     if material.kind == "orthotropic":
-        ply = Ply.of(material)
+        ply = material.ply
         moduli, ratios = (
             (ply.young_1, ply.young_2, ply.young_3),
             (ply.poisson_12, ply.poisson_13, ply.poisson_23),

@@ -29,11 +29,13 @@ from comparisons.external.answer import (
 )
 from comparisons.external.bricks import GRADINGS, Bricks
 from comparisons.external.calculix.deck import INCOMPRESSIBLE, LAWS, Steps, deck
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
 from sheetbench.process import Failed, output_of
-from sheetbench.scenes import History, Scene, Solution, Status
-from sheetbench.scenes.orthotropy import FIBRES, Ply, impossible_in_space
-from sheetbench.scenes.scene import SHAPED
+from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.fields import SHAPED
+from sheetbench.scenes.objects.orthotropy import FIBRES, impossible_in_space
 
 _HEADING = re.compile(r"^ *displacements .* and time +(\S+) *$", re.MULTILINE)
 PROGRAM, JOB = "ccx", "sheet"
@@ -161,7 +163,7 @@ def _refusal(scene: Scene, linear: bool) -> str:
     if material.law is not None and scene.varied_by:
         return f"{scene.varied_by}: it is given rubbers that are the same all over"
     if material.kind == "orthotropic":
-        return impossible_in_space(Ply.of(material))
+        return impossible_in_space(material.ply)
     if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):
         return ""
     if linear:

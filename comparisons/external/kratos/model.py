@@ -22,9 +22,11 @@ import numpy as np
 
 from comparisons.external.answer import SUBSTEPS, moved, refusal, refusal_of_motion, require_count, solution
 from comparisons.external.kratos.problem import Triangles, problem
+from sheetbench.answers.history import History
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
 from sheetbench.process import Failed, output_of
-from sheetbench.scenes import History, Scene, Solution, Status
+from sheetbench.scenes import Scene
 
 STEPS = (1, 4, 16)
 BEGINS = 1e-3  # of a motion's steps, its first: the load acts from t = 0 on, the acceleration after a step

@@ -24,9 +24,9 @@ from sheetbench.scenes import (
     held_axes,
     holds_director,
 )
-from sheetbench.scenes.grid import near_square
-from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
-from sheetbench.scenes.sheet import Sheet
+from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
+from sheetbench.scenes.objects.grid import near_square
+from sheetbench.scenes.objects.sheet import Sheet
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """A tensile test as it was measured: stretch and engineering stress of a loading branch.
 
 stress: engineering P = force/undeformed area, or true σ = P λ of an incompressible sheet
-strain: engineering λ − 1, or true ln λ
+strain: engineering λ − 1, or true ln λ; or the displacement of the grips over the gauge length
 test: uniaxial, pure-shear (a wide strip held along its width) or equibiaxial
 """
 
@@ -22,11 +22,13 @@ UNITS = {
     "strain": "",
     "engineering_strain": "",
     "true_strain": "",
+    "displacement": "m",
+    "extension": "m",
     "force": "N",
     "stress": "Pa",
 }
 UNITS |= dict.fromkeys((*ENGINEERING, *TRUE), "Pa")
-FEWEST = 5  # rows
+FEWEST = 3  # rows: of one constant with two degrees of freedom left
 BACK = 0.005  # of the range of stretch, that it may go back by noise
 BROKEN = 0.8  # of the largest stress, below which a sheet has torn
 LARGEST_STRETCH = 25.0
@@ -43,13 +45,16 @@ class Curve:
     file: str = ""
 
 
-def read(text: str, area: float | None = None, up_to: float | None = None) -> Curve:
+def read(
+    text: str, area: float | None = None, up_to: float | None = None, gauge: float | None = None
+) -> Curve:
     """Return the curve of `FILE`, uniaxial, or `TEST=FILE`; area [m²]: undeformed cross-section, where forces
-    were measured; up_to: the largest stretch to take. Raises BadInput naming file, line and remedy."""
+    were measured; gauge [m]: undeformed length, where displacements were; up_to: the largest stretch to take.
+    Raises BadInput naming file, line and remedy."""
     test, _, name = text.rpartition("=") if text.partition("=")[0] in TESTS else ("uniaxial", "", text)
     path = Path(name)
     columns = read_columns(path, UNITS)
-    stretch, stress = _stretch(path, columns), _stress(path, columns, area)
+    stretch, stress = _stretch(path, columns, gauge), _stress(path, columns, area)
     if any(column in columns.names for column in TRUE) and not set(ENGINEERING) & set(columns.names):
         stress = stress / stretch
     if up_to is not None:
@@ -101,7 +106,7 @@ def require_loading(curve: Curve, columns: Columns | None = None) -> None:
         )
 
 
-def _stretch(path: Path, columns: Columns) -> np.ndarray:
+def _stretch(path: Path, columns: Columns, gauge: float | None) -> np.ndarray:
     for name, law in (
         ("stretch", lambda e: e),
         ("engineering_strain", lambda e: 1.0 + e),
@@ -110,8 +115,13 @@ def _stretch(path: Path, columns: Columns) -> np.ndarray:
     ):
         if name in columns.names:
             return np.asarray(law(np.array([row.number(name) for row in columns.rows])))
+    for name in ("displacement", "extension"):
+        if name in columns.names:
+            if gauge is None:
+                raise BadInput(f"{path}: {name}: give the undeformed length between the grips, --gauge 33mm")
+            return 1.0 + np.array([row.number(name) for row in columns.rows]) / gauge
     named = ", ".join(filter(None, columns.names)) or "none"
-    raise BadInput(f"{path}: columns {named}; needed is stretch, strain or true_strain")
+    raise BadInput(f"{path}: columns {named}; needed is stretch, strain, true_strain or displacement")
 
 
 def _stress(path: Path, columns: Columns, area: float | None) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Constants of the laws of rubber from curves of incompressible sheets, with intervals.
 
-With x = I₁ − 3 and f, c₀₁ of `sheetbench.scenes.material`, engineering stress is 2 (f′(x) + c₀₁ m)(λ − w):
+With x = I₁ − 3 and f, c₀₁ of `scenes.objects.material`, engineering stress is 2 (f′(x) + c₀₁ m)(λ − w):
 
     uniaxial     m = 1/λ    w = λ⁻²    I₁ = λ² + 2/λ
     pure shear   m = 1      w = λ⁻³    I₁ = λ² + 1 + λ⁻²
@@ -26,7 +26,7 @@ from scipy.stats import t as student
 from comparisons.identification.tensile.curves import Curve
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material
-from sheetbench.scenes.material import WORDS, Energy
+from sheetbench.scenes.objects.material import WORDS, Energy
 
 POISSON = 0.499  # written beside constants of incompressible sheets
 AS_GOOD, GOOD = 1.5, 0.01  # times the least misfit, or of the largest stress: then few constants will do
@@ -85,7 +85,7 @@ def fit(law: str, curves: Sequence[Curve], free: bool = False) -> Fit | None:
     rows."""
     scale = [float(np.abs(curve.stress).max()) for curve in curves]
     rows, keys = sum(len(curve.stretch) for curve in curves), KEYS[law]
-    if rows < len(keys) + 3:
+    if rows < len(keys) + (3 if len(keys) > 1 else 2):
         return None
     size = max(float(s / abs(c.stretch[-1] - 1.0)) for s, c in zip(scale, curves, strict=True)) / 6.0
     most = max(map(largest_x, curves))

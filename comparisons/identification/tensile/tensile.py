@@ -16,6 +16,8 @@ from sheetbench.answers.table import MEGAPASCALS, NUMBER, PERCENT, Column, Table
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material
 
+CHOSEN = "← fits with the fewest constants"
+
 
 @dataclass(frozen=True)
 class ConstantRow:
@@ -118,21 +120,21 @@ class TensileFit(Answer):
         mooney = next((f for f in self.fits if f.law == "mooney-rivlin"), None)
         if mooney is not None and len(self.covered) == 1:
             sentences.append(
-                "One kind of test cannot tell c1 from c2 of mooney-rivlin: their errors have the correlation "
-                f"{number(mooney.correlation, '.3f')}, and it is not chosen; pure shear or equibiaxial "
-                "tension beside it would tell."
+                "mooney-rivlin is not chosen: one kind of test cannot distinguish c1 from c2 (correlation "
+                f"{number(mooney.correlation, '.3f')}); add a test in pure shear or equibiaxial tension."
             )
         if self.open is not None:
             at, (low, high) = self.open
             sentences.append(
-                f"Not measured: equibiaxial tension. At stretch {at:.3g}, as far as these data go in I₁, "
-                f"laws that fit about as well predict {low / 1e6:.3g} to {high / 1e6:.3g} MPa."
+                "Not measured: equibiaxial tension. At an equibiaxial stretch of "
+                f"{at:.3g} (the largest I₁ of these data), laws that fit about as well predict "
+                f"{low / 1e6:.3g} to {high / 1e6:.3g} MPa."
             )
         if self.law is not None:
             material = self.material()
             keys = {key: getattr(material, key) for key in (*self.law.constants, "poisson")}
             lines = "\n".join(f"{key} = {value:.6g}" for key, value in keys.items())
-            sentences.append(f'In a scene:\n[material]\nlaw = "{self.law.law}"\n{lines}')
+            sentences.append(f'Write into the scene:\n[material]\nlaw = "{self.law.law}"\n{lines}')
         return sentences
 
     def complaints(self) -> tuple[str, ...]:
@@ -163,7 +165,7 @@ def constants(fits: Sequence[Fit], free: Sequence[Fit]) -> Table:
 def misfits(fits: Sequence[Fit], free: Sequence[Fit], chosen: Fit | None) -> Table:
     """Return a row per law."""
     rows = [
-        MisfitRow(law, f.young, f.rms, f.largest, "← the data ask for it" if f is chosen else _against(f))
+        MisfitRow(law, f.young, f.rms, f.largest, CHOSEN if f is chosen else _against(f))
         for law, f in _named(fits, free)
     ]
     return Table.of(MisfitRow, rows, "Misfit, of the largest stress (root mean square)", "misfits")
@@ -173,20 +175,25 @@ def _against(fit: Fit) -> str:
     if fit.unstable:
         return "its stress falls below 0 at some stretch, or it has no stiffness at rest: scenes refuse it"
     if "limit" in fit.bound:
-        return "these data see no limit"
+        return "limit beyond these data"
     return f"{' and '.join(fit.bound)} at the bound 0" if fit.bound else ""
 
 
 def identify_tensile(
-    curves: Sequence[Curve | str] | Curve | str, *, area: float | None = None, up_to: float | None = None
+    curves: Sequence[Curve | str] | Curve | str,
+    *,
+    area: float | None = None,
+    gauge: float | None = None,
+    up_to: float | None = None,
 ) -> TensileFit:
     """Return the constants of every law of rubber from curves or files (`curves.read`), and the law to take.
 
-    area [m²]: undeformed cross-section, for columns of force; up_to: largest stretch of files to fit. Raises
-    BadInput for what is no loading branch of engineering or true stress.
+    area [m²]: undeformed cross-section, for columns of force; gauge [m]: undeformed length, for columns of
+    displacement; up_to: largest stretch of files to fit. Raises BadInput for what is no loading branch of
+    engineering or true stress.
     """
     given = [curves] if isinstance(curves, Curve | str) else list(curves)
-    measured = tuple(c if isinstance(c, Curve) else read(c, area, up_to) for c in given)
+    measured = tuple(c if isinstance(c, Curve) else read(c, area, up_to, gauge) for c in given)
     for curve in measured:
         require_loading(curve)
     fits = tuple(found for law in LAWS if (found := fit(law, measured)) is not None)

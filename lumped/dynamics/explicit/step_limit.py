@@ -1,8 +1,8 @@
 """The highest frequency of a lattice, and the largest stable step of explicit integration.
 
-ω_max² is the largest eigenvalue of M⁻¹K on the free motions (those the actuators' constraints allow), by
-Lanczos; c_max that of M⁻¹C, and ξ = c_max/2ω_max. A motion of frequency ω and damping c = 2 ξ ω is multiplied
-in a step of velocity Verlet, which looks at the dampers twice, by the matrix of
+ω_max² is the largest eigenvalue of M⁻¹K on the free motions, by Lanczos; c_max that of M⁻¹C, and
+ξ = c_max/2ω_max. A motion of frequency ω and damping c = 2 ξ ω is multiplied in a step of velocity Verlet,
+which looks at the dampers twice, by the matrix of
 
     det = 1 − z + z²/2 − xz/4,   trace = 2 − x − z + z²/2 + xz/4,   x = (ω h)²,  z = c h.
 
@@ -25,7 +25,6 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from lumped.dynamics.explicit.projection import Projection
 from lumped.dynamics.system import System
 
 SAFETY = 0.9  # share of the limit
@@ -63,16 +62,16 @@ def turn_limit(ratio: float, exact: bool = True) -> float:
     return 2.0 / (ratio + math.sqrt(1.0 - 3.0 * ratio**2)) if ratio < 0.5 else 1.0 / ratio
 
 
-def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
+def step_limit(system: System, u: np.ndarray) -> StepLimit:
     """The limit at displacement u (size, 3) [m], at rest, where the air does not resist."""
     nothing = np.zeros_like(u)
-    stiffness = system.matrix(u, nothing, time, 0.0, 0.0, 1.0)
+    stiffness = system.matrix(u, nothing, 0.0, 0.0, 0.0, 1.0)
     touching = sum(item.stiffest(system.lattice_mass) for item in system.items)
-    frequency = math.sqrt(max(_largest(system, stiffness, u), 0.0) + touching)
+    frequency = math.sqrt(max(_largest(system, stiffness), 0.0) + touching)
     ratio = 0.0
     if system.resists:
-        damping = system.matrix(u, nothing, time, 0.0, 1.0, 0.0)
-        ratio = _largest(system, damping, u) / (2.0 * frequency) if damping.any() else 0.0
+        damping = system.matrix(u, nothing, 0.0, 0.0, 1.0, 0.0)
+        ratio = _largest(system, damping) / (2.0 * frequency) if damping.any() else 0.0
     exact = system.damping.proportional
     return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact)
 
@@ -82,31 +81,17 @@ def soften_items(system: System) -> None:
     if system.items:
         rest = system.prescribed.place(0.0)
         springs = system.assembly.tangent(rest)
-        squared = _largest(system, springs, rest)
+        squared = _largest(system, springs)
         for item in system.items:
             item.move_freely(system.lattice_mass, squared)
 
 
-def _largest(system: System, blocks: np.ndarray, u: np.ndarray) -> float:
-    """Largest eigenvalue of M⁻¹A on the admissible motions."""
+def _largest(system: System, blocks: np.ndarray) -> float:
+    """Largest eigenvalue of M⁻¹A on the free motions."""
     size = system.reduced_mass.shape[0]
-    projection = Projection(system)
-    gradient = projection.jacobian(u) if projection.active else np.empty((0, 0))
     matrix = system.problem.system.matrix(blocks)
-    kept = np.flatnonzero(~system.algebraic)
-    matrix = matrix[kept][:, kept]
-
-    def project(v: np.ndarray) -> np.ndarray:
-        return system.contract(projection.tangential(system.expand(v), gradient)[0])
-
-    def apply(x: np.ndarray) -> np.ndarray:
-        force: np.ndarray = matrix @ (project(x.ravel()) if projection.active else x.ravel())
-        if projection.active:
-            force = system.reduced_mass @ project(system.solve_mass(force))
-        return force
-
     value = eigsh(
-        LinearOperator((size, size), matvec=apply, dtype=float),
+        matrix,
         k=1,
         M=system.reduced_mass,
         Minv=LinearOperator((size, size), matvec=lambda b: system.solve_mass(b.ravel()), dtype=float),

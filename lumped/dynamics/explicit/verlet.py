@@ -4,7 +4,8 @@
 
 The elastic forces are computed once a step; the damping forces twice, with the predicted and with the final
 velocity, since they at hand from half a step before would leave the scheme of first order. Undamped it is
-stable for ω h ≤ 2, damped as `lumped.dynamics.explicit.step_limit` has it. Constraints as in RATTLE.
+stable for ω h ≤ 2, damped as `lumped.dynamics.explicit.step_limit` has it. No chains: their constraints want
+an equation a step.
 """
 
 from __future__ import annotations
@@ -12,12 +13,17 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.explicit.flat_system import FlatSystem
-from lumped.dynamics.explicit.projection import Projection
 from lumped.dynamics.explicit.step_limit import StepLimit, step_limit
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import work
+from sheetbench.errors import BadInput
 from sheetbench.numerics.time.method import Advance, StepFailed
+
+
+def _require_no_chains(system: System) -> None:
+    if system.constrained:
+        raise BadInput("integrator = 'verlet': does not take chains; choose another integrator")
 
 
 class Verlet(Integrator):
@@ -27,9 +33,8 @@ class Verlet(Integrator):
 
     def __init__(self, system: System, step: float):
         super().__init__(system, step)
-        self._projection = Projection(system)
-        chains = system.coupling is not None and system.coupling.bodies
-        one_by_one = chains or system.maxwell is not None or system.natural is not None or bool(system.items)
+        _require_no_chains(system)
+        one_by_one = system.maxwell is not None or system.natural is not None or bool(system.items)
         one_by_one = one_by_one or system.damping.drag.coefficient > 0.0
         self._flat = None if one_by_one or system.shared_mass else FlatSystem(system)
         if self._flat is not None:
@@ -38,63 +43,37 @@ class Verlet(Integrator):
     @classmethod
     def limit(cls, system: System, u: np.ndarray) -> StepLimit:
         """The springs' and the dampers' limit of stability."""
+        _require_no_chains(system)
         return step_limit(system, u)
 
     def march(self, state: State, step: float, most: int) -> Advance[State]:
-        """Return steps in one compiled call; one at a time where there are chains, branches, a natural state,
+        """Return steps in one compiled call; one at a time where there are branches, a natural state,
         air or bodies with moments of inertia. Raises StepFailed."""
         if self._flat is None:
             return super().march(state, step, most)
         return self._flat.march(state, step, most)
 
     def advance(self, state: State, at_most: float) -> Advance[State]:
-        """One explicit step. Raises StepFailed when a number overflows or constraints find no solution."""
+        """One explicit step. Raises StepFailed when a number overflows."""
         system, h, time = self.system.within(state, at_most), at_most, state.time + at_most
         motion = system.prescribed
-        moved = state.u + h * state.v + 0.5 * h * h * state.a
-        if motion.moving:
-            held = motion.place(time) - motion.place(state.time) - h * motion.rate(state.time)
-            moved = moved + held
+        u = state.u + h * state.v + 0.5 * h * h * state.a
         half = state.v + 0.5 * h * state.a
-        projection = self._projection
-        if projection.active:
-            u = self._constrained(state, moved, time)
-            half = half + (u - moved) / h
-        else:
-            u = moved
         if motion.moving:
+            u = u + motion.place(time) - motion.place(state.time) - h * motion.rate(state.time)
             half = half + motion.rate(time) - motion.rate(state.time)
-        _, elastic = system.elastic(u, time)
-        force = system.external(u, time) - elastic
-        damped = system.resists
-        gradient = projection.jacobian(u) if projection.active else np.empty((0, 0))
+        force = system.external(u, time) - system.elastic(u, time)[1]
         acting = force
-        if damped:
-            predicted = state.v + h * state.a
-            if projection.active:  # dampers would see, and punish, what the constraints do not allow
-                predicted, _ = projection.tangential(predicted, gradient)
-            acting = force - system.damping_force(u, predicted, time)[1]
+        if system.resists:
+            acting = force - system.damping_force(u, state.v + h * state.a, time)[1]
         acceleration = system.accelerate(acting)
         if not np.isfinite(acceleration).all():
             raise StepFailed("a number overflowed")
-        v = half + 0.5 * h * acceleration
-        if projection.active:
-            v, impulse = projection.tangential(v, gradient)
-            u = u + impulse * (2.0 / h)
-            force = system.external(u, time) - system.elastic(u, time)[1]
-        taken = 0.0
-        if damped:
+        v, taken = half + 0.5 * h * acceleration, 0.0
+        if system.resists:
             power, resisting = system.damping_force(u, v, time)
             before, _ = system.damping_force(state.u, state.v, state.time)
             taken = 0.5 * h * (before + power)
             acceleration = system.accelerate(force - resisting)
-        elif projection.active:
-            acceleration = system.accelerate(force)
         after, relaxed = system.relaxed(state, State(time, u, v, acceleration))
         return Advance(after, taken + relaxed, work(system, state, after))
-
-    def _constrained(self, state: State, moved: np.ndarray, time: float) -> np.ndarray:
-        try:
-            return self._projection.onto_constraints(moved, self._projection.jacobian(state.u), time)
-        except (ArithmeticError, np.linalg.LinAlgError) as error:
-            raise StepFailed(str(error)) from None

@@ -25,7 +25,7 @@ CONVERGED, STALE, LOST = range(3)
 
 class Arrays(NamedTuple):
     """The equations of motion: springs and dampers, mass-proportional damping (n,) [kg/s], the air's drag, M,
-    T, the place of every unknown in the band, and its width."""
+    T with its columns in the band's order, how many they are, and the band's width."""
 
     packing: Packing
     scratch: Scratch
@@ -33,7 +33,7 @@ class Arrays(NamedTuple):
     drag: LatticeDrag
     mass: Rows
     free: Rows
-    place: np.ndarray
+    unknowns: int
     width: int
 
 
@@ -61,8 +61,8 @@ class CompiledNewton:
             system.damping.rate,
             system.damping.drag,
             csr_arrays(system.mass),
-            csr_arrays(system.transform),
-            np.argsort(band.order),
+            csr_arrays(system.transform[:, band.order]),
+            len(band.order),
             band.width,
         )
         size = system.assembly.pattern.size
@@ -93,6 +93,8 @@ class CompiledNewton:
 
     def iterate(
         self,
+        first: int,
+        left: int,
         u: np.ndarray,
         base: tuple[np.ndarray, np.ndarray],
         by: tuple[float, float],
@@ -100,10 +102,10 @@ class CompiledNewton:
         tolerance: float,
         stale: float,
         corrections: int,
-    ) -> tuple[int, int]:
-        """Correct u (n, 3) in place with the factors kept; how that ended, and after how many corrections."""
-        return iterate(
-            u, *base, *by, external, tolerance, self._system.problem.size, stale, corrections,
+    ) -> tuple[int, int, int]:
+        """Correct u (k, n, 3) from the `first` on in place with the factors kept, as `iterate_each` does."""
+        return iterate_each(
+            first, left, u, *base, *by, external, tolerance, self._system.problem.size, stale, corrections,
             self.arrays, self.factors, self.workspace,
         )  # fmt: skip
 
@@ -127,6 +129,39 @@ def add_forces_and_dampers(
 
 
 @njit(cache=True)
+def iterate_each(
+    first: int,
+    left: int,
+    u: np.ndarray,
+    base_u: np.ndarray,
+    base_v: np.ndarray,
+    mass_coefficient: float,
+    damping_coefficient: float,
+    external: np.ndarray,
+    tolerance: float,
+    largest: float,
+    stale: float,
+    corrections: int,
+    arrays: Arrays,
+    factors: np.ndarray,
+    workspace: NewtonWorkspace,
+) -> tuple[int, int, int]:
+    """Solve equations with û, v̂ (k, n, 3) and loads (k, n, 3), or (1, n, 3) if they are the same, for u from
+    the `first` on, which has corrections `left`: how that ended, the equation where it did, and what
+    corrections that one has left."""
+    for i in range(first, len(u)):
+        load = external[min(i, len(external) - 1)]
+        status, done = iterate(
+            u[i], base_u[i], base_v[i], mass_coefficient, damping_coefficient, load, tolerance, largest,
+            stale, left, arrays, factors, workspace,
+        )  # fmt: skip
+        if status != CONVERGED:
+            return status, i, left - done
+        left = corrections
+    return CONVERGED, len(u), left
+
+
+@njit(cache=True)
 def iterate(
     u: np.ndarray,
     base_u: np.ndarray,
@@ -143,7 +178,7 @@ def iterate(
     workspace: NewtonWorkspace,
 ) -> tuple[int, int]:
     """Correct u in place; how that ended, and after how many corrections."""
-    last, n = np.inf, len(arrays.place)
+    last = np.inf
     force, velocity, right = workspace.force, workspace.velocity, workspace.right
     mass, free = arrays.mass, arrays.free
     moved, held, began = u.reshape(-1), base_u.reshape(-1), base_v.reshape(-1)
@@ -159,15 +194,18 @@ def iterate(
         right[:] = 0.0
         for row in range(len(moved)):
             for e in range(free.pointers[row], free.pointers[row + 1]):
-                right[arrays.place[free.columns[e]]] -= free.values[e] * pull[row]
-        banded.substitute(factors, n, arrays.width, right)
-        length = 0.0
+                right[free.columns[e]] -= free.values[e] * pull[row]
+        banded.substitute(factors, arrays.unknowns, arrays.width, right)
+        length = total = 0.0
         for row in range(len(moved)):
-            change = 0.0
+            step = 0.0
             for e in range(free.pointers[row], free.pointers[row + 1]):
-                change += free.values[e] * right[arrays.place[free.columns[e]]]
-            moved[row] += change
-            length = max(length, abs(change)) if np.isfinite(change) else np.inf
+                step += free.values[e] * right[free.columns[e]]
+            moved[row] += step
+            total += step
+            length = max(length, abs(step))
+        if not np.isfinite(total):
+            return LOST, done
         if length < tolerance:
             return CONVERGED, done
         if not length <= largest:

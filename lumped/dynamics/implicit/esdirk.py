@@ -22,7 +22,6 @@ load's history, a support's motion. No chains: their constraints would lower the
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -31,7 +30,7 @@ import numpy as np
 from lumped.dynamics.implicit.compiled_stages import Stages, Step
 from lumped.dynamics.implicit.energy_gain import EnergyGain
 from lumped.dynamics.implicit.newton import Newton, StepEquation
-from lumped.dynamics.implicit.polynomial import polynomials
+from lumped.dynamics.implicit.polynomial import bubbles, polynomials
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
 from lumped.dynamics.integrator import Integrator, LatticeSamples
 from lumped.dynamics.system import State, System
@@ -53,7 +52,8 @@ SHARE_WITH_DAMPERS = 0.1  # whose power is that of the square of what correction
 STALE = (
     1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
 )
-KEEP_FACTORS_UP_TO = 12  # corrections of a step's stages up to which the next one keeps the factors: two each
+NODES = np.array([0.25, 0.5, 0.75])  # shares of a step
+KEEP_FACTORS_UP_TO = 14  # corrections of a step's stages up to which the next one keeps the factors: two each
 
 
 class Esdirk(Integrator):
@@ -137,10 +137,14 @@ class Esdirk(Integrator):
         return self._advance(state, stages, h)
 
     @property
+    def _small(self) -> float:
+        """The error that an adaptive step may have, or the default one [m]."""
+        return min(self._error, ERROR) * self._largest
+
+    @property
     def _enough(self) -> float:
         """The last correction of an adaptive step's equations [m]."""
-        share = SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE
-        return share * min(self._error, ERROR) * self._largest
+        return (SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE) * self._small
 
     def _begin(self, state: State) -> None:
         """What the error is relative to before anything has moved, and the first step [s]: parts of how far
@@ -184,7 +188,8 @@ class Esdirk(Integrator):
             middle, system = state.u + 0.5 * h * state.v, self._in_stage(0, h)
             equation = StepEquation(system, state.time + 0.5 * h, middle, state.v, by * by, by)
             self._newton.renew(equation, middle)
-        step = Step(h, STAGES, GUESSES, by, by * by, *self._shifts(times, h), self._loads(times))
+        loads = self.system.loads(times.tolist())
+        step = Step(h, STAGES, GUESSES, by, by * by, *self._shifts(times, h), loads)
         if not self._newton.solve_stages(step, stages, tolerance):
             self._solve_one_by_one(step, stages, tolerance)
         return stages
@@ -200,12 +205,6 @@ class Esdirk(Integrator):
         rates = np.array([motion.rate(began), *(motion.rate(t, before=True) for t in later)])
         places = np.array([motion.place(t) for t in (began, *later)])
         return places - places[0] - h * np.tensordot(STAGES, rates, 1), rates - rates[0]
-
-    def _loads(self, times: np.ndarray) -> np.ndarray:
-        """Loads at the stages if they change, those that do not follow the sheet, (7 or 1, n, 3) [N]."""
-        rest = self.system.problem.loads.dead
-        changing = times if self.system.working else times[:1]
-        return np.array([self.system.external(rest, float(time)) for time in changing])
 
     def _solve_one_by_one(self, step: Step, stages: Stages, tolerance: float | None) -> None:
         """Fill the tables of stages by the general iteration."""
@@ -267,23 +266,53 @@ class Esdirk(Integrator):
         taken, put_in = (weights @ stages.power).T
         system, motion, start = self.system, self.system.prescribed, self._memories[0]
         memories: list[np.ndarray | None] = [None] * len(times)
-        began, c1 = float(stages.time[0]), 1.0 / (GAMMA * h)
-        for i, time in enumerate(times.tolist()):
-            inside = self._relaxing(self._relaxed(weights[i]), 0.0)
-            equation = StepEquation(inside, time, u[i] - a[i] / c1**2, v[i] - a[i] / c1, c1**2, c1)
-            with suppress(StepFailed, SingularMatrixError):  # the polynomial it is then
-                u[i] = self._newton.solve_equation(equation, u[i], self._enough)
-                a[i] = self._newton.state(equation, u[i])[1]
-            if inside.maxwell is not None and start is not None:
-                memories[i] = memory = inside.maxwell.after(u[i])
-                branches = inside.maxwell.branches
-                taken[i] -= branches.stored(memory) - branches.stored(start)
-            if motion.moving:
-                rate = motion.rate(time, before=True)
-                put_in[i] += kinetic_of(system, rate) - kinetic_of(system, motion.rate(began))
+        inside = [system] * len(times)
+        if system.maxwell is not None:
+            inside = [self._relaxing(self._relaxed(weight), 0.0) for weight in weights]
+        c1, within = 1.0 / (GAMMA * h), len(times) - (end.time == times[-1])
+        equations = [
+            StepEquation(*at, c1**2, c1)
+            for at in zip(inside, times.tolist(), u - a / c1**2, v - a / c1, strict=True)
+        ]
+        a -= c1**2 * u
+        self._correct(equations[:within], theta[:within], u[:within])
+        a += c1**2 * u
         if end.time == times[-1]:
             u[-1], v[-1], a[-1] = end.u, end.v, end.a
+        for i, maxwell in enumerate(one.maxwell for one in inside):
+            if maxwell is not None and start is not None:
+                memories[i] = memory = maxwell.after(u[i])
+                taken[i] -= maxwell.branches.stored(memory) - maxwell.branches.stored(start)
+        if motion.moving:
+            began = kinetic_of(system, motion.rate(float(stages.time[0])))
+            put_in += [kinetic_of(system, motion.rate(t, before=True)) - began for t in times.tolist()]
         return LatticeSamples(times, u, v, a, memories, taken, put_in)
+
+    def _correct(self, equations: list[StepEquation], theta: np.ndarray, u: np.ndarray) -> None:
+        """Put the solutions of equations at shares θ (k,) of a step, inside it, in place of polynomials u
+        (k, n, 3): those nearest to some shares first. What corrects them is of the third order at the step's
+        ends; what passes through it corrects the others, to begin with, and for good where it is small."""
+        first = np.unique(np.abs(theta - NODES[:, None]).argmin(axis=1))
+        others = np.delete(np.arange(len(theta)), first)
+        moved = self._solve(equations, first, u)
+        if not len(others):
+            return
+        if moved is not None:
+            shares = bubbles(theta[first], theta[others])
+            u[others] += (shares @ moved.reshape(len(first), -1)).reshape(len(others), *moved.shape[1:])
+            if not self.system.items and np.abs(moved).max() < self._small:
+                return
+        self._solve(equations, others, u)
+
+    def _solve(self, equations: list[StepEquation], of: np.ndarray, u: np.ndarray) -> np.ndarray | None:
+        """Put the solutions of some of the equations in place of guesses; what that changed, or nothing if
+        some have none."""
+        found = u[of]
+        tolerance = SHARE * self._small if self.adapts else None
+        failures = self._newton.solve_equations([equations[i] for i in of], found, tolerance)
+        moved: np.ndarray = found - u[of]
+        u[of] = found
+        return None if failures else moved
 
     def _within(self, stages: Stages, h: float, theta: np.ndarray) -> np.ndarray:
         """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step: polynomials,

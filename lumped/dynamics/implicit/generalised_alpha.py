@@ -16,7 +16,7 @@ from lumped.dynamics.work import work
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
-from sheetbench.numerics.time.rule import generalised, shifted
+from sheetbench.numerics.time.rule import generalised, shifted, step_of
 
 ERROR = 1e-6  # of a step, relative to the largest displacement so far
 STEP_TOLERANCE = 1e-11  # last correction relative to the sheet's side
@@ -98,18 +98,15 @@ class GeneralisedAlpha(Integrator):
 
     def _step(self, state: State, h: float) -> tuple[State, np.ndarray]:
         system, time = self.system, state.time + h
-        am, af, gamma, beta, by_old, *_ = rule = self._rule
-        old, by_a, by_v = self._old(state, h), rule.by_a(h), rule.by_v(h)
         motion = system.prescribed
         held = motion.place(time) - motion.place(state.time) - h * motion.rate(state.time)
         turn = motion.rate(time) - motion.rate(state.time)
-        start = (af * state.a - am * old) / (1.0 - am)  # a'₁ with no acceleration at the end
-        base_u = state.u + h * state.v + h * h * (by_old * old + beta * start) + held
-        base_v = state.v + h * ((1.0 - gamma) * old + gamma * start) + turn
-        equation = StepEquation(system.within(state, h), time, base_u, base_v, by_a, by_v)
+        step = step_of(self._rule, h, state.u, state.v, state.a, self._old(state, h))
+        base_u, base_v = step.base_u + held, step.base_v + turn
+        equation = StepEquation(system.within(state, h), time, base_u, base_v, step.by_a, step.by_v)
         try:
-            u = self._newton.solve_equation(equation, base_u + state.a / by_a)
+            u = self._newton.solve_equation(equation, base_u + state.a / step.by_a)
         except StepFailed:  # after a jump the old acceleration leads nowhere
             u = self._newton.solve_equation(equation, state.u + held + h * state.v)
         v, a = self._newton.state(equation, u)
-        return State(time, u, v, a), start + a / (by_a * beta * h * h)
+        return State(time, u, v, a), step.algorithm(a)

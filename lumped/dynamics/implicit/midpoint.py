@@ -18,6 +18,7 @@ from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import kinetic_of_placed, natural_work, obstacle_work
 from sheetbench.numerics.time.method import Advance
+from sheetbench.numerics.time.rule import MidpointStep
 
 STEP_TOLERANCE = 1e-13  # last correction relative to the sheet's side
 
@@ -46,15 +47,17 @@ class Midpoint(Integrator):
         moved = motion.place(time) - motion.place(state.time)
         jump = moved / h - motion.rate(state.time)
 
+        step = MidpointStep(h, state.u, state.v)
+
         def mean(u: np.ndarray) -> np.ndarray:
-            return np.where(algebraic, u, 0.5 * (state.u + u))
+            return np.where(algebraic, u, step.place(u))
 
         def velocity(u: np.ndarray) -> np.ndarray:
-            return np.where(algebraic, 0.0, u - state.u) / h
+            return np.where(algebraic, 0.0, step.rate(u))
 
         def residual(u: np.ndarray) -> np.ndarray:
             rate = velocity(u)
-            gained = rate - state.v - jump  # what is prescribed has its work apart
+            gained = rate - state.v - jump  # the work of prescribed motion is separate
             inertia: np.ndarray = (system.mass @ ((2.0 / h) * gained).ravel()).reshape(-1, 3)
             force = inertia + system.average_elastic(state, u, middle)
             return force + system.damping_force(mean(u), rate, middle)[1] - system.external(mean(u), middle)

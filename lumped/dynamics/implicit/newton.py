@@ -9,7 +9,7 @@ multipliers' rows of û and v̂ apart, and does it compiled where it can.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,7 +19,7 @@ from lumped.dynamics.implicit import compiled_newton
 from lumped.dynamics.implicit.compiled_newton import CONVERGED, CompiledNewton
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.system import System
-from sheetbench.numerics.reduced import Factor
+from sheetbench.numerics.reduced import Factor, SingularMatrixError
 from sheetbench.numerics.time.method import StepFailed
 
 CORRECTIONS = 20
@@ -108,14 +108,32 @@ class Newton:
     ) -> np.ndarray:
         """u of the equation. tolerance [m]: of the last correction, else the iteration's own.
         Raises StepFailed, or SingularMatrixError."""
+        u = np.array(guess[None])
+        if failures := self.solve_equations([equation], u, tolerance):
+            raise failures[0]
+        found: np.ndarray = u[0]
+        return found
+
+    def solve_equations(
+        self, equations: Sequence[StepEquation], u: np.ndarray, tolerance: float | None = None
+    ) -> dict[int, Exception]:
+        """Put the solutions of equations with the same coefficients in place of guesses u (k, n, 3); return
+        why some have none, whose guesses stay, by number. tolerance: as in `solve_equation`."""
         small = self.tolerance if tolerance is None else tolerance
+        failures: dict[int, Exception] = {}
+        done = 0
         if self._compiled is not None:
-            u = self._solve_compiled(self._compiled, equation, guess, small)
-            if u is not None:
-                return u
-        key = (equation.mass_coefficient, equation.damping_coefficient)
+            done = self._solve_compiled(self._compiled, equations, u, small, failures)
+        for i, equation in enumerate(equations[done:], start=done):
+            try:
+                u[i] = self._solve_general(equation, u[i], small)
+            except (StepFailed, SingularMatrixError) as failure:
+                failures[i] = failure
+        return failures
+
+    def _solve_general(self, equation: StepEquation, guess: np.ndarray, small: float) -> np.ndarray:
         return self.solve(
-            key,
+            (equation.mass_coefficient, equation.damping_coefficient),
             lambda u: self._residual(equation, u),
             lambda u: self._blocks(equation, u),
             guess,
@@ -187,23 +205,30 @@ class Newton:
         )
 
     def _solve_compiled(
-        self, compiled: CompiledNewton, equation: StepEquation, guess: np.ndarray, small: float
-    ) -> np.ndarray | None:
-        """u, or None where the tangent is not positive definite."""
-        u = np.array(guess)
-        external = self._system.external(u, equation.time)
-        base = equation.base_u, equation.base_v
-        by = equation.mass_coefficient, equation.damping_coefficient
-        left, status = CORRECTIONS, compiled_newton.STALE
-        if self.near(equation.mass_coefficient):
-            status, done = compiled.iterate(u, base, by, external, small, self._stale, left)
-            left -= done
-        while status == compiled_newton.STALE and left > 0:
-            if not self._factorise(compiled, equation, u):
-                return None
-            status, done = compiled.iterate(u, base, by, external, small, self._stale, left)
-            left -= done
-        if status != compiled_newton.CONVERGED:
+        self,
+        compiled: CompiledNewton,
+        equations: Sequence[StepEquation],
+        u: np.ndarray,
+        small: float,
+        failures: dict[int, Exception],
+    ) -> int:
+        """Solve equations as `solve_equations` does up to the first whose tangent is not positive definite;
+        how many."""
+        guesses, i, left = u.copy(), 0, CORRECTIONS
+        base = np.array([one.base_u for one in equations]), np.array([one.base_v for one in equations])
+        by = equations[0].mass_coefficient, equations[0].damping_coefficient
+        external = self._system.loads([one.time for one in equations])
+        while i < len(u):
+            if not self.near(by[0]) and not self._factorise(compiled, equations[i], u[i]):
+                u[i] = guesses[i]
+                return i
+            status, i, left = compiled.iterate(
+                i, left, u, base, by, external, small, self._stale, CORRECTIONS
+            )
+            if status == CONVERGED:
+                break
             self._factored = None
-            raise StepFailed(UNSOLVED)
-        return u
+            if status != compiled_newton.STALE or left == 0:
+                failures[i], u[i] = StepFailed(UNSOLVED), guesses[i]
+                i, left = i + 1, CORRECTIONS
+        return len(u)

@@ -1,4 +1,5 @@
-"""The polynomial of fifth degree through a step's ends, with their velocities and accelerations, compiled."""
+"""Polynomials within a step: the one of fifth degree through its ends, with their velocities and
+accelerations, compiled; and what corrects it."""
 
 from __future__ import annotations
 
@@ -33,3 +34,15 @@ def polynomials(
                 u = u * theta[k] + curve[power, i]
             out[0, k, i], out[1, k, i], out[2, k, i] = u, v * rate, a * rate * rate
     return out.reshape(3, len(theta), -1, 3)
+
+
+def bubbles(nodes: np.ndarray, theta: np.ndarray) -> np.ndarray:
+    """Values at shares θ (k,) of the polynomials θ³ (1 − θ)³ p(θ), p of least degree, that are one at one of
+    the nodes (m,) and zero at the others, (k, m)."""
+    own = np.arange(len(nodes))
+    apart = np.concatenate([theta, nodes])[:, None, None] - nodes
+    apart = np.broadcast_to(apart, (len(apart), len(nodes), len(nodes))).copy()
+    apart[:, own, own] = 1.0
+    polynomial, (ends, own_ends) = apart.prod(axis=2), (x * (1.0 - x) for x in (theta, nodes))
+    found: np.ndarray = polynomial[: len(theta)] / polynomial[len(theta) + own, own]
+    return found * (ends[:, None] / own_ends) ** 3

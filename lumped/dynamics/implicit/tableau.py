@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 
-NEAREST = 3
 GAMMA = 23 / 125  # on the diagonal of every stage but the first
 ABSCISSAE = np.array(
     [
@@ -71,14 +70,20 @@ def _cumulative() -> np.ndarray:
 
 
 def _guesses() -> np.ndarray:
-    """G, (7, 7): each stage's acceleration from the NEAREST earlier ones, by the polynomial through them."""
+    """G, (7, 7): each stage's acceleration from those before, such that its displacement lies on the parabola
+    nearest to all their displacements and velocities, which are h² A² v̇ and h A v̇ beside where the start
+    alone leads."""
     found = np.zeros((7, 7))
-    for i in range(1, 7):
-        near = np.argsort(np.abs(ABSCISSAE[:i] - ABSCISSAE[i]), kind="stable")[:NEAREST]
-        for j in near:
-            others = ABSCISSAE[near[near != j]]
-            found[i, j] = np.prod((ABSCISSAE[i] - others) / (ABSCISSAE[j] - others))
-    return found
+    found[1, 0] = 1.0
+    for i in range(2, 7):
+        apart = ABSCISSAE[:i] - ABSCISSAE[i]
+        slope = np.vander(apart, 2, True) @ [[0.0, 1.0, 0.0], [0.0, 0.0, 2.0]]
+        parabola = np.vstack([np.vander(apart, 3, True), slope])
+        of_u, of_v = np.split(np.linalg.pinv(parabola)[0], 2)
+        inner = np.where(np.arange(7) < i, STAGES[i], 0.0)
+        led = of_u @ STAGES[:i] @ STAGES + of_v @ STAGES[:i]
+        found[i] = (led - inner @ STAGES - GAMMA * inner) / GAMMA**2
+    return np.tril(found, -1)
 
 
 STAGES = _stages()

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
 
 from lumped.calibration import Calibration
-from lumped.dynamics.explicit.projection import Projection
 from lumped.dynamics.system import State, System
 from lumped.lattice import Weights
 from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Scene
-from sheetbench.scenes.motion import NO_START, at_start, starts_flat
+from sheetbench.scenes.meaning.motion import NO_START, at_start, starts_flat
 
 
 def initial_state(
     system: System, calibration: Calibration, weights: Weights, scene: Scene | None = None
 ) -> State:
-    """At rest, flat or in the equilibrium that the scene starts from (`sheetbench.scenes.motion`), with the
+    """At rest, flat or in the equilibrium that the scene starts from (`scenes.meaning.motion`), with the
     acceleration that loads and commands give it at once. scene: the system's with the loads that it lets go.
 
     Raises NoEquilibrium where there is no stable one.
@@ -34,8 +35,28 @@ def initial_state(
     v = system.prescribed.rate(0.0)
     v = v if system.prescribed.moving else np.zeros_like(u)
     a = system.accelerate(system.within(State(0.0, u, v, v, memory)).unbalanced(u, v, 0.0))
-    projection = Projection(system)
-    if projection.active:
-        a, multipliers = projection.tangential(a, projection.jacobian(u))
-        u = u + multipliers
+    if system.constrained:
+        u, a = _constrained(system, u, a)
     return State(0.0, u, v, a, memory)
+
+
+def _constrained(system: System, u: np.ndarray, a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """u with the multipliers μ of the chains' constraints, and a less M⁻¹ Jᵀ μ, so that J times it vanishes.
+
+    Only the chains' rows appear in J, and the mass couples them with nothing else: a small dense matrix
+    J M⁻¹ Jᵀ. Source: Andersen (1983), RATTLE.
+    """
+    coupling = system.coupling
+    assert coupling is not None
+    masses, order = coupling.masses, np.flatnonzero(coupling.algebraic[coupling.masses :].ravel())
+    rows_of = sp.csc_array(system.moving_part[3 * masses :])
+    unknown = np.flatnonzero(np.diff(rows_of.indptr))
+    gradient = coupling.constraint_gradient(u)
+    jacobian = gradient.reshape(len(gradient), -1) @ rows_of[:, unknown].toarray()
+    weighted = np.linalg.solve(system.reduced_mass[unknown][:, unknown].toarray(), jacobian.T)
+    own = system.contract(a)[unknown]
+    multipliers = scipy.linalg.solve(jacobian @ weighted, jacobian @ own, assume_a="pos")
+    rows, change = np.zeros(u.size), np.zeros(system.reduced_mass.shape[0])
+    rows[3 * masses + order] = multipliers
+    change[unknown] = weighted @ multipliers
+    return u + rows.reshape(u.shape), a - system.expand(change)

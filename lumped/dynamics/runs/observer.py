@@ -7,7 +7,6 @@ by call for the others.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -22,11 +21,11 @@ from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
 from lumped.statics.faults import broken, fastest
 from lumped.statics.structure import STRETCH
+from sheetbench.answers.history import ENERGIES
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.runs.columns import Part, width
 from sheetbench.scenes import outside_model
-from sheetbench.scenes.history import ENERGIES
 
 
 class Observed(NamedTuple):
@@ -86,13 +85,18 @@ class LatticeObserver:
         """Return how many of the first samples mean something: `lumped.statics.faults`."""
         return broken(self._system.assembly, samples.u[:count])
 
-    def stretches(self, samples: LatticeSamples, count: int) -> Iterator[float]:
-        """Yield the largest strain of a link in each of the first samples."""
+    def stretches(self, samples: LatticeSamples, count: int) -> np.ndarray:
+        """Return the largest strain of a link in each of the first samples, (count,)."""
         assembly = self._system.assembly
-        for time, u in zip(samples.time[:count].tolist(), samples.u[:count], strict=True):
+        if assembly.any_strain:
+            return np.zeros(count)
+        if assembly.natural is None:
+            return assembly.links.largest_strains(samples.u[:count])
+        found = np.empty(count)
+        for i, time in enumerate(samples.time[:count].tolist()):
             assembly.grow(time=time)
-            links = assembly.links
-            yield 0.0 if assembly.any_strain else links.largest_strain(links.elongations(u))
+            found[i] = assembly.links.largest_strain(samples.u[i])
+        return found
 
     def beyond(self, stretch: float) -> str:
         """Return a clause where the law of strain does not hold that far, else ""."""

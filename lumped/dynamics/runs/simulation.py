@@ -2,7 +2,7 @@
 
 Gravity, loads and commands act from t = 0 on, loads scaled by their histories. The sheet starts flat and at
 rest; with a curved support or a tilted clamp it starts in the shape that the supports alone give it, with
-`[initial]` in that of statics (`sheetbench.scenes.motion`). Samples are evenly spaced; steps divide their
+`[initial]` in that of statics (`scenes.meaning.motion`). Samples are evenly spaced; steps divide their
 distance.
 """
 
@@ -27,16 +27,17 @@ from lumped.lattice import Weights
 from lumped.mid_surface import MidSurface
 from lumped.statics.fields import field_mesh
 from lumped.statics.solver import build_problem
+from sheetbench.answers.contact import friction_notes
+from sheetbench.answers.history import History
 from sheetbench.choices import INTEGRATOR
 from sheetbench.clock import now
 from sheetbench.numerics.time.method import Advance
 from sheetbench.runs.record import Recipe, record
 from sheetbench.runs.schedule import Schedule
-from sheetbench.scenes import AnyScene, History, scene_of
-from sheetbench.scenes.contact import friction_notes
-from sheetbench.scenes.grading import as_settings
-from sheetbench.scenes.motion import let_go
-from sheetbench.scenes.quantities import require_positive
+from sheetbench.scenes import AnyScene, scene_of
+from sheetbench.scenes.meaning.motion import let_go
+from sheetbench.scenes.objects.grading import as_settings
+from sheetbench.scenes.objects.quantities import require_positive
 
 
 def simulate(

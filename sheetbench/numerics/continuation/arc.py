@@ -15,10 +15,10 @@ from typing import Generic, NamedTuple
 
 import numpy as np
 
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 from sheetbench.numerics.direct import Factor, SingularMatrixError
-from sheetbench.scenes import Status
 
 CORRECTIONS = 10
 TOLERANCE, CLOSE = 1e-9, 1e-5  # residual relative to the forces; that from which on stresses are their own

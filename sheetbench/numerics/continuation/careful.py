@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Protocol, TypeVar
 
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.stability import stability
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
-from sheetbench.scenes import Status
 
 Linear = TypeVar("Linear", covariant=True)
 

@@ -14,10 +14,10 @@ from typing import Generic
 
 import numpy as np
 
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
-from sheetbench.scenes import Status
 
 SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
 VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Generic, NamedTuple
 
+from sheetbench.answers.solution import Iteration, Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.structure import Forces, Matrix, Solver, State, Structure
 from sheetbench.numerics.direct import Factor
-from sheetbench.scenes import Iteration, Status
 
 Progress = Callable[[Iteration], None]
 
@@ -26,8 +26,8 @@ class Path(Generic[State, Forces]):
     """Where the tracing of a structure stands: the last equilibrium, its load factor, and what it took.
 
     limit: of factorisations, for now; alike: change of the strain that leaves the tangent what it is; snaps:
-    load factors that it snapped at; fault: what has ended it early; notes: what to say of it; progress: told
-    of every iteration; factor: of the equilibrium's tangent, where it is at hand.
+    load factors that it snapped at; fault: what has ended it early; notes: its warnings; progress: called
+    at every iteration; factor: of the equilibrium's tangent, where it is at hand.
     """
 
     structure: Structure[State, Forces]

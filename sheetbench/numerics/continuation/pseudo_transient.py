@@ -23,11 +23,11 @@ from typing import Generic, cast
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Creeping, Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
-from sheetbench.scenes import Status
 
 FACTORISATIONS = 300  # of one relaxation
 CORRECTIONS = 8  # of one step

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sheetbench.answers.solution import Status
 from sheetbench.errors import NoEquilibrium
 from sheetbench.numerics.continuation.path import Path
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import SingularMatrixError
-from sheetbench.scenes import Status
 
 
 def stability(path: Path[State, Forces]) -> tuple[Status, str]:
@@ -21,7 +21,7 @@ def stability(path: Path[State, Forces]) -> tuple[Status, str]:
             path.factor = path.factor or path.factored(path.tangent(path.state, path.load_factor))
             inertia = path.factor.inertia
             if inertia is None:
-                return Status.CONVERGED, "stability not known: the factors do not tell the inertia"
+                return Status.CONVERGED, "stability not known: the factors do not give the inertia"
             negative, zero = inertia.negative - structure.multipliers, inertia.zero
         else:
             path.factor = path.factored(path.tangent(path.state, path.load_factor))
@@ -30,7 +30,7 @@ def stability(path: Path[State, Forces]) -> tuple[Status, str]:
                 return (
                     Status.CONVERGED,
                     "stability not known: the tangent's eigenvalues nearest to zero were not found, or its "
-                    "determinant tells of others below",
+                    "determinant has the sign of further negative ones",
                 )
             negative, zero = found, 0
     except SingularMatrixError as error:

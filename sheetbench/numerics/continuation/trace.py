@@ -22,6 +22,7 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 
 from __future__ import annotations
 
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.arc import limit_point
 from sheetbench.numerics.continuation.careful import UnknownInertia, careful_budget, continuous, negatives
 from sheetbench.numerics.continuation.limits import Limits
@@ -38,7 +39,6 @@ from sheetbench.numerics.continuation.stability import stability
 from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Status
 
 SAME_TANGENT = 1e-2  # of (thickness/size)², strains that buckle a sheet: what changes by less has one tangent
 

@@ -1,4 +1,6 @@
-"""Generalised-α: coefficients and error of a step, for whoever solves its equation.
+"""Generalised-α and the midpoint rule: coefficients, error and equation of a step, for whoever solves that.
+
+Generalised-α:
 
     M a₁ + f(u₁, v₁, t₁) = 0                               equilibrium at the step's end, constraints included
     (1 − αm) a'₁ + αm a'₀ = (1 − αf) a₁ + αf a₀            a': the algorithm's acceleration
@@ -12,6 +14,10 @@ a + (a' − a) h/h_before. Source: Chung and Hulbert (1993) in the form of Arnol
 order with constraints too.
 
 Backward Euler, u₁ = u₀ + h v₁ and v₁ = v₀ + h a₁, is of the same form; its local error is ½ h² |a₁|.
+With u₁ as its unknown a step of either has v₁ = v̂ + c₁ (u₁ − û) and a₁ = c₂ (u₁ − û) (`AlphaStep`).
+
+The midpoint rule, of second order, is ½ (v₀ + v₁) = (u₁ − u₀)/h with the forces of the model's own choice at
+its middle (`MidpointStep`); with a discrete gradient it conserves energy (Simo and Tarnow, 1992).
 """
 
 from __future__ import annotations
@@ -56,6 +62,65 @@ def generalised(radius: float) -> Rule:
     gamma = 0.5 + af - am
     beta = 0.25 * (gamma + 0.5) ** 2
     return Rule(am, af, gamma, beta, 0.5 - beta, 3, abs(beta + 0.5 * (am - af) - 1.0 / 6.0))
+
+
+class AlphaStep(NamedTuple):
+    """A step of h [s] with u₁ as its unknown: û, v̂ and â', which u₁, v₁ and a'₁ are where a₁ = 0; c₁ [1/s];
+    c₂ [1/s²]; `to_a`, a'₁ − â' over a₁; guess: u₁ with a'₁ = a'₀."""
+
+    base_u: np.ndarray
+    base_v: np.ndarray
+    base_a: np.ndarray
+    by_v: float
+    by_a: float
+    to_a: float
+    guess: np.ndarray
+
+    def velocity(self, u: np.ndarray) -> np.ndarray:
+        """Return v₁."""
+        return self.base_v + self.by_v * (u - self.base_u)
+
+    def acceleration(self, u: np.ndarray) -> np.ndarray:
+        """Return a₁."""
+        return self.by_a * (u - self.base_u)
+
+    def algorithm(self, a: np.ndarray) -> np.ndarray:
+        """Return a'₁ of a₁."""
+        return self.base_a + self.to_a * a
+
+
+def step_of(rule: Rule, h: float, u: np.ndarray, v: np.ndarray, a: np.ndarray, old: np.ndarray) -> AlphaStep:
+    """Return the step of h [s] from u₀, v₀, a₀ and a'₀."""
+    am, af, gamma, beta, by_old, *_ = rule
+    base_a = (af * a - am * old) / (1.0 - am)
+    start = u + h * v + h * h * by_old * old
+    base_v = v + h * ((1.0 - gamma) * old + gamma * base_a)
+    base_u, guess = start + h * h * beta * base_a, start + h * h * beta * old
+    return AlphaStep(base_u, base_v, base_a, rule.by_v(h), rule.by_a(h), (1.0 - af) / (1.0 - am), guess)
+
+
+class MidpointStep(NamedTuple):
+    """A midpoint step of h [s] from u₀ and v₀, with u₁ as its unknown."""
+
+    h: float
+    u: np.ndarray
+    v: np.ndarray
+
+    def place(self, u: np.ndarray) -> np.ndarray:
+        """Return ½ (u₀ + u₁)."""
+        return 0.5 * (self.u + u)
+
+    def rate(self, u: np.ndarray) -> np.ndarray:
+        """Return (u₁ − u₀)/h."""
+        return (u - self.u) / self.h
+
+    def velocity(self, u: np.ndarray) -> np.ndarray:
+        """Return v₁."""
+        return 2.0 * self.rate(u) - self.v
+
+    def acceleration(self, u: np.ndarray) -> np.ndarray:
+        """Return (v₁ − v₀)/h."""
+        return (self.velocity(u) - self.v) / self.h
 
 
 def shifted(a: np.ndarray, algorithm: np.ndarray, h: float, before: float) -> np.ndarray:

@@ -15,7 +15,7 @@ from scene_files import written
 from comparisons.cli import interruption
 from comparisons.sweep import here as table
 from sheetbench import scenes
-from sheetbench.scenes import Status
+from sheetbench.answers.solution import Status
 
 pytestmark = pytest.mark.smoke
 
@@ -41,8 +41,8 @@ finally:
 
 
 def test_a_comparison_imports_nothing_that_it_does_not_use():
-    asked = [sys.executable, "-c", COMPARE, *UNUSED]
-    done = subprocess.run(asked, capture_output=True, text=True, check=True)
+    arguments = [sys.executable, "-c", COMPARE, *UNUSED]
+    done = subprocess.run(arguments, capture_output=True, text=True, check=True)
     assert done.stderr.splitlines()[-1] == "[]"
 
 
@@ -93,10 +93,10 @@ def test_a_fault_of_ours_is_not_passed_off_as_bad_input(fault, monkeypatch, caps
 
     monkeypatch.setattr(table, "solve", stumble)
     assert run("compare", "two-edges-clamped") == 1
-    *trace, asked = capsys.readouterr().err.splitlines()
+    *trace, request = capsys.readouterr().err.splitlines()
     assert any("in stumble" in line for line in trace)
     assert trace[-1].endswith(f"{type(fault).__name__}: of ours")
-    assert "please report it" in asked
+    assert "please report it" in request
 
 
 @pytest.mark.usefixtures("quick")

@@ -100,7 +100,7 @@ def test_no_pictures_leaves_out_every_picture(tmp_path, here, monkeypatch):
 @pytest.mark.parametrize("verb", VERBS)
 def test_every_verb_can_be_quiet_and_without_pictures(verb, monkeypatch, capsys):
     def quietly():
-        raise BadInput("it is asked to be quiet")
+        raise BadInput("a request to be quiet")
 
     monkeypatch.setattr(console, "quietly", quietly)  # the verb itself does not begin
     needed = []
@@ -109,7 +109,7 @@ def test_every_verb_can_be_quiet_and_without_pictures(verb, monkeypatch, capsys)
             needed += [one.opts[0]] if one.param_type_name == "option" else []
             needed.append("one-edge-clamped")
     assert run(verb, *needed, "--no-pictures", "--quiet") == 2
-    assert one_line(capsys) == "sheetbench: it is asked to be quiet\n"
+    assert one_line(capsys) == "sheetbench: a request to be quiet\n"
 
 
 @pytest.mark.parametrize("width", [50, 80, 160])
@@ -223,10 +223,10 @@ def test_the_same_call_from_python_gives_the_same_answer(kept, name, here):
     """The words of the command line, as the terminal reads them, are the function's arguments."""
     verb, *words = SMALL[name].split()
     command = verb_group().commands[verb]
-    asked = command.make_context(verb, list(words)).params
+    parameters = command.make_context(verb, list(words)).params
     function = getattr(sb, verb)
     known = inspect.signature(function).parameters
-    taken = {key: value for key, value in asked.items() if key in known and value != ()}
+    taken = {key: value for key, value in parameters.items() if key in known and value != ()}
     answer = json.loads(to_json(function(**taken).document()))
     there, here_ = dict(of_document(kept(name).document)), dict(of_document(answer))
     if name == "tradeoff tolerance":  # which lattices are tried goes by their time

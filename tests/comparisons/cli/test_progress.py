@@ -24,9 +24,9 @@ from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
 from comparisons.pictures import amounts, work
 from comparisons.pictures.work import Pace, Work
-from comparisons.runs.campaign import GOING, Progress, campaign, carry_out
-from sheetbench.scenes import Iteration
-from sheetbench.scenes.size import Size
+from comparisons.sweep.campaign import GOING, Progress, campaign, carry_out
+from sheetbench.answers.size import Size
+from sheetbench.answers.solution import Iteration
 
 SCENE = "two-edges-clamped"
 SMALL = ("compare", SCENE, "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
@@ -36,46 +36,47 @@ QUICK, SLOW = Size(100, 1e6, 0.1), Size(1_234_567, 1e9, 300.0)
 @pytest.fixture
 def said():
     """Lines of a clock that is set by hand."""
-    told: list[str] = []
+    reports: list[str] = []
     now = [100.0]
-    return Lines(told.append, lambda: now[0]), told, now
+    return Lines(reports.append, lambda: now[0]), reports, now
 
 
 def test_what_lasts_is_said_now_and_then(said):
-    lines, told, now = said
+    lines, reports, now = said
     one = Work("solving shell", QUICK)
     lines.say(one)
     now[0] += QUIET
     lines.look()
     lines.look()
-    assert told == ["solving shell …"]
+    assert reports == ["solving shell …"]
     for step in range(10):
         now[0] += BETWEEN / 10
         lines.say(one.at(0.1 * (step + 1)))
         lines.look()
-    assert told == ["solving shell …", "solving shell: 100 % of the load"]
+    assert reports == ["solving shell …", "solving shell: 100 % of the load"]
     now[0] += 10 * BETWEEN
     lines.look()
-    assert len(told) == 2  # nothing new
+    assert len(reports) == 2  # nothing new
 
 
 def test_what_will_last_is_said_before_it_starts(said):
-    lines, told, _ = said
+    lines, reports, _ = said
     lines.say(Work("solving solid", SLOW))
     lines.say(Work("solving solid", SLOW).at(0.25))
-    assert told == ["solving solid (1.23 million unknowns, about 5 min) …"]
+    assert reports == ["solving solid (1.23 million unknowns, about 5 min) …"]
     assert str(Work("solving solid", SLOW).at(0.25)).endswith("about 5 min): 25 % of the load")
+    assert str(Work("solving shell").at(51.35)) == "solving shell: following its path beyond the load"
 
 
 def test_the_clock_is_looked_at_while_nothing_is_said(monkeypatch):
     monkeypatch.setattr(cli_lines, "QUIET", 0.0)
     monkeypatch.setattr(cli_lines, "POLL", 1e-3)
-    told: list[str] = []
-    with Lines(told.append) as lines:
+    reports: list[str] = []
+    with Lines(reports.append) as lines:
         lines.say("working …")
-        while not told:
+        while not reports:
             pass
-    assert told == ["working …"]
+    assert reports == ["working …"]
 
 
 def test_a_short_command_is_quiet_in_a_pipe(monkeypatch, capsys):
@@ -91,7 +92,7 @@ def test_a_long_command_says_size_and_time_first(monkeypatch, capsys):
 
 
 def test_a_large_grid_is_announced_with_its_unknowns_and_its_time(monkeypatch):
-    """`compare --grid 300` on a strip of 3 by 1: told before the first array is there, nothing is solved."""
+    """`compare --grid 300` on a strip of 3 by 1: refused before the first array."""
     sheet, material = parts()
     strip = sb.Scene(
         name="strip",
@@ -99,23 +100,23 @@ def test_a_large_grid_is_announced_with_its_unknowns_and_its_time(monkeypatch):
         material=material,
         support=(sb.Clamped(edge="x0"),),
     )
-    told: list[Work] = []
-    with running(progress=told.append, large=True), pytest.raises(ZeroDivisionError):
+    reports: list[Work] = []
+    with running(progress=reports.append, large=True), pytest.raises(ZeroDivisionError):
         monkeypatch.setattr(solvers, "warm", lambda model: 1 / 0)
         solvers.solve(resolve(strip, Lattice(300)))
-    said = str(told[0])
+    said = str(reports[0])
     assert said.startswith("solving lumped, 898 × 300 × 2 masses (1.62 million unknowns, about ")
     assert re.fullmatch(r".*about \d+ (s|min)\) …", said)
 
 
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
 def test_every_iteration_is_told_with_its_load_factor(model):
-    told: list[Iteration] = []
+    reports: list[Iteration] = []
     if model == "lumped":
-        solution = lumped.solve(SCENE, lumped.calibrate(*parts(), grid=5), progress=told.append)
+        solution = lumped.solve(SCENE, lumped.calibrate(*parts(), grid=5), progress=reports.append)
     else:
-        solution = fem_reference.solve(SCENE, model, elements=2, progress=told.append)
-    assert tuple(told) == solution.history and told[-1].load_factor == 1.0
+        solution = fem_reference.solve(SCENE, model, elements=2, progress=reports.append)
+    assert tuple(reports) == solution.history and reports[-1].load_factor == 1.0
 
 
 def parts():
@@ -128,9 +129,9 @@ def test_progress_is_no_option_of_a_model():
 
 
 def test_a_comparison_tells_what_it_solves_and_how_far_it_is():
-    told: list[Work] = []
-    sb.compare(sb.load(SCENE), grid=3, elements=4, progress=told.append)
-    begun = [one.doing for one in told if one.share is None]
+    reports: list[Work] = []
+    sb.compare(sb.load(SCENE), grid=3, elements=4, progress=reports.append)
+    begun = [one.doing for one in reports if one.share is None]
     assert begun == [
         "solving lumped, 3 × 3 × 2 masses",
         "solving shell, 4 × 4 elements",
@@ -139,32 +140,32 @@ def test_a_comparison_tells_what_it_solves_and_how_far_it_is():
         "solving shell, 3 × 3 elements",
         "solving shell, 2 × 2 elements",
     ]
-    assert {one.doing for one in told if one.share == 1.0} == set(begun)
-    assert all(one.size is not None and one.size.unknowns > 0 for one in told)
+    assert {one.doing for one in reports if one.share == 1.0} == set(begun)
+    assert all(one.size is not None and one.size.unknowns > 0 for one in reports)
 
 
 def test_other_verbs_tell_too(tmp_path):
-    told: list[Any] = []
-    sb.modes(SCENE, grid=3, elements=2, count=2, progress=told.append)
-    assert [one.doing for one in told] == ["modes of lumped", "modes of shell"]
-    told.clear()
-    sb.tradeoff("one-edge-clamped", tolerance=0.2, progress=told.append)
+    reports: list[Any] = []
+    sb.modes(SCENE, grid=3, elements=2, count=2, progress=reports.append)
+    assert [one.doing for one in reports] == ["modes of lumped", "modes of shell"]
+    reports.clear()
+    sb.tradeoff("one-edge-clamped", tolerance=0.2, progress=reports.append)
     wanted = {"solving shell, 4 × 4 elements", "solving lumped, 3 × 3 × 2 masses"}
-    assert wanted <= {one.doing for one in told}
-    told.clear()
+    assert wanted <= {one.doing for one in reports}
+    reports.clear()
     measured = tmp_path / "measured.csv"
     measured.write_text("x,y,uz\n0.094,0.094,-0.00245\n0.188,0.188,-0.0135\n")
-    sb.identify(SCENE, measured, model="shell", elements=2, progress=told.append)
-    assert any(isinstance(one, Work) and one.share == 1.0 for one in told)
-    assert any(isinstance(one, str) and one.startswith("young = ") for one in told)
+    sb.identify(SCENE, measured, model="shell", elements=2, progress=reports.append)
+    assert any(isinstance(one, Work) and one.share == 1.0 for one in reports)
+    assert any(isinstance(one, str) and one.startswith("young = ") for one in reports)
 
 
 def test_a_fit_tells_what_it_is_trained_on():
-    told: list[Work] = []
+    reports: list[Work] = []
     spec = Lattice(4, "fit-modal")
-    with running(progress=told.append):
+    with running(progress=reports.append):
         calibrate(training_scenes(*parts())[0], spec, named=False)
-    assert [one.doing.split()[0] for one in told] == ["training", "training", "fitting"]
+    assert [one.doing.split()[0] for one in reports] == ["training", "training", "fitting"]
 
 
 def test_a_campaign_tells_which_run_goes_on(tmp_path):

@@ -9,7 +9,7 @@ from comparisons.cli import console
 from comparisons.cli import lines as cli_lines
 from comparisons.cli.verb import as_verb
 from comparisons.pictures import work
-from comparisons.runs.campaign import Progress
+from comparisons.sweep.campaign import Progress
 
 SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
 

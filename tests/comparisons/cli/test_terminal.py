@@ -10,7 +10,7 @@ from rich.console import Console
 from terminals import COMMAND, Terminal
 
 from comparisons.cli import characters, console
-from comparisons.runs.campaign import Progress
+from comparisons.sweep.campaign import Progress
 
 
 @pytest.mark.parametrize(

@@ -112,9 +112,9 @@ def test_the_nearest_hinge_is_nearest():
     best = nearest(cell, MATERIAL, THICKNESS)
     rigidity = MATERIAL.young * THICKNESS**3 / 12 / (1 - MATERIAL.poisson**2)
     nu = MATERIAL.poisson
-    asked = np.array([1.0, 1.0, nu * ROOT, (1 - nu)])  # 11, 22, √2·12, 2·66 in Mandel's norm
+    target = np.array([1.0, 1.0, nu * ROOT, (1 - nu)])  # 11, 22, √2·12, 2·66 in Mandel's norm
     given = np.array([sqrt(3) / 2, sqrt(3) / 2, -sqrt(3) / 6 * ROOT, 2 * sqrt(3) / 3])
-    assert best["hinge"] * 0.01 == pytest.approx(rigidity * (asked @ given) / (given @ given), rel=1e-6)
+    assert best["hinge"] * 0.01 == pytest.approx(rigidity * (target @ given) / (given @ given), rel=1e-6)
     assert best["lambda_h"] == pytest.approx(nu * MATERIAL.young * THICKNESS / (1 - nu**2))
 
 

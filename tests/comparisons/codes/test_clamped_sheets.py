@@ -97,6 +97,7 @@ def off(name, edges, squares):
     return (deflection(cell, values, edges, size) - plate[:, 2]) / np.abs(plate[:, 2]).max()
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("name", "edges"),
     [("one-diagonal", "x0 y0"), ("alternate-diagonals", "x0 y0"), ("bricks", "x0 y0"), ("equilateral", "y0")],

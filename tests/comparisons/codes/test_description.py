@@ -5,8 +5,8 @@ from cases import CLAMP, RUBBER, SHEET
 
 import lumped
 from sheetbench.scenes import Hinged, Scene
-from sheetbench.scenes.grid import grid_of
-from sheetbench.scenes.springs import DamperSet
+from sheetbench.scenes.objects.grid import grid_of
+from sheetbench.scenes.objects.springs import DamperSet
 
 
 def spring_set(scene, grid, **settings):

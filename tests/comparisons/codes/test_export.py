@@ -21,7 +21,7 @@ from comparisons.codes.lattice import export
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, Held, Hinged, Material, PointLoad, Pressure, Scene, Sheet, Symmetric
-from sheetbench.scenes.grid import grid_of
+from sheetbench.scenes.objects.grid import grid_of
 
 READERS = Path(__file__).parents[3] / "comparisons" / "codes" / "scripts"
 NUMPY = runpy.run_path(str(READERS / "read_lattice.py"))
@@ -133,6 +133,7 @@ def test_matlab_and_numpy_files_hold_the_same(folder):
     assert all(f"`{name}`" in page for name in NAMES)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("scene", "settings"),
     [

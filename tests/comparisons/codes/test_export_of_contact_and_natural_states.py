@@ -14,7 +14,7 @@ from comparisons.codes.arrays import arrays
 from comparisons.codes.lattice import export, lattice_files
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes.grid import grid_of
+from sheetbench.scenes.objects.grid import grid_of
 
 READERS = Path(__file__).parents[3] / "comparisons" / "codes" / "scripts"
 NUMPY = runpy.run_path(str(READERS / "read_lattice.py"))

@@ -162,8 +162,8 @@ def test_what_they_do_not_have_is_refused():
 def test_the_verb_writes_the_lattice_for_a_code(code, tmp_path):
     """Beside the tables; MuJoCo has a sheet of its own unless springs are named, SOFA central ones."""
     springs = ("--calibration", "central") if code == "mujoco" else ()
-    asked = ("two-edges-clamped", "--grid", "3", *springs, "--for", code, "--out", str(tmp_path))
-    assert run("calibrate", *asked, "--quiet") == 0
+    arguments = ("two-edges-clamped", "--grid", "3", *springs, "--for", code, "--out", str(tmp_path))
+    assert run("calibrate", *arguments, "--quiet") == 0
     own = {**{name: file for name, (file, _) in MODELS.items()}, **READERS}[code]
     assert {own, "links.csv", "lattice.npz", "calibration.json"} <= {path.name for path in tmp_path.iterdir()}
     assert f"`{own}`" in (tmp_path / "README.md").read_text(encoding="utf-8")

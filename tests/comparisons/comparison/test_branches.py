@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from comparisons.comparison.comparison import compare
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status
+from comparisons.models.spec import Lattice
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet
 
 BENT = Scene(
     name="bent", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
@@ -20,7 +22,7 @@ COLUMN = Scene(
 
 
 def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch():
-    found = compare(BENT, grid=9, elements=8, uncertainty=False, companion=False)
+    found = compare(BENT, Lattice(9), elements=8, uncertainty=False, companion=False)
     lattice, shell = found.solutions
     assert lattice.status is shell.status is Status.CONVERGED
     assert found.several and "different branches of equilibria" in found.disagreement
@@ -32,7 +34,7 @@ def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch():
 
 def test_models_that_stay_on_different_branches_get_no_error():
     """A halved sheet is not begun in the other's shape: the lattice is 70 % off, on any grid."""
-    found = compare(BENT, grid=9, elements=8, companion=False, symmetry=True)
+    found = compare(BENT, Lattice(9, symmetry=True), elements=8, companion=False)
     lattice, shell = found.solutions
     assert lattice.status is shell.status is Status.CONVERGED
     assert "they lie on different branches of equilibria" in found.disagreement
@@ -44,7 +46,7 @@ def test_models_that_stay_on_different_branches_get_no_error():
 
 @pytest.mark.parametrize("branch", ["path", "buckled"])
 def test_a_perfect_column_has_no_error_until_it_is_let_buckle(branch):
-    found = compare(COLUMN, grid=3, elements=2, branch=branch, companion=False)
+    found = compare(COLUMN, Lattice(3, branch=branch), elements=2, companion=False)
     lattice, shell = found.solutions
     assert {one["branch"] for one in found.document()["solutions"]} == {branch} or branch == "buckled"
     if branch == "path":

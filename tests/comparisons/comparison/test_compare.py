@@ -12,15 +12,17 @@ from comparisons.comparison.comparison import compare
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.context import running
 from comparisons.models.grading import choice_notes
+from comparisons.models.spec import Lattice
 from comparisons.sweep.differences import error, relative
 from fem_reference.uncertainty import estimate
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
-from sheetbench.scenes import Scene, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Scene
 
 pytestmark = pytest.mark.smoke
 
-SMALL = {"grid": (5, 5, 2), "elements": 4}
+SMALL = Lattice((5, 5, 2))
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +32,7 @@ def scene():
 
 @pytest.fixture(scope="module")
 def real(scene):
-    return compare(scene, grid=(5, 5, 2), elements=4)
+    return compare(scene, Lattice((5, 5, 2)), elements=4)
 
 
 def test_error_is_the_largest_component_over_the_probes():
@@ -145,7 +147,7 @@ def test_json_document_has_the_promised_keys(real):
 def test_naming_a_calibration_leaves_no_companion(scene):
     done = []
     with running(solved=lambda s: done.append(s.model)):
-        alone = compare(scene, calibration="uniform", **SMALL)
+        alone = compare(scene, SMALL.but(calibration="uniform"), elements=4)
     assert done == ["lumped", "shell"] == [s.model for s in alone.solutions]
     assert alone.solutions[0].settings["calibration"] == "uniform"
 
@@ -156,7 +158,7 @@ def test_naming_a_calibration_leaves_no_companion(scene):
 def test_times_of_a_busy_machine_are_said_to_be_so(quick, scene, monkeypatch, load, said):
     monkeypatch.setattr("os.getloadavg", lambda: (load, load, load))
     monkeypatch.setattr("os.cpu_count", lambda: 8)
-    text = compare(scene, grid=3, elements=2, uncertainty=False, companion=False).report().tables[1].text
+    text = compare(scene, Lattice(3), elements=2, uncertainty=False, companion=False).report().tables[1].text
     assert text.startswith(said) and bool(text) == bool(said)
 
 
@@ -164,7 +166,7 @@ def test_a_scene_with_its_own_springs_uses_them(scene):
     springs = scenes.SpringSet(
         axial=2e4, diagonal=1e4, vertical=2e4, cross=1e4, cross_diagonal=5e3, layer_distance=0.003
     )
-    own = compare(scene.model_copy(update={"springs": springs}), **SMALL)
+    own = compare(scene.model_copy(update={"springs": springs}), SMALL, elements=4)
     assert [s.model for s in own.solutions] == ["lumped", "shell"]
     assert own.solutions[0].settings["calibration"] not in ("consistent", "uniform")
 
@@ -179,11 +181,11 @@ def test_the_pull_of_a_stretched_sheet_stands_in_the_printed_table():
     moved = {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0]]}
     supports = [{"edge": "x0", "kind": "clamped"}, {"edge": "x1", "kind": "clamped", "motion": moved}]
     pulled = scenes.load("two-edges-clamped").replace(supports=supports, gravity=None)
-    both = compare(pulled, grid=5, elements=2, uncertainty=False)
+    both = compare(pulled, Lattice(5), elements=2, uncertainty=False)
     printed, written = both.printed()[-1], both.tables()[-1]
     assert printed.name == written.name == "reactions"
     assert {row[0] for row in printed.rows} == {"x1"} and {row[0] for row in written.rows} == {"x0", "x1"}
     pull = both.reference.reactions["x1"][0]
     assert pull > 0.0 and any(pull in row for row in printed.rows)
-    still = compare(scenes.load("two-edges-clamped"), grid=3, elements=2, uncertainty=False)
+    still = compare(scenes.load("two-edges-clamped"), Lattice(3), elements=2, uncertainty=False)
     assert "reactions" not in [table.name for table in still.printed()]

@@ -1,4 +1,4 @@
-"""Both at rest and more than 100 % apart: a coarse grid is told from another branch of equilibria."""
+"""Both at rest and more than 100 % apart: a coarse grid is no other branch of equilibria."""
 
 import pytest
 from fake_solutions import solution
@@ -8,7 +8,8 @@ from comparisons.comparison.comparison import compare
 from comparisons.comparison.far_apart import far_apart_note, reasons
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet
 
 SCENE = Scene(
     name="arch",
@@ -22,7 +23,7 @@ LATTICE = Lattice((5, 3), "consistent")
 
 def test_pressure_on_a_few_masses_between_tilted_clamps():
     """5 × 3 masses are 261 % off the shell, 9 × 5 are 92 %."""
-    found = compare(SCENE, grid=(5, 3), calibration="consistent", elements=(8, 3), uncertainty=False)
+    found = compare(SCENE, Lattice((5, 3), "consistent"), elements=(8, 3), uncertainty=False)
     assert found.disagreement.startswith("lumped and shell both converged, 26")
     assert "the grid is too coarse, on 9×5×2 masses it is 9" in found.disagreement
     assert found.document()["apart"] == found.disagreement
@@ -53,9 +54,9 @@ def test_answers_on_different_branches_have_no_error(known):
     """Where only the grid is too coarse the error stands."""
     pair = (solution(SCENE, size=0.01), solution(SCENE, "shell"))
     finer = solution(SCENE, size=0.0101 if known else -0.007, settings={"grid": [9, 5, 2]})
-    apart, other_branch = far_apart_note(resolve(SCENE, LATTICE), pair, 0.01, lambda other: finer)
+    note, other_branch = far_apart_note(resolve(SCENE, LATTICE), pair, 0.01, lambda other: finer)
     assert other_branch is known
-    found = Comparison(SCENE, pair, disagreement=apart, several=known, other_branch=other_branch)
+    found = Comparison(SCENE, pair, disagreement=note, several=known, other_branch=other_branch)
     assert (found.error(pair[0]) is None) is known
     assert all((difference.relative is None) is known for difference in found.differences)
     assert found.succeeded and found.document()["apart"] in found.report().complaints
@@ -87,8 +88,8 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
     settings = {"grid": [5, 3, 2], "calibration": calibration}
     both = (solution(SCENE, size=-0.005, settings=settings), solution(SCENE, "shell", stretch=stretch))
     lattice = LATTICE.but(calibration=calibration)
-    apart, other_branch = far_apart_note(resolve(SCENE, lattice), both, 0.01, lambda other: fine(finer))
-    assert "50 % apart" in apart
+    note, other_branch = far_apart_note(resolve(SCENE, lattice), both, 0.01, lambda other: fine(finer))
+    assert "50 % apart" in note
     assert other_branch is known
 
 

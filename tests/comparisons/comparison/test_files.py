@@ -13,8 +13,9 @@ import pyvista
 
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
+from comparisons.models.spec import Lattice
 from comparisons.pictures import offscreen as rendering
-from comparisons.runs.folder import Folder
+from comparisons.sweep.folder import Folder
 from sheetbench import scenes
 from sheetbench.answers import style
 from sheetbench.scenes import Scene
@@ -29,7 +30,7 @@ def scene():
 
 @pytest.fixture(scope="module")
 def comparison(scene):
-    return compare(scene, grid=(5, 5, 2), elements=4)
+    return compare(scene, Lattice((5, 5, 2)), elements=4)
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ from comparisons.external.kratos.problem import Triangles, problem
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.mesh import nodes_of
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Hinged, PointLoad, Pressure, Sheet, load
-from sheetbench.scenes.patches import mass_of
+from sheetbench.scenes.meaning.composition import mass_of
 
 SEED = load("two-edges-clamped")
 BELOW = [(0, 1), (1, 2), (2, 3), (3, 0)]  # corners between which the mid-edge nodes lie
@@ -183,10 +183,10 @@ def test_load_steps_for_felupe_are_halved_down_to_a_64th(longest, reached):
 
 
 def test_a_deck_has_a_line_for_all_that_is_asked(bricks):
-    asked = changed(loads=(Pressure(value=20.0), PointLoad(at=(0.188, 0.188), force=(0.0, 0.0, 1.0))))
-    text = deck(asked, bricks, linear=False)
+    scene = changed(loads=(Pressure(value=20.0), PointLoad(at=(0.188, 0.188), force=(0.0, 0.0, 1.0))))
+    text = deck(scene, bricks, linear=False)
     assert "*STEP, NLGEOM" in text and "GRAV, 9.81, 0.0" in text and "*TRANSFORM" not in text
     assert text.count(", P1, 10.0\n") == text.count(", P2, -10.0\n") == 16
     assert max(map(len, text.splitlines())) < 132
-    assert "NLGEOM" not in deck(asked, bricks, linear=True)
+    assert "NLGEOM" not in deck(scene, bricks, linear=True)
     assert "*TRANSFORM" in deck(load("curved-edge"), bricks, linear=False)

@@ -10,7 +10,8 @@ from comparisons.comparison.comparison import error
 from comparisons.external.answer import ExternalCode
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
-from sheetbench.scenes import Clamped, Pressure, Status, load
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Pressure, load
 
 JUDGES: tuple[ExternalCode, ...] = (CALCULIX, KRATOS, FELUPE)
 SEED = load("two-edges-clamped")
@@ -40,6 +41,7 @@ DRAWINGS: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("drawing", DRAWINGS)
 def test_the_shell_is_the_bricks_of_calculix_on_drawn_sheets(drawing):
     """Bricks of 6, 8 and 10 across are 0.56, 0.18, 0.14 % (fin) and 0.36, 0.55, 0.26 % (pouch) off a shell of

@@ -18,6 +18,7 @@ from comparisons.external.calculix.deck import LAWS as CALCULIX_LAWS
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
 from fem_reference.verification.strain_laws import RUBBERS
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
 from sheetbench.process import Failed, output_of
 from sheetbench.scenes import (
@@ -32,7 +33,6 @@ from sheetbench.scenes import (
     Pressure,
     Scene,
     Sheet,
-    Status,
     Symmetric,
     load,
 )
@@ -187,14 +187,14 @@ def test_a_scenes_words_mean_the_same_to_every_judge(word):
 
     A curved edge has a narrow layer: 4.4 % with 4 bricks, 0.5 with 6, 0.2 with 8.
     """
-    asked = changed(**WORDS[word], probes=PROBES)
-    truth = fem_reference.solve(asked, model="shell", elements=6).displacement(asked.probe_points())
+    scene = changed(**WORDS[word], probes=PROBES)
+    truth = fem_reference.solve(scene, model="shell", elements=6).displacement(scene.probe_points())
     here = [judge for judge in JUDGES if judge.version() is not None]
     for judge in here:
         elements, within = (8, 0.04) if judge is KRATOS else (4, 0.05 if word == "curved" else 0.02)
-        solution = judge.solve(asked, {**judge.settings, "elements": elements})
+        solution = judge.solve(scene, {**judge.settings, "elements": elements})
         assert solution.status is Status.CONVERGED, (judge.name, solution.message)
-        off = error(solution.displacement(asked.probe_points()), truth)
+        off = error(solution.displacement(scene.probe_points()), truth)
         assert off is not None and off < within, (judge.name, off)
     if not here:
         pytest.skip(f"needs one of {'; '.join(judge.needs for judge in JUDGES)}")
@@ -243,13 +243,13 @@ def test_the_thin_shell_of_kratos_becomes_ours_as_the_sheet_gets_thinner():
     for share in (1.0, 4.0):
         sheet = SEED.sheet.model_copy(update={"thickness": SEED.sheet.thickness / share})
         weight = SEED.gravity.model_copy(update={"acceleration": (0.0, 0.0, -9.81e-3 / share**2)})
-        asked = changed(sheet=sheet, gravity=weight)
-        points = asked.probe_points()
+        scene = changed(sheet=sheet, gravity=weight)
+        points = scene.probe_points()
         coarse, fine = (
-            KRATOS.solve(asked, {**KRATOS.settings, "elements": n}).displacement(points) for n in (8, 12)
+            KRATOS.solve(scene, {**KRATOS.settings, "elements": n}).displacement(points) for n in (8, 12)
         )
         limit = fine + (fine - coarse) / (1.5**2 - 1.0)
-        off.append(error(limit, fem_reference.solve(asked, model="shell", elements=12).displacement(points)))
+        off.append(error(limit, fem_reference.solve(scene, model="shell", elements=12).displacement(points)))
     thick, thin = off
     assert thick is not None and thin is not None
     assert thin < 0.004 < 0.006 < thick, off

@@ -7,10 +7,12 @@ import pytest
 from commands import one_line, run
 from sheetbench_felupe import MODEL as FELUPE
 
+from comparisons.comparison.motion import compare_motion
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
-from comparisons.motion.comparison import compare_motion
-from sheetbench.scenes import Air, BadInput, EdgeMotion, FactorTable, Gravity, Relaxation, Status, load
+from comparisons.models.spec import Lattice
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Air, BadInput, EdgeMotion, FactorTable, Gravity, Relaxation, load
 
 SWING = load("one-edge-clamped")
 UP = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.01))
@@ -22,9 +24,9 @@ def test_another_code_swings_as_the_shell(code, elements, tmp_path):
     """On few elements a side: the difference is that of the elements, and falls with them."""
     if code.version() is None:
         pytest.skip(f"needs {code.needs}")
-    asked = ("one-edge-clamped", "--duration", "0.02", "--lumped", "4", "--elements", "2")
+    arguments = ("one-edge-clamped", "--duration", "0.02", "--lumped", "4", "--elements", "2")
     model = f"{code.name}:elements={elements}"
-    assert run("compare", *asked, "--model", model, "--out", str(tmp_path), "--no-pictures") == 0
+    assert run("compare", *arguments, "--model", model, "--out", str(tmp_path), "--no-pictures") == 0
     found = json.loads((tmp_path / "motion.json").read_text())
     assert [one["model"] for one in found["solutions"]] == ["lumped", code.name, "shell"]
     of = {one["of"]: one for one in found["motion"]["differences"]}
@@ -37,11 +39,11 @@ def test_another_code_swings_as_the_shell(code, elements, tmp_path):
 def test_crosscheck_moves_the_finest_of_each_model_and_leaves_out_what_refuses(tmp_path, capsys):
     file = tmp_path / "driven.toml"
     SWING.replace(supports=(), actuators=(DRIVEN,)).save(file)
-    asked = ["--duration", "0.004", "--lumped", "3,4", "--shell", "1,2", "--plate=", "--solid="]
+    arguments = ["--duration", "0.004", "--lumped", "3,4", "--shell", "1,2", "--plate=", "--solid="]
     names = [code.name for code in (CALCULIX, KRATOS, FELUPE) if code.version() is not None]
     out = tmp_path / "out"
-    asked += ["--judges", ",".join(names), "--out", str(out), "--no-pictures"]
-    assert run("crosscheck", str(file), *asked) == 0
+    arguments += ["--judges", ",".join(names), "--out", str(out), "--no-pictures"]
+    assert run("crosscheck", str(file), *arguments) == 0
     found = json.loads((out / "motion.json").read_text())
     assert [one["label"] for one in found["solutions"]] == ["lumped 4×4×2 consistent", "shell 2 × 2"]
     said = (out / "motion.md").read_text()
@@ -57,7 +59,7 @@ def test_a_model_that_refuses_is_left_out_before_anything_moves(tmp_path):
     )
     model = f"{file}:Still"
     found = compare_motion(
-        SWING, 0.002, grid=2, elements=1, models=[model], leave_out=True, uncertainty=False
+        SWING, 0.002, Lattice(2), elements=1, models=[model], leave_out=True, uncertainty=False
     )
     assert found.document()["motion"]["left_out"] == {model: "still: nothing moves"}
     with pytest.raises(BadInput, match="still: nothing moves"):
@@ -65,10 +67,10 @@ def test_a_model_that_refuses_is_left_out_before_anything_moves(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "asked", [("one-edge-clamped", "two-edges-clamped"), ("one-edge-clamped", "--shell", "")]
+    "arguments", [("one-edge-clamped", "two-edges-clamped"), ("one-edge-clamped", "--shell", "")]
 )
-def test_a_crosscheck_of_motions_is_of_one_scene_and_with_a_shell(asked, capsys):
-    assert run("crosscheck", "one-edge-clamped", *asked, "--duration", "0.1") == 2
+def test_a_crosscheck_of_motions_is_of_one_scene_and_with_a_shell(arguments, capsys):
+    assert run("crosscheck", "one-edge-clamped", *arguments, "--duration", "0.1") == 2
     assert "--duration: one scene, a lattice, and a shell" in one_line(capsys)
 
 
@@ -103,6 +105,6 @@ def test_a_code_that_does_not_reach_the_end_is_said_and_is_three(tmp_path, monke
     file.write_text("#!/bin/sh\necho This is Version 2.20\nexit 201\n", encoding="utf-8")
     file.chmod(0o755)
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
-    asked = ("--lumped", "3", "--elements", "1", "--duration", "0.004", "--model", "calculix:elements=1")
-    assert run("compare", "one-edge-clamped", *asked) == 3
+    arguments = ("--lumped", "3", "--elements", "1", "--duration", "0.004", "--model", "calculix:elements=1")
+    assert run("compare", "one-edge-clamped", *arguments) == 3
     assert "calculix: diverged: CalculiX: left with exit status 201" in capsys.readouterr().err

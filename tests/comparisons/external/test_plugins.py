@@ -17,8 +17,9 @@ from comparisons.sweep import task
 from comparisons.sweep.solved import Ask
 from sheetbench import face as models
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad, Status
+from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad
 
 DOCS = Path(__file__).parents[3] / "docs"
 ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"
@@ -242,8 +243,8 @@ def test_settings_of_our_own_models_are_looked_at_before_solving(model, settings
 
 
 def test_compare_takes_a_plug_in_from_its_file(capsys):
-    asked = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
-    assert run(*asked, "--model", f"{DOCS / 'plugin.py'}:Strip") == 0
+    arguments = ("one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
+    assert run("compare", *arguments, "--model", f"{DOCS / 'plugin.py'}:Strip") == 0
     document = json.loads(capsys.readouterr().out)
     models_shown = [solution["model"] for solution in document["solutions"]]
     assert models_shown[-1] == "strip" and {"lumped", "shell"} < set(models_shown)
@@ -252,7 +253,7 @@ def test_compare_takes_a_plug_in_from_its_file(capsys):
 
 @pytest.mark.parametrize("named", ["absent.py:Strip", f"{DOCS / 'plugin.py'}:Absent", "nobody"])
 def test_a_model_that_is_not_there_is_said_in_a_line(named, capsys):
-    asked = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty")
-    assert run(*asked, "--model", named) == 2
+    arguments = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty")
+    assert run(*arguments, "--model", named) == 2
     said = one_line(capsys)
     assert any(part in said for part in named.split(":"))

@@ -1,4 +1,4 @@
-"""Models that are programs: what they are asked and answer, and that one that crashes, hangs, floods, lies or
+"""Models that are programs: their input and answer, and that one that crashes, hangs, floods, lies or
 answers nothing that can be read costs its own row and no other."""
 
 import json
@@ -17,8 +17,8 @@ from commands import json_of, one_line, run
 from comparisons.external import plugins
 from comparisons.models.spec import parse
 from sheetbench import face, scenes
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Status
 
 STRIP = Path(__file__).parents[3] / "docs" / "strip.sh"
 SCENE = scenes.load("one-edge-clamped")
@@ -53,8 +53,8 @@ def test_the_example_of_the_docs_answers_like_a_beam(capsys):
     assert (solution.model, solution.status) == ("strip", Status.CONVERGED)
     assert solution.displacement(SCENE.probe_points())[3] == pytest.approx([0.0, 0.0, tip])
     assert np.isnan(solution.displacement([[0.01, 0.01]])).all()  # it is requested the probes alone
-    asked = ["two-edges-clamped", "--lumped", "3", "--elements", "2", "--model", f"exec:{STRIP}"]
-    assert run("compare", *asked) == 2
+    arguments = ["two-edges-clamped", "--lumped", "3", "--elements", "2", "--model", f"exec:{STRIP}"]
+    assert run("compare", *arguments) == 2
     assert "strip: knows a sheet clamped at x0" in capsys.readouterr().err
 
 
@@ -62,14 +62,14 @@ def test_it_gets_the_scene_and_its_settings_and_may_tell_more(program, tmp_path)
     kept = tmp_path / "kept"
     more = {**ANSWER, "solve_seconds": 1e-4, "unknowns": 7, "iterations": 3, "reactions": {"x0": [0, 0, 1.7]}}
     model = program("mine", f"cat > '{kept}'", f"echo \"$@\" > '{kept}.options'", says(more))
-    asked = parse(f"{model}:seconds=5,n=9,grid=9x5,quick=true,name=a b")
-    solution = face.solve(SCENE, asked)
+    scene = parse(f"{model}:seconds=5,n=9,grid=9x5,quick=true,name=a b")
+    solution = face.solve(SCENE, scene)
     assert scenes.Scene.model_validate_json(kept.read_text()) == SCENE
     assert Path(f"{kept}.options").read_text() == "--n=9 --grid=9x5 --quick --name=a b\n"
     assert solution.settings == {"n": 9, "grid": [9, 5], "quick": True, "name": "a b"}
     assert (solution.unknowns, solution.iterations, solution.solve_seconds) == (7, 3, 1e-4)
     assert solution.setup_seconds > 0.0 and solution.reactions["x0"][2] == 1.7
-    assert parse(str(asked)) == asked
+    assert parse(str(scene)) == scene
 
 
 def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(program, tmp_path, in_process, capsys):
@@ -83,9 +83,9 @@ def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(program, tmp_path, 
         program("hang", "sleep 600 &", f"echo $! > '{tmp_path / 'sleeper'}'", "wait") + ":seconds=0.3",
         program("garbage", "echo 'P4 = -0.04'"),
     ]
-    asked = [part for model in models for part in ("--model", model)]
+    arguments = [part for model in models for part in ("--model", model)]
     few = ["--lumped", "3", "--shell", "2", "--plate", "", "--solid", "", "--elements", "8", "--repeats", "1"]
-    found = json_of(capsys, "tradeoff", "one-edge-clamped", *few, *asked)
+    found = json_of(capsys, "tradeoff", "one-edge-clamped", *few, *arguments)
     rows = {row["model"]: row for row in found["rows"]}
     assert rows["right"]["error"] < 0.05 < 1.5 < rows["wrong"]["error"]
     assert rows["right"]["solve_seconds"]["median"] > 0.0 and rows["right"]["peak_memory_bytes"] is None

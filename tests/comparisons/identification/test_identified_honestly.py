@@ -27,8 +27,8 @@ from comparisons.models.spec import Lattice
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.face import solve
-from sheetbench.scenes.grading import of_settings
-from sheetbench.scenes.parameters import put
+from sheetbench.scenes.meaning.parameters import put
+from sheetbench.scenes.objects.grading import of_settings
 
 SEED = scenes.load("two-edges-clamped")
 TRUE = 1.23e6
@@ -123,12 +123,12 @@ def test_a_model_that_lacks_something_is_said_not_to_explain_the_data():
     """A clamp turned by 0.05 rad that the scene does not know of, and 0.1 % noise."""
     cantilever = scenes.load("one-edge-clamped")
     data = Displacements(POINTS, noisy(solved(put(cantilever, "tilt_x0", 0.05)), 4, 0.001))
-    found = identify(cantilever, data, grid=3, refine=False)
+    found = identify(cantilever, data, lattice=Lattice(3), refine=False)
     assert not found.explained and found.starts == starts.STARTS + 1
     (said,) = found.warnings
     assert said.startswith("not explained: the best of 7 starts") and "neighbouring points" in said
     assert said[:80] in repr(found).replace("\n" + " " * 11, " ")
-    assert identify(cantilever, data, ["young", "tilt_x0"], grid=3, refine=False).explained
+    assert identify(cantilever, data, ["young", "tilt_x0"], Lattice(3), refine=False).explained
 
 
 def test_a_slip_of_the_pen_is_named_by_its_line(tmp_path):
@@ -137,7 +137,7 @@ def test_a_slip_of_the_pen_is_named_by_its_line(tmp_path):
     file = tmp_path / "m.csv"
     rows = [",".join(f"{v:.6g}" for v in row) for row in np.column_stack([POINTS, values])]
     file.write_text("\n".join(["x,y,ux,uy,uz", *rows]))
-    found = identify(SEED, file, grid=3, refine=False)
+    found = identify(SEED, file, lattice=Lattice(3), refine=False)
     (odd,) = found.outliers
     assert (odd.row, odd.component, odd.measured) == (16, "uz", 0.15)
     assert (
@@ -147,13 +147,13 @@ def test_a_slip_of_the_pen_is_named_by_its_line(tmp_path):
     assert not any("poor fit" in said for said in found.warnings) and not found.explained
     low, high = found.without["young"].interval
     assert low < SEED.material.young < high and high / low < 1.04
-    clean = identify(SEED, Displacements(POINTS, noisy(solved(SEED), 5)), grid=3, refine=False)
+    clean = identify(SEED, Displacements(POINTS, noisy(solved(SEED), 5)), lattice=Lattice(3), refine=False)
     assert not clean.outliers and clean.explained and not clean.warnings
 
 
 @pytest.mark.parametrize("rows, named", [(16, [3, 7]), (15, [])])
 def test_one_row_in_eight_may_be_left_out(rows, named):
-    """Two slips, one as large as the other, are told from noise together alone."""
+    """Two slips, one as large as the other, are distinguished from noise only together."""
     residuals = 1e-3 * np.random.default_rng(1).uniform(-1.0, 1.0, (rows, 3))
     residuals[[3, 7], 2] = 1.0
     measured = Displacements(np.zeros((rows, 2)), np.zeros((rows, 3)))
@@ -178,7 +178,7 @@ def test_the_fit_chooses_cells_that_are_small_beside_the_noise():
 
 
 def test_an_interval_of_the_noise_alone_is_headed_so():
-    found = identify(SEED, Displacements(POINTS, noisy(solved(SEED), 7)), grid=3, refine=False)
+    found = identify(SEED, Displacements(POINTS, noisy(solved(SEED), 7)), lattice=Lattice(3), refine=False)
     assert found.contains == "noise only"
     assert found.unknowns["young"].interval == found.unknowns["young"].noise_interval
     assert "noise only" in repr(found) and "noise only" in found._repr_html_()
@@ -224,7 +224,7 @@ def test_one_element_is_not_looked_at_twice():
 
 def test_what_the_data_do_not_determine_is_no_result():
     data = Displacements(POINTS, noisy(solved(SEED), 8))
-    found = identify(SEED, data, ["E", "rho"], grid=3, refine=False)
+    found = identify(SEED, data, ["E", "rho"], Lattice(3), refine=False)
     assert [*found.unknowns] == ["young", "density"]
     assert all(row[2:6] == (None,) * 4 for row in found.report().tables[0].rows)
     assert "changed together" in repr(found)
@@ -247,7 +247,7 @@ def test_an_equilibrium_knows_nothing_of_damping():
 
 def test_titles_of_the_picture_do_not_overlap():
     data = Displacements(POINTS, noisy(solved(SEED), 9))
-    found = identify(SEED, data, ["young", "poisson", "thickness"], grid=3, refine=False)
+    found = identify(SEED, data, ["young", "poisson", "thickness"], Lattice(3), refine=False)
     figure = compose(found)
     figure.canvas.draw()
     boxes = [axis._left_title.get_window_extent() for axis in figure.axes[:2]]
@@ -296,15 +296,15 @@ def test_unknowns_are_identified_on_springs_with_a_layer_distance():
     points = np.array([(x, y) for x in (0.1, 0.188) for y in (0.1, 0.188)])
     truth = solve(with_material(scene, young=50e6), "lumped", grid=3, **own)
     data = Displacements(points, truth.displacement(points))
-    found = identify(scene, data, "young", grid=3, refine=False, **own)
+    found = identify(scene, data, "young", Lattice(3, **own), refine=False)
     assert found.unknowns["young"].value == pytest.approx(50e6, rel=1e-6)
     assert found.settings["layer_distance"] == 0.004
     with pytest.raises(BadInput, match="k = 550 N/m given the springs do not depend on it"):
-        identify(scene, data, "young", grid=3, k=550.0)
+        identify(scene, data, "young", Lattice(3, k=550.0))
 
 
 def test_the_finer_lattice_of_a_drawn_sheet_has_lines_on_shapes_too():
-    fin, asked = scenes.load("ray-fin"), Lattice((9, 5, 2))
-    chosen = of_settings(lattice_model(fin, asked).settings)
+    fin, scene = scenes.load("ray-fin"), Lattice((9, 5, 2))
+    chosen = of_settings(lattice_model(fin, scene).settings)
     finer = lattice_model(fin, Lattice((17, 9, 2), grading=chosen))
-    assert chosen == of_settings(finer.settings) == lines_on_shapes(fin, asked.grid, asked) != 0.0
+    assert chosen == of_settings(finer.settings) == lines_on_shapes(fin, scene.grid, scene) != 0.0

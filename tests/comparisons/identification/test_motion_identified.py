@@ -11,9 +11,10 @@ import lumped
 from comparisons.identification import c3d
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, read
+from comparisons.models.spec import Lattice
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Air, Relaxation, load
-from sheetbench.scenes.parameters import parameter, put
+from sheetbench.scenes.meaning.parameters import parameter, put
 
 TRUTH = load("one-edge-clamped").replace(loss_factor=0.12, frequency=3.0)
 GUESS = TRUTH.replace(young=40e6, loss_factor=0.05)
@@ -38,7 +39,7 @@ def test_young_and_loss_factor_from_a_decay_with_noise(seeds):
     held = {"young": 0, "loss_factor": 0}
     run = lattice_run(TRUTH, 1.5)
     for seed in seeds:
-        found = identify(GUESS, decay(run, 1.5, 0.02, seed), list(held), grid=(3, 3))
+        found = identify(GUESS, decay(run, 1.5, 0.02, seed), list(held), Lattice((3, 3)))
         assert found.explained and not found.warnings
         for name, true in (("young", 54.5e6), ("loss_factor", 0.12)):
             low, high = found.unknowns[name].interval
@@ -50,7 +51,7 @@ def test_young_and_loss_factor_from_a_decay_with_noise(seeds):
 def test_the_drag_of_the_air_from_a_decay():
     truth = load("one-edge-clamped").replace(air=Air(drag=30.0))
     measured = decay(lattice_run(truth, 0.5), 0.5, 0.01, 0, 40)
-    found = identify(truth.replace(air=Air(drag=10.0)), measured, "drag", grid=(3, 3))
+    found = identify(truth.replace(air=Air(drag=10.0)), measured, "drag", Lattice((3, 3)))
     low, high = found.unknowns["drag"].interval
     assert low <= 30.0 <= high and high - low < 0.1 * 30.0
     with pytest.raises(BadInput, match="'drag': the scene has no"):
@@ -125,7 +126,7 @@ def test_markers_with_names_of_probes_are_displacements(reader, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("does", "told"),
+    ("does", "message"),
     [
         ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "ended by SIGSEGV"),
         ("import time; time.sleep(60)", "no answer within 1 s"),
@@ -133,8 +134,8 @@ def test_markers_with_names_of_probes_are_displacements(reader, monkeypatch):
         ("return dict(parameters={}, data={})", "cannot be read as C3D: 'POINT'"),
     ],
 )
-def test_a_damaged_capture_is_refused_whatever_ezc3d_does(reader, monkeypatch, does, told):
+def test_a_damaged_capture_is_refused_whatever_ezc3d_does(reader, monkeypatch, does, message):
     """Of 200 damaged files ezc3d ended by a signal on 7, did not end on 2, raised ValueError on 15."""
     monkeypatch.setattr(c3d, "SECONDS", 1.0 if "sleep" in does else 20.0)
-    with pytest.raises(BadInput, match=told):
+    with pytest.raises(BadInput, match=message):
         read(reader(f"def c3d(path): {does}"), TRUTH)

@@ -57,6 +57,7 @@ def test_a_laws_own_curves_give_its_constants_back(law):
     assert found.material(poisson=0.4999).young == pytest.approx(found.law.young, rel=1e-3)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("law", LAWS)
 def test_intervals_hold_in_18_to_20_of_20_seeds(law):
     held = dict.fromkeys(KEYS[law], 0)
@@ -73,7 +74,7 @@ def test_one_curve_cannot_tell_the_two_constants_of_mooney_rivlin():
     (mooney,) = (f for f in found.fits if f.law == "mooney-rivlin")
     assert mooney.correlation < -0.9 and found.law is not None and found.law.law != "mooney-rivlin"
     said = " ".join(found.report().notes)
-    assert "cannot tell c1 from c2" in said and "Not measured: equibiaxial" in said
+    assert "cannot distinguish c1 from c2" in said and "Not measured: equibiaxial" in said
     assert found.open is not None and found.open[1][1] > 1.2 * found.open[1][0]
     both = identify_tensile(curves("mooney-rivlin", ("uniaxial", "equibiaxial"), 0.005))
     assert both.law is not None and both.law.law == "mooney-rivlin" and both.open is None
@@ -94,12 +95,25 @@ def test_columns_of_all_kinds_mean_the_same_curve(tmp_path):
         "stretch,engineering_stress [MPa]": (one.stretch, one.stress / 1e6),
         "Engineering Strain (%),True Stress (kPa)": (100 * (one.stretch - 1), one.stress * one.stretch / 1e3),
         "true strain,force [mN]": (np.log(one.stretch), one.stress * 18e-6 * 1e3),
+        "Displacement (mm),Force (N)": (33.0 * (one.stretch - 1), one.stress * 18e-6),
     }  # fmt: skip
     for header, (stretch, values) in written.items():
-        found = read(table(tmp_path, "Machine,5\n" + rows(stretch, values, header)), area=18e-6)
+        found = read(table(tmp_path, "Machine,5\n" + rows(stretch, values, header)), 18e-6, gauge=33e-3)
         assert found.stretch == pytest.approx(one.stretch, rel=1e-6)
         assert found.stress == pytest.approx(one.stress, rel=1e-6)
-    assert read("equibiaxial=" + str(tmp_path / "test.csv"), area=18e-6).test == "equibiaxial"
+    assert read("equibiaxial=" + str(tmp_path / "test.csv"), 18e-6, gauge=33e-3).test == "equibiaxial"
+
+
+def test_three_points_in_newtons_and_millimetres_give_e(tmp_path):
+    """P = E/3 (λ − λ⁻²) of E = 70 kPa, forces rounded to 1e-4 N of 0.1 to 0.4 N: E within 1e-3."""
+    stretch = 1.0 + np.array([10.0, 20.0, 30.0]) / 100.0
+    force = np.round(70e3 / 3.0 * (stretch - stretch**-2) * 20e-6, 4)
+    path = table(tmp_path, rows([10, 20, 30], force, "displacement [mm],force [N]"))
+    found = identify_tensile(path, area=20e-6, gauge=0.1)
+    assert found.law is not None and found.law.law == "neo-hookean"
+    assert found.law.young == pytest.approx(70e3, rel=1e-3)
+    low, high = found.law.intervals["young"]
+    assert low < 70e3 < high
 
 
 UP = np.linspace(1.05, 2.0, 12)
@@ -114,7 +128,8 @@ REFUSED = {
     ),
     "torn": (rows(np.append(UP, 2.1), np.append(PULL, 9.0), "stretch,nominal_stress"), "torn.*--up-to 2"),
     "no area": (rows(UP, PULL, "stretch,force"), "--area"),
-    "few rows": (rows(UP[:3], PULL[:3], "stretch,true_stress"), "3 rows; at least 5"),
+    "no gauge": (rows(UP - 1.0, PULL, "displacement,true_stress"), "--gauge"),
+    "few rows": (rows(UP[:2], PULL[:2], "stretch,true_stress"), "2 rows; at least 3"),
     "no stretch": (rows(UP, PULL, "time,true_stress"), "needed is stretch"),
     "pushed": (rows(UP, -PULL, "stretch,engineering_stress"), "tension is > 0"),
 }  # fmt: skip

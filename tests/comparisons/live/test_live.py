@@ -36,7 +36,7 @@ def address(panel):
         yield found
 
 
-def asked(panel, number=1, calibration="consistent", **values):
+def query_of(panel, number=1, calibration="consistent", **values):
     start = {name: slider.value for name, slider in panel.sliders.items()}
     return json.dumps({"number": number, "values": start | values, "calibration": calibration})
 
@@ -87,7 +87,7 @@ def test_it_listens_on_the_loopback_alone(address):
 
 def test_a_given_k_has_a_slider_and_goes_with_the_calibrations_that_take_it():
     panel = Panel(SCENE, 2, Lattice(3, "uniform", k=550.0, layer_distance=0.002))
-    lattices = [panel.read(asked(panel, 1, name, k=600.0)).lattice for name in ("uniform", "consistent")]
+    lattices = [panel.read(query_of(panel, 1, name, k=600.0)).lattice for name in ("uniform", "consistent")]
     assert [(one.k, one.layer_distance) for one in lattices] == [(600.0, 0.002), (None, 0.002)]
     assert "k" not in Panel(SCENE, 2).sliders
     with pytest.raises(BadInput, match="near-square"):
@@ -114,7 +114,7 @@ def test_a_given_k_has_a_slider_and_goes_with_the_calibrations_that_take_it():
     (b"\xff", "no JSON"),
 ], ids=str)  # fmt: skip
 def test_a_question_beyond_the_bounds_is_refused_in_a_line(panel, message, said):
-    text = asked(panel, **message) if isinstance(message, dict) else message
+    text = query_of(panel, **message) if isinstance(message, dict) else message
     text = text.replace("1234.5", "1e999") if isinstance(text, str) else text  # which overflows
     with pytest.raises(BadInput) as refused:
         panel.read(text)
@@ -130,7 +130,9 @@ def test_a_narrow_sheet_gets_no_more_masses_than_a_square_one():
 
 def test_answers_are_those_of_compare(address, panel):
     values = {"grid": 5, "elements": 3, "thickness": 0.0025, "curvature_x0": 3.0, "gravity": 0.5}
-    (_, lattice), (_, shell) = (posted(address, of, asked(panel, 7, **values)) for of in ("lattice", "shell"))
+    (_, lattice), (_, shell) = (
+        posted(address, of, query_of(panel, 7, **values)) for of in ("lattice", "shell")
+    )
     scene = sb.load("curved-edge")
     weight = tuple(0.5 * g for g in scene.gravity.acceleration)
     bent = [s.replace(curvature=3.0) if s.kind == "curved" else s for s in scene.supports]
@@ -149,7 +151,7 @@ def test_answers_are_those_of_compare(address, panel):
 
 
 def test_springs_and_scene_can_be_had_as_text(address, panel):
-    question = json.loads(asked(panel, young=2e6))
+    question = json.loads(query_of(panel, young=2e6))
     answers = [posted(address, "text", json.dumps({**question, "copy": of})) for of in ("springs", "scene")]
     springs, scene = (document["text"] for _, document in answers)
     changed = SCENE.replace(material=SCENE.material.replace(young=2e6))
@@ -160,19 +162,19 @@ def test_springs_and_scene_can_be_had_as_text(address, panel):
 
 def test_what_does_not_go_together_is_refused_and_the_page_goes_on(address, panel):
     assert posted(address, "lattice", "{") == (400, {"said": "not a question: no JSON"})
-    assert posted(address, "solid", asked(panel))[0] == 404
-    status, document = posted(address, "lattice", asked(panel, 2, calibration="uniform", grading=0.3))
+    assert posted(address, "solid", query_of(panel))[0] == 404
+    status, document = posted(address, "lattice", query_of(panel, 2, calibration="uniform", grading=0.3))
     assert status == 400 and "cells of one size" in document["said"]
-    assert posted(address, "lattice", asked(panel, 3))[1]["number"] == 3
+    assert posted(address, "lattice", query_of(panel, 3))[1]["number"] == 3
 
 
 def test_a_fault_of_the_program_is_told_and_the_page_goes_on(address, panel, monkeypatch, capsys):
     monkeypatch.setattr(answers, "lattice", lambda *_: 1 / 0)
-    status, document = posted(address, "lattice", asked(panel, 4))
+    status, document = posted(address, "lattice", query_of(panel, 4))
     assert status == 500 and "a fault of the program" in document["said"]
     assert "ZeroDivisionError" in capsys.readouterr().err
     monkeypatch.undo()
-    assert posted(address, "lattice", asked(panel, 4))[0] == 200
+    assert posted(address, "lattice", query_of(panel, 4))[0] == 200
 
 
 def test_at_rest_the_equilibrium_is_found_from_flat_and_told_where_it_is_another(address, panel, monkeypatch):
@@ -183,7 +185,7 @@ def test_at_rest_the_equilibrium_is_found_from_flat_and_told_where_it_is_another
         return solve(scene, question, near)
 
     monkeypatch.setattr(answers, "lattice", watched)
-    dragged = json.loads(asked(panel, 50)) | {"rest": False}
+    dragged = json.loads(query_of(panel, 50)) | {"rest": False}
     assert posted(address, "lattice", json.dumps(dragged))[0] == 200
     assert posted(address, "lattice", json.dumps(dragged | {"number": 51}))[0] == 200
     assert posted(address, "lattice", json.dumps(dragged | {"number": 51, "rest": True})) == (204, None)
@@ -191,11 +193,11 @@ def test_at_rest_the_equilibrium_is_found_from_flat_and_told_where_it_is_another
 
 
 def test_the_shell_answers_what_the_lattice_has_answered(address, panel):
-    assert posted(address, "shell", asked(panel, 900)) == (204, None)
+    assert posted(address, "shell", query_of(panel, 900)) == (204, None)
     for number in range(901, 902 + KEPT):
-        posted(address, "lattice", asked(panel, number))
-    assert posted(address, "shell", asked(panel, 901)) == (204, None)
-    assert posted(address, "shell", asked(panel, 902))[1]["number"] == 902
+        posted(address, "lattice", query_of(panel, number))
+    assert posted(address, "shell", query_of(panel, 901)) == (204, None)
+    assert posted(address, "shell", query_of(panel, 902))[1]["number"] == 902
 
 
 def test_pages_number_their_questions_apart(address):
@@ -225,19 +227,19 @@ def test_few_connections_are_open_at_once(address):
 
 def test_no_command_line_has_the_secret_address(capsys, monkeypatch):
     """The browser's had it, which every user of the machine can read."""
-    told = {}
+    seen = {}
 
     def browse(given):
         file = Path(unquote(urlsplit(given).path))
-        told.update(given=given, text=file.read_text(), modes=[p.stat().st_mode for p in (file, file.parent)])
+        seen.update(given=given, text=file.read_text(), modes=[p.stat().st_mode for p in (file, file.parent)])
 
     monkeypatch.setattr(webbrowser, "open", browse)
     monkeypatch.setattr(server, "run", lambda panel, port, opened: opened("http://127.0.0.1:1/secret/"))
     assert run("live", "two-edges-clamped") == 0
-    assert told["given"].startswith("file:///") and "secret" not in told["given"]
-    assert 'content="0;url=http://127.0.0.1:1/secret/"' in told["text"]
-    assert [stat.S_IMODE(mode) for mode in told["modes"]] == [0o600, 0o700]
-    assert not Path(urlsplit(told["given"]).path).parent.exists()
+    assert seen["given"].startswith("file:///") and "secret" not in seen["given"]
+    assert 'content="0;url=http://127.0.0.1:1/secret/"' in seen["text"]
+    assert [stat.S_IMODE(mode) for mode in seen["modes"]] == [0o600, 0o700]
+    assert not Path(urlsplit(seen["given"]).path).parent.exists()
     assert "http://127.0.0.1:1/secret/" in capsys.readouterr().out  # for who has no browser here
 
 
@@ -270,4 +272,4 @@ def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is
     moved = panel.scene_of(replace(question, values={**question.values, "angle": 0.5, "loads": 2.0}))
     assert moved.material.angle == 0.5 and moved.loads[0].force_per_area[2] == 2.0
     found = answers.lattice(moved, question)
-    assert answers.compared(found, answers.shell(moved, question, found.masses))["error"] < 0.2
+    assert answers.shell(moved, question, *found.places())["error"] < 0.2

@@ -23,8 +23,8 @@ ROWS = pairwise([*ENDS, tuple(("calibration", name) for name in PANEL.calibratio
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: " ".join(f"{name}={value}"[:24] for name, value in row))
 def test_every_pair_of_ends_has_an_answer_or_a_reason(row):
     values = dict(row)
-    asked = json.dumps({"number": 1, "calibration": values.pop("calibration"), "values": values})
-    question = PANEL.read(asked)
+    message = json.dumps({"number": 1, "calibration": values.pop("calibration"), "values": values})
+    question = PANEL.read(message)
     try:
         scene = PANEL.scene_of(question)
         lattice = answers.lattice(scene, question)

@@ -42,7 +42,7 @@ def cell(page, fact, model):
 def test_dragging_moves_the_lattice_and_the_shell_follows(page):
     page, watch = page
     before = page.evaluate(PLACES), cell(page, "Largest", "lattice"), cell(page, "Largest", "shell")
-    asked = page.evaluate("live.asked()")
+    number = page.evaluate("live.asked()")
     box = page.locator("#slider-young").bounding_box()
     across, height = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(across, height)
@@ -52,7 +52,7 @@ def test_dragging_moves_the_lattice_and_the_shell_follows(page):
     page.mouse.up()
     until(page, ANSWERED)
     after = page.evaluate(PLACES), cell(page, "Largest", "lattice"), cell(page, "Largest", "shell")
-    assert page.evaluate("live.asked()") > asked + 3
+    assert page.evaluate("live.asked()") > number + 3
     assert min(after[0][2::3]) < 1.1 * min(before[0][2::3])  # softer: it hangs lower
     assert all(float(new) > 1.1 * float(old) for new, old in zip(after[1:], before[1:], strict=True))
     assert cell(page, "Status", "lattice") == cell(page, "Status", "shell") == "converged"
@@ -148,7 +148,7 @@ def test_grading_is_for_springs_cell_by_cell(page):
 
 def test_it_asks_nobody_else(page, address):
     _, watch = page
-    assert watch.asked and all(url.startswith(address) for url in watch.asked)
+    assert watch.requests and all(url.startswith(address) for url in watch.requests)
 
 
 def test_it_fits_a_phone(browser, address):  # noqa: F811

@@ -9,6 +9,7 @@ import pytest
 from commands import json_of
 
 from comparisons.comparison.comparison import compare
+from comparisons.models import expected_error as estimates
 from comparisons.models.expected_error import (
     MOST,
     ExpectedError,
@@ -23,7 +24,8 @@ from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from comparisons.modes.spectra import spectra
-from sheetbench.scenes import Pressure, Status, load
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Pressure, load
 from studies.promises.expected import stored
 
 SCENE = load("two-edges-clamped")
@@ -82,8 +84,24 @@ def test_nothing_is_said_where_the_estimate_has_no_ground(changes, options, fine
     assert isinstance(expected_error(SCENE, plain, answered(), lambda candidate: moved), ExpectedError)
 
 
+@pytest.mark.parametrize(
+    ("finer", "words"),
+    [
+        (-0.01, "are the same but for rounding"),
+        (0.01, "differ by 200 %, too much to extrapolate from"),
+        (-0.010001, "differ by 0.01 %, less than the law of strain may change them at this stretch"),
+        (-0.0101, "about 1.8 % (estimated"),  # (0.0001/0.0101)/(1 − 1/2.25)
+        (-0.011, "about 16 %: a finer --grid or --grading auto lowers it (estimated"),
+    ],
+)
+def test_the_note_names_the_reason_or_what_lowers_the_error(monkeypatch, finer, words):
+    monkeypatch.setattr(estimates, "largest_stretch", lambda *of: 0.01)
+    moved = fake_solutions.solution(SCENE, "lumped", finer)
+    assert words in str(expected_error(SCENE, Lattice(9, "consistent"), answered(), lambda candidate: moved))
+
+
 def test_compare_says_it_in_the_norm_of_its_error():
-    found = compare("two-edges-clamped", grid=5, elements=6)
+    found = compare("two-edges-clamped", Lattice(5), elements=6)
     solutions = found.report().document["solutions"]
     expected, error = solutions[0]["expected_error"], found.error(found.solutions[0])
     assert expected["grid"] == [13, 13, 2] and "13 × 13 masses" in expected["reason"]
@@ -113,8 +131,8 @@ def _expected(scene):
 
 
 def test_calibrate_says_it_of_a_scene(capsys):
-    told = json_of(capsys, "calibrate", "two-edges-clamped", "--grid", "9")["expected_error"]["value"]
-    assert told == pytest.approx(_expected(SCENE), rel=1e-9)
+    estimate = json_of(capsys, "calibrate", "two-edges-clamped", "--grid", "9")["expected_error"]["value"]
+    assert estimate == pytest.approx(_expected(SCENE), rel=1e-9)
 
 
 def test_loads_in_its_plane_bend_no_flat_sheet():
@@ -134,21 +152,21 @@ def test_frequencies_about_the_deformed_sheet_have_theirs(name):
     found = spectra(name, count=4, elements=12, about="deformed")
     expected = found[0].as_dict()["expected_errors"]
     assert len(expected) == 4
-    for pair, told in zip(found.pairs, expected, strict=True):
-        assert pair.relative is not None and told is not None
-        assert abs(told - pair.relative) < 0.5 * abs(pair.relative) + 2e-3
+    for pair, estimate in zip(found.pairs, expected, strict=True):
+        assert pair.relative is not None and estimate is not None
+        assert abs(estimate - pair.relative) < 0.5 * abs(pair.relative) + 2e-3
     assert any("expected grid error of the frequencies" in note for note in found.report().notes)
     assert spectra(name, count=2, elements=2)[0].expected == ()
-    uniform = spectra(name, count=2, elements=2, calibration="uniform", about="deformed")
+    uniform = spectra(name, Lattice(calibration="uniform"), count=2, elements=2, about="deformed")
     assert uniform[0].expected == ()
 
 
 def test_where_none_is_told_the_reason_stands_beside_the_error():
     """Cells wider than the layer in which the weight bends a thin sheet: the table said nothing."""
-    found = compare(SCENE.replace(young="0.6 MPa", thickness=0.0005), grid=5, elements=4)
+    found = compare(SCENE.replace(young="0.6 MPa", thickness=0.0005), Lattice(5), elements=4)
     reason = found.document()["solutions"][0]["no_estimate"]
     assert "bends the sheet within a cell" in reason
     assert any(f"no estimate of its grid error: {reason}." in note for note in found.notes())
-    told = compare(SCENE, grid=5, elements=4)
-    assert "no_estimate" not in told.document()["solutions"][0]
-    assert not any("no estimate" in note for note in told.notes())
+    estimate = compare(SCENE, Lattice(5), elements=4)
+    assert "no_estimate" not in estimate.document()["solutions"][0]
+    assert not any("no estimate" in note for note in estimate.notes())

@@ -11,7 +11,7 @@ from comparisons.models.spec import Lattice
 from fem_reference.verification import settling_strip
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, Clamped, load
-from sheetbench.scenes.grading import amount, as_settings, towards
+from sheetbench.scenes.objects.grading import amount, as_settings, towards
 from studies.transfer.scenes import transfer_scenes
 
 VERBS = {
@@ -36,11 +36,11 @@ def test_auto_says_why(verb, tmp_path, monkeypatch, capsys):
     scene, value, why = "curved-edge", 0.3, "edge x0, bent by 4 1/m, stretches the sheet within 15.7 mm"
     if verb == "identify":
         scene, value, why = "one-edge-clamped", 0.0, "the load of 49.4 Pa bends the sheet within 148 mm"
-    asked = (verb, scene, "--grid", "3", "--grading", "auto", *others)
-    assert run(*asked) == 0
+    arguments = (verb, scene, "--grid", "3", "--grading", "auto", *others)
+    assert run(*arguments) == 0
     assert f"grading {value:g}: {why}" in " ".join(capsys.readouterr().out.split())
     if verb != "calibrate":
-        found = settings(json_of(capsys, *asked))
+        found = settings(json_of(capsys, *arguments))
         assert found["grading"] == value and found["grading_reason"].startswith(why)
 
 
@@ -95,14 +95,14 @@ def test_auto_leaves_alone_what_the_cells_resolve_and_what_has_cells_of_one_size
         0.0,
         "nothing bends the sheet, so that it has no layers at its edges",
     )
-    assert [parse_grading(asked) for asked in (None, "auto", "0.25", 1)] == [None, "auto", 0.25, 1.0]
+    assert [parse_grading(text) for text in (None, "auto", "0.25", 1)] == [None, "auto", 0.25, 1.0]
     with pytest.raises(BadInput, match=r"grading = 0.5: the calibration uniform is for cells of one size"):
         solve(curved, "lumped", grid=3, calibration="uniform", grading=0.5)
 
 
 @pytest.mark.parametrize("text", ["0.7", "0.6:x0"])
 def test_a_scene_file_brings_its_grading(text, tmp_path, capsys):
-    """As `calibrate --toml --grading` writes it: solved so without being asked, and not otherwise."""
+    """As `calibrate --toml --grading` writes it: solved so without an option, and not otherwise."""
     path, grading = tmp_path / "own.toml", parse_grading(text)
     load("one-edge-clamped").save(path)
     springs = ("--grid", "5", "--grading", text)
@@ -112,8 +112,8 @@ def test_a_scene_file_brings_its_grading(text, tmp_path, capsys):
     scene = load(path)
     own = lumped.calibrate(scene.sheet, scene.material, 5, "consistent", grading=grading)
     points = scene.probe_points()
-    for asked in ({}, {"grading": text}, {"grading": "auto"}):
-        found = solve(scene, "lumped", **asked)
+    for settings in ({}, {"grading": text}, {"grading": "auto"}):
+        found = solve(scene, "lumped", **settings)
         assert as_settings(grading).items() <= found.settings.items()
         assert np.array_equal(found.displacement(points), lumped.solve(scene, own).displacement(points))
     for other in ("0.5", "0"):
@@ -125,18 +125,18 @@ def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatc
     """The others keep cells of one size: in trade-offs."""
     seen = []
 
-    def recorded(*asked, **settings):
-        seen.append((asked, settings))
+    def recorded(*_, **settings):
+        seen.append(settings)
         raise BadInput("enough")
 
-    monkeypatch.setattr("comparisons.tradeoff.choices.tradeoff", recorded)
-    monkeypatch.setattr("comparisons.tradeoff.choices.dynamic_tradeoff", recorded)
+    monkeypatch.setattr("comparisons.tradeoff.statics.tradeoff", recorded)
+    monkeypatch.setattr("comparisons.tradeoff.motion.dynamic_tradeoff", recorded)
     grids = ("--lumped", "3", "--calibration", "consistent,uniform", "--grading", "auto")
     assert run("tradeoff", "curved-edge", *grids) == 2
     assert run("tradeoff", "curved-edge", "--duration", "0.1", "--grading", "0.3") == 2
-    lattices = [candidate for candidate in seen[0][0][1] if candidate.model == "lumped"]
+    lattices = [candidate for candidate in seen[0]["candidates"] if candidate.model == "lumped"]
     assert [candidate.settings.get("grading") for candidate in lattices] == [0.3, None]
-    assert seen[1][1]["lattices"][0].grading == "0.3" and "bent by 4 1/m" in seen[0][1]["reasons"][0]
+    assert seen[1]["lattices"][0].grading == "0.3" and "bent by 4 1/m" in seen[0]["reasons"][0]
     shown, reasons = resolve_each(load("curved-edge"), lattices[1:], "auto")
     assert shown == lattices[1:] and reasons == ()
     with pytest.raises(BadInput, match="none of these calibrations"):

@@ -9,7 +9,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models.method import FAR, MEMBRANE, method_for, resolve_calibration
 from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice
-from comparisons.tradeoff.choices import trade
+from comparisons.tradeoff.choices import of_lattices
 from sheetbench.face import solve
 from sheetbench.scenes import Clamped, Scene, load
 from studies.transfer.scenes import transfer_scenes
@@ -28,10 +28,10 @@ def held(*edges, poisson=0.3, softer=1.0):
 def test_a_trade_names_the_springs_that_auto_takes():
     """Each once, on grids and pairs of grids, with the reason; what is named outright stays."""
     methods = "consistent,consistent-membrane,auto"
-    _, measure = trade(RUBBER, Lattice(), grid="3,5", calibration=methods, lumped_pair="3:5", meshes={})
-    names = [candidate.settings["calibration"] for candidate in measure.args[1]]
+    found, reasons = of_lattices(RUBBER, Lattice(), "3,5", "3:5", methods)
+    names = [candidate.settings["calibration"] for candidate in found]
     assert names == [*2 * ["consistent"], *2 * [MEMBRANE], "consistent", MEMBRANE]
-    assert measure.keywords["reasons"] == (f"calibration {MEMBRANE}: ν = 0.48 is above 0.4",)
+    assert reasons == (f"calibration {MEMBRANE}: ν = 0.48 is above 0.4",)
 
 
 def test_by_edges_load_and_poissons_ratio():
@@ -66,12 +66,12 @@ def test_it_chooses_where_nothing_but_a_grading_is_asked():
 
 
 def test_commands_say_it(capsys):
-    asked = ("one-edge-clamped", "--grid", "3")
+    arguments = ("one-edge-clamped", "--grid", "3")
     found = json_of(
-        capsys, "compare", *asked, "--calibration", "auto", "--elements", "2", "--no-uncertainty"
+        capsys, "compare", *arguments, "--calibration", "auto", "--elements", "2", "--no-uncertainty"
     )["solutions"][0]
     assert found["settings"]["calibration"] == MEMBRANE and "expected_error" in found
-    assert run("calibrate", *asked, "--grading", "auto") == 0
+    assert run("calibrate", *arguments, "--grading", "auto") == 0
     said = " ".join(capsys.readouterr().out.split())
     assert f"{MEMBRANE}: ν = 0.48 is above 0.4" in said and "grading 0: " in said
 
@@ -97,14 +97,14 @@ def test_a_sheet_that_a_load_stretches_far_is_rubber_to_auto(pull, method):
     scene = Scene(name="strip", sheet=sheet, material=material, supports=[Clamped(edge="x0")], loads=[load_])
     found, why = resolve_calibration(scene, (9, 5, 2), Lattice(calibration="auto"))
     assert found == method and ("q a/(E h)" in why) == (method == "neo-hookean")
-    assert resolve_calibration(scene, (9, 5, 2), Lattice()) == (None, "")  # nothing was asked
+    assert resolve_calibration(scene, (9, 5, 2), Lattice()) == (None, "")  # no calibration was named
 
 
 def test_rubber_gets_the_springs_of_its_law():
     material = {"law": "gent", "shear": 3e5, "limit": 50.0, "poisson": 0.49, "density": 1000.0}
     scene = RUBBER.replace(material=material)
-    for asked in (Lattice(), Lattice(calibration="auto")):
-        assert resolve_calibration(scene, (9, 9, 2), asked) == (
+    for lattice in (Lattice(), Lattice(calibration="auto")):
+        assert resolve_calibration(scene, (9, 9, 2), lattice) == (
             "hyperelastic",
             "the material has the law gent",
         )

@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from comparisons.comparison.comparison import compare, error
-from comparisons.models.spec import pairs, spec_of
+from comparisons.models.spec import Lattice, pairs, spec_of
 from comparisons.scoring.reference import reference
 from comparisons.tradeoff.row import TradeoffRow
+from sheetbench.answers.solution import Status
 from sheetbench.choices import CALIBRATIONS, EXTRAPOLATED
 from sheetbench.errors import BadInput
 from sheetbench.face import solve
-from sheetbench.scenes import Status, load
+from sheetbench.scenes import load
 
 # Where the cells of 9 × 9 masses are seen, and where they hardly are (less than 0.5 % off, with errors that
 # are no l²: there a pair is no better, and its bar has to say so).
@@ -77,7 +78,7 @@ def test_grading_is_of_both_grids():
 
 def test_the_bar_stands_in_the_comparison():
     other = spec_of("lumped-pair", {"grid": 5, "coarser": 3})
-    found = compare("two-edges-clamped", grid=5, calibration="consistent", elements=2, models=[other])
+    found = compare("two-edges-clamped", Lattice(5, "consistent"), elements=2, models=[other])
     document = found.document()["solutions"][2]
     assert document["model"] == "lumped-pair"
     assert document["uncertainty"]["error"] == found.bar_of(found.solutions[2])

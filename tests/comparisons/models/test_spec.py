@@ -10,7 +10,7 @@ import sheetbench as sb
 from comparisons.models.context import context, running
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Spec, parse, spec_of
-from sheetbench.scenes.grading import Grading
+from sheetbench.scenes.objects.grading import Grading
 
 SPECS: dict[str, Spec] = {
     "lumped": sb.Lattice(),
@@ -74,11 +74,11 @@ def test_flat_keywords_stand_in_the_signature():
 
 
 def test_a_context_holds_for_a_block_and_for_a_call():
-    told: list[object] = []
-    with running(progress=told.append):
+    reports: list[object] = []
+    with running(progress=reports.append):
         sb.solve("one-edge-clamped", "plate", elements=2)
-        assert context().progress == told.append and not context().large
-    assert told and context().progress != told.append
+        assert context().progress == reports.append and not context().large
+    assert reports and context().progress != reports.append
     sb.solve("one-edge-clamped", "plate", elements=2, large=True)
     assert not context().large
 

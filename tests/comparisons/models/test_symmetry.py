@@ -8,6 +8,7 @@ import fem_reference
 from comparisons.models.symmetry import half, planes, whole
 from sheetbench import face as models
 from sheetbench import scenes
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
 from sheetbench.scenes import (
     Clamped,
@@ -21,15 +22,13 @@ from sheetbench.scenes import (
     Scene,
     SceneError,
     Sheet,
-    Solution,
-    Status,
     Symmetric,
 )
 
 SHEET = Sheet(length_x=0.188, length_y=0.25, thickness=0.003)
 
 
-def scene(supports, loads=None, gravity=GRAVITY):
+def make_scene(supports, loads=None, gravity=GRAVITY):
     return Scene(
         name="part",
         sheet=SHEET,
@@ -40,7 +39,7 @@ def scene(supports, loads=None, gravity=GRAVITY):
     )
 
 
-ALL_AROUND = scene(
+ALL_AROUND = make_scene(
     [Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1")],
     [
         PointLoad(at=(0.094, 0.125), force=(0.0, 0.0, 0.3)),
@@ -49,21 +48,21 @@ ALL_AROUND = scene(
         Pressure(value=20.0),
     ],
 )
-BRIDGE = scene(
+BRIDGE = make_scene(
     [Clamped(edge="y0"), Clamped(edge="y1")],
     [
         EdgeLoad(edge="x0", force_per_length=(0.3, 0.0, -0.5), moment_per_length=0.02),
         EdgeLoad(edge="x1", force_per_length=(-0.3, 0.0, -0.5), moment_per_length=0.02),
     ],
 )
-TILTED = scene([Clamped(edge="x0", tilt=0.1), Clamped(edge="x1", tilt=0.1)])
-ROLLED = scene([Curved(edge="x0", curvature=3.0), Curved(edge="x1", curvature=3.0)])
+TILTED = make_scene([Clamped(edge="x0", tilt=0.1), Clamped(edge="x1", tilt=0.1)])
+ROLLED = make_scene([Curved(edge="x0", curvature=3.0), Curved(edge="x1", curvature=3.0)])
 ONE_EDGE = scenes.load("one-edge-clamped")
 TAPE = scenes.load("curved-edge")
 
 PARTS = {
     "hinged all around": (ALL_AROUND, (0, 1)),
-    "clamped bridge with edge loads": (scene(list(BRIDGE.supports), list(BRIDGE.loads)), (0,)),
+    "clamped bridge with edge loads": (make_scene(list(BRIDGE.supports), list(BRIDGE.loads)), (0,)),
     "two rods": (ROLLED, (0, 1)),
     "clamps tilted alike": (TILTED, (0, 1)),
     "one edge": (ONE_EDGE, (1,)),
@@ -80,13 +79,13 @@ SOLVES = {
 @pytest.mark.parametrize("solve", SOLVES)
 @pytest.mark.parametrize("name", PARTS)
 def test_a_part_answers_for_the_whole_to_rounding(name, solve):
-    asked, axes = PARTS[name]
+    case, axes = PARTS[name]
     model, settings = SOLVES[solve]
-    assert planes(asked) == axes
-    entire = models.solve(asked, model, **settings)
-    part = models.solve(asked, model, symmetry=True, **settings)
+    assert planes(case) == axes
+    entire = models.solve(case, model, **settings)
+    part = models.solve(case, model, symmetry=True, **settings)
     assert entire.status is part.status is Status.CONVERGED
-    points = np.random.default_rng(1).uniform(0, 1, (300, 2)) * np.array(asked.sheet.lengths)
+    points = np.random.default_rng(1).uniform(0, 1, (300, 2)) * np.array(case.sheet.lengths)
     u = entire.displacement(points)
     assert np.abs(part.displacement(points) - u).max() < 1e-8 * np.abs(u).max()
     assert (
@@ -111,23 +110,28 @@ def test_the_mesh_is_that_of_the_whole_sheet():
 
 
 @pytest.mark.parametrize(
-    ("asked", "axes"),
+    ("case", "axes"),
     [
         (scenes.load("two-edges-clamped"), ()),
-        (scene([Clamped(edge="x0")], gravity=Gravity(acceleration=(0.0, 1.0, -9.81))), ()),
-        (scene([Clamped(edge="x0")], gravity=Gravity(acceleration=(5.0, 0.0, -9.81))), (1,)),
-        (scene([Clamped(edge="x0"), Hinged(edge="x1")]), (1,)),
-        (scene([Clamped(edge="x0")], [PointLoad(at=(0.1, 0.1), force=(0.0, 0.0, 1.0))]), ()),
-        (scene([Clamped(edge="x0")], [PointLoad(at=(0.1, 0.125), force=(0.0, 1.0, 0.0))]), ()),
-        (scene([Clamped(edge="x0")], [EdgeLoad(edge="x1", moment_per_length=0.1)]), ()),
-        (scene([Clamped(edge="x0"), Clamped(edge="x1")], [EdgeLoad(edge="x1", moment_per_length=0.1)]), ()),
-        (scene([Held(edge="x0", components=("x", "y", "z")), Hinged(edge="x1")]), (1,)),
-        (scene([Clamped(edge="x0", tilt=0.1)]), (1,)),
-        (scene([Clamped(edge="x0", tilt=0.1), Clamped(edge="x1", tilt=-0.1)]), (1,)),
+        (make_scene([Clamped(edge="x0")], gravity=Gravity(acceleration=(0.0, 1.0, -9.81))), ()),
+        (make_scene([Clamped(edge="x0")], gravity=Gravity(acceleration=(5.0, 0.0, -9.81))), (1,)),
+        (make_scene([Clamped(edge="x0"), Hinged(edge="x1")]), (1,)),
+        (make_scene([Clamped(edge="x0")], [PointLoad(at=(0.1, 0.1), force=(0.0, 0.0, 1.0))]), ()),
+        (make_scene([Clamped(edge="x0")], [PointLoad(at=(0.1, 0.125), force=(0.0, 1.0, 0.0))]), ()),
+        (make_scene([Clamped(edge="x0")], [EdgeLoad(edge="x1", moment_per_length=0.1)]), ()),
+        (
+            make_scene(
+                [Clamped(edge="x0"), Clamped(edge="x1")], [EdgeLoad(edge="x1", moment_per_length=0.1)]
+            ),
+            (),
+        ),
+        (make_scene([Held(edge="x0", components=("x", "y", "z")), Hinged(edge="x1")]), (1,)),
+        (make_scene([Clamped(edge="x0", tilt=0.1)]), (1,)),
+        (make_scene([Clamped(edge="x0", tilt=0.1), Clamped(edge="x1", tilt=-0.1)]), (1,)),
     ],
 )
-def test_planes_of_symmetry_are_those_of_supports_and_loads(asked, axes):
-    assert planes(asked) == axes
+def test_planes_of_symmetry_are_those_of_supports_and_loads(case, axes):
+    assert planes(case) == axes
 
 
 def test_a_grid_without_a_line_of_masses_on_the_plane_is_solved_whole():
@@ -157,16 +161,16 @@ def test_restored_vectors_mirror():
 
 @pytest.mark.parametrize("name", ["hinged all around", "a rod", "clamps tilted alike"])
 def test_a_plane_of_symmetry_means_the_same_in_the_solid(name):
-    asked, axes = PARTS[name]
+    case, axes = PARTS[name]
     axis, sizes = axes[0], {False: [4, 4], True: [4, 4]}
     sizes[True][axis] = 2
-    entire = fem_reference.solve(asked, model="solid", elements=tuple(sizes[False]), grading="uniform")
+    entire = fem_reference.solve(case, model="solid", elements=tuple(sizes[False]), grading="uniform")
     part = fem_reference.solve(
-        half(asked, axis), model="solid", elements=tuple(sizes[True]), grading="uniform"
+        half(case, axis), model="solid", elements=tuple(sizes[True]), grading="uniform"
     )
-    points = asked.probe_points()
+    points = case.probe_points()
     u = entire.displacement(points)
-    assert whole(part, asked, axis).displacement(points) == pytest.approx(u, abs=1e-8 * np.abs(u).max())
+    assert whole(part, case, axis).displacement(points) == pytest.approx(u, abs=1e-8 * np.abs(u).max())
 
 
 def test_the_solid_is_solved_whole():
@@ -176,12 +180,12 @@ def test_the_solid_is_solved_whole():
 
 def test_a_plane_of_symmetry_alone_leaves_the_sheet_loose():
     with pytest.raises(SceneError, match="nothing stops"):
-        scenes.require_static(scene([Symmetric(edge="x1"), Symmetric(edge="y1")]))
-    scenes.require_static(scene([Symmetric(edge="x1"), Held(edge="x0", components=("y", "z"))]))
+        scenes.require_static(make_scene([Symmetric(edge="x1"), Symmetric(edge="y1")]))
+    scenes.require_static(make_scene([Symmetric(edge="x1"), Held(edge="x0", components=("y", "z"))]))
 
 
 def test_a_rod_between_two_planes_of_symmetry_is_refused():
     rod = Curved(edge="x0", curvature=1.0)
-    scene([rod, Symmetric(edge="y1")])
+    make_scene([rod, Symmetric(edge="y1")])
     with pytest.raises(ValueError, match="moves the corner"):
-        scene([rod, Symmetric(edge="y0"), Symmetric(edge="y1")])
+        make_scene([rod, Symmetric(edge="y0"), Symmetric(edge="y1")])

@@ -22,7 +22,7 @@ UPRIGHT = (
 )
 
 
-def scene(length_x, length_y, thickness, poisson, supports, *loads, gravity=None):
+def make_scene(length_x, length_y, thickness, poisson, supports, *loads, gravity=None):
     sheet, material = Sheet(length_x, length_y, thickness), Material(YOUNG, poisson, 1000.0)
     return Scene("buckling", sheet, material, gravity, supports, loads)
 
@@ -31,14 +31,14 @@ def square():
     """Simply supported under 4 π² D/b² along x: Timoshenko & Gere, Theory of Elastic Stability, 9.2."""
     critical = 4.0 * np.pi**2 * YOUNG * THICKNESS**3 / 12.0 / (1.0 - 0.3**2) / SIDE**2
     press = EdgeLoad(edge="x1", force_per_length=(-critical, 0.0, 0.0))
-    return scene(SIDE, SIDE, THICKNESS, 0.3, UPRIGHT, press)
+    return make_scene(SIDE, SIDE, THICKNESS, 0.3, UPRIGHT, press)
 
 
 def column():
     """A clamped strip of ν = 0 under Euler's load π² E I/(4 L²)."""
     critical = np.pi**2 * YOUNG * THICKNESS**3 / 12.0 / (4.0 * SIDE**2)
     press = EdgeLoad(edge="x1", force_per_length=(-critical, 0.0, 0.0))
-    return scene(SIDE, 0.1 * SIDE, THICKNESS, 0.0, (Clamped(edge="x0"),), press)
+    return make_scene(SIDE, 0.1 * SIDE, THICKNESS, 0.0, (Clamped(edge="x0"),), press)
 
 
 def on_edge():
@@ -51,7 +51,7 @@ def on_edge():
     twist = 0.5 * YOUNG * width * thickness**3 / 3.0 * (1.0 - 0.63 * thickness / width)
     critical = 4.013 * np.sqrt(bending * twist) / SIDE**2
     press = EdgeLoad(edge="x1", force_per_length=(0.0, -critical / width, 0.0))
-    return scene(SIDE, width, thickness, 0.0, (Clamped(edge="x0"),), press)
+    return make_scene(SIDE, width, thickness, 0.0, (Clamped(edge="x0"),), press)
 
 
 def found(scene, model, count=1):
@@ -101,13 +101,13 @@ def test_under_more_than_its_buckling_load_the_flat_lattice_is_unstable():
     ],
 )
 def test_what_has_no_buckling_load_is_refused_by_name(change, message):
-    asked = square().replace(**change)
+    scene = square().replace(**change)
     for model in ("lumped", "shell", "solid"):
         with pytest.raises(BadInput, match=message):
             if model == "lumped":
-                lumped.buckling(asked, lumped.calibrate(asked.sheet, asked.material, 5))
+                lumped.buckling(scene, lumped.calibrate(scene.sheet, scene.material, 5))
             else:
-                fem_reference.buckling(asked, model, 2)
+                fem_reference.buckling(scene, model, 2)
 
 
 def test_the_plate_has_none():
@@ -118,8 +118,8 @@ def test_the_plate_has_none():
 def test_the_verb_pairs_shapes_and_writes_them(tmp_path, capsys):
     file = tmp_path / "pressed.toml"
     square().save(file)
-    asked = ("modes", str(file), "--lumped", "9", "--elements", "4", "--count", "2", "--buckling")
-    assert run(*asked, "--reference", "shell", "--reference", "plate", "--json") == 0
+    arguments = ("modes", str(file), "--lumped", "9", "--elements", "4", "--count", "2", "--buckling")
+    assert run(*arguments, "--reference", "shell", "--reference", "plate", "--json") == 0
     found = json.loads(capsys.readouterr().out)["buckling"]
     assert [one["model"] for one in found["solutions"]] == ["lumped", "shell"]
     factors = np.array([one["load_factors"] for one in found["solutions"]])

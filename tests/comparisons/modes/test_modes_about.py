@@ -10,9 +10,12 @@ from commands import run
 
 import fem_reference
 import lumped
+import sheetbench as sb
+from comparisons.models.spec import Lattice
 from comparisons.modes.spectra import spectra
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, NoEquilibrium
-from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, Status, load
+from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, load
 
 
 def hanging():
@@ -52,8 +55,8 @@ def test_the_unloaded_sheet_is_flat():
 
 def test_lattice_and_shell_agree_about_the_sagging_sheet():
     """Habibi et al.'s sheet sags by four thicknesses: its first frequency rises, in both models alike."""
-    found = spectra("two-edges-clamped", count=3, grid=17, elements=8, about="deformed")
-    flat = spectra("two-edges-clamped", count=3, grid=17, elements=8)
+    found = spectra("two-edges-clamped", Lattice(17), count=3, elements=8, about="deformed")
+    flat = spectra("two-edges-clamped", Lattice(17), count=3, elements=8)
     stiffened = [a.frequencies[0] / b.frequencies[0] for a, b in zip(found, flat, strict=True)]
     assert stiffened[0] > 1.2 and stiffened[0] == pytest.approx(stiffened[1], rel=0.02)
     assert flat.sag is not None and flat.sag > 3.0 * flat.scene.sheet.thickness
@@ -67,7 +70,7 @@ def test_what_has_no_modes_is_refused_in_a_line():
         lambda: lumped.modes(pressed, springs, 2, about="deformed"),
         lambda: fem_reference.modes(pressed, "shell", 2, 2, "deformed"),
         lambda: fem_reference.modes(scene, "plate", 2, 2, "deformed"),
-        lambda: spectra(scene, count=1, about="sideways"),
+        lambda: sb.modes(scene, count=1, about="sideways"),
     ):
         with pytest.raises(BadInput):
             ask()
@@ -93,9 +96,9 @@ def test_no_equilibrium_nothing_about_it(answer):
 
 
 def test_the_verb_warns_of_a_sheet_that_is_not_flat(capsys):
-    asked = ["modes", "two-edges-clamped", "--lumped", "5", "--elements", "2", "--count", "1"]
+    arguments = ["modes", "two-edges-clamped", "--lumped", "5", "--elements", "2", "--count", "1"]
     for more, warned in (([], True), (["--about", "deformed"], False)):
-        assert run(*asked, *more, "--json") == 0
+        assert run(*arguments, *more, "--json") == 0
         said = capsys.readouterr()
         assert ("--about deformed" in said.err) is warned
         assert json.loads(said.out)["about"] == ("flat" if warned else "deformed")

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from commands import run
 
+from comparisons.models.spec import Lattice
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, assurance, cell_centres, matched
 from comparisons.modes.spectra import spectra
@@ -43,15 +44,15 @@ def test_both_models_agree_and_files_are_left(tmp_path, capsys):
 
 
 def test_table_has_ten_modes_and_several_references(capsys):
-    asked = ("--lumped", "5", "--reference", "plate", "--reference", "shell", "--elements", "4")
-    assert run("modes", "two-edges-clamped", *asked) == 0
+    arguments = ("--lumped", "5", "--reference", "plate", "--reference", "shell", "--elements", "4")
+    assert run("modes", "two-edges-clamped", *arguments) == 0
     printed = capsys.readouterr().out
     assert all(word in printed for word in ("lumped", "plate", "shell", "10", "Hz"))
 
 
 def test_a_free_sheet_has_its_rigid_motions_left_out():
     scene = scenes.load("one-edge-clamped").model_copy(update={"supports": ()})
-    found = spectra(scene, count=3, grid=(7, 7, 2), elements=4)
+    found = spectra(scene, Lattice((7, 7, 2)), count=3, elements=4)
     assert [spectrum.rigid for spectrum in found] == [6, 6]
     assert found[0].frequencies[0] == pytest.approx(found[1].frequencies[0], rel=0.1)
     assert any("rigid-body modes" in said for said in found.report().notes)
@@ -95,8 +96,8 @@ def test_repeated_frequencies_pair_whatever_their_rotation():
     zero = np.zeros_like(x)
     shapes = np.stack([np.stack([zero, zero, w], axis=-1) for w in (np.sin(9 * x), np.sin(9 * y), x * y)])
     turned = np.einsum("ij,jnk->ink", [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]], shapes)
-    apart, same = (assurance(shapes, turned, np.array(f)) for f in ([1.0, 1.1, 2.0], [1.0, 1.0, 2.0]))
-    assert apart[0, 0] < 0.7
+    distinct, same = (assurance(shapes, turned, np.array(f)) for f in ([1.0, 1.1, 2.0], [1.0, 1.0, 2.0]))
+    assert distinct[0, 0] < 0.7
     assert matched(same) == [0, 1, 2]
     # not exactly 1: sin 9x and sin 9y are not orthogonal, so that the turn is not one in their mass
     assert np.diag(same).min() > 0.95
@@ -125,7 +126,7 @@ def test_kinds_of_known_deflections():
 def test_damping_of_modes_is_told_as_asked_and_got(damped, within):
     """Branches keep it over the band; one damper has it at its frequency: ζ goes with the frequency."""
     scene = scenes.load("one-edge-clamped").replace(loss_factor=0.12, **damped)
-    found = spectra(scene, grid=5, elements=4, count=6)
+    found = spectra(scene, Lattice(5), elements=4, count=6)
     damping = found.document()["damping"]
     assert list(damping) == ["lumped", "shell"] and len(found.tables()) == 3
     for mode in damping["lumped"] + damping["shell"]:

@@ -10,13 +10,14 @@ from commands import run
 from scipy.io import loadmat
 
 import lumped
+from comparisons.models.spec import Lattice
 from comparisons.modes import state_figure as figure
 from comparisons.modes.linear import linearise
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
-from sheetbench.scenes.parameters import parameter, put
-from sheetbench.scenes.supports import Motion
+from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.objects.supports import Motion
 
 TAU, RATE = 2e-3, 0.5  # s, 1/s
 DAMPED = with_material(scenes.load("two-edges-clamped"), damping_time=TAU, damping_rate=RATE)
@@ -147,8 +148,8 @@ def test_what_has_no_linear_form_is_refused():
 
 
 def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
-    asked = ["one-edge-clamped", "--lumped", "4", "--state-space", "5", "--out", str(tmp_path), "--json"]
-    assert run("modes", *asked) == 0
+    arguments = ["one-edge-clamped", "--lumped", "4", "--state-space", "5", "--out", str(tmp_path), "--json"]
+    assert run("modes", *arguments) == 0
     document = json.loads(capsys.readouterr().out)["state_space"]
     assert len(document["poles"]) == 10 and document["unknowns"] == 72
     arrays, other = dict(np.load(tmp_path / "linear.npz")), loadmat(tmp_path / "linear.mat")
@@ -172,7 +173,7 @@ def test_the_response_drawn_is_of_the_probe_that_moves_most_and_units_have_names
     lx, ly = strip.sheet.lengths
     strip = strip.replace(probes={"far": (0.0, ly), "near": (0.0, 0.0), "middle": (lx / 2.0, ly / 2.0)})
     strip = strip.replace(supports=[Clamped(edge="x1")])
-    found = linearise(strip, grid=4, modes=3)
+    found = linearise(strip, Lattice(4), modes=3)
     assert figure.moved_most(found) == "near"
     drawn = figure.compose(found)
     title, legend = drawn.axes[0].get_title(loc="left"), drawn.axes[0].get_legend()
@@ -183,7 +184,7 @@ def test_the_response_drawn_is_of_the_probe_that_moves_most_and_units_have_names
     assert rows["x1 z"] == ("mm", *[pytest.approx(1e-3)] * 3)
     assert rows["x1 x"][1:] == (0.0, 0.0, 0.0) and rows["gravity"][0] == "factor"
     assert [c.name for c in found.tables()[0].columns if not c.detail] == ["frequency", "imaginary"]
-    damped = linearise(with_material(strip, damping_rate=RATE), grid=4, modes=3)
+    damped = linearise(with_material(strip, damping_rate=RATE), Lattice(4), modes=3)
     assert not any(column.detail for column in damped.tables()[0].columns)
 
 

@@ -14,11 +14,12 @@ from commands import run
 
 from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
+from comparisons.models.spec import Lattice
 from comparisons.pages import studies as pages
 from comparisons.pages.page import page, pictures, question, whole_words
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
-from comparisons.runs.folder import Folder
+from comparisons.sweep.folder import Folder
 from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow
 from sheetbench.answers.report import Report
@@ -34,7 +35,7 @@ def studies(tmp_path_factory):
     """A comparison of a scene with an evil title, and modes, without pictures; a file that nobody knows."""
     folder = tmp_path_factory.mktemp("studies")
     scene = load("two-edges-clamped").model_copy(update={"title": EVIL})
-    found = compare(scene, grid=3, reference="plate", elements=2, uncertainty=False)
+    found = compare(scene, Lattice(3), reference="plate", elements=2, uncertainty=False)
     about = {"scene": scene.document()}
     undrawn = replace(found.report(), pictures=())
     Folder(folder, "compare", ["sheetbench", "compare"], about=about).report(undrawn)
@@ -52,14 +53,14 @@ def studies(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def shown(browser, studies):  # noqa: F811
-    """The page in a browser; at the end nothing was complained of, by its policy neither, nor asked."""
+    """The page in a browser; at the end no complaint, none by its policy, and no request."""
     path = studies.parent / "report.html"
     path.write_text(page(read(studies), f"Report {EVIL}"), encoding="utf-8")
     with opened(browser, path.as_uri()) as (found, watch):
         dialogs: list[Any] = []
         found.on("dialog", lambda dialog: dialogs.append(dialog))
         yield found
-        assert watch.troubles == [] and watch.asked == [path.as_uri()] and not dialogs
+        assert watch.troubles == [] and watch.requests == [path.as_uri()] and not dialogs
 
 
 def test_its_policy_lets_nothing_but_its_own_script_and_style_in(shown):
@@ -185,7 +186,7 @@ def test_a_trade_of_motion_has_its_figure_and_its_notes(tmp_path):
 
 
 def test_no_verb_has_a_page_of_its_own():
-    """What a page shows it is told by the manifest: a new verb needs nothing there."""
+    """The manifest lists what a page shows: a new verb needs nothing there."""
     for path in sorted(Path(pages.__file__).parent.glob("*.py")):
         text = path.read_text(encoding="utf-8")
         named = [verb for verb in VERBS if f'"{verb}"' in text or f"'{verb}'" in text]
@@ -263,7 +264,7 @@ def test_a_folder_that_is_none_is_refused(tmp_path, capsys):
 
 def test_a_report_of_several_folders_shows_their_numbers_and_tells_them_apart(tmp_path):
     for grid in (3, 5):
-        found = compare("two-edges-clamped", grid=grid, elements=4, companion=False)
+        found = compare("two-edges-clamped", Lattice(grid), elements=4, companion=False)
         about = {"scene": found.scene.document()}
         undrawn = replace(found.report(), pictures=())
         Folder(tmp_path / f"grid-{grid}", "compare", ["sheetbench"], about=about).report(undrawn)

@@ -11,7 +11,8 @@ from browser import browser, colours, opened, pixels  # noqa: F401
 
 from comparisons.pages import sheets, viewer
 from comparisons.pictures.plan import plan_mesh
-from sheetbench.scenes import EdgeLoad, FieldMesh, PointLoad, Pressure, load
+from sheetbench.answers.solution import FieldMesh
+from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, load
 
 SOURCE = Path(viewer.__file__).parent / "source"
 
@@ -94,7 +95,7 @@ def page(browser, tmp_path_factory):  # noqa: F811
     )
     with opened(browser, path.as_uri()) as (shown, watch):
         yield shown
-        assert watch.troubles == [] and watch.asked == [path.as_uri()]
+        assert watch.troubles == [] and watch.requests == [path.as_uri()]
 
 
 def test_it_draws_and_turns_by_key_and_by_mouse(page):

@@ -15,6 +15,7 @@ from comparisons.comparison import figure as comparing
 from comparisons.comparison import probes_figure
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
+from comparisons.models.spec import Lattice
 from comparisons.modes import figure as swinging
 from comparisons.modes import state_figure as responding
 from comparisons.modes.linear import linearise
@@ -26,12 +27,12 @@ from fem_reference.uncertainty import Uncertainty
 from fem_reference.verification import locking_figure as locking
 from fem_reference.verification.rows import relatively
 from sheetbench import scenes
+from sheetbench.answers import history_figure as moving
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
+from sheetbench.answers.history import ENERGIES, History
+from sheetbench.answers.solution import Status
 from sheetbench.answers.style import STYLE, save
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History, Status
-from sheetbench.scenes import history_figure as moving
-from sheetbench.scenes.history import ENERGIES
 
 Compose = Callable[[FigureStyle], Figure]
 
@@ -74,8 +75,8 @@ def composed(scene, comparison):
         for model in ("plate", "solid")
         for ratio in (1e-5, 0.1)
     ]
-    linear = linearise(scene, grid=3)
-    swings = spectra(scene, count=4, grid=3, reference="plate", elements=2)
+    linear = linearise(scene, Lattice(3))
+    swings = spectra(scene, Lattice(3), count=4, reference="plate", elements=2)
     return {
         "probes": partial(probes_figure.compose, comparison),
         "history": partial(moving.compose, history, scene.title, {}),
@@ -115,6 +116,7 @@ def test_a_paper_has_its_columns_width_units_and_no_title(composed, scene, name)
     assert box.width <= paper.get_figwidth() + 0.1
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", ["probes", "tradeoff"])
 def test_the_same_picture_is_the_same_bytes_with_its_fonts(composed, tmp_path, name):
     files = [tmp_path / f"{name}.{form}" for form in ("pdf", "svg")]
@@ -154,22 +156,22 @@ def test_the_sheets_in_one_column_keep_off_the_colour_bars(aspect):
 
 def test_the_option(tmp_path, capsys):
     out = tmp_path / "out"
-    asked = ["modes", "two-edges-clamped", "--grid", "3", "--reference", "plate", "--elements", "2"]
-    assert run(*asked, "--figure", "svg,pdf", "--out", str(out)) == 0
+    arguments = ["modes", "two-edges-clamped", "--grid", "3", "--reference", "plate", "--elements", "2"]
+    assert run(*arguments, "--figure", "svg,pdf", "--out", str(out)) == 0
     files = json.loads((out / "manifest.json").read_text(encoding="utf-8"))["runs"]["modes"]["files"]
     drawn = {name for name in files if name.endswith((".png", ".pdf", ".svg"))}
     assert drawn == {"modes.svg", "modes.pdf"} and all((out / name).is_file() for name in drawn)
     capsys.readouterr()
-    assert run(*asked, "--figure", "svg") == 2
+    assert run(*arguments, "--figure", "svg") == 2
     assert "--figure: no effect without --out" in one_line(capsys)
-    assert run(*asked, "--figure", "svg", "--no-pictures", "--out", str(out)) == 2
+    assert run(*arguments, "--figure", "svg", "--no-pictures", "--out", str(out)) == 2
     assert "--no-pictures" in one_line(capsys)
     bare = tmp_path / "bare"
-    assert run(*asked, "--no-pictures", "--out", str(bare)) == 0
+    assert run(*arguments, "--no-pictures", "--out", str(bare)) == 0
     assert "drawing" not in capsys.readouterr().err
     left = {path.suffix for path in bare.iterdir()}
     assert not left & {".png", ".pdf", ".svg"} and {".json", ".csv", ".vtu"} <= left
-    assert run(*asked, "--figure", "jpg", "--out", str(out)) == 2
+    assert run(*arguments, "--figure", "jpg", "--out", str(out)) == 2
     assert "--figure" in one_line(capsys)
     assert run("stability", "one-edge-clamped", "--figure", "pdf:single", "--out", str(tmp_path / "s")) == 2
     assert "both columns" in one_line(capsys) and not (tmp_path / "s").exists()

@@ -1,4 +1,4 @@
-"""Pictures: text of scenes is no mathematics, names stand apart, loads and actuators are seen."""
+"""Pictures: text of scenes is no mathematics, names do not overlap, loads and actuators are seen."""
 
 import matplotlib
 import numpy as np
@@ -6,10 +6,10 @@ import pytest
 from matplotlib.figure import Figure
 
 from comparisons.pictures.labels import place_labels
+from sheetbench.answers import history_figure as motion
+from sheetbench.answers.history import ENERGIES, History
+from sheetbench.answers.solution import Status
 from sheetbench.answers.style import MOST, STYLE, plain, save
-from sheetbench.scenes import History, Status
-from sheetbench.scenes import history_figure as motion
-from sheetbench.scenes.history import ENERGIES
 
 HOSTILE = "T $\\foo$ \x1b[31m _x^y\n$"
 

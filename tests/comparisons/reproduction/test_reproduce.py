@@ -14,9 +14,9 @@ from comparisons.reproduction.printed_errors import Cell, cells, means
 from comparisons.reproduction.published import published, scene
 from comparisons.reproduction.reproduction import Reproduction, reproduce
 from comparisons.reproduction.settling import settling
+from sheetbench.answers.habibi import published_inputs
 from sheetbench.answers.report import Report
-from sheetbench.scenes import Status
-from sheetbench.scenes.habibi import published_inputs
+from sheetbench.answers.solution import Status
 
 
 @pytest.fixture(scope="module")
@@ -27,15 +27,15 @@ def test_1():
 def test_the_scenes_have_the_published_inputs():
     given = published_inputs()
     for test, sense in ((1, 1), (2, 1), (2, -1)):
-        asked = scene(test, sense)
-        assert (*asked.sheet.lengths, asked.sheet.thickness) == (
+        case = scene(test, sense)
+        assert (*case.sheet.lengths, case.sheet.thickness) == (
             given["side"],
             given["side"],
             given["thickness"],
         )
         for name in ("young", "poisson", "density"):
-            assert getattr(asked.material, name) == pytest.approx(given[name], rel=1e-12)
-        assert asked.gravity is not None and asked.gravity.acceleration == (0.0, 0.0, -given["gravity"])
+            assert getattr(case.material, name) == pytest.approx(given[name], rel=1e-12)
+        assert case.gravity is not None and case.gravity.acceleration == (0.0, 0.0, -given["gravity"])
     assert scene(2, -1).supports[0].curvature == -given["curvature"]
 
 
@@ -98,10 +98,10 @@ def test_what_is_kept_of_the_nearest_sheets_says_where_it_comes_from():
     assert "at commit f525c8e5" in stored["made"] and stored["made"] in nearest.table().text
     for fit in stored["fits"]:
         assert 0 <= fit["met"] < fit["entries"] and 0.0 < fit["rms"] < fit["error"]
-    told = " ".join(one["finding"] for one in stored["findings"])
+    text = " ".join(one["finding"] for one in stored["findings"])
     for fit in stored["fits"]:
         if fit["by"] == "misfit" and fit["met"] == 3 and fit["tests"] == [1]:
-            assert f"has 3 of {fit['entries']} entries" in told
+            assert f"has 3 of {fit['entries']} entries" in text
 
 
 def test_the_run_is_by_the_default_integrator():

@@ -78,7 +78,7 @@ def test_the_largest_stable_steps_are_those_measured(store, monkeypatch):
         assert measured >= 0.99 * computed and advised == pytest.approx(0.9 * computed)
         assert damping != "0 of critical" or measured <= 1.02 * computed
     springs = resolve(SETTLING, Lattice(3)).springs
-    known = extremes.explicit_limit("verlet", SETTLING, springs)
+    known = lumped.explicit_limit("verlet", SETTLING, springs)
     assert steps["verlet", "the scene's"][2] == pytest.approx(known)
     implicit = [row for row in found.rows if row["cell"]["integrator"] == "midpoint"]
     assert [row["status"] for row in implicit] == ["converged"] * 2
@@ -112,7 +112,7 @@ def test_the_motions_error_is_of_the_largest_displacement():
 def test_the_command_writes_maps_and_resumes(tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(extremes.FACTORS, "young", (1.0,))
     monkeypatch.setattr(extremes, "CELLS", {"lumped": (2,), "references": (2,)})
-    asked = [
+    arguments = [
         "stability",
         "two-edges-clamped",
         "--grid",
@@ -124,8 +124,8 @@ def test_the_command_writes_maps_and_resumes(tmp_path, capsys, monkeypatch):
         "--vary",
         "grid",
     ]
-    asked += ["--workers", "1", "--out", str(tmp_path)]
-    assert run(*asked) == 0
+    arguments += ["--workers", "1", "--out", str(tmp_path)]
+    assert run(*arguments) == 0
     assert "cells along the shorter side" in capsys.readouterr().out
     document = json.loads((tmp_path / "stability.json").read_text(encoding="utf-8"))
     assert [row["study"] for row in document["rows"]] == ["young"] * 3 + ["grid"] * 3
@@ -133,7 +133,7 @@ def test_the_command_writes_maps_and_resumes(tmp_path, capsys, monkeypatch):
     for name in ("holds.csv", "young.csv", "grid.csv", "stability.md", "stability.png", "stability.pdf"):
         assert (tmp_path / name).exists(), name
     before = (tmp_path / "campaign.sqlite").stat().st_mtime_ns
-    assert json_of(capsys, *asked)["rows"] == document["rows"]
+    assert json_of(capsys, *arguments)["rows"] == document["rows"]
     assert (tmp_path / "campaign.sqlite").stat().st_mtime_ns == before
 
 

@@ -1,4 +1,4 @@
-"""A model's limit with its bar, and who is told apart from whom."""
+"""A model's limit with its bar, and which models are distinguishable."""
 
 import numpy as np
 import pytest
@@ -51,8 +51,8 @@ def test_a_limit_has_the_bar_of_its_three_finest_meshes(meshes, shown, bar):
 @pytest.mark.parametrize("share", [0.9, 1.1])
 def test_models_are_told_apart_by_more_than_both_bars_alone(share):
     error = 0.002
-    bars = 2 * 1.35 * error / 64
-    there = pair(standing("here", -0.01, error), standing("there", -0.01 - share * bars, error))
+    bars = (1.0 + 3.0) * 1.35 * error / 64
+    there = pair(standing("here", -0.01, error), standing("there", -0.01 - share * bars, 3.0 * error))
     assert there is not None
     assert there.distinguishable_at == (() if share < 1.0 else ("P1", "P2", "P3", "P4"))
     assert there.difference == pytest.approx(share * bars / 0.01, rel=1e-6)
@@ -65,3 +65,14 @@ def test_rounding_tells_nothing_apart():
     near, far = (standing("there", -0.01 * (1 + off), 0.0) for off in (4e-6, 4e-5))
     differ = [pair(here, there) for there in (near, far)]
     assert [bool(one and one.distinguishable_at) for one in differ] == [False, True]
+
+
+def test_meshes_that_a_model_refuses_are_no_failures():
+    rows = [Solved(Ask(SEED, Lattice(5)), end, message="why") for end in ("refused", "diverged")]
+    found = Limit.of("one", rows)
+    assert found.failures == [rows[1].ending] and not found.refused
+    assert Limit.of("one", rows[:1]).refused and not Limit.of("one", rows[:1]).failures
+
+
+def test_of_two_models_that_do_not_move_nothing_is_told():
+    assert pair(standing("here", 0.0, 0.0), standing("there", 0.0, 0.0)) is None

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 from campaigns import Here
 
-from comparisons.advice.trials import TrialSolves
 from comparisons.comparison.comparison import compare
-from comparisons.crosscheck.crosscheck import crosscheck
+from comparisons.comparison.crosscheck import crosscheck
 from comparisons.models.spec import Elements, Lattice
 from comparisons.sweep import columns
 from comparisons.sweep.differences import error
 from comparisons.sweep.limits import Limit, limit, pairs
 from comparisons.sweep.solved import Ask, sweep
 from comparisons.tradeoff.statics import tradeoff
+from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.scenes import load
 
 SEED = load("two-edges-clamped")

@@ -16,17 +16,16 @@ from matplotlib.figure import Figure
 
 import lumped
 from comparisons.models.spec import Elements, External, Lattice, lattices, parse, references
-from comparisons.runs import load
-from comparisons.runs.campaign import campaign
-from comparisons.runs.peak_memory import with_peak_memory
-from comparisons.runs.store import FILE
-from comparisons.sweep import task
+from comparisons.sweep import load, task
+from comparisons.sweep.campaign import campaign
 from comparisons.sweep.columns import field_points
+from comparisons.sweep.peak_memory import with_peak_memory
 from comparisons.sweep.solved import Ask, Solved
+from comparisons.sweep.store import FILE
 from comparisons.tradeoff import statics
 from comparisons.tradeoff.answer import Tradeoff, folded
 from comparisons.tradeoff.figure import compose, logarithmic
-from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff, explicit_limit
+from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff
 from comparisons.tradeoff.row import MotionRow, TradeoffRow
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, parse_figure
@@ -43,8 +42,8 @@ import os, signal, sys
 sys.path.insert(0, {here!r})
 from campaigns import Here
 from comparisons.cli import main
-from comparisons.runs import campaign, executors
-from comparisons.runs.store import Store
+from comparisons.sweep import campaign, executors
+from comparisons.sweep.store import Store
 campaign.carry_out.__kwdefaults__["pool"] = executors.processes = Here
 kept, add = [], Store.add
 def add_and_die(store, task, arguments, outcome):
@@ -97,11 +96,11 @@ def test_lists_of_sizes_become_rows_with_near_square_cells():
 
 
 def test_a_measured_row_says_what_it_cost(scene):
-    asked = Ask(scene, Lattice((9, 9, 2), "consistent"), repeats=3)
-    row = task.solve(**asked.task.arguments)
+    ask = Ask(scene, Lattice((9, 9, 2), "consistent"), repeats=3)
+    row = task.solve(**ask.task.arguments)
     assert row["status"] == "converged" and row["unknowns"] == 384
     cost = row["cost"]
-    assert Solved(asked, "converged", row=row).seconds == pytest.approx(np.median(cost["samples"]))
+    assert Solved(ask, "converged", row=row).seconds == pytest.approx(np.median(cost["samples"]))
     assert len(cost["samples"]) >= 3 and cost["peak_memory_bytes"] >= 0
     assert {"python", "processor", "cpu_count"} <= set(cost["machine"])
     assert {"sheetbench", "numpy", "scipy"} <= set(cost["versions"])
@@ -237,8 +236,8 @@ def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path):
     with campaign(tmp_path) as store:
         found = dynamic_tradeoff(own, 0.02, store, **options)
         k_given = dynamic_tradeoff(scene, 0.02, store, lattices=[Lattice(3, k=800.0)], **options)
-    limit = explicit_limit(names[0], own, lumped.given(own))
-    assert limit < 0.7 * explicit_limit(names[0], own, springs)
+    limit = lumped.explicit_limit(names[0], own, lumped.given(own))
+    assert limit < 0.7 * lumped.explicit_limit(names[0], own, springs)
     assert [row.step for row in found.rows] == [pytest.approx(share * limit) for share in SHARES]
     assert all(row.status == "converged" for row in (*found.rows, *k_given.rows))
     assert k_given.lattices == ("lumped 3×3×2 uniform",)

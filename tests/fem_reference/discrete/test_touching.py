@@ -10,13 +10,16 @@ from contact_cases import (
     draped_quarter,
     heavy_elastica,
     laid_strip,
+    loop_force,
     lying_quarter,
+    pressed_loop,
 )
 
 import fem_reference
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import divisions, mesh_of
-from sheetbench.scenes import Cylinder, Plane, SceneError, Sphere, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Cylinder, Plane, SceneError, Sphere
 
 OBSTACLES = {
     "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),
@@ -51,13 +54,22 @@ def test_force_is_the_potential_s_and_tangent_the_force_s_derivative(name):
 
 @pytest.mark.parametrize("drop", [0.05, 0.2])
 def test_shell_that_lies_down_against_the_heavy_elastica(drop):
-    carried = heavy_elastica(drop)[1]
-    solution = fem_reference.solve(laid_strip(drop), "shell", elements=(20, 1), graded=False)
+    _, carried, moment = heavy_elastica(drop)
+    scenes = laid_strip(drop), laid_strip(drop, obstacles=())
+    solution, free = (fem_reference.solve(scene, "shell", elements=(20, 1), graded=False) for scene in scenes)
     assert solution.status is Status.CONVERGED
     assert solution.reactions["x0"][2] / WEIGHT == pytest.approx(carried, rel=1e-3)
     assert sum(f[2] for f in solution.reactions.values()) == pytest.approx(WEIGHT, rel=1e-7)
-    assert solution.iterations <= 36  # soft first; along a path of stiff contact they would be hundreds
+    assert solution.iterations <= 2 * free.iterations  # soft first; with stiff contact there are hundreds
     assert solution.contacts["obstacle 1"].penetration < 1e-4
+    # the clamp's moment is what weight and plane leave of moments about it, by Simpson's rule
+    rule = np.array([1.0, *[4.0, 2.0] * 19, 4.0, 1.0]) / 120.0
+    at = np.linspace(0.0, 1.0, 41)
+    x = at + solution.displacement(np.column_stack([at, np.full(41, 0.05)]))[:, 0]
+    nodes, pressure = solution.mesh.points[:, :2], solution.mesh.point_data["contact_pressure"]
+    there = [int(np.abs(nodes - [each, 0.05]).sum(axis=1).argmin()) for each in at]
+    share = 0.1 * pressure[there] / WEIGHT
+    assert rule @ ((1.0 - share) * x) == pytest.approx(moment, rel=1e-3)
 
 
 def test_solid_agrees_with_the_shell():
@@ -65,6 +77,13 @@ def test_solid_agrees_with_the_shell():
     shell, solid = (fem_reference.solve(scene, name, elements=(10, 1)) for name in ("shell", "solid"))
     assert solid.status is Status.CONVERGED
     assert solid.reactions["x0"][2] == pytest.approx(shell.reactions["x0"][2], rel=5e-3)
+
+
+def test_loop_pressed_between_plates():
+    """That a clamp turns, without loads, against a plane."""
+    solution = fem_reference.solve(pressed_loop(0.6), "shell", elements=(20, 1), graded=False)
+    assert solution.status is Status.CONVERGED
+    assert solution.reactions["obstacle 1"][2] == pytest.approx(-loop_force(0.6), rel=1e-3)
 
 
 def test_sheet_that_lies_presses_evenly():
@@ -84,7 +103,7 @@ def test_shell_over_a_ball_folds_one_way():
 
 
 def test_the_plate_refuses_obstacles():
-    with pytest.raises(SceneError, match="the plate, which is linear, knows no contact"):
+    with pytest.raises(SceneError, match="the plate, which is linear, has no contact"):
         fem_reference.solve(laid_strip(0.1), "plate")
 
 
@@ -101,3 +120,10 @@ def test_energy_of_a_shell_that_falls(integrator, within):
     assert history.status is Status.CONVERGED
     assert np.abs(whole - whole[0]).max() < within * 1e3 * 0.002 * 0.02 * GRAVITY * 0.01
     assert history.reactions["obstacle 1"][:, 2].max() > 0.0
+
+
+def test_friction_that_cannot_stick_is_said():
+    floor = Plane(position=(0.0, 0.0, -0.011), friction=0.3)
+    scene = laid_strip(0.05, obstacles=(floor,)).replace(length_x=0.2, thickness=0.002, young=5e6)
+    history = fem_reference.simulate(scene, "shell", 2e-3, elements=(2, 1), every=1e-3)
+    assert "should stick creeps" in history.message

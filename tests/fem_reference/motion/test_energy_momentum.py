@@ -28,7 +28,7 @@ def drift(model, damping_time, elements, **steps):
 @pytest.mark.parametrize("damping_time", [0.0, 1e-3])
 def test_the_shell_keeps_its_energy_to_rounding(damping_time):
     """Of a step 1e-13 of the displacement is left: times stiffness over energy, some 1e-11."""
-    assert drift("shell", damping_time, (2, 1), duration=0.6, step=3e-3) < 1e-9
+    assert drift("shell", damping_time, (2, 1), duration=0.3, step=3e-3) < 1e-9
 
 
 @pytest.mark.parametrize("model", ["plate", "solid"])
@@ -39,7 +39,7 @@ def test_plate_and_solid_keep_theirs(model):
 @pytest.mark.nightly  # a minute
 @pytest.mark.parametrize(("model", "elements"), [("plate", (2, 1)), ("shell", (2, 1)), ("solid", (1, 1))])
 def test_a_hundred_periods_leave_the_energy_as_it_was(model, elements):
-    """Of 0.32 s; asked: to 1e-6 of the elastic energy."""
+    """Over 0.32 s, to 1e-6 of the elastic energy."""
     assert drift(model, 0.0, elements, duration=32.1, step=1e-2) < 1e-8
 
 
@@ -59,15 +59,15 @@ def test_a_sheet_thrown_and_spinning_keeps_both_momenta_and_its_energy(kind):
     def kept():
         momentum = (model.mass @ motion.v).reshape(-1, 3)
         angular = np.cross(rest + motion.q.reshape(-1, 3), momentum).sum(axis=0)
-        energy = sum(energies(model, motion.q, motion.v, motion.time))
+        energy = sum(energies(model, motion))
         return [momentum[: len(places)].sum(axis=0), angular, np.array(energy)]
 
     before = kept()
-    for _ in range(60):
+    for _ in range(30):
         motion = method.advance(motion, 1.0)
     for value, at_first in zip(kept(), before, strict=True):
         assert value == pytest.approx(at_first, rel=1e-9)
-    assert np.abs(model.displacement(motion.q)).max() > 0.1
+    assert np.abs(model.displacement(motion.q)).max() > 0.05
 
 
 def test_laws_that_are_not_linear_in_greens_strain_are_refused():

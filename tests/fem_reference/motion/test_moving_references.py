@@ -7,10 +7,11 @@ import pytest
 
 import fem_reference
 from fem_reference.verification import settling_strip
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeMotion, Gravity, Pressure, Status
-from sheetbench.scenes.supports import Clamped, Curved, Motion
-from sheetbench.scenes.tables import FactorTable
+from sheetbench.scenes import EdgeMotion, Gravity, Pressure
+from sheetbench.scenes.objects.supports import Clamped, Curved, Motion
+from sheetbench.scenes.objects.tables import FactorTable
 
 MODELS = ("plate", "shell", "solid")
 
@@ -23,7 +24,7 @@ def strip():
 
 @pytest.mark.parametrize("model", ["plate", "solid"])
 def test_a_slight_motion_is_that_of_the_shell(strip, model):
-    """Rotations of some hundredths: their squares apart, and the solid's thickness, the motion is one."""
+    """Rotations of some hundredths: but for their squares and the solid's thickness, the motion is one."""
     ours, shell = (
         fem_reference.simulate(strip, m, 0.15, elements=(3, 1), every=0.01) for m in (model, "shell")
     )

@@ -8,10 +8,11 @@ from fem_reference.motion.generalised_alpha import ConstrainedAlpha
 from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
 from fem_reference.verification import settling_strip
+from sheetbench.answers.history import History
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Gravity, History, load
-from sheetbench.scenes.supports import Clamped, Motion
-from sheetbench.scenes.tables import FactorTable
+from sheetbench.scenes import Gravity, load
+from sheetbench.scenes.objects.supports import Clamped, Motion
+from sheetbench.scenes.objects.tables import FactorTable
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,8 @@ import pytest
 
 import fem_reference
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, Held, Material, Motion, Relaxation, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Held, Material, Motion, Relaxation, Scene, Sheet
 
 BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
 RAMP, PULL = 0.01, 1e-9

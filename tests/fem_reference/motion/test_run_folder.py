@@ -7,9 +7,10 @@ import pytest
 
 import fem_reference
 from fem_reference.motion.generalised_alpha import ConstrainedAlpha
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.time.method import StepFailed
-from sheetbench.scenes import Air, BadInput, Status, load
-from sheetbench.scenes.tables import FactorTable
+from sheetbench.scenes import Air, BadInput, load
+from sheetbench.scenes.objects.tables import FactorTable
 
 BENT = FactorTable(time=(0.0, 0.013, 0.05), factor=(0.0, 1.0, 0.5))
 
@@ -56,7 +57,7 @@ def test_a_fixed_step_that_fails_is_halved_and_said(monkeypatch):
 
     def failing(self, motion, h):
         if h > 0.9e-3 and 4e-3 < motion.time < 5.5e-3:
-            raise StepFailed("asked to")
+            raise StepFailed("on request")
         return once(self, motion, h)
 
     scene = load("two-edges-settling")

@@ -226,13 +226,14 @@ def test_the_mass_of_rigid_motions_is_that_of_a_slab():
 
 
 def sheet_on(kinds):
-    """Habibi et al.'s sheet under a thousandth of its weight, each edge held as asked."""
+    """Habibi et al.'s sheet under a thousandth of its weight, each edge held as its kind says."""
     scene = scenes.load("two-edges-clamped")
     light = scenes.Gravity(acceleration=(0.0, 0.0, -9.81e-3))
     supports = [{"edge": edge, "kind": kind} for edge, kind in kinds.items()]
     return Scene.model_validate({**scene.model_dump(), "supports": supports, "gravity": light})
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("kinds", [{"x0": "clamped", "y0": "clamped"}, dict.fromkeys(EDGES, "hinged")])
 def test_graded_where_edges_let_twist_go(kinds):
     """On 16 × 16 within 0.05 % of 40 × 40 graded ones; on equal elements 0.3 to 0.5 % off."""

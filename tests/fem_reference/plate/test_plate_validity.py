@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 import fem_reference
-from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Material, Scene, Sheet, Status
-from sheetbench.scenes.supports import Motion
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Material, Scene, Sheet
+from sheetbench.scenes.objects.supports import Motion
 
 SHEET = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
 SOFT = Material(young=5e6, poisson=0.0, density=1100.0)

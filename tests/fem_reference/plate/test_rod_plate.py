@@ -17,13 +17,14 @@ def small(scene, factor=1e-3):
     return scene.model_copy(update={"gravity": weight, "actuators": (scaled,)})
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("base", ["free", "middle"])
 @pytest.mark.parametrize("name", CHAINS)
 def test_the_plate_is_the_limit_of_small_deflections(name, base):
-    asked = dict(CHAINS[name])
+    settings = dict(CHAINS[name])
     if base == "middle" and name == "list":
-        asked["curvature"] = (*asked["curvature"], 2.0)
-    scene = small(driven(chain(**asked, base=base)))
+        settings["curvature"] = (*settings["curvature"], 2.0)
+    scene = small(driven(chain(**settings, base=base)))
     points = np.random.default_rng(0).uniform(0.0, 0.188, (50, 2))
     plate = fem_reference.solve(scene, model="plate", elements=12)
     expected = fem_reference.solve(scene, model="shell", elements=12)

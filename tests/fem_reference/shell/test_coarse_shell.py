@@ -10,9 +10,9 @@ from fem_reference.shell.element import MEMBRANE
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import mesh_of
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes import Status
 
 
 def moved(scene, solution):

@@ -41,7 +41,7 @@ def build(mesh, thickness=SHEET.thickness, material=RUBBER):
     return Element.build(nodes[element_nodes], section_of(material, thickness)), nodes, element_nodes
 
 
-def scene(supports=(), loads=(), **more):
+def make_scene(supports=(), loads=(), **more):
     return Scene(
         name="t", sheet=SHEET, material=RUBBER, supports=supports, loads=loads, probes={"A": (0, 0)}, **more
     )
@@ -80,7 +80,7 @@ def test_strains_are_the_derivative_of_themselves():
 
 
 def test_the_internal_force_is_the_derivative_of_the_energy():
-    sheet = discretise(distorted(), scene())
+    sheet = discretise(distorted(), make_scene())
     q = random_state(sheet).q
     step = np.random.default_rng(3).uniform(-1, 1, q.shape)
     t = 1e-6
@@ -99,14 +99,14 @@ LOADS = {
 @pytest.mark.parametrize("loads", LOADS.values(), ids=LOADS)
 def test_the_tangent_is_symmetric_under_dead_loads_alone(loads):
     """That it is the derivative of the force: test_tangents.py."""
-    sheet = discretise(distorted(), scene(loads=loads, gravity=Gravity(acceleration=(0, 0, -9.81))))
+    sheet = discretise(distorted(), make_scene(loads=loads, gravity=Gravity(acceleration=(0, 0, -9.81))))
     state, static = random_state(sheet, 0.5), Static(sheet)
     matrix, _ = static.system(state, static.forces(state, 1.0), 1.0, mixed=False)
     assert (abs(matrix - matrix.T).max() < 1e-9 * abs(matrix).max()) == (not loads)
 
 
 def test_the_linear_step_honours_constraints_and_extrapolates_the_stress():
-    sheet = discretise(distorted(), scene(supports=(Clamped(edge="x0"),), loads=LOADS["pressure"]))
+    sheet = discretise(distorted(), make_scene(supports=(Clamped(edge="x0"),), loads=LOADS["pressure"]))
     static, stretched = Static(sheet), State(random_state(sheet, 0.01).q * 1.01)
     forces = static.forces(stretched, 1.0)
     matrix, rows = static.system(stretched, forces, 1.0)
@@ -147,7 +147,7 @@ def test_no_spurious_mode_when_held(support):
     hinged = (support, Hinged(edge="y1")) if support.kind == "hinged" else (support,)
     lowest = []
     for elements in (3, 6):
-        sheet = discretise(rectangle(SHEET, elements), scene(supports=hinged))
+        sheet = discretise(rectangle(SHEET, elements), make_scene(supports=hinged))
         matrix = at_rest(sheet)
         areas = area_force(sheet.element.areas, sheet.plan.elements, sheet.nodes, np.ones(1))
         mass = np.concatenate(
@@ -183,7 +183,7 @@ def test_patch_of_constant_strain_on_a_distorted_mesh():
 def test_patch_equilibrium_of_constant_stress():
     """Under a constant stress the inner nodes of a distorted mesh are in balance."""
     mesh = distorted(3, 0.3)
-    sheet = discretise(mesh, scene())
+    sheet = discretise(mesh, make_scene())
     nodes, moved = sheet.plan.nodes, np.zeros((sheet.nodes, 3))
     moved[:, :2] = 1e-9 * nodes @ np.array([[1.0, 0.3], [0.3, -2.0]])
     force, _ = residual(sheet, moved)
@@ -193,14 +193,14 @@ def test_patch_equilibrium_of_constant_stress():
 
 @pytest.mark.parametrize("stretched", [(0.02, -0.01), (-0.01, 0.02)])
 def test_how_far_a_patch_is_stretched(stretched):
-    sheet = discretise(rectangle(SHEET, (2, 3)), scene())
+    sheet = discretise(rectangle(SHEET, (2, 3)), make_scene())
     moved = np.pad(sheet.plan.nodes * stretched, ((0, 0), (0, 1)))
     assert sheet.stretch(sheet.of_vectors(moved, 0.0 * moved)) == pytest.approx(0.02, rel=1e-10)
 
 
 def test_patch_of_constant_bending():
     """w = −½ κ x² with its directors, linearised: the exact energy, no shear, the inside in balance."""
-    sheet = discretise(distorted(3, 0.3), scene())
+    sheet = discretise(distorted(3, 0.3), make_scene())
     kappa, nodes = 1e-9, sheet.plan.nodes
     moved, turned = np.zeros((2, sheet.nodes, 3))
     moved[:, 2] = -0.5 * kappa * nodes[:, 0] ** 2
@@ -239,10 +239,10 @@ def test_an_inverted_element_is_refused_by_every_reference():
     folded = MeshQuad(p, mesh.t).with_boundaries(mesh.boundaries)
     with pytest.raises(ValueError, match="of the mesh is inverted"):
         build(folded)
-    asked = scenes.load("one-edge-clamped")
+    scene = scenes.load("one-edge-clamped")
     for solve_on in (plate.solve_on, shell.solve_on, solid.solve_on):
         with pytest.raises(ValueError, match="of the mesh is inverted"):
-            solve_on(folded, asked)
+            solve_on(folded, scene)
 
 
 def test_directors_are_brought_to_unit_length_and_turn_across_themselves():
@@ -269,7 +269,7 @@ def test_directors_are_brought_to_unit_length_and_turn_across_themselves():
 def test_directors_of_the_bent_sheet_are_unit_vectors():
     """To the tolerance of Newton's method, turned by up to a right angle and stressed."""
     up = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, 20.0), moment_per_length=1.0)
-    found = shell.solve(scene((Clamped(edge="x0"),), (up,)), 4)
+    found = shell.solve(make_scene((Clamped(edge="x0"),), (up,)), 4)
     directors = found.mesh.point_data["director"]
     assert directors[:, 2].min() < 0.5
     np.testing.assert_allclose(np.linalg.norm(directors, axis=1), 1.0, atol=Limits.tolerance)

@@ -8,11 +8,11 @@ from scipy.sparse import csr_matrix, random_array
 import fem_reference.shell.statics
 import sheetbench.numerics.direct
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.numerics.stability import nearest_to_zero
-from sheetbench.scenes import Status
 
 pytestmark = pytest.mark.smoke
 

@@ -8,6 +8,7 @@ from cases import CONVERGED, GRAVITY, RUBBER, SHEET, with_material
 import fem_reference
 from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.scenes import (
     Clamped,
     Curved,
@@ -19,7 +20,6 @@ from sheetbench.scenes import (
     Pressure,
     Scene,
     Sheet,
-    Status,
 )
 
 

@@ -17,13 +17,14 @@ from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.supports import Driven
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation import pseudo_transient
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
-from sheetbench.scenes import Chain, Curved, Hinged, Material, Scene, Sheet, Status
-from sheetbench.scenes.kinematics import Placed
+from sheetbench.scenes import Chain, Curved, Hinged, Material, Scene, Sheet
+from sheetbench.scenes.meaning.kinematics import Placed
 from studies.stability import scenes as stability_scenes
 
 SIDE, WIDTH, THICKNESS, YOUNG = 1.0, 0.1, 0.002, 1e7

@@ -5,13 +5,14 @@ import pytest
 from rod_cases import CHAINS, chain, driven, shell
 
 import fem_reference
-from sheetbench.scenes import Status
+from sheetbench.answers.solution import Status
 
 
 def solid(scene, elements=8, layers=1):
     return fem_reference.solve(scene, model="solid", elements=elements, layers=layers)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("name", CHAINS)
 def test_the_solid_agrees_with_the_shell(name):
     """Displacements within 0.2 %, the rod's energy within 1 %; forces balance."""
@@ -29,6 +30,7 @@ def test_the_solid_agrees_with_the_shell(name):
     np.testing.assert_allclose(moment[8:16], agreed[8:16], atol=0.02 * np.abs(agreed).max())
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("edges", [("y1",), ("x1", "y1"), ("y0", "y1")])
 def test_rods_that_meet_each_other_and_a_clamp(edges):
     """They end at corners whose column the clamp holds or the other rod turns too."""
@@ -40,6 +42,7 @@ def test_rods_that_meet_each_other_and_a_clamp(edges):
     assert np.abs(answer.displacement(points) - truth).max() < 2e-3 * np.abs(truth).max()
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("base", ["start", "middle", "end"])
 def test_a_base_holds_the_solid(base):
     scene = driven().model_copy(update={"supports": (), "actuators": (chain(edge="y0", base=base),)})

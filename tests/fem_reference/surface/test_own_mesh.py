@@ -6,7 +6,8 @@ import pytest
 import fem_reference
 from fem_reference.surface.mesh import mesh_of
 from fem_reference.uncertainty import solve_with_bar
-from sheetbench.scenes import BadInput, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import BadInput, Scene, Sheet
 
 ROOT = {"shape": {"rectangle": {"x": (0.0, 0.05), "y": (0.0, 0.1)}}, "young": 1e8}
 
@@ -33,6 +34,7 @@ def fin(own=(12, 6), **keys):
     return Scene(**{**scene, **keys})
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("model", "own", "ours"), [("plate", (12, 6), 8), ("shell", (12, 6), 8), ("solid", (4, 2), 3)]
 )

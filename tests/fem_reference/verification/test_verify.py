@@ -47,6 +47,7 @@ def held(rows):
     assert not [row for row in rows if not row.passed]
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", QUICK)
 def test_quick_cases_pass(name):
     rows = rows_of(name)
@@ -79,7 +80,7 @@ def test_all_cases_pass(tmp_path, capsys):
 
 
 def test_values_of_this_project_are_not_called_somebody_else_s():
-    rows = [row for name in QUICK for row in rows_of(name)]
+    rows = [row for name in ("nafems-fv16", "leissa-one-edge", "mindlin-clamped") for row in rows_of(name)]
     assert all(row.source for row in rows)
     of = {(row.case, row.quantity.rsplit(", ")[-1]): row.source for row in rows}
     assert of["nafems-fv16", "bound"] == "NAFEMS 1987, FV16"

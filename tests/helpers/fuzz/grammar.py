@@ -74,6 +74,13 @@ def sound(draw: st.DrawFn) -> dict[str, Any]:
     edges = draw(st.permutations(EDGES))
     held = draw(st.integers(1, 3))
     data["support"] = [draw(support(edge)) for edge in edges[:held]]
+    if draw(st.booleans()):
+        data["support"].append(draw(pin(lengths)))
+    if draw(st.integers(0, 2)) == 0:
+        data["natural"] = draw(natural(side))
+    if draw(st.integers(0, 2)) == 0:
+        data["material"]["expansion"] = 1e-4
+        data["temperature"] = {"change": draw(numbers(-50.0, 50.0)), "gradient": draw(numbers(-1e3, 1e3))}
     data["load"] = draw(st.lists(load(lengths), max_size=2))
     data["mass"] = draw(st.lists(payload(lengths), max_size=2))
     if held < 3 and draw(st.booleans()):
@@ -114,8 +121,9 @@ def shaped(draw: st.DrawFn) -> dict[str, Any]:
         at = [(cut[0], 0.0), (1.0, cut[1]), (1.0 - cut[2], 1.0), (0.0, 1.0 - cut[3])]
         data["sheet"]["outline"] = [[x * lengths[0], y * lengths[1]] for x, y in at]
     data["cutout"] = [{"shape": draw(shape(lengths))} for _ in range(draw(st.integers(0, 3)))]
+    own = st.just({"young": 1e7}) | natural(min(lengths)).map(lambda it: {"natural": it})
     data["patch"] = [
-        {"shape": draw(shape(lengths)), "young": 1e7} for _ in range(draw(st.sampled_from([0, 0, 1])))
+        {"shape": draw(shape(lengths)), **draw(own)} for _ in range(draw(st.sampled_from([0, 0, 1])))
     ]
     if draw(st.booleans()):
         data["support"].append({"kind": "clamped", "where": draw(shape(lengths))})
@@ -137,6 +145,28 @@ def support(draw: st.DrawFn, edge: str) -> dict[str, Any]:
         "clamped": draw(st.sampled_from([{}, {"tilt": 0.2}, {"tilt": -0.1}])),
     }.get(kind, {})
     return {"edge": edge, "kind": kind, **more}
+
+
+@st.composite
+def pin(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
+    """A point that is held, on lines of the coarsest grid."""
+    at = [draw(st.sampled_from([0.0, 0.5, 1.0])) * length for length in lengths]
+    return {
+        "kind": "point",
+        "at": at,
+        "components": draw(st.lists(st.sampled_from("xyz"), min_size=1, unique=True)),
+    }
+
+
+@st.composite
+def natural(draw: st.DrawFn, side: float) -> dict[str, Any]:
+    """A natural strain up to 3 %, a curvature up to 1.5 rad over the side; with a history or not."""
+    strain = draw(st.lists(numbers(-0.03, 0.03), min_size=3, max_size=3))
+    curvature = [turn / side for turn in draw(st.lists(numbers(-1.5, 1.5), min_size=3, max_size=3))]
+    data: dict[str, Any] = {"strain": strain, "curvature": curvature}
+    if draw(st.booleans()):
+        data["history"] = {"time": [0.0, 1.0], "factor": [0.0, draw(numbers(-1.0, 1.0))]}
+    return data
 
 
 @st.composite
@@ -235,11 +265,11 @@ def _broken(draw: st.DrawFn, text: bytes, pieces: tuple[str, ...]) -> bytes:
 def command_lines(draw: st.DrawFn) -> list[str]:
     """A verb, its scene and up to three options with values that may be anything; short runs else."""
     verb = draw(st.sampled_from(list(OPTIONS)))
-    asked = [verb, draw(st.sampled_from([*CATALOGUE, "no-such-scene"])), *SMALL.get(verb, "").split()]
+    arguments = [verb, draw(st.sampled_from([*CATALOGUE, "no-such-scene"])), *SMALL.get(verb, "").split()]
     for _ in range(draw(st.integers(0, 3)) if OPTIONS[verb] else 0):
         option = draw(st.sampled_from(OPTIONS[verb].split()))
-        asked += [option, draw(st.one_of(st.sampled_from(WORDS), numbers(-10.0, 10.0).map(str)))]
-    return [*asked, *(["--json"] if draw(st.booleans()) else [])]
+        arguments += [option, draw(st.one_of(st.sampled_from(WORDS), numbers(-10.0, 10.0).map(str)))]
+    return [*arguments, *(["--json"] if draw(st.booleans()) else [])]
 
 
 ROW = ("0.188,0.188,-0.0004,-0.0004,-0.0135", "0.094,0.094,0,0,-0.00245", "0.1,0.15,,,-0.0075", "0.1,0.1,1,,")

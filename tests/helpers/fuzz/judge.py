@@ -1,4 +1,4 @@
-"""What every run must keep to, whatever was asked: its exit status, its words, its numbers, its folder."""
+"""What every run must keep to: its exit status, its words, its numbers, its folder."""
 
 import contextlib
 import io
@@ -76,42 +76,42 @@ def in_balance(answer: dict[str, Any], summed: bool = True) -> None:
     The sum is taken from the document alone: weight of the sheet, its payloads and chains, points, edges;
     where a pressure follows the sheet its own word must do.
     """
-    asked = answer["scene"]
+    scene = answer["scene"]
     for solution in answer["solutions"]:
         if solution["status"] != "converged":
             continue
-        about = json.dumps({"scene": asked, "solution": solution})
+        about = json.dumps({"scene": scene, "solution": solution})
         assert solution["balance"] is None or solution["balance"]["holds"], about
         assert solution["probes"] and None not in np.ravel(list(solution["probes"].values())).tolist(), about
-        if not summed or any(load["kind"] == "pressure" for load in asked["load"]):
+        if not summed or any(load["kind"] == "pressure" for load in scene["load"]):
             continue
         carried = [np.array(force, float) for force in solution["reactions"].values()]
-        loads = applied(asked)
+        loads = applied(scene)
         left = sum(carried, np.zeros(3)) + sum(loads, np.zeros(3))
         size = sum(np.abs(force).sum() for force in [*carried, *loads])
-        rounding = 1e-12 * asked["material"]["young"] * asked["sheet"]["thickness"] * max(length_of(asked))
+        rounding = 1e-12 * scene["material"]["young"] * scene["sheet"]["thickness"] * max(length_of(scene))
         assert np.abs(left).max() <= 1e-6 * size + rounding, (left, about)
 
 
-def length_of(asked: dict[str, Any]) -> tuple[float, float]:
-    return asked["sheet"]["length_x"], asked["sheet"]["length_y"]
+def length_of(scene: dict[str, Any]) -> tuple[float, float]:
+    return scene["sheet"]["length_x"], scene["sheet"]["length_y"]
 
 
-def applied(asked: dict[str, Any]) -> list[np.ndarray]:
+def applied(scene: dict[str, Any]) -> list[np.ndarray]:
     """Dead forces [N] on the sheet of a scene's document, histories at their last factor."""
-    sheet, gravity = asked["sheet"], asked.get("gravity")
+    sheet, gravity = scene["sheet"], scene.get("gravity")
     length = {axis: sheet[f"length_{'y' if axis == 'x' else 'x'}"] for axis in "xy"}  # of the edge x0, y0, …
     forces = []
     if gravity:
-        mass = asked["material"]["density"] * math.prod(
+        mass = scene["material"]["density"] * math.prod(
             sheet[f"{key}"] for key in ("length_x", "length_y", "thickness")
         )
-        mass += sum(payload["mass"] for payload in asked["mass"])
-        for rod in asked["actuator"]:
+        mass += sum(payload["mass"] for payload in scene["mass"])
+        for rod in scene["actuator"]:
             if "line_density" in rod:
                 mass += rod["line_density"] * length[rod["edge"][0]]
         forces.append(mass * last(gravity) * np.array(gravity["acceleration"]))
-    for load in asked["load"]:
+    for load in scene["load"]:
         if load["kind"] == "point":
             forces.append(last(load) * np.array(load["force"]))
         elif load["kind"] == "edge":

@@ -1,6 +1,7 @@
 """`make kills`: campaigns, runs in time and trade-offs, killed at drawn instants and resumed to their end.
 
-    python -m fuzz.kills FOLDER [--campaign 45] [--run 30] [--reference 15] [--tradeoff 15] [--seed 1]
+    python -m fuzz.kills FOLDER [--campaign 45] [--run 30] [--reference 15] [--muscles 15]
+                         [--contact 15] [--tradeoff 15] [--seed 1]
 
 A process writes into a folder and gets SIGKILL at an instant drawn between its start and somewhat beyond the
 time that it takes undisturbed; the next process goes on in the same folder, and is killed in turn, until one
@@ -24,15 +25,16 @@ from typing import Any
 
 import numpy as np
 from campaigns import Here, rows_in, task
-from dynamic_cases import scene, springs
+from dynamic_cases import make_scene, springs
 
 import fem_reference
 import lumped
-from comparisons.runs.campaign import campaign, carry_out
-from comparisons.runs.manifest import made_with
-from comparisons.runs.store import FILE
+from comparisons.sweep.campaign import campaign, carry_out
+from comparisons.sweep.manifest import made_with
+from comparisons.sweep.store import FILE
 from fuzz import record
 from sheetbench.files import LOCK
+from sheetbench.scenes import load
 
 TREE = Path(__file__).resolve().parents[3]
 Kept = dict[str, Any]  # what a folder holds and must go on holding, by name
@@ -51,8 +53,8 @@ def run_campaign(folder: Path) -> None:
 
 def run_in_time(folder: Path) -> None:
     """A motion with samples, frames and some checkpoints."""
-    asked = scene("one-edge-clamped", damping_time=1e-3)
-    lumped.simulate(asked, springs(asked, 4), 0.06, store=folder, every=2e-4, frames=20, integrator="verlet")
+    scene = make_scene("one-edge-clamped", damping_time=1e-3)
+    lumped.simulate(scene, springs(scene, 4), 0.06, store=folder, every=2e-4, frames=20, integrator="verlet")
 
 
 def run_of_reference(folder: Path) -> None:
@@ -60,6 +62,18 @@ def run_of_reference(folder: Path) -> None:
     fem_reference.simulate(
         "two-edges-settling", "shell", 0.04, elements=2, store=folder, every=2e-4, frames=20
     )
+
+
+def run_of_muscles(folder: Path) -> None:
+    """A motion of a lattice whose natural curvature grows, from the equilibrium in which it hangs."""
+    scene = load("muscle-bands")
+    lumped.simulate(scene, springs(scene, 5), 0.3, store=folder, every=2e-3, frames=20)
+
+
+def run_of_contact(folder: Path) -> None:
+    """A motion of a strip that falls on a table."""
+    scene = load("strip-on-table")
+    lumped.simulate(scene, springs(scene, 5), 0.15, store=folder, every=5e-4, frames=20)
 
 
 def run_tradeoff(folder: Path) -> None:
@@ -85,8 +99,8 @@ def checkpointed(folder: Path) -> Kept:
 def answers(folder: Path) -> Kept:
     """A campaign's rows without what no two runs have alike."""
     found = {}
-    for key, (_, name, asked, status, row, message, *_) in rows_in(folder / FILE).items():
-        found[key] = (name, asked, status, timeless(json.loads(row)), message)
+    for key, (_, name, question, status, row, message, *_) in rows_in(folder / FILE).items():
+        found[key] = (name, question, status, timeless(json.loads(row)), message)
     return found
 
 
@@ -117,6 +131,8 @@ KINDS = {
     "campaign": Kind("campaigns of forty runs", run_campaign, rows, answers, 45),
     "run": Kind("runs in time of a lattice", run_in_time, checkpointed, contents, 30),
     "reference": Kind("runs in time of a reference", run_of_reference, checkpointed, contents, 15),
+    "muscles": Kind("runs in time of muscle bands", run_of_muscles, checkpointed, contents, 15),
+    "contact": Kind("runs in time of a strip on a table", run_of_contact, checkpointed, contents, 15),
     "tradeoff": Kind("the verb tradeoff with a worker", run_tradeoff, rows, answers, 15),
 }
 
@@ -198,19 +214,19 @@ def table(done: list[dict[str, Any]], seed: int) -> str:
 
 
 def main() -> int:
-    asked = record.asked(__doc__, {name: kind.kills for name, kind in KINDS.items()})
+    arguments = record.parse_arguments(__doc__, {name: kind.kills for name, kind in KINDS.items()})
     done: list[dict[str, Any]] = []
-    with record.opened(asked.folder / f"kills-{asked.seed}.jsonl", "chain") as found:
+    with record.opened(arguments.folder / f"kills-{arguments.seed}.jsonl", "chain") as found:
         for name, kind in KINDS.items():
             with tempfile.TemporaryDirectory() as place:
-                whole, kills, wanted = None, 0, getattr(asked, name)
+                whole, kills, wanted = None, 0, getattr(arguments, name)
                 for number in count():
                     if kills >= wanted:
                         break
                     line = found.get(name, number)
                     if line is None or line["fault"]:
                         whole = whole or undisturbed(kind, Path(place))
-                        instants = random.Random(f"{asked.seed} {name} {number}")
+                        instants = random.Random(f"{arguments.seed} {name} {number}")
                         line = {"kind": name, "chain": number, "kills": 0, "fault": ""}
                         try:
                             line["kills"] = chain(kind, Path(place) / str(number), whole, instants)
@@ -220,8 +236,8 @@ def main() -> int:
                     done.append(line)
                     kills += line["kills"]
                     print(f"{name}: {kills}/{wanted} {line['fault']}", file=sys.stderr)
-    said = table(done, asked.seed)
-    (asked.folder / "kills.md").write_text(said, encoding="utf-8")
+    said = table(done, arguments.seed)
+    (arguments.folder / "kills.md").write_text(said, encoding="utf-8")
     print(said)
     return int(any(line["fault"] for line in done))
 

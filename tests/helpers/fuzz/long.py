@@ -25,7 +25,7 @@ from typing import Any
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
-from comparisons.runs.manifest import made_with
+from comparisons.sweep.manifest import made_with
 from fuzz import record, trials
 from fuzz.grammar import command_lines, measured, shaped, sound, texts
 
@@ -41,7 +41,7 @@ class Kind:
     title: str
     drawn: st.SearchStrategy[Any]
     trial: trials.Trial
-    asked: int
+    count: int
     batch: int
     counts: tuple[str, ...] = ("done", "refused", "not converged", FAULT)
 
@@ -104,8 +104,8 @@ def batch(name: str, number: int, base: int, faults: Path) -> dict[str, Any]:
                 words[FAULT] += 1
                 faults.mkdir(exist_ok=True)
                 file = faults / f"{name}-{number}-{words.total()}.txt"
-                told = f"{example!r}\n\n{traceback.format_exc()}"
-                file.write_text(told, encoding="utf-8", errors="backslashreplace")
+                report = f"{example!r}\n\n{traceback.format_exc()}"
+                file.write_text(report, encoding="utf-8", errors="backslashreplace")
 
         each()
     return {"kind": name, "batch": number, "words": words, "seconds": time.process_time() - clock}
@@ -123,23 +123,23 @@ def table(done: list[dict[str, Any]], base: int) -> str:
 
 
 def main() -> int:
-    asked = record.asked(__doc__, {name: kind.asked for name, kind in KINDS.items()})
+    arguments = record.parse_arguments(__doc__, {name: kind.count for name, kind in KINDS.items()})
     done: list[dict[str, Any]] = []
-    with record.opened(asked.folder / f"fuzz-{asked.seed}.jsonl", "batch") as found:
+    with record.opened(arguments.folder / f"fuzz-{arguments.seed}.jsonl", "batch") as found:
         for name, kind in KINDS.items():
-            counted, wanted = 0, getattr(asked, name)
+            counted, wanted = 0, getattr(arguments, name)
             for number in count():
                 if counted >= wanted:
                     break
                 line = found.get(name, number)
                 if line is None or FAULT in line["words"]:
-                    line = batch(name, number, asked.seed, asked.folder / "faults")
+                    line = batch(name, number, arguments.seed, arguments.folder / "faults")
                     found.add(line)
                 done.append(line)
                 counted += sum(line["words"].get(word, 0) for word in kind.counts)
                 print(f"{name}: {counted}/{wanted} {dict(line['words'])}", file=sys.stderr)
-    said = table(done, asked.seed)
-    (asked.folder / "fuzz.md").write_text(said, encoding="utf-8")
+    said = table(done, arguments.seed)
+    (arguments.folder / "fuzz.md").write_text(said, encoding="utf-8")
     print(said)
     return int(any(FAULT in line["words"] for line in done))
 

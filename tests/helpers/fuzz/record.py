@@ -10,7 +10,7 @@ from typing import Any, TextIO
 Line = dict[str, Any]
 
 
-def asked(about: str, counts: Mapping[str, int]) -> argparse.Namespace:
+def parse_arguments(about: str, counts: Mapping[str, int]) -> argparse.Namespace:
     """The command line: a folder, which is made, a seed, and how many of each kind, `counts` unless given."""
     parser = argparse.ArgumentParser(description=about.partition("\n")[0])
     parser.add_argument("folder", type=Path)
@@ -42,6 +42,6 @@ class Record:
 
 @contextmanager
 def opened(path: Path, number: str) -> Iterator[Record]:
-    """The lines of a file, made where there is none; number: the key that tells those of a kind apart."""
+    """The lines of a file, made where there is none; number: the key that numbers those of a kind."""
     with path.open("a+", encoding="utf-8") as file:
         yield Record(file, number)

@@ -40,7 +40,7 @@ def reads(folder: Path, text: bytes) -> str:
 
 
 def checks(folder: Path, text: bytes) -> str:
-    """A scene is checked, and written nowhere but where asked."""
+    """A scene is checked, and written nowhere but where requested."""
     (folder / "scene.toml").write_bytes(text)
     found = outcome(["check", "scene.toml", "--json", "--out", "out"], folder)
     held(found, text)
@@ -82,11 +82,11 @@ def solves_shapes(folder: Path, data: dict[str, Any]) -> str:
     return "done"
 
 
-def obeys(folder: Path, asked: Sequence[str]) -> str:
+def obeys(folder: Path, arguments: Sequence[str]) -> str:
     """A command line is obeyed or refused, and leaves no file that was not requested."""
-    found = outcome(asked, folder)
-    held(found, asked)
-    if "--json" in asked and found.status != BAD_INPUT and "--help" not in asked:
+    found = outcome(arguments, folder)
+    held(found, arguments)
+    if "--json" in arguments and found.status != BAD_INPUT and "--help" not in arguments:
         document(found)
     assert not files(folder)
     return WORDS[found.status]
@@ -96,9 +96,9 @@ STATIC = ("identify", "two-edges-clamped", "--lumped", "2")
 MOVING = ("simulate", "two-edges-settling", "--lumped", "2", "--duration", "0.002", "--every", "0.001")
 
 
-def measures(folder: Path, asked: tuple[bytes, bool]) -> str:
+def measures(folder: Path, example: tuple[bytes, bool]) -> str:
     """A measured file, of a rest or of a motion, is read or refused."""
-    text, moving = asked
+    text, moving = example
     (folder / "measured.csv").write_bytes(text)
     command = MOVING if moving else STATIC
     found = outcome([*command, "--measured", "measured.csv", "--json"], folder)

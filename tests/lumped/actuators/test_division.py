@@ -15,7 +15,7 @@ LENGTH, WIDTH, THICK, YOUNG, CURVATURE, RIGIDITY = 0.2, 0.016, 2e-3, 2e7, 9.0, 3
 PER_LENGTH = 1200.0 * WIDTH * THICK + 2 * 0.03  # [kg/m]
 
 
-def scene(young, segments):
+def make_scene(young, segments):
     """The catalogue's actuated edge without weight, of a material and with so many segments."""
     base = load("actuated-edge")
     chain = base.actuators[0].replace(segments=segments)
@@ -23,20 +23,21 @@ def scene(young, segments):
     return base.replace(material=material, actuators=(chain,), gravity=None)
 
 
-def bending(asked, solution):
+def bending(scene, solution):
     """Mean curvature [1/m] of the edge with the chain."""
-    y = np.linspace(0.0, asked.sheet.length_y, 33)
-    edge = np.column_stack([np.full_like(y, asked.sheet.length_x), y])
+    y = np.linspace(0.0, scene.sheet.length_y, 33)
+    edge = np.column_stack([np.full_like(y, scene.sheet.length_x), y])
     return 2.0 * float(np.polyfit(y, solution.displacement(edge)[:, 2], 2)[0])
 
 
-def bent(asked, cells):
+def bent(scene, cells):
     """The same of a lattice of square cells, so many along the edge."""
-    across = round(cells * asked.sheet.length_x / asked.sheet.length_y)
-    springs = lumped.calibrate(asked.sheet, asked.material, (across + 1, cells + 1, 2))
-    return bending(asked, lumped.solve(asked, springs))
+    across = round(cells * scene.sheet.length_x / scene.sheet.length_y)
+    springs = lumped.calibrate(scene.sheet, scene.material, (across + 1, cells + 1, 2))
+    return bending(scene, lumped.solve(scene, springs))
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     "young, length, curvature, stiffness, within",
     [
@@ -50,11 +51,11 @@ def test_a_chain_bends_an_edge_as_the_shells_rod_whatever_its_segments(
 ):
     """On 16 cells with one segment, four and eight. (Segments that were not divided lost 1.1 to 4.4 % with
     four, all of it with one.)"""
-    asked = scene(young, 8)
-    chain = asked.actuators[0].replace(curvature=curvature, bending_stiffness=stiffness)
-    asked = asked.replace(sheet=asked.sheet.replace(length_x=length), actuators=(chain,), probes={})
-    rod = bending(asked, fem_reference.solve(asked, "shell", elements=8))
-    found = [bent(asked.replace(actuators=(chain.replace(segments=n),)), 16) for n in (1, 4, 8)]
+    scene = make_scene(young, 8)
+    chain = scene.actuators[0].replace(curvature=curvature, bending_stiffness=stiffness)
+    scene = scene.replace(sheet=scene.sheet.replace(length_x=length), actuators=(chain,), probes={})
+    rod = bending(scene, fem_reference.solve(scene, "shell", elements=8))
+    found = [bent(scene.replace(actuators=(chain.replace(segments=n),)), 16) for n in (1, 4, 8)]
     assert max(abs(1.0 - one / rod) for one in found) < within
     np.testing.assert_allclose(found, found[0], rtol=1e-9)
 
@@ -78,6 +79,7 @@ def composite_elastica():
     return found.y[2:, -1]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("segments", [6, 24])
 @pytest.mark.parametrize(
     "grid", [(25, 3), (37, 3), (49, 3), *(pytest.param(n, marks=pytest.mark.nightly) for n in (9, 17))]
@@ -102,32 +104,33 @@ def test_a_strip_between_two_chains_is_the_composite_elastica(grid, segments):
     assert np.abs(tip - [x - LENGTH, 0.0, z]).max() < 1e-3 * z
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("base", ["free", "start", "middle", "end"])
 @pytest.mark.parametrize("segments", [1, 2, 3, 6])
 def test_parts_keep_curvatures_and_forces_of_the_segments(base, segments):
     """A curvature a joint, held against the same pieces written out for a chain of as many segments as parts;
     forces and moments of segments, against those of the parts about the segment's middle."""
-    asked = scene(54.5e6, segments)
-    chain = asked.actuators[0].replace(base=base)
+    scene = make_scene(54.5e6, segments)
+    chain = scene.actuators[0].replace(base=base)
     chain = chain.replace(curvature=tuple(1.0 + np.arange(chain.joints)))
-    whole = lattice_answer(asked, chain)
+    whole = lattice_answer(scene, chain)
     parts = -(-8 // segments)
     finer = chain.replace(segments=parts * segments, curvature=0.0)
     ends = joint_lengths(finer)
     bounds, values = parts * chain.pieces(), chain.curvatures().at()
     samples = np.linspace(ends[:-1], ends[1:], 1001)[:-1] + 0.5 * np.diff(ends) / 1000
     each = values[np.clip(np.searchsorted(bounds, samples) - 1, 0, len(values) - 1)].mean(axis=0)
-    divided = lattice_answer(asked, finer.replace(curvature=tuple(each)))
-    points = asked.probe_points()
+    divided = lattice_answer(scene, finer.replace(curvature=tuple(each)))
+    points = scene.probe_points()
     np.testing.assert_allclose(whole.displacement(points), divided.displacement(points), atol=1e-8)
     (found,), (small,) = whole.actuators.values(), divided.actuators.values()
     assert found.shape == (segments, 6)
     np.testing.assert_allclose(found[:, :3], small[:, :3].reshape(segments, parts, 3).sum(axis=1), atol=1e-6)
 
 
-def lattice_answer(asked, chain):
-    springs = lumped.calibrate(asked.sheet, asked.material, 9)
-    return lumped.solve(asked.replace(actuators=(chain,)), springs)
+def lattice_answer(scene, chain):
+    springs = lumped.calibrate(scene.sheet, scene.material, 9)
+    return lumped.solve(scene.replace(actuators=(chain,)), springs)
 
 
 def joint_lengths(chain):
@@ -140,10 +143,10 @@ def joint_lengths(chain):
 
 
 def test_one_segment_a_cell_keeps_nothing_back():
-    asked = scene(545e6, 8)
-    springs = lumped.calibrate(asked.sheet, asked.material, 9)
-    solution = lumped.solve(asked, springs)
+    scene = make_scene(545e6, 8)
+    springs = lumped.calibrate(scene.sheet, scene.material, 9)
+    solution = lumped.solve(scene, springs)
     assert solution.message == ""
-    points = asked.probe_points()
-    right = fem_reference.solve(asked, "shell", elements=8).displacement(points)
+    points = scene.probe_points()
+    right = fem_reference.solve(scene, "shell", elements=8).displacement(points)
     assert np.abs(solution.displacement(points) - right).max() < 0.03 * np.abs(right).max()

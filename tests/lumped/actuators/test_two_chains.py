@@ -6,8 +6,9 @@ import scipy.sparse as sp
 
 import fem_reference
 import lumped
+from sheetbench.answers.solution import Status
 from sheetbench.numerics.saddle_point import CORRECTIONS, minimal_residual
-from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet, Status
+from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet
 
 WEIGHT = Gravity(acceleration=(0.0, 0.0, -9.81))
 SOFT = Material(young=20e6, poisson=0.0, density=1200.0)
@@ -26,14 +27,15 @@ def strip(base, curvatures, width):
     )  # fmt: skip
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("base", ["start", "free"])
 @pytest.mark.parametrize("curvatures", [(9.0, 9.0), (9.0, -9.0)], ids=["equal", "antagonistic"])
 @pytest.mark.parametrize(("width", "rows"), [(0.016, 3), (0.1, 13)], ids=["narrow", "wide"])
 def test_the_lattice_agrees_with_the_shell(base, curvatures, width, rows):
-    asked = strip(base, curvatures, width)
-    springs = lumped.calibrate(asked.sheet, asked.material, grid=(25, rows), method="consistent")
-    found = lumped.solve(asked, springs)
-    shell = fem_reference.solve(asked, model="shell", elements=4)
+    scene = strip(base, curvatures, width)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(25, rows), method="consistent")
+    found = lumped.solve(scene, springs)
+    shell = fem_reference.solve(scene, model="shell", elements=4)
     assert (found.status, shell.status) == (Status.CONVERGED, Status.CONVERGED), found.message
     points = np.array([(x, y) for x in (0.1, 0.2) for y in (0.0, 0.5 * width, width)])
     truth = shell.displacement(points)

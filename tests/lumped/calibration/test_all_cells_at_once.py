@@ -8,7 +8,7 @@ from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.closed_form import springs_of_cells
 from lumped.spring_constants import Springs, require_cells
 from sheetbench.scenes import BadInput, Material, Scene, Sheet, SpringSet
-from sheetbench.scenes.grading import Grading
+from sheetbench.scenes.objects.grading import Grading
 
 SIZES = {"length_x": 0.1, "length_y": 0.08, "thickness": 0.003}
 PLAIN = {"name": "pinned", "sheet": SIZES, "material": {"young": 5e6, "poisson": 0.35, "density": 1e3}}
@@ -26,7 +26,7 @@ SHEETS = {
 }
 # layer distance [m] and of every constant Σ k_i cos i over the cells [N/m], by the code that took one cell
 # after another (commit 1e6b6af0), which rounded widths to twelve digits; rims of the rubber's round hole,
-# which that code took along the grid by the cells' stiffness, are told by the sheet's share of cells since
+# which that code took along the grid by the cells' stiffness, are named by the sheet's share of cells since
 BEFORE = {
     "graded": (
         0.00372380931689,

@@ -22,11 +22,11 @@ def one_cell(gradients, poisson, sides):
     """A cell of these sides, the sheet's moduli and its springs."""
     sheet = Sheet(length_x=sides[0], length_y=sides[1], thickness=THICKNESS)
     material = Material(young=YOUNG, poisson=poisson, density=1.0)
-    asked = moduli.of_sheet(sheet, material, sides)
+    section = moduli.of_sheet(sheet, material, sides)
     each = each_cell(sheet, material, (2, 2, 2))
     springs = springs_of_cells(each, gradients=gradients)
     calibration = report("test", each, springs)
-    return Assembly(sheet, calibration), asked, springs
+    return Assembly(sheet, calibration), section, springs
 
 
 def cost_of_bending_in_plane(gradients, poisson, axis, sides):
@@ -63,7 +63,7 @@ def test_an_oblong_cell_costs_no_more_in_either_direction(sides, poisson):
 def test_a_cell_bent_to_an_arc_is_too_soft_by_what_is_derived(gradients, poisson):
     """In θ², chord and columns free to change: by chord, diagonals and columns, of a cell 20 h long."""
     side = 20.0 * THICKNESS
-    assembly, asked, springs = one_cell(gradients, poisson, (side, side))
+    assembly, section, springs = one_cell(gradients, poisson, (side, side))
     at, turn, distance = assembly.lattice.positions, 0.2, springs.layer_distance
 
     def energy(free):
@@ -74,11 +74,11 @@ def test_a_cell_bent_to_an_arc_is_too_soft_by_what_is_derived(gradients, poisson
         moved = np.column_stack(
             [side / 2.0 + x, at[:, 1], at[:, 2].mean() + above * column / 2 * np.cos(tilt)]
         )
-        return float(assembly.force(moved - at)[0] / (0.5 * asked.bending[0, 0] * turn**2))
+        return float(assembly.force(moved - at)[0] / (0.5 * section.bending[0, 0] * turn**2))
 
     least = minimize(energy, np.zeros(2), tol=1e-12).fun
-    w = asked.shear[0] * distance**2 / (8.0 * asked.bending[0, 0])
-    k = springs["vertical"].item() * distance**2 / asked.bending[0, 0]
+    w = section.shear[0] * distance**2 / (8.0 * section.bending[0, 0])
+    k = springs["vertical"].item() * distance**2 / section.bending[0, 0]
     softer = 1.0 / 12.0 - w / 8.0 + (1.0 - w) ** 2 / (k + 40.0 * w / 3.0)
     assert (1.0 - least) / turn**2 == pytest.approx(softer, abs=0.003)
 

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 import lumped
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Cells, Material, Scene, Sheet, Status, load
+from sheetbench.scenes import Cells, Material, Scene, Sheet, load
 
 LENGTH, WIDTH, THICK, THIN, YOUNG, DENSITY = 0.2, 0.02, 3e-3, 1e-3, 5e6, 1000.0
 SHEET, MATERIAL = Sheet(LENGTH, WIDTH, THICK), Material(YOUNG, 0.0, DENSITY)

@@ -13,7 +13,7 @@ from lumped.calibration.central import coefficients
 from lumped.calibration.central_table import ROWS
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes.toml import to_toml
+from sheetbench.scenes.language.toml import to_toml
 from studies.transfer.training import POINTS, bent_scenes
 
 SEED = scenes.load("two-edges-clamped")
@@ -66,8 +66,8 @@ def test_the_lattice_errs_half_as_much_as_cauchys_on_the_scenes_that_bend():
 
 def test_links_alone_go_into_scenes_and_files(tmp_path, capsys):
     folder = tmp_path / "lattice"
-    asked = ["two-edges-clamped", "--grid", "5", "--calibration", "central"]
-    assert run("calibrate", *asked, "--export", str(folder), "--toml") == 0
+    arguments = ["two-edges-clamped", "--grid", "5", "--calibration", "central"]
+    assert run("calibrate", *arguments, "--export", str(folder), "--toml") == 0
     with (folder / "cells.csv").open(encoding="utf-8") as text:
         assert list(csv.DictReader(text)) == []
     own = tmp_path / "own.toml"

@@ -14,7 +14,7 @@ from lumped.calibration.calibration import plan_spacing
 from lumped.calibration.edge_twist import layer_width
 from lumped.spring_constants import RIMS_OWN, Springs, of_edge_cells
 from sheetbench.scenes import Cells, Scene, SpringSet
-from sheetbench.scenes.grid import grid_of
+from sheetbench.scenes.objects.grid import grid_of
 from studies.transfer.drawn_scenes import drawn
 
 THICKNESS, ACROSS, ALONG = 1e-3, 16, 60  # of strips; their sides in cells
@@ -100,6 +100,7 @@ def lost(strip, method):
     return (taken + (short - long) / 20) / (2.0 * stored * strip.size)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("angle", [10.0, 26.565, 45.0])
 @pytest.mark.parametrize("cells, without", [(0.5, 0.18), (1.0, 0.33), (2.0, 0.39)])
 def test_a_strip_at_any_angle_loses_the_width_of_twist_that_a_plate_loses(angle, cells, without):
@@ -110,6 +111,7 @@ def test_a_strip_at_any_angle_loses_the_width_of_twist_that_a_plate_loses(angle,
     assert lost(strip, "consistent-interior") < (1.0 - without) * target
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("angle, fibres", [(20.0, 60.0), (45.0, 10.0), (45.0, 60.0)])
 def test_so_it_does_with_fibres_at_an_angle(angle, fibres):
     """√(D̃66/S), within 2 % in cells half as long as the sheet is thick; without it 7 to 10 % less."""

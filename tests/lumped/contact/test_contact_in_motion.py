@@ -6,7 +6,8 @@ from contact_cases import GRAVITY
 from scipy.optimize import brentq
 
 import lumped
-from sheetbench.scenes import Clamped, Gravity, Held, Material, Motion, Plane, Scene, Sheet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, Gravity, Held, Material, Motion, Plane, Scene, Sheet
 
 DROP = 0.03
 STRIP = Scene(

@@ -1,16 +1,32 @@
 """Drawn sheets over drawn obstacles: no tracebacks, and none is walked through, by the geometry
-afterwards."""
+afterwards, which finds what is planted."""
 
 import pytest
 from drawn_obstacles import judged
 
+from lumped.contact import contact
+from sheetbench.numerics.continuation.stiffening import Penalties
 
-@pytest.mark.parametrize("number", range(8))
+
+@pytest.mark.parametrize("number", [2, 22, 39, 59])
 def test_drawn_sheet_is_not_walked_through(number):
     assert judged(number)[1] == ""
 
 
+@pytest.mark.parametrize("number", [22, 59])
+def test_geometry_finds_a_ball_between_masses(number, monkeypatch):
+    rule = contact.side_rule
+    monkeypatch.setattr(contact, "side_rule", lambda parts, ends: rule(1, True))
+    assert "deep in it" in judged(number)[1]
+
+
+def test_geometry_finds_a_ball_that_came_through_the_sheet(monkeypatch):
+    monkeypatch.setattr(contact.Contact, "step_share", lambda *ways: 1.0)
+    monkeypatch.setattr(Penalties, "load_steps", 1)
+    assert "below the middle" in judged(2)[1]
+
+
 @pytest.mark.nightly
 def test_a_thousand_drawn_sheets():
-    faults = {number: found[1] for number in range(8, 1000) if (found := judged(number))[1]}
+    faults = {number: found[1] for number in range(1000) if (found := judged(number))[1]}
     assert not faults

@@ -4,14 +4,15 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from dynamic_cases import run, scene, springs, system
+from dynamic_cases import make_scene, run, springs, system
 
 import lumped
 from lumped.dynamics import INTEGRATORS
 from lumped.dynamics.explicit.step_limit import step_limit, turn_limit
 from lumped.dynamics.implicit.esdirk import ERROR
 from lumped.dynamics.integrator import StepFailed
-from sheetbench.scenes import DamperSet, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import DamperSet
 
 
 def largest(values):
@@ -21,10 +22,10 @@ def largest(values):
 @pytest.mark.parametrize("name, dips", [("generalised-alpha", 0.0), ("esdirk", ERROR)])
 def test_settles_on_the_static_answer(name, dips):
     """Dampers only take energy; within its steps `esdirk` has a polynomial, good to their error."""
-    asked = scene(damping_time=0.02)
-    static = lumped.solve(asked, springs(asked)).displacement(asked.probe_points())
-    history = lumped.simulate(asked, springs(asked), 0.8, integrator=name)
-    end = np.array([history.probes[name][-1] for name in asked.probes])
+    scene = make_scene(damping_time=0.02)
+    static = lumped.solve(scene, springs(scene)).displacement(scene.probe_points())
+    history = lumped.simulate(scene, springs(scene), 0.8, integrator=name)
+    end = np.array([history.probes[name][-1] for name in scene.probes])
     assert history.status is Status.CONVERGED
     assert largest(end - static) < 1e-4 * largest(static)  # measured 2e-6
     taken = history.energies["dissipated"]
@@ -33,8 +34,8 @@ def test_settles_on_the_static_answer(name, dips):
 
 def test_the_conserving_integrator_holds_the_energy():
     """A millionth in ten seconds, which the slow test runs for; a fifth of it in a fifth of the time."""
-    asked = scene()
-    history = lumped.simulate(asked, springs(asked, 3), 2.0, integrator="midpoint", step=4e-3, every=0.02)
+    scene = make_scene()
+    history = lumped.simulate(scene, springs(scene, 3), 2.0, integrator="midpoint", step=4e-3, every=0.02)
     assert history.status is Status.CONVERGED
     drift = largest(history.balance - history.balance[0])
     assert drift < 2e-7 * largest(history.energies["potential"])
@@ -47,20 +48,20 @@ ORDERS = [(name, d) for name in INTEGRATORS for d in (0.0, 1e-3) if (name, d) !=
 
 
 def test_an_explicit_run_without_an_end_is_refused():
-    asked = scene(damping_time=10.0)
+    scene = make_scene(damping_time=10.0)
     with pytest.raises(ValueError, match=r"'verlet': would take \d\.\de\+\d+ steps.*ω_max.*implicit"):
-        lumped.simulate(asked, springs(asked), 1.0, integrator="verlet")
+        lumped.simulate(scene, springs(scene), 1.0, integrator="verlet")
 
 
 @pytest.mark.parametrize("name, damping", ORDERS)
 def test_observed_order_is_the_declared_one(name, damping):
-    asked = scene(damping_time=damping)
+    scene = make_scene(damping_time=damping)
     step = ORDER_STEPS[name] * (0.1 if name == "verlet" and damping else 1.0)
     masses, duration = (4, 0.004) if name == "esdirk" else (3, 0.002)
     ends = []
     for h in (step / 2, step / 4, step / 8):
         history = lumped.simulate(
-            asked, springs(asked, masses), duration, integrator=name, step=h, every=step
+            scene, springs(scene, masses), duration, integrator=name, step=h, every=step
         )
         ends.append(history.probes["P4"])
     changes = [largest(a - b) for a, b in pairwise(ends)]
@@ -96,9 +97,9 @@ def amplification(h, ratio):
 
 @pytest.mark.parametrize("ratio", [0.0, 0.05, 0.3, 0.49, 0.7, 2.0])
 def test_explicit_step_limit_agrees_with_theory(ratio):
-    equations, rest = system(scene(gravity=False))
+    equations, rest = system(make_scene(gravity=False))
     frequency = step_limit(equations, rest.u).frequency
-    equations, rest = system(scene(gravity=False, damping_time=2.0 * ratio / frequency))
+    equations, rest = system(make_scene(gravity=False, damping_time=2.0 * ratio / frequency))
     limit = step_limit(equations, rest.u)
     assert limit.damping_ratio == pytest.approx(ratio, rel=1e-4, abs=1e-12) and limit.exact
     assert amplification(0.9999 * limit.step * frequency, ratio) < 1.0 + 1e-9
@@ -123,18 +124,18 @@ def test_the_limit_for_any_dampers_holds_for_every_damping_up_to_theirs(ratio):
 
 
 def test_a_step_above_the_limit_is_refused_with_the_limit_named():
-    asked = scene()
-    equations, rest = system(asked)
+    scene = make_scene()
+    equations, rest = system(scene)
     limit = step_limit(equations, rest.u)
     with pytest.raises(ValueError, match=rf"stability limit of verlet, {limit.step:.4g} s .*ω_max"):
-        lumped.simulate(asked, springs(asked), 0.01, integrator="verlet", step=1.001 * limit.step)
-    assert lumped.simulate(asked, springs(asked), 0.01, integrator="verlet", step=0.999 * limit.step).steps
+        lumped.simulate(scene, springs(scene), 0.01, integrator="verlet", step=1.001 * limit.step)
+    assert lumped.simulate(scene, springs(scene), 0.01, integrator="verlet", step=0.999 * limit.step).steps
 
 
 @pytest.mark.parametrize("damping", [0.0, 1e-3])
 @pytest.mark.parametrize("name, tolerance", [("verlet", 1e-10), ("midpoint", 1e-9)])
 def test_momentum_of_a_free_sheet_is_conserved(name, tolerance, damping):
-    equations, rest = system(scene(gravity=False, supports=[], damping_time=damping), n=4)
+    equations, rest = system(make_scene(gravity=False, supports=[], damping_time=damping), n=4)
     rng = np.random.default_rng(1)
     x, mass = equations.assembly.lattice.positions, equations.lattice_mass[:, None]
     v = (
@@ -155,7 +156,7 @@ def test_momentum_of_a_free_sheet_is_conserved(name, tolerance, damping):
 
 def test_dampers_of_the_table_act_by_family_and_mass_damping_decays_exactly():
     table = DamperSet(axial=0.5, cross=0.2)
-    equations, rest = system(scene(gravity=False).model_copy(update={"dampers": table}), n=3)
+    equations, rest = system(make_scene(gravity=False).model_copy(update={"dampers": table}), n=3)
     v = 0.1 * np.random.default_rng(0).standard_normal(rest.u.shape)
     power, force = equations.damping_force(rest.u, v, 0.0)
     expected = 0.0
@@ -165,7 +166,7 @@ def test_dampers_of_the_table_act_by_family_and_mass_damping_decays_exactly():
         n = family.offset / family.rest_length[:, None]
         expected += float(np.sum(c * family.weight * np.sum(n * (v[b] - v[a]), axis=1) ** 2))
     assert power == pytest.approx(expected, rel=1e-12) and power == pytest.approx(np.sum(force * v))
-    equations, rest = system(scene(gravity=False, supports=[], damping_rate=4.0), n=3)
+    equations, rest = system(make_scene(gravity=False, supports=[], damping_rate=4.0), n=3)
     v = np.tile([0.1, 0.0, 0.2], (len(rest.u), 1))
     start = type(rest)(0.0, rest.u, v, equations.accelerate(equations.unbalanced(rest.u, v, 0.0)))
     states, _ = run(INTEGRATORS["midpoint"](equations, 1e-3), start, 1e-3, 200)
@@ -173,7 +174,7 @@ def test_dampers_of_the_table_act_by_family_and_mass_damping_decays_exactly():
 
 
 def test_without_damping_no_damper_is_assembled():
-    equations, _ = system(scene())
+    equations, _ = system(make_scene())
     assert not equations.damping.present
 
 
@@ -181,15 +182,15 @@ def test_without_damping_no_damper_is_assembled():
 def test_moving_support_carries_the_sheet_along(name):
     motion = {"time": [0.0, 0.05, 0.1], "displacement": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.004], [0.0, 0.0, 0.0]]}
     supports = [{"edge": "x0", "kind": "clamped", "motion": motion}]
-    asked = scene(gravity=False, supports=supports, damping_time=1e-3)
-    history = lumped.simulate(asked, springs(asked, 4), 0.08, integrator=name, every=0.002)
+    scene = make_scene(gravity=False, supports=supports, damping_time=1e-3)
+    history = lumped.simulate(scene, springs(scene, 4), 0.08, integrator=name, every=0.002)
     assert history.status is Status.CONVERGED
     assert 0.001 < largest(history.probes["P4"]) < 0.05
     assert largest(history.balance - history.balance[0]) < 0.03 * largest(history.energies["work"])
 
 
 def test_unknown_choices_are_refused():
-    asked = scene()
+    scene = make_scene()
     for options, said in (
         ({"integrator": "euler"}, "choose from generalised-alpha"),
         ({"integrator": "reduced"}, "removed; esdirk, in its place"),
@@ -199,22 +200,22 @@ def test_unknown_choices_are_refused():
         ({"integrator": "verlet", "radius": 0.5}, "does not take radius"),
     ):
         with pytest.raises(ValueError, match=said):
-            lumped.simulate(asked, springs(asked), 0.01, **options)
+            lumped.simulate(scene, springs(scene), 0.01, **options)
 
 
 @pytest.mark.slow
 def test_the_seeds_run_settles_and_without_dampers_keeps_its_energy():
-    asked = scene("two-edges-settling")
-    static = lumped.solve(asked, springs(asked, 9)).displacement(asked.probe_points())
-    history = lumped.simulate(asked, springs(asked, 9), 3.0)
-    end = np.array([history.probes[name][-1] for name in asked.probes])
+    scene = make_scene("two-edges-settling")
+    static = lumped.solve(scene, springs(scene, 9)).displacement(scene.probe_points())
+    history = lumped.simulate(scene, springs(scene, 9), 3.0)
+    end = np.array([history.probes[name][-1] for name in scene.probes])
     assert largest(end - static) < 1e-4 * largest(static)
-    asked = scene()
-    history = lumped.simulate(asked, springs(asked, 9), 10.0, integrator="midpoint", step=1e-3, every=0.02)
+    scene = make_scene()
+    history = lumped.simulate(scene, springs(scene, 9), 10.0, integrator="midpoint", step=1e-3, every=0.02)
     drift = largest(history.balance - history.balance[0])
     assert drift < 1e-6 * largest(history.energies["potential"])
 
 
 def test_no_frame_is_kept_that_is_not_asked_for():
-    asked = scene()
-    assert len(lumped.simulate(asked, springs(asked, 3), 0.002, every=0.001).extra["frames"]) == 0
+    scene = make_scene()
+    assert len(lumped.simulate(scene, springs(scene, 3), 0.002, every=0.001).extra["frames"]) == 0

@@ -4,13 +4,15 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from dynamic_cases import ROD, run, scene, springs, system
+from dynamic_cases import ROD, make_scene, run, springs, system
 
 import lumped
+from lumped.dynamics.implicit import esdirk
 from lumped.dynamics.implicit.esdirk import Esdirk
-from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, STAGES, WEIGHTS
+from lumped.dynamics.implicit.polynomial import bubbles
+from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GUESSES, STAGES, WEIGHTS
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Status
 
 
 def conditions(weights, order):
@@ -47,7 +49,7 @@ def test_the_tableau_is_of_fifth_order_with_an_embedded_fourth():
 
 def test_states_within_a_step_are_those_of_shorter_steps():
     """Of fifth degree with both ends' accelerations: a sixth of the step's sixth power (Hermite)."""
-    equations, rest = system(scene(damping_time=1e-3), 4)
+    equations, rest = system(make_scene(damping_time=1e-3), 4)
     start, _ = run(Esdirk(equations, 1e-3), rest, 1e-3, 10)
     misses = []
     for h in (8e-3, 4e-3):
@@ -63,11 +65,11 @@ def test_states_within_a_step_are_those_of_shorter_steps():
 
 
 def test_samples_do_not_change_the_steps_and_lie_on_one_curve():
-    asked = scene("two-edges-settling")
+    scene = make_scene("two-edges-settling")
     fine, coarse = (
-        lumped.simulate(asked, springs(asked), 0.3, integrator="esdirk", every=e) for e in (1e-3, 0.05)
+        lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=e) for e in (1e-3, 0.05)
     )
-    tight = lumped.simulate(asked, springs(asked), 0.3, integrator="esdirk", step=1e-3, every=1e-3)
+    tight = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", step=1e-3, every=1e-3)
     for history in (fine, coarse, tight):
         assert history.status is Status.CONVERGED
     assert fine.steps < 60 and coarse.steps < 60
@@ -81,9 +83,38 @@ def test_samples_do_not_change_the_steps_and_lie_on_one_curve():
     assert np.abs(fine.balance - fine.balance[0]).max() < 2e-3 * went_round
 
 
+def test_what_corrects_some_samples_of_a_step_corrects_the_others(monkeypatch):
+    """All solved for, they differ by less than the error that a step may have, along stiff springs too."""
+    scene = make_scene("two-edges-settling")
+    few = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=1e-3)
+    monkeypatch.setattr(esdirk, "NODES", np.linspace(0.0, 1.0, 200))
+    each = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=1e-3)
+    assert few.steps == each.steps < 60
+    largest = max(np.abs(u).max() for u in each.probes.values())
+    for name, u in each.probes.items():
+        assert np.abs(few.probes[name] - u).max() < 3.0 * esdirk.ERROR * largest  # as motions of each wander
+    stored = each.energies["elastic"]
+    assert np.abs(few.energies["elastic"] - stored).max() < 1e-3 * stored.max()
+
+
+def test_bubbles_have_both_ends_displacement_velocity_and_acceleration():
+    nodes, theta = np.array([0.2, 0.55, 0.7]), np.linspace(0.0, 1.0, 9)
+
+    def curve(t):
+        return (t * (1.0 - t)) ** 3 * (1.0 + 2.0 * t - 3.0 * t**2)
+
+    np.testing.assert_allclose(bubbles(nodes, theta) @ curve(nodes), curve(theta), atol=1e-16)
+    np.testing.assert_allclose(bubbles(nodes, nodes), np.eye(3), atol=1e-15)
+
+
+def test_guesses_of_stages_are_right_where_the_acceleration_stays():
+    np.testing.assert_allclose(GUESSES[1:].sum(axis=1), 1.0, atol=1e-12)
+    assert not np.triu(GUESSES).any()
+
+
 def test_a_start_from_rest_takes_steps_that_its_motion_deserves():
     """Not ones that resolve the first micrometres: the error counts beside where the weight leads."""
-    equations, rest = system(scene("two-edges-settling"), 4)
+    equations, rest = system(make_scene("two-edges-settling"), 4)
     method, state, taken = Esdirk(equations, 1.0, fixed=False), rest, 0
     while state.time < 0.02:
         state, taken = method.advance(state, 1.0 - state.time).state, taken + 1
@@ -95,24 +126,24 @@ def test_a_start_from_rest_takes_steps_that_its_motion_deserves():
 
 
 def test_steps_follow_the_error_asked_for():
-    asked, steps, misses = scene("two-edges-settling"), [], []
-    kept = springs(asked, 4)
-    truth = lumped.simulate(asked, kept, 0.1, integrator="esdirk", step=1e-3, every=0.01).probes["P4"]
+    scene, steps, misses = make_scene("two-edges-settling"), [], []
+    kept = springs(scene, 4)
+    truth = lumped.simulate(scene, kept, 0.1, integrator="esdirk", step=1e-3, every=0.01).probes["P4"]
     for error in (3e-4, 3e-6):
-        found = lumped.simulate(asked, kept, 0.1, integrator="esdirk", every=0.01, error=error)
+        found = lumped.simulate(scene, kept, 0.1, integrator="esdirk", every=0.01, error=error)
         steps.append(found.steps)
         misses.append(np.abs(found.probes["P4"] - truth).max() / np.abs(truth).max())
         assert misses[-1] < 10 * error  # of some ten steps, as they follow each other
     assert steps[0] < steps[1] and misses[1] < misses[0]
     with pytest.raises(BadInput, match=r"lies between 0 and 0\.1"):
-        lumped.simulate(asked, kept, 0.1, integrator="esdirk", every=0.01, error=0.0)
+        lumped.simulate(scene, kept, 0.1, integrator="esdirk", every=0.01, error=0.0)
 
 
 def test_steps_end_where_a_load_changes_its_course():
     pulse = {"time": [0.1, 0.101, 0.102], "factor": [0.0, 1.0, 0.0]}
     load = {"kind": "point", "at": [0.188, 0.188], "force": [0.0, 0.0, 5.0], "history": pulse}
-    asked = scene(gravity=False, loads=[load], damping_time=1e-3)
-    equations, state = system(asked, 4)
+    scene = make_scene(gravity=False, loads=[load], damping_time=1e-3)
+    equations, state = system(scene, 4)
     method, times = Esdirk(equations, 0.02, fixed=False), [0.0]
     while state.time < 0.2:
         state = method.advance(state, 0.25 - state.time).state
@@ -123,7 +154,8 @@ def test_steps_end_where_a_load_changes_its_course():
     assert np.abs(state.u).max() > 1e-5  # a pulse shorter than a step is felt
 
 
-def test_chains_are_refused():
-    asked = scene("one-edge-clamped", actuators=[ROD])
-    with pytest.raises(BadInput, match="does not take chains"):
-        lumped.simulate(asked, springs(asked, 4), 0.01, integrator="esdirk")
+@pytest.mark.parametrize("name", ["esdirk", "verlet"])
+def test_chains_are_refused(name):
+    scene = make_scene("one-edge-clamped", actuators=[ROD])
+    with pytest.raises(BadInput, match=f"'{name}': does not take chains"):
+        lumped.simulate(scene, springs(scene, 4), 0.01, integrator=name)

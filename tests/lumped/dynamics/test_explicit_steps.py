@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from dynamic_cases import scene, springs
+from dynamic_cases import make_scene, springs
 
 from lumped import INTEGRATORS, System, build_problem, step_limit
 from lumped.dynamics.explicit import flat_system
@@ -33,24 +33,24 @@ LOADS = [
     },
 ]
 CASES = {
-    "weight": scene(),
-    "dampers": scene(damping_time=1e-5),
-    "masses damped": scene(damping_rate=30.0),
-    "both damped": scene(damping_time=1e-5, damping_rate=30.0),
-    "hinged": scene(
+    "weight": make_scene(),
+    "dampers": make_scene(damping_time=1e-5),
+    "masses damped": make_scene(damping_rate=30.0),
+    "both damped": make_scene(damping_time=1e-5, damping_rate=30.0),
+    "hinged": make_scene(
         supports=[{"edge": "x0", "kind": "hinged"}, {"edge": "y0", "kind": "held", "components": ["z"]}],
         damping_time=1e-5,
     ),
-    "loads": scene(loads=LOADS, damping_time=1e-5),
-    "moved clamp": scene(supports=[{**CLAMP, "motion": COURSE}], damping_time=1e-5, damping_rate=30.0),
-    "moved hinge": scene(supports=[CLAMP, {"edge": "x1", "kind": "hinged", "motion": COURSE}]),
-    "turned edge": scene(supports=[CLAMP], actuators=[TURNED], damping_time=1e-5),
+    "loads": make_scene(loads=LOADS, damping_time=1e-5),
+    "moved clamp": make_scene(supports=[{**CLAMP, "motion": COURSE}], damping_time=1e-5, damping_rate=30.0),
+    "moved hinge": make_scene(supports=[CLAMP, {"edge": "x1", "kind": "hinged", "motion": COURSE}]),
+    "turned edge": make_scene(supports=[CLAMP], actuators=[TURNED], damping_time=1e-5),
 }
 
 
-def start_of(asked, precision="double", n=5):
-    calibration = springs(asked, n)
-    system = System(asked, build_problem(asked, calibration, precision=precision))
+def start_of(scene, precision="double", n=5):
+    calibration = springs(scene, n)
+    system = System(scene, build_problem(scene, calibration, precision=precision))
     return system, initial_state(system, calibration, "tributary")
 
 

@@ -6,7 +6,7 @@ import pytest
 import lumped
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, FactorTable, Material, Patch, Scene, Sheet
-from sheetbench.scenes.natural import Natural
+from sheetbench.scenes.objects.natural import Natural
 
 RAMP = FactorTable(time=(0.0, 0.1), factor=(0.0, 1.0))
 MATERIAL = Material(young=1e6, poisson=0.3, density=1e3)
@@ -77,8 +77,8 @@ def test_a_muscle_is_an_input_of_a_linear_system():
         ends.append(lumped.solve(there, springs(scene)).displacement([[0.2, 0.05]])[0])
     slope = (ends[1] - ends[0]) / 0.02
     np.testing.assert_allclose(linear.jacobian[:, number], slope, rtol=1e-5, atol=1e-9)
-    told = lumped.sensitivity(scene, springs(scene), ["patch1.natural.kxx"])
-    np.testing.assert_allclose(told.derivatives["patch1.natural.kxx"][0], slope, rtol=1e-5, atol=1e-9)
+    result = lumped.sensitivity(scene, springs(scene), ["patch1.natural.kxx"])
+    np.testing.assert_allclose(result.derivatives["patch1.natural.kxx"][0], slope, rtol=1e-5, atol=1e-9)
     assert lumped.linearise(cantilever(Natural())).inputs[-3:] == (
         "natural.kxx",
         "natural.kyy",

@@ -1,7 +1,7 @@
-"""How a run in time is sampled: a hundred times a period unless asked, frames evenly over it."""
+"""How a run in time is sampled: a hundred times a period by default, frames evenly over it."""
 
 import pytest
-from dynamic_cases import scene, springs, system
+from dynamic_cases import make_scene, springs, system
 
 import lumped
 from lumped.dynamics.runs.plan import StepPlan, plan_run
@@ -9,10 +9,10 @@ from lumped.dynamics.runs.plan import StepPlan, plan_run
 
 @pytest.mark.parametrize("periods", [0.1, 3.0])
 def test_the_lowest_period_has_a_hundred_samples(periods):
-    asked = scene()
-    calibration = springs(asked, 3)
-    period = 1.0 / lumped.modes(asked, calibration, 1, calibration.masses).frequencies[0]
-    equations, _ = system(asked, 3)
+    scene = make_scene()
+    calibration = springs(scene, 3)
+    period = 1.0 / lumped.modes(scene, calibration, 1, calibration.masses).frequencies[0]
+    equations, _ = system(scene, 3)
     plan = plan_run(equations, calibration, None, periods * period, None, "esdirk", None)
     assert plan.samples == plan.first == round(100 * periods)
     assert plan.every == pytest.approx(period / 100, rel=1e-9)

@@ -9,7 +9,7 @@ import tracemalloc
 import numpy as np
 import pytest
 from commands import run
-from dynamic_cases import scene, springs
+from dynamic_cases import make_scene, springs
 from limits import at_most
 
 import lumped
@@ -25,17 +25,18 @@ RUNS = [(name, [], [PULSE]) for name in ("generalised-alpha", "esdirk", "verlet"
 RUNS += [("midpoint", [CHAIN], []), ("midpoint", [CHAIN], [PULSE])]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("branches", [(), (Relaxation(0.3, 0.02),)])
 @pytest.mark.parametrize(("name", "actuators", "loads"), RUNS)
 def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name, actuators, loads, branches):
     """From a copy of its folder at a moment between two samples, which is what kill -9 leaves there. In one
     process: one that compiles kernels links other copies of those whose sums may be taken in any order, so
     that its last digits may be others than where they come from the cache."""
-    asked = scene("one-edge-clamped", actuators, loads=loads, damping_time=1e-3)
-    asked = asked.replace(relaxation=branches, air=Air(drag=1.2) if branches else None)
+    scene = make_scene("one-edge-clamped", actuators, loads=loads, damping_time=1e-3)
+    scene = scene.replace(relaxation=branches, air=Air(drag=1.2) if branches else None)
     if not branches:
-        asked = asked.replace(supports=[{"edge": "x0", "kind": "clamped", "motion": MOVED}])
-    masses, whole, killed = springs(asked, 4), tmp_path / "whole", tmp_path / "killed"
+        scene = scene.replace(supports=[{"edge": "x0", "kind": "clamped", "motion": MOVED}])
+    masses, whole, killed = springs(scene, 4), tmp_path / "whole", tmp_path / "killed"
     after = []
 
     def kill(time):
@@ -45,7 +46,7 @@ def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name, actuators, loads
 
     def run(folder, progress=None, duration=DURATION):
         options = {"integrator": name, "every": 2e-4, "frames": 20, "progress": progress}
-        return lumped.simulate(asked, masses, duration, store=folder, **options)
+        return lumped.simulate(scene, masses, duration, store=folder, **options)
 
     run(tmp_path / "compiled", duration=2e-3)
     at_once = run(whole, kill)
@@ -65,8 +66,8 @@ LENGTH = 0.011  # s, one checkpoint
 @pytest.fixture(scope="module")
 def run_kept(tmp_path_factory):
     folder = tmp_path_factory.mktemp("kept") / "run"
-    asked = scene(damping_time=1e-3)
-    return folder, lumped.simulate(asked, springs(asked, 3), LENGTH, store=folder, **STILL)
+    scene = make_scene(damping_time=1e-3)
+    return folder, lumped.simulate(scene, springs(scene, 3), LENGTH, store=folder, **STILL)
 
 
 @pytest.fixture
@@ -74,10 +75,10 @@ def kept(run_kept, tmp_path):
     """A folder with a finished run, and how to run it again."""
     folder, history = tmp_path / "run", run_kept[1]
     shutil.copytree(run_kept[0], folder)
-    asked = scene(damping_time=1e-3)
+    scene = make_scene(damping_time=1e-3)
 
     def again(duration=LENGTH, **other):
-        return lumped.simulate(asked, springs(asked, 3), duration, store=folder, **{**STILL, **other})
+        return lumped.simulate(scene, springs(scene, 3), duration, store=folder, **{**STILL, **other})
 
     return folder, history, again
 
@@ -86,8 +87,8 @@ def test_a_longer_duration_goes_on_with_the_run(kept, tmp_path):
     """To the last bit what a run of that length gives; frames go on at their distance."""
     folder, _, again = kept
     longer = again(2.0 * LENGTH)
-    asked = scene(damping_time=1e-3)
-    at_once = lumped.simulate(asked, springs(asked, 3), 2.0 * LENGTH, store=tmp_path / "at once", **STILL)
+    scene = make_scene(damping_time=1e-3)
+    at_once = lumped.simulate(scene, springs(scene, 3), 2.0 * LENGTH, store=tmp_path / "at once", **STILL)
     assert longer.resumed_from == pytest.approx(50 * 2e-4)
     assert (folder / "samples.bin").read_bytes() == (tmp_path / "at once" / "samples.bin").read_bytes()
     assert longer.time[-1] == pytest.approx(2.0 * LENGTH) and longer.steps == at_once.steps
@@ -105,60 +106,57 @@ def test_another_run_in_the_folder_is_refused_by_what_differs(kept):
     assert (folder / "run.json").read_bytes() == before
 
 
-@pytest.mark.parametrize("name", ["samples.bin", "frames.bin"])
-@pytest.mark.parametrize("left", [0, 0.5, None])
-def test_files_shorter_than_the_checkpoint_says_are_refused(kept, name, left):
-    """They were filled up with zeros, and the run was said to be converged."""
+def half(content):
+    return content[: len(content) // 2 - 3]
+
+
+def flipped(content):
+    return (
+        content[: len(content) // 3]
+        + bytes([content[len(content) // 3] ^ 1])
+        + content[len(content) // 3 + 1 :]
+    )
+
+
+SHORT, CHANGED = "holds .* that the checkpoint counts", "is not what the run wrote: .*"
+DAMAGE = [  # file, what is made of its content (None: removed), what is said
+    *((name, change, SHORT) for name in ("samples.bin", "frames.bin") for change in (b"", half, None)),
+    *((name, flipped, CHANGED) for name in ("samples.bin", "frames.bin")),
+    *(("run.json", text, "is damaged") for text in (b"", b"{}", b"[1]", b"\xff\xfe")),
+    ("run.json", None, "is missing beside a checkpoint"),
+    *(("checkpoint.npz", change, "is damaged") for change in (b"not a checkpoint", b"", half)),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "said"), DAMAGE)
+def test_damaged_files_are_refused_in_a_line_with_the_remedy_and_left_alone(kept, name, change, said):
+    """Short ones were filled up with zeros, changed ones went unnoticed into the history."""
     folder, _, again = kept
     path = folder / name
-    if left is None:
+    if change is None:
         path.unlink()
     else:
-        os.truncate(path, int(left * path.stat().st_size) - 3 * (left > 0))
+        path.write_bytes(change(path.read_bytes()) if callable(change) else change)
     before = {file.name: file.read_bytes() for file in folder.iterdir()}
-    with pytest.raises(BadInput, match=rf"{name}: holds .* that the checkpoint counts; remove the folder"):
+    with pytest.raises(BadInput, match=rf"{name}: {said}.*; remove the folder {folder}"):
         again()
     assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
 
 
-@pytest.mark.parametrize("name", ["samples.bin", "frames.bin"])
-def test_files_of_the_right_length_that_were_changed_are_refused(kept, name):
-    """They went unnoticed into the history."""
-    folder, _, again = kept
-    path = folder / name
-    content = bytearray(path.read_bytes())
-    content[len(content) // 3] ^= 1
-    path.write_bytes(content)
-    before = {file.name: file.read_bytes() for file in folder.iterdir()}
-    with pytest.raises(BadInput, match=rf"{name}: is not what the run wrote: .*; remove the folder"):
-        again()
-    assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
-
-
-@pytest.mark.parametrize(
-    "name, content, said",
-    [
-        ("run.json", b"", "run.json: is damaged"),
-        ("run.json", b"{}", "run.json: is damaged"),
-        ("run.json", b"[1]", "run.json: is damaged"),
-        ("run.json", b"\xff\xfe", "run.json: is damaged"),
-        ("run.json", None, "run.json: is missing beside a checkpoint"),
-        ("checkpoint.npz", b"not a checkpoint", "checkpoint.npz: is damaged"),
-        ("checkpoint.npz", b"", "checkpoint.npz: is damaged"),
-        ("checkpoint.npz", 0.5, "checkpoint.npz: is damaged"),
-    ],
-)
-def test_damaged_files_are_refused_in_a_line_with_the_remedy(kept, name, content, said):
+def test_the_remedy_is_one(kept):
     folder, history, again = kept
-    path = folder / name
-    if content is None:
-        path.unlink()
-    else:
-        path.write_bytes(path.read_bytes()[: path.stat().st_size // 2] if content == 0.5 else content)
-    with pytest.raises(BadInput, match=rf"{said}.*; remove the folder {folder}"):
-        again()
     shutil.rmtree(folder)
     assert np.array_equal(again().probes["P4"], history.probes["P4"])
+
+
+@pytest.mark.parametrize("key", ["version", "source"])
+def test_a_run_that_other_code_began_is_not_gone_on_with(kept, key):
+    folder, _, again = kept
+    run = json.loads((folder / "run.json").read_text())
+    run["asked"][key] = "another"
+    (folder / "run.json").write_text(json.dumps(run))
+    with pytest.raises(BadInput, match="another state of sheetbench's code began"):
+        again()
 
 
 def test_a_checkpoint_is_on_the_disk_after_what_it_counts_and_before_it_has_its_name(tmp_path, monkeypatch):
@@ -194,11 +192,11 @@ def test_a_run_has_one_writer(kept):
 def test_a_second_writer_is_refused_before_it_touches_the_folder(tmp_path, capsys):
     """It rewrote the manifest of the first."""
     manifest = tmp_path / "manifest.json"
-    asked = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1", "--every", "0.02"]
-    assert run(*asked, "--out", str(tmp_path)) == 0
+    arguments = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1", "--every", "0.02"]
+    assert run(*arguments, "--out", str(tmp_path)) == 0
     before = manifest.read_bytes()
     with only_writer(tmp_path):
-        assert run(*asked, "--out", str(tmp_path)) == 2
+        assert run(*arguments, "--out", str(tmp_path)) == 2
     assert "another process writes here" in capsys.readouterr().err
     assert manifest.read_bytes() == before
 
@@ -209,19 +207,19 @@ def test_a_planted_link_is_never_written_through(tmp_path, name):
     victim.write_text("mine")
     folder.mkdir()
     (folder / name).symlink_to(victim)
-    asked = scene(damping_time=1e-3)
+    scene = make_scene(damping_time=1e-3)
     with contextlib.suppress(BadInput):
-        lumped.simulate(asked, springs(asked, 3), LENGTH, store=folder, **STILL)
+        lumped.simulate(scene, springs(scene, 3), LENGTH, store=folder, **STILL)
     assert victim.read_text() == "mine"
 
 
 def test_a_full_disk_is_said_and_the_run_goes_on_when_there_is_room(tmp_path, run_kept):
     """A limit on file sizes stands for the disk: frames.bin fits, then samples.bin is full, at any place."""
     folder, history = tmp_path / "run", run_kept[1]
-    asked = scene(damping_time=1e-3)
+    scene = make_scene(damping_time=1e-3)
 
     def start():
-        return lumped.simulate(asked, springs(asked, 3), LENGTH, store=folder, **STILL)
+        return lumped.simulate(scene, springs(scene, 3), LENGTH, store=folder, **STILL)
 
     full = (run_kept[0] / "samples.bin").stat().st_size
     for most in (10, full // 2, full - 10):
@@ -231,38 +229,28 @@ def test_a_full_disk_is_said_and_the_run_goes_on_when_there_is_room(tmp_path, ru
 
 
 def test_memory_does_not_grow_with_the_duration(tmp_path):
-    asked = scene(damping_time=1e-3)
+    scene = make_scene(damping_time=1e-3)
 
     def peak(duration):
         tracemalloc.start()
         options = {"integrator": "midpoint", "step": 1e-3, "every": 1e-3}
-        lumped.simulate(asked, springs(asked, 3), duration, store=tmp_path / str(duration), **options)
+        lumped.simulate(scene, springs(scene, 3), duration, store=tmp_path / str(duration), **options)
         found = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         return found
 
     peak(0.05)
     # bytes; 700 more samples are 185 kB. Python 3.13 holds some 40 kB more after 700 steps, in freed small
-    # objects whose number levels off: half of what samples would take tells the two apart
+    # objects whose number levels off: half of what samples would take distinguishes the two
     assert peak(0.8) < peak(0.1) + 90_000
     assert (tmp_path / "0.8" / "samples.bin").stat().st_size > 150_000
-
-
-@pytest.mark.parametrize("key", ["version", "source"])
-def test_a_run_that_other_code_began_is_not_gone_on_with(kept, key):
-    folder, _, again = kept
-    run = json.loads((folder / "run.json").read_text())
-    run["asked"][key] = "another"
-    (folder / "run.json").write_text(json.dumps(run))
-    with pytest.raises(BadInput, match="another state of sheetbench's code began"):
-        again()
 
 
 @pytest.mark.parametrize("name", ["esdirk", "verlet"])
 def test_a_killed_run_that_touches_an_obstacle_resumes_to_the_last_digit(tmp_path, name):
     """The strip falls 1 mm by 14 ms and touches before and after the checkpoint; what esdirk measures its
     energy's gain against is remembered."""
-    asked = scene("one-edge-clamped").replace(obstacles=(Plane(position=(0.0, 0.0, -0.002)),))
+    scene = make_scene("one-edge-clamped").replace(obstacles=(Plane(position=(0.0, 0.0, -0.002)),))
     whole, killed, after = tmp_path / "whole", tmp_path / "killed", []
 
     def kill(time):
@@ -272,7 +260,7 @@ def test_a_killed_run_that_touches_an_obstacle_resumes_to_the_last_digit(tmp_pat
 
     def run(folder, progress=None):
         options = {"integrator": name, "every": 5e-4, "progress": progress}
-        return lumped.simulate(asked, springs(asked, 4), 0.06, store=folder, **options)
+        return lumped.simulate(scene, springs(scene, 4), 0.06, store=folder, **options)
 
     at_once, resumed = run(whole, kill), run(killed)
     assert (killed / "samples.bin").read_bytes() == (whole / "samples.bin").read_bytes()

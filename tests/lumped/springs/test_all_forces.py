@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from dynamic_cases import ROD, scene
+from dynamic_cases import ROD, make_scene
 from lattice_cases import ALL, assembly_of
 from lattice_cases import state as lattice_state
 
@@ -27,7 +27,7 @@ def state(system, size=1e-3, seed=0):
     return (size * rng.standard_normal((system.assembly.pattern.size, 3)) for _ in range(2))
 
 
-SHEET = scene(damping_time=1e-3)
+SHEET = make_scene(damping_time=1e-3)
 FIBRES = SHEET.replace(
     kind="orthotropic", young_1=54.5e6, young_2=8e6, poisson_12=0.35, shear_12=4e6, angle=0.5,
 )  # fmt: skip
@@ -46,14 +46,17 @@ CASES = {
     ),
     "fibres": (FIBRES, {"grid": (5, 6), "cells": scenes.Cells.of(FIBRES.sheet, FIBRES.material)}),
     "three layers": (SHEET, {"grid": (5, 5, 3), "method": "moduli"}),
-    "dampers of a table": (scene().replace(dampers=TABLE), {"grid": (5, 6)}),
-    "with rows of a chain": (scene("one-edge-clamped", actuators=[ROD], damping_time=1e-3), {"grid": (5, 5)}),
+    "dampers of a table": (make_scene().replace(dampers=TABLE), {"grid": (5, 6)}),
+    "with rows of a chain": (
+        make_scene("one-edge-clamped", actuators=[ROD], damping_time=1e-3),
+        {"grid": (5, 5)},
+    ),
 }
 
 
-@pytest.mark.parametrize(("asked", "options"), CASES.values(), ids=CASES)
-def test_forces_energy_and_power_are_the_families(asked, options):
-    system = System(asked, build_problem(asked, lumped.calibrate(asked.sheet, asked.material, **options)))
+@pytest.mark.parametrize(("scene", "options"), CASES.values(), ids=CASES)
+def test_forces_energy_and_power_are_the_families(scene, options):
+    system = System(scene, build_problem(scene, lumped.calibrate(scene.sheet, scene.material, **options)))
     u, v = state(system)
     packing = packed(system)
     room = scratch(packing)
@@ -86,8 +89,8 @@ def test_the_seeds_per_direction_law():
 
 
 def test_small_displacements_lose_no_digits_and_single_precision_is_single():
-    asked = scene(damping_time=1e-3)
-    system = System(asked, build_problem(asked, lumped.calibrate(asked.sheet, asked.material, grid=(9, 9))))
+    scene = make_scene(damping_time=1e-3)
+    system = System(scene, build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(9, 9))))
     u, v = state(system, size=1e-12)
     wanted = system.assembly.force(u)[1]
     for single, rounding in ((False, E), (True, np.finfo(np.float32).eps)):

@@ -8,7 +8,8 @@ from lumped import System, build_problem, step_limit
 from lumped.assembly import Assembly
 from lumped.statics import validity
 from sheetbench import scenes
-from sheetbench.scenes import Scene, Status
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Scene
 
 YOUNG, THICKNESS = 5e6, 2e-3
 SOFT = {"young": YOUNG, "poisson": 0.45, "density": 1000.0}
@@ -85,6 +86,7 @@ def test_the_largest_frequency_does_not_grow_under_stretch():
         assert 0.9 * at_rest < step_limit(system, u).frequency < 1.01 * at_rest
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("integrator", "step", "tolerance", "law"),
     [

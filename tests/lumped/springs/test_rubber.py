@@ -10,8 +10,9 @@ from scipy.optimize import brentq
 
 import lumped
 from lumped.assembly import Assembly
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Scene, Sheet, Status, load
+from sheetbench.scenes import Material, Scene, Sheet, load
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "rubber"
 
@@ -20,7 +21,7 @@ SHEET = Sheet(*SIDES, THICKNESS)
 
 
 def slopes(material, stretches):
-    """∂W/∂λ of the three principal stretches [Pa], from W as `sheetbench.scenes.material` writes it."""
+    """∂W/∂λ of the three principal stretches [Pa], from W as `scenes.objects.material` writes it."""
     e, s = material.energy, np.asarray(stretches) ** 2
     x = s.sum() - 3.0
     first = e.c10 + 2.0 * e.c20 * x + 3.0 * e.c30 * x * x
@@ -81,7 +82,7 @@ def test_a_strip_that_is_pulled_finds_the_stretches(law, stretch):
         ]  # fmt: skip
         held = [{"edge": e, "kind": "held", "components": [c, "z"]} for e, c in (("x0", "x"), ("y0", "y"))]
         scene = Scene(name="strip", sheet=SHEET, material=material, supports=held, loads=loads)
-        solution = lumped.solve(scene)  # of the material's law without being asked
+        solution = lumped.solve(scene)  # of the material's law without an option
         assert solution.status is Status.CONVERGED and "hyperelastic" in str(solution.settings)
         corner = solution.displacement([SIDES])[0]
         assert np.allclose(1.0 + corner[:2] / SIDES, (stretch, across), rtol=1e-9)

@@ -12,6 +12,7 @@ from scipy.sparse.linalg import splu
 import fem_reference
 import lumped
 from lumped.statics.structure import LatticeStructure
+from sheetbench.answers.solution import Status
 from sheetbench.numerics import direct
 from sheetbench.numerics.continuation import trace as tracer
 from sheetbench.numerics.continuation.arc import limit_point
@@ -20,7 +21,7 @@ from sheetbench.numerics.continuation.path import Path
 from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.direct import DirectSolver, Factor
 from sheetbench.numerics.multifrontal import NoFactorsError
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status, load
+from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, load
 
 STRIP = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
 SOFT = Material(young=5e6, poisson=0.0, density=1100.0)

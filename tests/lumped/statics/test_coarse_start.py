@@ -5,7 +5,8 @@ import pytest
 
 import lumped
 from lumped.statics import solver, structure
-from sheetbench.scenes import Status, load
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import load
 
 
 @pytest.fixture

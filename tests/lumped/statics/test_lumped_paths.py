@@ -12,8 +12,9 @@ import pytest
 import fem_reference
 import lumped
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeLoad, Held, Material, Pressure, Scene, Sheet, Status
+from sheetbench.scenes import EdgeLoad, Held, Material, Pressure, Scene, Sheet
 
 SIDE, THICKNESS, YOUNG, POISSON = 0.2, 0.001, 1e7, 0.3
 RIGIDITY = YOUNG * THICKNESS**3 / 12 / (1 - POISSON**2)

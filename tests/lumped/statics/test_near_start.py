@@ -6,7 +6,7 @@ import pytest
 import lumped
 import sheetbench as sb
 from sheetbench.errors import BadInput
-from sheetbench.scenes.parameters import put
+from sheetbench.scenes.meaning.parameters import put
 
 
 def moved(solution):

@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 
 import sheetbench as sb
 from sheetbench.answers.answer import Answer
+from sheetbench.answers.history import ENERGIES
 from sheetbench.answers.report import NoPicture, Picture
 from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, Column, Table
-from sheetbench.scenes.history import ENERGIES
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,7 @@ KNOWN = set(COMMANDS.split())
 
 
 def rows(text, columns):
-    """The cells of a tabular, as LaTeX takes them apart. Fails where pdfTeX would stop."""
+    """The cells of a tabular, as LaTeX splits them. Fails where pdfTeX would stop."""
     nodes, *_ = LatexWalker(text, tolerant_parsing=False).get_latex_nodes()
     (tabular,) = [node for node in nodes if isinstance(node, LatexEnvironmentNode)]
     assert tabular.environmentname == "tabular"

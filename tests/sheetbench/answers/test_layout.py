@@ -1,4 +1,4 @@
-"""Tables as lines of text: whole at any width; broken, set apart or stacked where that is narrow."""
+"""Tables as lines of text: whole at any width; broken, spaced or stacked where that is narrow."""
 
 import pytest
 from hypothesis import given

@@ -12,7 +12,7 @@ from scene_files import written
 
 from comparisons.cli.messages import in_lines
 from comparisons.cli.output import OutputOptions
-from comparisons.runs.folder import MANIFEST, Folder
+from comparisons.sweep.folder import MANIFEST, Folder
 from sheetbench import scenes
 from sheetbench.answers import escape
 from sheetbench.answers.report import Picture, Report

@@ -8,7 +8,7 @@ import lumped
 from sheetbench.numerics import banded
 from sheetbench.numerics.reduction import reduction
 from sheetbench.scenes import load
-from sheetbench.scenes.supports import Hinged
+from sheetbench.scenes.objects.supports import Hinged
 
 
 def positive_definite(n, width, rng):

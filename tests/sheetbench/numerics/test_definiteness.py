@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from dynamic_cases import scene
+from dynamic_cases import make_scene
 from scipy.sparse.linalg import splu
 
 import lumped
@@ -57,20 +57,20 @@ def test_only_real_eigenvalues_below_zero_count_as_instability():
 
 
 def test_a_lattice_whose_stability_is_not_known_says_so(monkeypatch):
-    asked = scene(loads=[{"kind": "pressure", "value": 5.0}])
-    springs = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5))
+    scene = make_scene(loads=[{"kind": "pressure", "value": 5.0}])
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
     for kind in (Factor, SymmetricPartFactor):
         monkeypatch.setattr(kind, "negative_real", lambda self: None)
-    assert any("stability not known" in note for note in lumped.solve(asked, springs).remarks)
+    assert any("stability not known" in note for note in lumped.solve(scene, springs).remarks)
 
 
 def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
-    asked = scene()
-    springs = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5))
-    problem = lumped.build_problem(asked, springs)
+    scene = make_scene()
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
+    problem = lumped.build_problem(scene, springs)
     flat = np.zeros_like(problem.loads.dead)
     factor = problem.system.factor(problem.tangent(flat, 0.0))
-    structure = LatticeStructure(asked, problem)
+    structure = LatticeStructure(scene, problem)
     monkeypatch.setattr(factor, "solve", lambda b, of=factor.solve: -of(b))
     monkeypatch.setattr(energy_descent, "_definite_factor", lambda *given: (factor, 1))
     with pytest.raises(LoadStepFailed, match="not positive definite"):
@@ -80,8 +80,8 @@ def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
 @pytest.mark.parametrize("layers", [2, 3, 4])
 def test_an_admissible_displacement_is_its_own_nearest(layers):
     supports = [{"edge": "x0", "kind": "hinged"}, {"edge": "x1", "kind": "clamped", "tilt": 0.2}]
-    asked = scene(supports=[*supports, {"edge": "y1", "kind": "held", "components": ["y"]}])
-    problem = lumped.build_problem(asked, lumped.calibrate(asked.sheet, asked.material, grid=(4, 3, layers)))
+    scene = make_scene(supports=[*supports, {"edge": "y1", "kind": "held", "components": ["y"]}])
+    problem = lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(4, 3, layers)))
     unknowns = np.random.default_rng(layers).standard_normal(problem.system.unknowns)
     admissible = problem.expand(unknowns) + problem.prescribed(1.0)
     np.testing.assert_allclose(problem.project_to_supports(admissible, 1.0), admissible, rtol=0, atol=1e-14)
@@ -92,10 +92,10 @@ def test_an_admissible_displacement_is_its_own_nearest(layers):
 
 
 def test_a_solve_that_starts_at_its_own_answer_stays_there():
-    asked = scene(supports=[{"edge": "x0", "kind": "hinged"}, {"edge": "y0", "kind": "hinged"}])
-    springs = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5, 3))
-    found = lumped.solve(asked, springs)
-    again = lumped.solve(asked, springs, near=found.mesh.point_data["displacement"])
+    scene = make_scene(supports=[{"edge": "x0", "kind": "hinged"}, {"edge": "y0", "kind": "hinged"}])
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5, 3))
+    found = lumped.solve(scene, springs)
+    again = lumped.solve(scene, springs, near=found.mesh.point_data["displacement"])
     assert again.history[0].residual < 1e-9
 
 
@@ -126,8 +126,8 @@ def test_the_sign_of_the_determinant_is_that_of_its_permutations_and_pivots():
 @pytest.mark.parametrize("value", [5.0, 4000.0])
 def test_factorisations_under_pressure_are_counted_once_each(monkeypatch, value):
     """All that are made of a tangent: by fronts, of what they do not solve by a library, for det's sign."""
-    asked = scene(loads=[{"kind": "pressure", "value": value}])
-    springs, made = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5)), []
+    scene = make_scene(loads=[{"kind": "pressure", "value": value}])
+    springs, made = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5)), []
 
     def counted(function):
         def called(*arguments, **keywords):
@@ -136,8 +136,8 @@ def test_factorisations_under_pressure_are_counted_once_each(monkeypatch, value)
 
         return called
 
-    lumped.solve(asked, springs)
+    lumped.solve(scene, springs)
     monkeypatch.setattr(direct, "SignedFactors", counted(direct.SignedFactors))
     monkeypatch.setattr(direct, "odd_below_zero", counted(direct.odd_below_zero))
     monkeypatch.setattr(DirectSolver, "_by_library", counted(DirectSolver._by_library))
-    assert lumped.solve(asked, springs).iterations == len(made) > 0
+    assert lumped.solve(scene, springs).iterations == len(made) > 0

@@ -67,22 +67,22 @@ def test_a_lattice_comes_to_rest_where_it_does_without_it(monkeypatch):
     monkeypatch.setattr(reduced, "BANDED_LIMIT", 0.0)
     monkeypatch.setattr(direct, "LARGE", 0)
     _forget_systems()
-    asked: list[int] = []
+    sizes: list[int] = []
     factor = pardiso.Analysis.factor
 
     def counted(self, matrix):
-        asked.append(matrix.shape[0])
+        sizes.append(matrix.shape[0])
         return factor(self, matrix)
 
     monkeypatch.setattr(pardiso.Analysis, "factor", counted)
     points = scene.probe_points()
     found = lumped.solve(scene, springs).displacement(points)
-    assert asked
+    assert sizes
     monkeypatch.setattr(pardiso, "library", lambda: None)
     _forget_systems()
-    factored = len(asked)
+    factored = len(sizes)
     np.testing.assert_allclose(found, lumped.solve(scene, springs).displacement(points), rtol=1e-9)
-    assert len(asked) == factored
+    assert len(sizes) == factored
     _forget_systems()
 
 

@@ -43,7 +43,7 @@ def test_factors_of_a_large_lattice_take_no_library(problem, monkeypatch):
 
 
 def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_off_it(monkeypatch):
-    """A compressed strip stays straight, and beside it the energy falls along the one direction told."""
+    """A compressed strip stays straight, and beside it the energy falls along the one direction reported."""
     scene = load("two-edges-clamped").replace(
         gravity=None, supports=({"edge": "x0", "kind": "clamped"},),
         loads=({"kind": "edge", "edge": "x1", "force_per_length": (-30.0, 0.0, 0.0)},),

@@ -10,9 +10,9 @@ from scene_files import GOOD, written
 import lumped
 from sheetbench import face as models
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Status
-from sheetbench.scenes.quantities import LARGEST, SMALLEST
+from sheetbench.scenes.objects.quantities import LARGEST, SMALLEST
 
 SEED, SETTLING = "two-edges-clamped", "two-edges-settling"
 COMPARE = ("compare", SEED, "--lumped", "3", "--elements", "2", "--no-uncertainty")
@@ -74,6 +74,6 @@ def test_of_many_faults_three_are_told_and_the_rest_counted(tmp_path):
     for key in ("length_x", "length_y", "thickness", "young", "density"):
         lines = [f"{key} = 1e308" if line.startswith(f"{key} ") else line for line in text.splitlines()]
         text = "\n".join(lines)
-    with pytest.raises(BadInput, match="; and 2 more") as told:
+    with pytest.raises(BadInput, match="; and 2 more") as error:
         scenes.load(written(tmp_path, text))
-    assert str(told.value).count("must be") == 3
+    assert str(error.value).count("must be") == 3

@@ -17,7 +17,8 @@ from comparisons.modes.answer import Spectra, Spectrum
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
-from sheetbench.scenes.history import ENERGIES
+from sheetbench.answers.history import ENERGIES
+from sheetbench.scenes.language import summary
 
 SCENE = scenes.load("two-edges-clamped")
 HISTORY = scenes.History(
@@ -123,7 +124,7 @@ def test_a_solution_knows_the_probes_of_its_scene():
 
 def test_reactions_are_shown_without_rounding():
     named = {"x0": (4.16e-16, -2.0, 0.101), "y0": (0.0, 1e-7, 3.0)}
-    kept = {name: force.tolist() for name, force in scenes.summary.without_rounding(named).items()}
+    kept = {name: force.tolist() for name, force in summary.without_rounding(named).items()}
     assert kept == {"x0": [0.0, -2.0, 0.101], "y0": [0.0, 1e-07, 3.0]}
 
 
@@ -139,7 +140,7 @@ def test_reactions_are_shown_without_rounding():
     ],
 )
 def test_numbers_in_sentences_have_no_exponent(value, said):
-    assert scenes.summary.few(value) == said
+    assert summary.few(value) == said
 
 
 def test_help_shows_no_addresses_and_no_words_of_the_inside():

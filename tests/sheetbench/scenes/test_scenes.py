@@ -5,8 +5,8 @@ import pytest
 from scene_files import BAD, GOOD, LOOSE, written
 
 from sheetbench import scenes
+from sheetbench.answers.habibi import KNOWN_FAULTS, published_displacements, published_errors
 from sheetbench.scenes import Held, Hinged
-from sheetbench.scenes.habibi import KNOWN_FAULTS, published_displacements, published_errors
 
 pytestmark = pytest.mark.smoke
 

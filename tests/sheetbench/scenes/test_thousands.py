@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sheetbench.scenes import Scene, SceneError, free_rigid_motions
-from sheetbench.scenes.patches import mass_of
+from sheetbench.scenes.meaning.composition import mass_of
 
 SIDE = 0.5
 LIMIT = 8.0  # s of the processor; one shape at a time took 20 s and more
@@ -60,6 +60,7 @@ MANY = {
 }  # fmt: skip
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("parts", MANY)
 def test_a_thousand_parts_take_seconds(parts):
     began = process_time()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sheetbench.errors import BadInput
-from sheetbench.numerics.time.rule import BACKWARD_EULER, generalised
+from sheetbench.numerics.time.rule import BACKWARD_EULER, MidpointStep, generalised, step_of
 
 
 def stepped(rule, turn, state):
@@ -39,6 +39,36 @@ def test_the_local_error_of_an_oscillator_is_the_estimated_one(rule):
     u, _, a, algorithm = stepped(rule, turn, start)
     jump = a if rule is BACKWARD_EULER else algorithm - start[3]
     assert abs(u - exact) == pytest.approx(rule.error * abs(jump), rel=0.02)
+
+
+@pytest.mark.parametrize("rule", [generalised(0.0), generalised(0.8), BACKWARD_EULER])
+def test_a_step_in_its_last_displacement_is_the_rule(rule):
+    """The equation that solvers have, c₂ (u − û) + ω² u = 0, against the rule's four equations."""
+    h, turn, state = 0.02, 0.7, np.array([0.3, -0.2, 0.5, 0.1])
+    start, v, a, algorithm = state / [1.0, h, h**2, h**2]
+    step = step_of(rule, h, start, v, a, algorithm)
+    stiffness = (turn / h) ** 2
+    u = step.by_a * step.base_u / (step.by_a + stiffness)
+    a = step.acceleration(u)
+    found = [u, h * step.velocity(u), h**2 * a, h**2 * step.algorithm(a)]
+    assert found == pytest.approx(stepped(rule, turn, state), abs=1e-14)
+    assert step.algorithm(step.acceleration(step.guess)) == pytest.approx(algorithm)
+
+
+def test_a_midpoint_step_keeps_an_oscillators_energy():
+    h, u, v, stiffness = 0.02, 0.3, -10.0, 1225.0
+    step = MidpointStep(h, u, v)
+    low, high = 0.0, 1.0  # the balance c (u₁ − u₀) + … is linear in u₁
+
+    def balance(end):
+        return step.acceleration(end) + stiffness * step.place(end)
+
+    end = low - balance(low) * (high - low) / (balance(high) - balance(low))
+    assert 0.5 * (v + step.velocity(end)) == pytest.approx(step.rate(end))
+    energies = [
+        0.5 * speed**2 + 0.5 * stiffness * place**2 for place, speed in ((u, v), (end, step.velocity(end)))
+    ]
+    assert energies[1] == pytest.approx(energies[0], rel=1e-13)
 
 
 def test_a_radius_that_is_none_is_refused():

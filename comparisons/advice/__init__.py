@@ -1,1 +1,0 @@
-"""The cheapest model that is accurate enough for a scene."""

@@ -1,0 +1,143 @@
+"""The sheet in motion, at true scale: frames with their time and a colour bar, as GIF or MP4.
+
+An MP4 is of a talk's size, 640 pixels wide, and written by the system's ffmpeg, where there is one; a GIF is
+of a README's, 480 pixels wide and below a megabyte.
+"""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+from comparisons.comparison.figure import HEIGHTS, colour_bar
+from comparisons.comparison.frames import Frame, frames
+from comparisons.pictures import offscreen
+from comparisons.pictures.plan import plan_mesh
+from comparisons.pictures.stage import Stage
+from sheetbench.answers.history import History
+from sheetbench.answers.report import NoPicture
+from sheetbench.answers.style import STYLE, plain
+from sheetbench.files import whole
+from sheetbench.scenes import Scene
+
+WIDTH, PER_INCH = 4.0, 160  # inches, pixels an inch
+COLOURS, PIXELS = 64, 480  # of a GIF: its palette, its width
+SURFACE_LINES = 8  # cells drawn on a reference's sheet along its shorter side
+PER_SECOND, MOST = 8, 34  # frames a second, and at most
+
+
+def animate(scene: Scene, histories: Sequence[History], paths: Sequence[Path]) -> None:
+    """Write the frames of runs, several side by side in one view under their labels, to every path, as GIF or
+    MP4 by its suffix; an MP4 needs ffmpeg. Raises NoPicture without off-screen drawing."""
+    if impossible := offscreen.why_not():
+        raise NoPicture(impossible)
+    labels = [history.label for history in histories] if len(histories) > 1 else [""]
+    images = _images(scene, [frames(history) for history in histories], labels)
+    for path in paths:
+        with whole(path) as partial:
+            (_write_mp4 if path.suffix == ".mp4" else _write_gif)(partial, images)
+
+
+def _images(
+    scene: Scene, runs: Sequence[Sequence[tuple[float, Frame]]], labels: Sequence[str]
+) -> list[Image.Image]:
+    """A page a moment, of frames of one run or of several at the same times; labels: what each is called."""
+    moments = list(zip(*runs, strict=False))
+    moments = moments[:: -(-len(moments) // MOST)]
+    plan = plan_mesh(scene, 16).points[:, :2]
+    flat = np.column_stack([plan, np.zeros(len(plan))])
+    every = [frame for moment in moments for _, frame in moment]
+    sheets = [flat + frame.displacement(plan) for frame in every]
+    seen = np.vstack([flat, *sheets, *(rest + u for frame in every for rest, u in frame.axes)])
+    heights = [1e3 * (sheet - flat)[:, 2] for sheet in sheets]
+    heights += [1e3 * frame.mesh.point_data["displacement"][:, 2] for frame in every]
+    limits = (min(float(h.min()) for h in heights), max(float(h.max()) for h in heights) + 1e-9)
+    speed = (moments[-1][0][0] - moments[0][0][0]) * PER_SECOND / max(len(moments) - 1, 1)
+    images = []
+    for moment in moments:
+        views = [_view(scene, time, frame, limits, seen, len(moment)) for time, frame in moment]
+        caption = f"t = {moment[0][0]:.3f} s   (shown at {speed:.2g} × real time)"
+        images.append(_page(scene, list(zip(views, labels, strict=True)), caption, limits))
+    return images
+
+
+def _view(
+    scene: Scene, time: float, frame: Frame, limits: tuple[float, float], seen: np.ndarray, beside: int
+) -> np.ndarray:
+    """The pixels of a sheet and of what it touches, of so many beside each other."""
+    held: Any = frame
+    stage = Stage(scene, held, 1.0, pixels=round(1.5 * WIDTH * PER_INCH / beside))
+    if frame.of_lattice:
+        stage.lattice(frame.mesh, 1e3 * frame.mesh.point_data["displacement"][:, 2], limits, HEIGHTS)
+    else:
+        plan = plan_mesh(scene).points[:, :2]
+        stage.surface(held, 1e3 * frame.displacement(plan)[:, 2], limits, HEIGHTS, SURFACE_LINES)
+    for rest, u in frame.axes:
+        stage.chain(rest + u)
+    corners = [stage.obstacle(obstacle, time) for obstacle in scene.obstacles]
+    return stage.take(np.vstack([seen, *corners]), np.empty((0, 3)))[0]
+
+
+def _page(
+    scene: Scene, views: Sequence[tuple[np.ndarray, str]], caption: str, limits: tuple[float, float]
+) -> Image.Image:
+    """Views with their labels, under the title and the time, over the colour bar."""
+    title = plain(scene.title or scene.name, width=72)
+    top, bottom = 0.19 + 0.15 * len(title.splitlines()), 0.42
+    pixels = views[0][0]
+    height = WIDTH / len(views) * pixels.shape[0] / pixels.shape[1] + top + bottom
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=(WIDTH, height), dpi=PER_INCH, facecolor="white")
+        share = 1.0 / len(views)
+        for number, (view, label) in enumerate(views):
+            panel = figure.add_axes((number * share, bottom / height, share, 1.0 - (top + bottom) / height))
+            panel.imshow(view, interpolation="lanczos")
+            panel.set_axis_off()
+            figure.text(
+                (number + 0.5) * share, bottom / height, label, ha="center", va="bottom", fontsize=6.5
+            )
+        figure.text(0.02, 1.0 - 0.04 / height, title, va="top")
+        figure.text(0.02, 1.0 - (top - 0.15) / height, caption, va="top", fontsize=6.5)
+        bar = figure.add_axes((0.25, 0.28 / height, 0.5, 0.07 / height))
+        colour_bar(figure, bar, HEIGHTS, limits, "$u_z$  [mm]")
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+    return Image.fromarray(np.asarray(canvas.buffer_rgba())[:, :, :3].copy())
+
+
+def _write_gif(path: Path, images: list[Image.Image]) -> None:
+    size = (PIXELS, round(PIXELS * images[0].height / images[0].width))
+    images = [image.resize(size, Image.Resampling.LANCZOS) for image in images]
+    # one palette for all and no dither: what stands still stays the same, and the file small
+    some = images[::8]
+    every = Image.new("RGB", (some[0].width, sum(image.height for image in some)))
+    for number, image in enumerate(some):
+        every.paste(image, (0, number * image.height))
+    palette = every.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE)
+    reduced = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    reduced[0].save(
+        path,
+        save_all=True,
+        append_images=reduced[1:],
+        duration=1000 // PER_SECOND,
+        loop=0,
+        optimize=True,
+        format="GIF",
+    )
+
+
+def _write_mp4(path: Path, images: list[Image.Image]) -> None:
+    width, height = (size - size % 2 for size in images[0].size)  # the codec wants even sizes
+    command = ["ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24"]
+    command += ["-s", f"{width}x{height}", "-r", str(PER_SECOND), "-i", "-"]
+    command += ["-pix_fmt", "yuv420p", "-movflags", "faststart", "-f", "mp4", str(path)]
+    raw = b"".join(image.crop((0, 0, width, height)).tobytes() for image in images)
+    subprocess.run(command, input=raw, check=True, capture_output=True)

@@ -1,0 +1,123 @@
+"""A scene's motion as the lattice and as a finite-element reference have it, side by side.
+
+The reference moves a second time on elements twice as large, and a third time with steps of about twice the
+length: how far it goes then is what mesh and step leave uncertain (`uncertainty`), on the safe side, for
+both errors are at least halved by the finer run.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.comparison.measures import largest
+from comparisons.comparison.motion_answer import MotionComparison
+from comparisons.comparison.moving import refusal, require_motion
+from comparisons.external import plugins
+from comparisons.models import sizes
+from comparisons.models.context import context
+from comparisons.models.grids import Elements as Count
+from comparisons.models.resolve import Resolved, resolve
+from comparisons.models.solve import simulate
+from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unlike
+from comparisons.pictures.work import Pace, Work
+from sheetbench.answers.history import History
+from sheetbench.choices import REFERENCE
+from sheetbench.scenes import AnyScene, Scene, scene_of
+
+ELEMENTS = 8  # of a moving reference along the shorter side
+LONGER = 8.0  # error of a step: steps twice as long
+STEPS_PER_PERIOD = 100, 900  # of the lowest mode, with dampers of the springs and without
+SOLVES = 0.08  # of a static solve's time that a step takes
+EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
+
+
+def compare_motion(
+    scene: AnyScene,
+    duration: float,
+    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
+    reference: str | Elements = REFERENCE,
+    *,
+    elements: Count | None = None,
+    law: str | None = None,
+    uncertainty: bool = True,
+    models: Sequence[Spec | str] = (),
+    leave_out: bool = False,
+    every: float | None = None,
+    frames: int = 0,
+    store: Path | None = None,
+) -> MotionComparison:
+    """Move a scene's sheet for `duration` [s] with the lattice and with a reference, from rest.
+
+    elements: 8 along the shorter side unless given. uncertainty: move the reference twice more, on elements
+    twice as large and with steps twice as long. models: that move it too, external codes and plug-ins
+    among them; leave_out: without those that refuse the scene, which the answer names. every [s]: distance of
+    samples, 1/100 of the lowest period unless given. frames: whole displacements to keep. store: a folder in
+    which every run of ours has one to stream to; runs that were stopped go on from there.
+    Raises BadInput as `compare` and `simulate` do, and for a model that does not move the scene.
+    """
+    scene = scene_of(scene)
+    finest = Elements.given(reference, {"elements": elements, "law": law})
+    finest = finest.but(count=ELEMENTS) if finest.count is None else finest
+    beside = [parse(one) if isinstance(one, str) else one for one in models]
+    left_out = {one.model: why for one in beside if leave_out and (why := refusal(scene, one))}
+    beside = [one for one in beside if one.model not in left_out]
+    for one in (finest, *beside):
+        require_motion(scene, one)
+    model = resolve(scene, lattice, "motion")
+
+    def moved(of: Resolved[Any], doing: str, spacing: float | None, **settings: Any) -> History:
+        """A run, kept in a folder of its own by its settings where there is a store."""
+        spec, pace, size = of.spec, Pace(duration), None
+        if isinstance(spec, Elements):
+            steps, each = _expected_steps(scene, duration), sizes.size(scene, spec)
+            size = each and replace(each, seconds=steps * SOLVES * each.seconds)
+        context().progress(Work(doing, size))
+
+        def reached(time: float) -> None:
+            soon = pace.remaining(time) if time >= EVEN * duration else ""
+            context().progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
+
+        if not isinstance(spec, External):
+            question = [scene.document(), duration, spacing, spec.model, of.settings, settings]
+            text = json.dumps(question, sort_keys=True, default=str)
+            kept = store and store / f"{spec.model}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
+            settings |= {"progress": reached, "store": kept}
+        return simulate(of, duration, every=spacing, **settings)
+
+    own = moved(model, "simulating the lattice", every, frames=frames)
+    histories, spacing = {model.spec.model: own}, own.settings["every"]
+    for one in beside:
+        name = unlike(plugins.shown_name(one.model), (*histories, finest.kind))
+        histories[name] = moved(resolve(scene, one, "motion"), f"simulating the {name}", spacing)
+    named = f"simulating the {finest.kind}"
+    truth = moved(resolve(scene, finest), named, spacing, frames=frames)
+    bars: dict[str, float | None] = {}
+    if uncertainty and truth.succeeded:
+        error = LONGER * truth.settings["error"]
+        longer = moved(resolve(scene, finest), f"{named} in longer steps", spacing, error=error)
+        bars = {"mesh": None, "step": _largest(longer, truth)}
+        along = finest.counts(scene)
+        if min(along[:2]) > 1:
+            half = resolve(scene, finest.but(count=(along[0] // 2, along[1] // 2)))
+            bars["mesh"] = _largest(moved(half, f"{named} on larger elements", spacing), truth)
+    return MotionComparison(scene, {**histories, finest.kind: truth}, bars, left_out)
+
+
+def _largest(one: History, other: History) -> float | None:
+    return largest(one, other) if one.succeeded else None
+
+
+def _expected_steps(scene: Scene, duration: float) -> int:
+    """Steps that a reference takes, roughly."""
+    import fem_reference
+
+    lowest = float(fem_reference.modes(scene, "plate", 2, count=1).frequencies[0])
+    each = STEPS_PER_PERIOD[scene.material.dashpot_time == 0.0]
+    return int(np.ceil(each * max(duration * lowest, 0.5)))

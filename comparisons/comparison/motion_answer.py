@@ -1,0 +1,301 @@
+"""What `sheetbench compare --duration` shows: measures of each motion, what differs, what it cost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+
+from comparisons.comparison import frames
+from comparisons.comparison.measures import Measures, difference, leading, measured_alike
+from comparisons.models.spec import Lattice
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.files import write_text
+from sheetbench.answers.history import History
+from sheetbench.answers.measured_history import COMPONENTS
+from sheetbench.answers.report import Film, Picture, Write
+from sheetbench.answers.solution import FieldMesh
+from sheetbench.answers.table import NUMBER, PERCENT, SECONDS, Column, Table, number
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.meaning.motion import kinks
+
+DOUBTFUL, SHARE = 0.1, 1.0 / 3.0  # a reference's bar beyond which it is doubtful: of itself, of a difference
+DOUBLED = {"mesh": "with elements twice as large", "step": "with steps twice as long"}
+WHOLE = ("of", "largest", "rms", "peak", "period", "phase", "decay")  # of two motions' difference
+
+
+@dataclass(frozen=True)
+class DifferenceRow:
+    """How far a motion is from the reference's at a probe, or at all and in its measures; bar: the
+    reference's own, and whether the difference is within it."""
+
+    of: Annotated[str, Column("model")]
+    probe: str
+    largest: Annotated[float, PERCENT("z.2f")]
+    rms: Annotated[float, PERCENT("z.2f")]
+    peak: Annotated[float | None, PERCENT("z.2f")] = None
+    period: Annotated[float | None, PERCENT("z.2f")] = None
+    phase: Annotated[float | None, PERCENT("z.2f")] = None
+    decay: Annotated[float | None, NUMBER("z.4f")] = None
+    bar: Annotated[float | None, PERCENT(".2g", "±")] = None
+    within: Annotated[bool | None, Column("within ±")] = None
+
+
+@dataclass(frozen=True)
+class RunRow:
+    """What a run took; the model's name stands at the start of the label."""
+
+    model: Annotated[str, Column(detail=True)]
+    label: str
+    integrator: str
+    status: str
+    steps: Annotated[int, NUMBER("d")]
+    setup_seconds: Annotated[float, SECONDS(".2f", "set-up")]
+    solve_seconds: Annotated[float, SECONDS(".2f", "time")]
+
+
+@dataclass(frozen=True, repr=False)
+class MotionComparison(Answer):
+    """Histories by model, the lattice's first, the reference's last.
+
+    uncertainty: how far the reference may be off by its mesh and by its steps, as `largest` and `rms` are
+    measured, None where a run of it did not end; left_out: why models refused the scene; animate: draw the
+    sheets moving, side by side.
+    """
+
+    file_name = "motion"
+    scene: Scene
+    histories: dict[str, History]
+    uncertainty: dict[str, float | None] = field(default_factory=dict)
+    left_out: dict[str, str] = field(default_factory=dict)
+    animate: bool = False
+
+    @property
+    def reference(self) -> str:
+        """The model that the others are measured against."""
+        return list(self.histories)[-1]
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether all runs reached their end."""
+        return all(history.succeeded for history in self.histories.values())
+
+    @property
+    def _with_frames(self) -> dict[str, History]:
+        """Histories that kept whole displacements."""
+        return {name: one for name, one in self.histories.items() if len(one.extra.get("frames", ()))}
+
+    @property
+    def bar(self) -> float | None:
+        """How far the reference may be off, by its mesh and its steps together, as `largest` is measured;
+        None where one of them is not known."""
+        parts = [*self.uncertainty.values()]
+        return sum(part or 0.0 for part in parts) if parts and None not in parts else None
+
+    @property
+    def differences(self) -> list[dict[str, Any]]:
+        """Of every other model from the reference; distinguishable: whether it is above the reference's own
+        bar, None where that is not known."""
+        against, truth, bar = self.reference, self.histories[self.reference], self.bar
+        found = []
+        for name in (name for name in self.histories if name != against):
+            off = difference(self.histories[name], truth)
+            beyond = None if bar is None else bool(off["largest"] > bar)
+            found.append({"of": name, "against": against, **off, "distinguishable": beyond})
+        return found
+
+    @property
+    def doubt(self) -> str:
+        """That the reference is too uncertain to judge by, in a sentence; "" where it is not."""
+        bar, off = self.bar, [one["largest"] for one in self.differences]
+        if bar is None or not off or not (bar > DOUBTFUL or bar > SHARE * max(off)):
+            return ""
+        return (
+            f"The {self.reference} itself is uncertain by {few(100 * bar)} % of its largest displacement: "
+            "use more --elements before judging by it."
+        )
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench compare --duration`: metres, newtons, seconds, joules."""
+        truth = self.histories[self.reference]
+        return {
+            "scene": self.scene.document(),
+            "motion": {
+                "time": truth.time,
+                "probes": {name: history.probes for name, history in self.histories.items()},
+                "energies": {name: history.accounts for name, history in self.histories.items()},
+                "reactions": {name: history.reactions for name, history in self.histories.items()},
+                "measures": {
+                    name: one.as_dict()
+                    for name, one in zip(
+                        self.histories, measured_alike(*self.histories.values()), strict=True
+                    )
+                },
+                "differences": self.differences,
+                "uncertainty": self.uncertainty,
+                "bar": self.bar,
+                "left_out": self.left_out,
+            },
+            "solutions": [
+                {
+                    "model": name,
+                    "label": history.label,
+                    "integrator": history.integrator,
+                    "settings": history.settings,
+                    "status": str(history.status),
+                    "message": history.message,
+                    "steps": history.steps,
+                    "setup_seconds": history.setup_seconds,
+                    "solve_seconds": history.solve_seconds,
+                }
+                for name, history in self.histories.items()
+            ],
+        }
+
+    def heading(self) -> tuple[str, str, str]:
+        end = self.histories[self.reference].time[-1]
+        lead = f"motion over {end:g} s; differences are from the {self.reference}"
+        return self.scene.name, self.scene.title, f"{self.doubt}\n{lead}" if self.doubt else lead
+
+    def tables(self) -> tuple[Table, ...]:
+        return _measures(self), _differences(self), _runs(self)
+
+    def figures(self) -> tuple[Picture, ...]:
+        drawn = Picture("motion", "comparisons.comparison.motion_figure:compose", (self,))
+        moving = [*self._with_frames.values()]
+        film = Film("both", "comparisons.comparison.animation:animate", (self.scene, moving))
+        return (drawn, film) if self.animate else (drawn,)
+
+    def result(self) -> str:
+        """Return how far every model is from the reference."""
+        bar = "" if self.bar is None else f" ± {few(100 * self.bar)} %"
+        return "; ".join(
+            f"{one['of']}: up to {few(100 * one['largest'])} % off the {self.reference}{bar}"
+            for one in self.differences
+        )
+
+    def notes(self) -> list[str]:
+        models: dict[str, list[str]] = {}
+        for name, history in self.histories.items():
+            for note in history.notes():
+                models.setdefault(note, []).append(name)
+        left_out = (f"{name} is left out: {why}" for name, why in self.left_out.items())
+        return [
+            *_driven(self),
+            *_bars(self),
+            *left_out,
+            *(f"{', '.join(names)}: {note}" for note, names in models.items()),
+        ]
+
+    def complaints(self) -> list[str]:
+        found = [f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints()]
+        unknown = [DOUBLED[name] for name, bar in self.uncertainty.items() if bar is None]
+        if unknown:
+            found.append(
+                f"{self.reference}: how far it may be off is not known, nor what is told apart from it: "
+                f"{' and '.join(unknown)} there is no motion to its end; more --elements may help"
+            )
+        return found
+
+    def files(self) -> dict[str, Write]:
+        """Return samples of every model and, where frames were kept, sheets at some moments."""
+        found: dict[str, Write] = {
+            f"{name}.csv": partial(_write_samples, history=history)
+            for name, history in self.histories.items()
+        }
+        for name, history in self._with_frames.items():
+            found[f"{name}.pvd"] = partial(frames.write_frames, history=history)
+        if {Lattice.NAME, self.reference} <= self._with_frames.keys():
+            found["difference.pvd"] = partial(_write_difference, found=self)
+        return found
+
+    def choices(self) -> dict[str, Any]:
+        return {name: history.settings for name, history in self.histories.items()}
+
+
+def _measures(found: MotionComparison) -> Table:
+    truth = found.histories[found.reference]
+    probe, component = leading(truth)
+    alike = measured_alike(*found.histories.values())
+    rows = [replace(one, model=name) for name, one in zip(found.histories, alike, strict=True)]
+    caption = f"{COMPONENTS[component]} of {probe}, which moves farthest: its peak, period and log decrement"
+    fields = ("model", "peak", "peak_time", "period", "decay", "damping")
+    return Table.of(Measures, rows, caption, "measures", fields=fields)
+
+
+def _differences(found: MotionComparison) -> Table:
+    """A row a probe, then all together with what the measures differ by."""
+    truth, rows = found.histories[found.reference], []
+    scale = max(float(np.abs(u).max()) for u in truth.probes.values()) or np.nan
+    for d in found.differences:
+        history = found.histories[d["of"]]
+        count = min(len(history.time), len(truth.time))
+        for probe, u in history.probes.items():
+            off = u[:count] - truth.probes[probe][:count]
+            rms = float(np.sqrt(np.mean(np.sum(off**2, axis=1)))) / scale
+            rows.append(DifferenceRow(d["of"], probe, float(np.abs(off).max()) / scale, rms))
+        whole = {k: v for k, v in d.items() if k in WHOLE}
+        within = None if found.bar is None else not d["distinguishable"]
+        rows.append(DifferenceRow(probe="all", bar=found.bar, within=within, **whole))
+    caption = (
+        f"Difference from the {found.reference}: largest and rms over its largest displacement, phase over "
+        "its period; decay: difference of the log decrements"
+    )
+    details = () if found.uncertainty else ("bar", "within")
+    text = f"±: how far the {found.reference} itself may be off, by mesh and steps" if not details else ""
+    return Table.of(DifferenceRow, rows, caption, "differences", details=details, text=text)
+
+
+def _runs(found: MotionComparison) -> Table:
+    rows = (
+        RunRow(name, h.label, h.integrator, str(h.status), h.steps, h.setup_seconds, h.solve_seconds)
+        for name, h in found.histories.items()
+    )
+    return Table.of(RunRow, rows, "Steps and time of each model", "runs")
+
+
+def _driven(found: MotionComparison) -> list[str]:
+    """What a decrement means while the sheet is driven, in a sentence."""
+    truth = found.histories[found.reference]
+    until = max(kinks(found.scene), default=0.0)
+    first = measured_alike(*found.histories.values())[-1]
+    if first.decay is None or first.peak_time is None or until <= truth.time[0] + first.peak_time:
+        return []
+    return [
+        f"The scene drives the sheet until {until:g} s: log decrement and damping ratio are those of the "
+        "driven motion, not of the material's dampers (sheetbench modes lists these)."
+    ]
+
+
+def _bars(found: MotionComparison) -> list[str]:
+    """What the reference's mesh and steps leave uncertain, in a sentence."""
+    known = {name: bar for name, bar in found.uncertainty.items() if bar is not None}
+    if not known:
+        return []
+    parts = (f"{number(100 * bar, '.2g')} % {DOUBLED[name]}" for name, bar in known.items())
+    changes = " and ".join(parts)
+    notes = [f"{found.reference}: its own motion changes by up to {changes}"]
+    within = [one["of"] for one in found.differences if one["distinguishable"] is False]
+    if within:
+        notes.append(f"{', '.join(within)}: within the {found.reference}'s own error.")
+    return notes
+
+
+def _write_samples(path: Path, history: History) -> None:
+    write_text(path, history.series().to_csv())
+
+
+def _write_difference(path: Path, found: MotionComparison) -> None:
+    """On the reference's mesh its mid-surface's displacement, and the lattice's less it."""
+    both = (frames.frames(found.histories[name]) for name in (Lattice.NAME, found.reference))
+    shown = []
+    for (_, ours), (time, truth) in zip(*both, strict=False):
+        plan = truth.mesh.points[:, :2]
+        u = truth.displacement(plan)
+        fields = {"displacement": u, "difference": ours.displacement(plan) - u}
+        shown.append((time, FieldMesh(truth.mesh.points, truth.mesh.cells, fields)))
+    frames.write_series(path, shown)

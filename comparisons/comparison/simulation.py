@@ -1,0 +1,78 @@
+"""A simulated scene: its history beside measured ones, frames of the whole sheet: `sheetbench simulate`."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+from comparisons.comparison.frames import write_frames
+from comparisons.comparison.measured import left_out
+from comparisons.models.grading import choice_notes
+from sheetbench.answers.history import History
+from sheetbench.answers.measured_history import Measured
+from sheetbench.answers.report import Film, Picture, Write
+from sheetbench.answers.table import Table, quantity
+from sheetbench.scenes import Scene
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Simulation(History):
+    """A run of a scene; measured: histories by probe; animate: draw it moving."""
+
+    file_name = "history"
+    scene: Scene | None = None
+    measured: Mapping[str, Measured] = field(default_factory=dict)
+    animate: bool = False
+
+    @property
+    def subject(self) -> Scene:
+        """The scene that moves."""
+        assert self.scene is not None
+        return self.scene
+
+    def heading(self) -> tuple[str, str, str]:
+        """The scene, and how it was run."""
+        scene = self.subject
+        return scene.name, scene.title, f"{self.label}, {self.integrator}, {self.steps} steps"
+
+    def document(self) -> dict[str, Any]:
+        """The history's, with its errors where it was measured."""
+        errors = {name: m.error(self.time, self.probes[name]) for name, m in self.measured.items()}
+        return {**super().document(), **({"measured_errors": errors} if errors else {})}
+
+    def tables(self, measured: Mapping[str, Measured] | None = None) -> tuple[Table, ...]:
+        """The history's."""
+        return super().tables(self.measured if measured is None else measured)
+
+    def figures(self) -> tuple[Picture, ...]:
+        """Probes over time, and the sheet moving."""
+        of = (self, self.subject.title or self.subject.name, self.measured)
+        pictures = [Picture("history", "sheetbench.answers.history_figure:compose", of)]
+        if self.animate:
+            formats = ("gif", "mp4") if shutil.which("ffmpeg") else ("gif",)
+            film = "comparisons.comparison.animation:animate"
+            pictures.append(Film("animation", film, (self.subject, [self]), formats=formats))
+        return tuple(pictures)
+
+    def files(self) -> dict[str, Write]:
+        """All samples, and the sheet at some moments."""
+        return {**super().files(), "frames.pvd": partial(write_frames, history=self)}
+
+    def result(self) -> str:
+        """Return the largest displacement of a probe on the way, or why the run ended early."""
+        largest = {name: float(abs(u).max()) for name, u in self.probes.items() if len(u)}
+        if not largest or not self.succeeded:
+            return super().result()
+        probe = max(largest, key=lambda name: largest[name])
+        return f"{probe} moves by up to {quantity(largest[probe], 'm', '.4g')} in {self.time[-1]:g} s"
+
+    def notes(self) -> list[str]:
+        """What was chosen, and what the history says."""
+        return [*choice_notes(self.settings), *super().notes()]
+
+    def complaints(self) -> list[str]:
+        """Why the run did not reach its end, and what was measured outside it."""
+        return [*super().complaints(), *left_out(self, self.measured)]

@@ -1,1 +1,0 @@
-"""Campaigns of runs, their store and workers, and the manifest of a folder."""

@@ -1,0 +1,207 @@
+"""The folder that a verb's files go to, and its manifest: what is there, of which scene, made with what.
+
+A folder holds answers about one scene. Files of another scene, of another verb that is about no scene or
+sheet in common, or of the same verb with options that leave other files, would stand side by side
+with new ones as if they belonged together: such a folder is refused, and with `overwrite` cleared first, of
+the files that its manifest lists and of nothing else.
+
+The manifest says what the latest run was made with, and under "runs", for every verb, its options and
+which files are its own. It is written before the first file is whole, so that what an interrupted run leaves
+is known too.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from comparisons.sweep.manifest import made_with, record
+from sheetbench.answers.files import folder, plain, to_json, write_text
+from sheetbench.answers.report import Report, Write
+from sheetbench.errors import BadInput
+
+MANIFEST = "manifest.json"
+ABOUT = ("scene", "sheet", "material")  # what a run is about
+NAMED = 3  # differences that a refusal names
+
+
+class Folder:
+    """A folder for the files of one run of a verb.
+
+    about: what the run is about, as {"scene": …}, the same for all runs in a folder. variant: options that
+    decide which files there are, the same for all runs of a verb. Raises BadInput for a folder that cannot
+    be made, or that holds something else, unless `overwrite`, naming the option.
+    """
+
+    def __init__(
+        self,
+        path: Path | str,
+        verb: str,
+        command: Sequence[str],
+        *,
+        about: Mapping[str, Any] | None = None,
+        variant: Mapping[str, Any] | None = None,
+        overwrite: bool = False,
+        option: str = "--out",
+    ) -> None:
+        self.path = folder(path, option)
+        self.written: list[str] = []
+        self._verb = verb
+        self._record = record(list(command))
+        self._about, self._variant = plain(dict(about or {})), plain(dict(variant or {}))
+        self._runs = _runs(self.path, option)
+        mixed = {
+            name: difference
+            for name, run in self._runs.items()
+            if (difference := self._differences(name, run))
+        }
+        if mixed and not overwrite:
+            name, difference = next(iter(mixed.items()))
+            raise BadInput(
+                f"{option} = '{path}': holds files of another '{name}' ({difference}); choose another "
+                "folder, or --overwrite"
+            )
+        self._stale = [name for name in {**mixed, verb: ""} if name in self._runs] if overwrite else []
+
+    def write(self, name: str, write: Write) -> None:
+        """Write a file of the run; its name is in the manifest first."""
+        self.reserve(name)
+        write(self.path / name)
+
+    def reserve(self, name: str) -> Path:
+        """Return the path of a file, or of a folder if its name ends in "/", and list it as this run's."""
+        self._clear()
+        if name not in self.written:
+            self.written.append(name)
+            self._note()
+        return self.path / name
+
+    def report(self, report: Report, progress: Callable[[str], None] = lambda text: None) -> list[str]:
+        """Write what of a report is not there yet; sentences that say why a picture is missing."""
+        for name, write in report.files(made_with()).items():
+            if name not in self.written:
+                self.write(name, write)
+        missing = []
+        for picture in report.pictures:
+            progress(f"drawing {picture.names[0]} …")
+            if reason := picture.write(self.path):
+                missing.append(reason)
+            else:
+                self.written += picture.names
+        self.finish(report.settings, report.words())
+        return missing
+
+    def finish(self, settings: Mapping[str, Any], words: Mapping[str, Any] | None = None) -> None:
+        """Note in the manifest that the run has left all its files, what it was made with, and its words."""
+        self._note(settings, words, finished=True)
+
+    def _clear(self) -> None:
+        """Remove the files of runs that this one takes the place of, once there is something to put there."""
+        for verb in self._stale:
+            for name in self._runs.pop(verb)["files"]:
+                _remove(self.path, name)
+        self._stale = []
+
+    def _note(
+        self,
+        settings: Mapping[str, Any] | None = None,
+        words: Mapping[str, Any] | None = None,
+        finished: bool = False,
+    ) -> None:
+        """Write the manifest."""
+        self._clear()
+        of_others = {
+            verb: {**run, "files": [name for name in run["files"] if name not in self.written]}
+            for verb, run in self._runs.items()
+        }
+        earlier = of_others.pop(self._verb, {"files": []})["files"]
+        mine = {
+            "command": self._record["command"],
+            "date": self._record["date"],
+            "finished": finished,
+            "asked": self._variant,
+            "files": [*self.written, *(name for name in earlier if (self.path / name).exists())],
+            **self._about,
+            **({} if words is None else {"words": words, "settings": settings}),
+        }
+        made_with_settings = {} if settings is None else {"settings": settings}
+        whole = {**self._record, **made_with_settings, **self._about, "runs": {**of_others, self._verb: mine}}
+        write_text(self.path / MANIFEST, to_json(whole))
+
+    def _differences(self, verb: str, run: Mapping[str, Any]) -> str:
+        """Return how the scene or options of a run that left files here differ from this run's."""
+        there, here = (
+            of if "scene" in run and "scene" in self._about else {**of, **of.get("scene", {})}
+            for of in (run, self._about)
+        )
+        shared = [key for key in ABOUT if key in there and key in here]
+        if not shared and verb != self._verb:
+            return "about something else"
+        phrases = _differing({key: there[key] for key in shared}, {key: here[key] for key in shared})
+        if verb == self._verb:
+            phrases += _differing(run.get("asked", {}), self._variant)
+        more = f" and {len(phrases) - NAMED} more" if len(phrases) > NAMED else ""
+        return "; ".join(phrases[:NAMED]) + more
+
+
+def _runs(path: Path, option: str) -> dict[str, Any]:
+    """Return what the manifest of a folder lists, by verb. Raises BadInput for a file that is none of
+    ours."""
+    try:
+        manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
+        runs = manifest.get("runs") or {
+            manifest["command"][1]: {key: manifest[key] for key in ABOUT if key in manifest}
+        }
+        return {verb: {"files": [], **run} for verb, run in runs.items()}
+    except FileNotFoundError:
+        return {}
+    except (OSError, ValueError, AttributeError, TypeError, LookupError):
+        raise BadInput(f"{option} = '{path}': its {MANIFEST} cannot be read; choose another folder") from None
+
+
+def _differing(there: Any, here: Any, at: str = "") -> list[str]:
+    """Where two JSON documents differ, a phrase each."""
+    if isinstance(there, dict) and isinstance(here, dict):
+        keys = dict.fromkeys([*there, *here])
+        return [
+            phrase
+            for key in keys
+            for phrase in _differing(there.get(key), here.get(key), f"{at}.{key}" if at else key)
+        ]
+    if isinstance(there, list) and isinstance(here, list) and len(there) == len(here):
+        pairs = enumerate(zip(there, here, strict=True), start=1)
+        return [phrase for i, (a, b) in pairs for phrase in _differing(a, b, f"{at}.{i}")]
+    return [] if there == here else [f"{at} is {_short(there)} there, {_short(here)} here"]
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, dict | list):
+        return f"of {len(value)}"
+    text = "nothing" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
+    return text if len(text) <= 40 else f"{text[:39]}…"
+
+
+def _remove(path: Path, name: str) -> None:
+    """Remove a file that the manifest lists, and the folders that are empty without it; never outside."""
+    place = path / name
+    if not place.parent.resolve().is_relative_to(path.resolve()):
+        return
+    if name.endswith("/") and _own(place):
+        for run in filter(_own, place.iterdir()):  # one of several that stream there
+            _remove(place, f"{run.name}/")
+        for file in place.iterdir():
+            if not _own(file):
+                file.unlink()
+    elif not place.is_dir():
+        place.unlink(missing_ok=True)
+    for emptied in [place, *place.parents]:
+        if emptied == path or (emptied.is_dir() and any(emptied.iterdir())):
+            break
+        if emptied.is_dir():
+            emptied.rmdir()
+
+
+def _own(place: Path) -> bool:
+    return place.is_dir() and not place.is_symlink()

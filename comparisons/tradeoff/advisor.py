@@ -1,0 +1,267 @@
+"""The cheapest model that is accurate enough for a scene, or the most accurate one in a given time.
+
+Scales (`comparisons.models.scales`) decide what may be left out; a few quick solves
+(`comparisons.tradeoff.trials`) decide the rest. A model is adequate if its distance from the reference, the
+reference's error bar and what the reference leaves out on every mesh (`comparisons.sweep.model_error`)
+are together within the tolerance; where the bar leaves that open the reference is refined. Where the last
+alone is above the tolerance, the choice meets it against a converged shell only, and the advice says so.
+Predicted error: the distance; predicted time: as measured here.
+
+What is left out is reported, and what the scene needs: "bending" always; "transverse shear" and "membrane
+stiffening" where they hold a share of the energy; "large displacements" where the linear answer is off; and
+"actuators" where there are some. A static question needs no dynamics.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+
+from comparisons.comparison import strain_law
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice, Spec, items
+from comparisons.sweep import load
+from comparisons.sweep.here import SolvedHere
+from comparisons.sweep.model_error import left_for_grid
+from comparisons.tradeoff.advice import Advice, TrialRow
+from comparisons.tradeoff.trials import TrialSolves
+from sheetbench.choices import REFERENCE
+from sheetbench.errors import BadInput
+from sheetbench.scenes import AnyScene, require_static, scene_of
+from sheetbench.scenes.language.units import amount
+from sheetbench.scenes.objects.grid import MASSES
+
+NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
+LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
+STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
+
+
+def advise(
+    scene: AnyScene,
+    tolerance: float | str | None = None,
+    budget: float | str | None = None,
+    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
+    *,
+    models: Sequence[str] | str | None = None,
+    calibration: str | None = None,
+) -> Advice:
+    """Return the cheapest model predicted to meet `tolerance` (a fraction, or text as "1 %"; 0.01 unless a
+    budget alone is given), or the most accurate in `budget` [s].
+
+    models: only these, of "lumped", "plate", "shell". With both limits: the cheapest model that meets the
+    tolerance; where it takes longer than the budget, the most accurate one in time, and `succeeded` is false.
+    lattice, calibration: springs of lattices that may be chosen beside the usual ones, "auto" as in
+    `comparisons.models.method`; its grading: of further lattices, which with "auto" makes the calibration
+    "auto" too. Models that take more memory than there is are left out. Raises SceneError for a scene without
+    a static answer; BadInput where not even the coarsest reference fits into memory, for a grid, and for
+    springs and grading that contradict each other.
+    """
+    scene = scene_of(scene)
+    require_static(scene)
+    tolerance, budget = _limits(tolerance, budget)
+    own = lattice if calibration is None else lattice.but(calibration=calibration)
+    trials = TrialSolves(scene, own, items(models) if isinstance(models, str) else models)
+    for _ in range(3):
+        trials.refine()
+    while not trials.reference.stable and trials.refine():
+        pass
+    if not trials.reference.stable:
+        failed = trials.reference.answer
+        reason = f"the shell finds no stable equilibrium: {failed.status}: {failed.message}"
+        return _advice(trials, tolerance, budget, None, reason)
+    linear = not (scene.actuators or scene.obstacles) and trials.scales.span_load_number <= LINEAR_LOAD_NUMBER
+    candidates = trials.candidates(linear)
+    for candidate in candidates[:3]:
+        trials.row(candidate)
+    if linear:  # each family's rate
+        trials.row(trials.lattice(4, linear=True))
+        trials.row(trials.elements("plate", 4))
+    model = trials.model_error.value if trials.model_error else 0.0
+    chosen, message = None, ""
+    if tolerance is not None:
+        beyond = model >= tolerance
+        chosen = _cheapest(trials, candidates, left_for_grid(tolerance, model))
+        if chosen is None:
+            message = (
+                f"no model here is within {100 * tolerance:g} % for certain; this is the most accurate one"
+            )
+        elif beyond:
+            message = f"within {100 * tolerance:g} % of a converged shell, whose own model error is larger"
+    if budget is not None and (chosen is None or chosen.seconds > budget):
+        chosen = _most_accurate(trials, candidates, budget)
+        message = f"no model solves this in {budget:g} s" if chosen is None else ""
+        if tolerance is not None and chosen is not None:
+            message = (
+                f"{100 * tolerance:g} % takes longer than {budget:g} s; this is the most accurate in time"
+            )
+    elif chosen is None:
+        chosen = _nearest(trials, candidates)
+    return _advice(trials, tolerance, budget, chosen, message)
+
+
+def _limits(tolerance: float | str | None, budget: float | str | None) -> tuple[float | None, float | None]:
+    """Return tolerance and budget [s] as numbers. Raises BadInput unless the first is a fraction above 0 and
+    below 1 and the second above 0."""
+    seconds = None if budget is None else amount("budget", budget, "s")
+    if seconds is not None and not seconds > 0.0:
+        raise BadInput(f"budget = {seconds:g}: seconds, more than 0")
+    if tolerance is None:
+        return (0.01 if seconds is None else None), seconds
+    share = amount("tolerance", tolerance, "")
+    if not 0.0 < share < 1.0:
+        raise BadInput(f"tolerance = {share:g}: a fraction between 0 and 1, as 0.01 for one percent")
+    return share, seconds
+
+
+def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> SolvedHere | None:
+    """Return the quickest candidate that is certainly within the tolerance."""
+    found: SolvedHere | None = None
+    left = list(candidates)
+    while left:
+        left.sort(key=trials.predicted_seconds)
+        candidate = left.pop(0)
+        if found is not None and trials.predicted_seconds(candidate) > 1.3 * found.seconds:
+            return found
+        trial = trials.row(candidate)
+        if _adequate(trials, trial, tolerance) and (found is None or trial.seconds < found.seconds):
+            found = trial
+    return found
+
+
+def _adequate(trials: TrialSolves, trial: SolvedHere, tolerance: float) -> bool:
+    """Return whether a trial is within the tolerance; the reference is refined until that is certain."""
+    while True:
+        error, bar = trials.error(trial), trials.uncertainty
+        if error + bar <= tolerance:
+            return True
+        if error - bar > tolerance or bar <= STEEP * tolerance or not trial.stable:
+            return False
+        if not trials.refine():
+            return False
+
+
+def _most_accurate(trials: TrialSolves, candidates: list[Spec], budget: float) -> SolvedHere | None:
+    """Return the candidate of least error among those that take no longer than the budget [s]."""
+    found: SolvedHere | None = None
+    for candidate in candidates:
+        if trials.predicted_seconds(candidate) > 1.5 * budget:
+            continue
+        trial = trials.row(candidate)
+        better = found is None or trials.error(trial) < trials.error(found)
+        if trial.stable and trial.seconds <= budget and better:
+            found = trial
+    return found
+
+
+def _nearest(trials: TrialSolves, candidates: list[Spec]) -> SolvedHere | None:
+    """Return the trial of least error: the reference, but where that is no candidate."""
+    if trials.models is None or REFERENCE in trials.models:
+        return trials.reference
+    tried = [trials.rows[one] for one in candidates if one in trials.rows]
+    return min((one for one in tried if one.stable), key=trials.error, default=None)
+
+
+def _advice(
+    trials: TrialSolves,
+    tolerance: float | None,
+    budget: float | None,
+    chosen: SolvedHere | None,
+    message: str,
+) -> Advice:
+    needs, left_out = _effects(trials, chosen, tolerance or 0.01)
+    rows = list(trials.rows.values())
+    added = trials.uncertainty + (trials.model_error.value if trials.model_error else 0.0)
+    tried = tuple(
+        TrialRow(
+            trial.ask.spec,
+            trial.status,
+            trials.error(trial) if trial.stable else None,
+            trials.error(trial) + added if trial.stable and isfinite(added) else None,
+            trial.seconds,
+            trial is chosen,
+        )
+        for trial in rows
+    )
+    return Advice(
+        scene=trials.scene,
+        tolerance=tolerance,
+        budget=budget,
+        choice=chosen.ask.spec if chosen is not None else None,
+        error=trials.error(chosen) if chosen is not None else None,
+        bar=trials.uncertainty,
+        seconds=chosen.seconds if chosen is not None else None,
+        needs=needs,
+        left_out=left_out,
+        scales=trials.scales,
+        probing_seconds=trials.seconds,
+        tried=tried,
+        message=message,
+        grading=_grading(trials, chosen),
+        calibration=_calibration(trials, chosen),
+        limit=_limit(trials, chosen),
+        model=trials.model_error,
+        warnings=tuple(load.warnings([row.load_average for row in rows], [row.samples for row in rows])),
+    )
+
+
+def _grading(trials: TrialSolves, chosen: SolvedHere | None) -> str:
+    """Return what was made of graded lattices: of the choice, or of the usual grid where that is no
+    lattice."""
+    if trials.grading is None:
+        return ""
+    lattice = chosen.ask.spec if chosen is not None else None
+    if not isinstance(lattice, Lattice):
+        lattice = trials.lattice(MASSES - 1)
+    value, why = trials.grading_of(lattice)
+    masses = " × ".join(lattice.size.split("×")[:2])
+    taken = "taken" if lattice.grading else "not taken"
+    text = f"grading {value:g} {taken}" if value else "no grading"
+    return f"{text}, {masses} masses" + (f": {why}" if why else "")
+
+
+def _calibration(trials: TrialSolves, chosen: SolvedHere | None) -> str:
+    """Return what was made of the springs that were requested."""
+    if not (trials.springs or trials.because):
+        return ""
+    settings = {} if chosen is None else chosen.ask.spec.settings
+    taken = settings.items() >= {"calibration": trials.method, **trials.springs}.items()
+    text = f"calibration {trials.method} {'taken' if taken else 'not taken'}"
+    return f"{text}: {trials.because}" if trials.because else text
+
+
+def _limit(trials: TrialSolves, chosen: SolvedHere | None) -> str:
+    """From which stretch on the lattice chosen, or else the usual one, is no rubber, if this sheet is."""
+    lattice = chosen.ask.spec if chosen is not None else None
+    if not isinstance(lattice, Lattice):
+        lattice = trials.lattice(MASSES - 1).but(**trials.springs)
+    return strain_law.limit(resolve(trials.scene, lattice, "springs"), trials.reference.answer.stretch or 0.0)
+
+
+def _effects(
+    trials: TrialSolves, chosen: SolvedHere | None, tolerance: float
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return what the scene needs of a model, and what is left out of the chosen one."""
+    needs, left_out = ["bending"], ["dynamics: the question is static"]
+    small = NEGLIGIBLE * tolerance
+    energies = trials.reference.answer.energies
+    total = sum(energies.values()) or 1.0
+    for name, part in (("transverse shear", "shear"), ("membrane stiffening", "membrane")):
+        share = energies.get(part, 0.0) / total
+        if share > small:
+            needs.append(name)
+        else:
+            left_out.append(f"{name}: {100 * share:.1g} % of the energy")
+    touching = bool(trials.scene.obstacles)  # which no linear model knows
+    off = float("inf") if touching else trials.error(trials.row(trials.elements("plate", 4)))
+    if off > tolerance:
+        needs.append("large displacements")
+    elif chosen is not None and (
+        getattr(chosen.ask.spec, "linear", False) or chosen.ask.spec.model == "plate"
+    ):
+        left_out.append(f"nonlinearity: the linear answer is {100 * off:.1g} % off")
+    if trials.scene.actuators:
+        needs.append("actuators")
+    if chosen is not None and trials.planes:
+        part = "a quarter" if len(trials.planes) == 2 else "half"
+        left_out.append(f"all but {part} of the sheet: the scene is symmetric")
+    return tuple(needs), tuple(left_out)

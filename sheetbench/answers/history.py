@@ -1,0 +1,224 @@
+"""What a dynamic run answers with: probes, energies and forces over time, and how it ended.
+
+Part of the question's language, as `scenes.Solution` is for statics: it holds no mechanics.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.files import write_text
+from sheetbench.answers.measured_history import COMPONENTS, Measured
+from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.solution import Status
+from sheetbench.answers.table import MILLIMETRES, PERCENT, Column, Table, number
+from sheetbench.errors import BadInput
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+UNDAMPED = (
+    "this sheet has no damping and does not settle; to damp it, give [material] loss_factor, "
+    "damping_time or damping_rate, or [air] its drag"
+)
+ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
+
+
+@dataclass(frozen=True)
+class ProbeRow:
+    """Displacement of a probe at the end and its largest component on the way; off: the measured history."""
+
+    probe: str
+    moved: Annotated[Mapping[str, float], MILLIMETRES("z.3f")]
+    error: Annotated[float | None, PERCENT("z.2f", "difference")]
+
+
+@dataclass(frozen=True, repr=False)
+class History(Answer):
+    """Samples of a run; n of them, of which the first is the start.
+
+    time: (n,) [s]; probes: name → displacement (n, 3) [m]; energies: kinetic, elastic, potential,
+    dissipated and work, (n,) [J] each (potential: of constant dead loads; work: done by all other loads,
+    and by supports and commands that move), none of a program that does not tell them; reactions: as those
+    of a `scenes.Solution`, (n, 3) [N] each; actuators: name → force and moment about the
+    segment's middle that each segment exerts on the sheet, (n, segments, 6) [N, N·m]; steps: taken by the
+    integrator; status `converged` means that the run reached its end; resumed_from: what lies
+    before is an earlier run's, which this one took up [s].
+    """
+
+    file_name = "history"
+    label: str
+    integrator: str
+    settings: dict[str, Any]
+    status: Status
+    message: str
+    time: np.ndarray
+    probes: dict[str, np.ndarray]
+    energies: dict[str, np.ndarray]
+    reactions: dict[str, np.ndarray]
+    actuators: dict[str, np.ndarray]
+    steps: int
+    setup_seconds: float
+    solve_seconds: float
+    resumed_from: float = 0.0
+    extra: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def balance(self) -> np.ndarray:
+        """kinetic + elastic + potential + dissipated − work, (n,) [J]: constant in an exact run; nan where
+        energies are not known."""
+        e = self.energies or dict.fromkeys(ENERGIES, np.full(len(self.time), np.nan))
+        total: np.ndarray = e["kinetic"] + e["elastic"] + e["potential"] + e["dissipated"] - e["work"]
+        return total
+
+    @property
+    def numerical(self) -> np.ndarray:
+        """Energy (n,) [J] that the rule of integration has taken since the start, < 0 where it gave some: by
+        how much the balance has fallen."""
+        total: np.ndarray = (self.balance[0] - self.balance) if len(self.time) else self.balance
+        return total
+
+    @property
+    def accounts(self) -> dict[str, np.ndarray]:
+        """The energies with what the rule takes, none where they are not known."""
+        return {**self.energies, "numerical": self.numerical} if self.energies else {}
+
+    def heading(self) -> tuple[str, str, str]:
+        """What was run, by which integrator."""
+        return f"History of {self.label}, {self.integrator}", f"{self.status}", f"{self.steps} steps"
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench simulate`: seconds, metres, joules, newtons."""
+        return {
+            "time": self.time,
+            "probes": self.probes,
+            "energy": self.balance,
+            "status": str(self.status),
+            "steps": self.steps,
+            "solve_seconds": self.solve_seconds,
+            "setup_seconds": self.setup_seconds,
+            "message": self.message,
+            "integrator": self.integrator,
+            "label": self.label,
+            "settings": self.settings,
+            "resumed_from": self.resumed_from,
+            "energies": self.accounts,
+            "reactions": self.reactions,
+            "actuators": self.actuators,
+        }
+
+    def tables(self, measured: Mapping[str, Measured] | None = None) -> tuple[Table, ...]:
+        """A row per probe: the displacement at the end, its largest excursion and, if measured, the error."""
+        of, rows = measured or {}, []
+        for name, u in self.probes.items() if len(self.time) else ():
+            off = of[name].error(self.time, u) if name in of else None
+            moved = dict(zip(COMPONENTS, u[-1], strict=True)) | {"largest": np.abs(u).max()}
+            rows.append(ProbeRow(name, moved, off))
+        end = self.time[-1] if len(self.time) else 0.0
+        caption = f"Displacement at {end:g} s, and its largest component during the motion"
+        return (Table.of(ProbeRow, rows, caption, "probes", details=() if of else ("error",)),)
+
+    def figures(self) -> tuple[Picture, ...]:
+        """Probes and energies over time."""
+        return (Picture("history", "sheetbench.answers.history_figure:compose", (self, self.label, {})),)
+
+    def files(self) -> dict[str, Write]:
+        """All samples as CSV, and those of the probes a row each, as measured histories are read."""
+        columns = (Column("time", "s"), Column("probe"), *(Column(name, "m") for name in COMPONENTS))
+        rows = tuple(
+            (time, name, *u)
+            for name, of in self.probes.items()
+            for time, u in zip(self.time.tolist(), of.tolist(), strict=True)
+        )
+        tables = {"history.csv": self.series(), "displacements.csv": Table("Displacements", columns, rows)}
+        return {name: partial(write_text, text=table.to_csv()) for name, table in tables.items()}
+
+    def notes(self) -> list[str]:
+        """Where the run went on from, why the integrator is the one that it is, how long explicit steps
+        may be, which failed, and how well the run kept its energy, a line each."""
+        notes = []
+        if self.resumed_from:
+            notes.append(f"went on from {self.resumed_from:.4g} s, which an earlier run had reached")
+        if why := self.settings.get("integrator_reason"):
+            notes.append(f"integrator {self.integrator}: {why}")
+        if limit := self.settings.get("largest_step"):
+            taken = number(1e3 * self.settings["step"], ".4g")
+            notes.append(f"steps of {taken} ms; the largest stable one is {number(1e3 * limit, '.4g')} ms")
+        if failed := self.settings.get("failed_steps"):
+            notes.append(f"{failed} steps failed and were made again, shorter")
+        if not self.energies or not len(self.time):
+            return notes
+        if self.energies["kinetic"].any() and not self.energies["dissipated"].any():
+            notes.append(UNDAMPED)
+        return [*notes, self.balance_note]
+
+    @property
+    def balance_note(self) -> str:
+        """How well the run kept its energy, in a sentence."""
+        spread = float(abs(self.balance - self.balance[0]).max())
+        scale = max(float(abs(energy).max()) for energy in self.energies.values())
+        held = number(spread / scale if scale else spread, ".1e")
+        return f"energy balance held to {held} of the largest energy"
+
+    def choices(self) -> dict[str, Any]:
+        """Integrator and settings."""
+        return {"integrator": self.integrator, **self.settings}
+
+    def complaints(self) -> list[str]:
+        """Why the run did not reach its end."""
+        return [] if self.succeeded else [f"{self.status}: {self.message}"]
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the run reached its end."""
+        return self.status is Status.CONVERGED
+
+    def series(self) -> Table:
+        """A row per sample: time, probes, energies, reactions and the actuators' total force."""
+        columns, values = [Column("time", "s")], [self.time]
+        for name, u in self.probes.items():
+            columns += [Column(f"{name}.{component}", "m") for component in COMPONENTS]
+            values += list(u.T)
+        known = {**self.accounts, "balance": self.balance} if self.energies else {}
+        for name, energy in known.items():
+            columns.append(Column(name, "J"))
+            values.append(energy)
+        for name, force in self.reactions.items():
+            columns += [Column(f"{name}.F{axis}", "N") for axis in "xyz"]
+            values += list(force.T)
+        for name, wrench in self.actuators.items():
+            for segment in range(wrench.shape[1]):
+                columns += [Column(f"{name}.{segment}.F{axis}", "N") for axis in "xyz"]
+                columns += [Column(f"{name}.{segment}.M{axis}", "N·m") for axis in "xyz"]
+                values += list(wrench[:, segment].T)
+        return Table("History", tuple(columns), tuple(zip(*(v.tolist() for v in values), strict=True)))
+
+    def to_pandas(self, table: str = "") -> pandas.DataFrame:
+        """Return all samples in SI units, or the table of a name. Raises BadInput as `Answer.to_pandas`."""
+        return super().to_pandas(table) if table else self.series().to_pandas()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return displacement [m] by probe, time and axis, energies [J] and reactions [N] by time.
+
+        Raises BadInput where xarray is not installed."""
+        try:
+            import xarray
+        except ModuleNotFoundError:
+            raise BadInput("to_xarray needs xarray: pip install xarray") from None
+        moved = np.stack([*self.probes.values()]) if self.probes else np.empty((0, len(self.time), 3))
+        forces = {
+            f"reaction {name}": (("time", "axis"), f, {"units": "N"}) for name, f in self.reactions.items()
+        }
+        energies = {name: ("time", energy, {"units": "J"}) for name, energy in self.accounts.items()}
+        return xarray.Dataset(
+            {"displacement": (("probe", "time", "axis"), moved, {"units": "m"}), **energies, **forces},
+            {"time": ("time", self.time, {"units": "s"}), "probe": [*self.probes], "axis": [*"xyz"]},
+            {"label": self.label, "integrator": self.integrator, "status": str(self.status)},
+        )

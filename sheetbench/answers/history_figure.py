@@ -1,0 +1,62 @@
+"""The picture of a run: the probes over time, measured histories as points, the energies below."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.history import History
+from sheetbench.answers.measured_history import Measured
+from sheetbench.answers.style import COMPONENTS, MOST, plain
+
+DASHES: Any = {"uy": (0, (4, 2))}  # of a symmetric sheet it lies on ux
+ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
+
+
+def compose(
+    history: History, title: str, measured: dict[str, Measured], style: FigureStyle = PLAIN
+) -> Figure:
+    """The figure with a panel per probe, and the energies below; of many probes those that were measured, or
+    else that move most."""
+    shown = _shown(history, measured)
+    count = len(shown)
+    figure = Figure(figsize=(style.width, 1.5 * count + 1.9), layout="constrained")
+    panels = figure.subplots(count + 1, 1, sharex=True, squeeze=False)[:, 0]
+    for axis, name in zip(panels, shown, strict=False):
+        u = history.probes[name]
+        for i, (component, colour) in enumerate(COMPONENTS.items()):
+            label = f"${component[0]}_{component[1]}$"
+            dashes = DASHES.get(component, "-")
+            axis.plot(history.time, 1e3 * u[:, i], ls=dashes, color=colour, linewidth=1.0, label=label)
+            if name in measured:
+                points = measured[name]
+                axis.plot(points.time, 1e3 * points.displacement[:, i], "o", color=colour, markersize=2.5)
+        off = measured[name].error(history.time, u) if name in measured else None
+        text = "" if off is None else f"   (points measured; off by {100 * off:.1f} %)"
+        axis.set_title(f"{plain(name, longest=60)}{text}", loc="left", fontsize=7.5, fontweight="bold")
+        axis.set_ylabel("displacement [mm]")
+    panels[0].legend(ncols=3, **ABOVE)
+    for name in ("kinetic", "elastic", "potential", "dissipated"):
+        panels[-1].plot(history.time, 1e3 * history.energies[name], linewidth=0.9, label=name)
+    panels[-1].plot(history.time, 1e3 * history.balance, "k--", linewidth=0.9, label="balance")
+    panels[-1].set_ylabel("energy [mJ]")
+    panels[-1].set_xlabel("time [s]")
+    panels[-1].legend(ncols=3 if style.narrow else 5, fontsize=6.5, **ABOVE)
+    for axis in panels:
+        axis.margins(x=0)
+    left = f"; {count} of {len(history.probes)} probes" if count < len(history.probes) else ""
+    text = f"{plain(title, width=95)}\n{history.label}, {history.integrator}{left}"
+    if style.titled:
+        figure.suptitle(text, fontsize=8)
+    return figure
+
+
+def _shown(history: History, measured: dict[str, Measured]) -> list[str]:
+    """The probes with a panel, in the order of the scene."""
+    names = list(history.probes)
+    moves = {name: (name in measured, float(np.abs(history.probes[name]).max(initial=0.0))) for name in names}
+    kept = set(sorted(names, key=lambda name: moves[name], reverse=True)[:MOST])
+    return [name for name in names if name in kept]

@@ -1,0 +1,96 @@
+"""Natural modes of a model, its frequencies as an answer, and its buckling modes."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import numpy as np
+
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.table import HERTZ, NUMBER, Table
+from sheetbench.errors import BadInput
+from sheetbench.scenes.meaning.distances import require_no_obstacles
+from sheetbench.scenes.meaning.kinematics import bent_or_tilted
+from sheetbench.scenes.objects.loads import EdgeLoad, Pressure
+from sheetbench.scenes.scene import Scene
+
+STILL = 1e-9  # displacement over the sheet's side within which what is loaded does not move
+
+
+@dataclass(frozen=True)
+class ModeRow:
+    """A mode and its natural frequency."""
+
+    mode: Annotated[int, NUMBER("d")]
+    frequency: Annotated[float, HERTZ(".5g")]
+
+
+class NaturalModes(Answer):
+    """Base of a model's modes; frequencies: (count,) [Hz]; unknowns: of the eigenproblem."""
+
+    file_name = "modes"
+    frequencies: np.ndarray
+    unknowns: int
+
+    @property
+    @abstractmethod
+    def left_out(self) -> int:
+        """How many rigid motions there are beside them."""
+
+    def document(self) -> dict[str, Any]:
+        return {"frequencies_hz": self.frequencies, "rigid_modes": self.left_out, "unknowns": self.unknowns}
+
+    def tables(self) -> tuple[Table, ...]:
+        rows = (ModeRow(n, f) for n, f in enumerate(self.frequencies, start=1))
+        return (Table.of(ModeRow, rows, "Natural frequencies", "modes"),)
+
+    def notes(self) -> list[str]:
+        return [f"{self.left_out} rigid motions are left out"] if self.left_out else []
+
+
+@dataclass(frozen=True, eq=False)
+class Buckling:
+    """How a flat sheet buckles: at so many times its loads (count,), lowest first; displacement: plan points
+    (p, 2) [m] → of the mid-surface in every shape, (count, p, 3), of any scale."""
+
+    model: str
+    label: str
+    settings: dict[str, Any]
+    load_factors: np.ndarray
+    unknowns: int
+    seconds: float
+    displacement: Callable[[np.ndarray], np.ndarray]
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "model": self.model,
+            "label": self.label,
+            "settings": self.settings,
+            "load_factors": self.load_factors,
+            "unknowns": self.unknowns,
+            "solve_seconds": self.seconds,
+        }
+
+
+def require_flat_and_dead(scene: Scene) -> None:
+    """Raise BadInput for what has no buckling load: loads that follow the sheet, actuators, supports that
+    bend or tilt it."""
+    for number, load in enumerate(scene.loads, start=1):
+        if isinstance(load, Pressure):
+            raise BadInput(
+                f"load {number}.kind = 'pressure': it follows the sheet; buckling is of dead loads"
+            )
+        if isinstance(load, EdgeLoad) and load.moment_per_length:
+            raise BadInput(
+                f"load {number}.moment_per_length = {load.moment_per_length:g} N·m/m: it follows the sheet; "
+                "buckling is of dead loads"
+            )
+    if scene.actuators:
+        raise BadInput("actuator 1: buckling is of a sheet without actuators")
+    require_no_obstacles(scene, "buckling")
+    if bent_or_tilted(scene.supports, scene.sheet):
+        raise BadInput("support: a curved or tilted one bends the sheet; buckling is of a flat one")

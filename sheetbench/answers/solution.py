@@ -1,0 +1,308 @@
+"""What every model answers with: status, displacement anywhere on the sheet, reactions, energies, timings.
+
+Part of the question's language: it holds no mechanics, so both solvers and any plug-in can use it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+
+import numpy as np
+
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.balance import Balance
+from sheetbench.answers.contact import ContactState
+from sheetbench.answers.report import RASTER, Picture, Write
+from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NEWTONS, NUMBER, Table
+from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.scenes.language import summary
+from sheetbench.scenes.objects.quantities import PlanPoint
+
+if TYPE_CHECKING:
+    import meshio
+    import pyvista
+
+    from sheetbench.scenes.scene import Scene
+
+About = Literal["flat", "deformed"]  # what oscillations are about: the sheet at rest, or its equilibrium
+
+
+class Status(StrEnum):
+    """How a solve ended. `advice` says what a user can do about it."""
+
+    CONVERGED = "converged"
+    UNSTABLE = "unstable"
+    SINGULAR = "singular"
+    STEP_LIMIT = "step-limit"
+    DIVERGED = "diverged"
+    NON_FINITE = "non-finite"
+    INVERTED = "inverted"
+    STRAIN_OUTSIDE_MODEL = "strain-outside-model"
+    REFUSED = "refused"
+    FAILED = "failed"
+
+    @property
+    def advice(self) -> str:
+        """One sentence: what happened and what to change."""
+        return _ADVICE[self]
+
+
+_FINER = "more masses (--lumped) or elements (--elements) may help, or a lighter load"
+_ADVICE = {
+    Status.CONVERGED: "a stable equilibrium",
+    Status.UNSTABLE: (
+        "an equilibrium, but not a stable one: a disturbed sheet moves on to another, which "
+        "`compare --branch buckled` seeks"
+    ),
+    Status.SINGULAR: "the tangent is singular: a limit point, a bifurcation or an unresisted motion",
+    Status.STEP_LIMIT: f"no equilibrium within the steps allowed: {_FINER}; the last converged load is kept",
+    Status.DIVERGED: f"no equilibrium found: {_FINER}; the last converged load is kept",
+    Status.NON_FINITE: "a number overflowed: check the magnitudes of loads and stiffnesses",
+    Status.INVERTED: f"a cell or an element turned inside out: {_FINER}",
+    Status.STRAIN_OUTSIDE_MODEL: "strains or turns beyond what the model means: not physical",
+    Status.REFUSED: "the model does not support what the scene asks",
+    Status.FAILED: "a program of your own ended without an answer",
+}
+
+
+def comparable(status: str, load_factor: float) -> bool:
+    """Whether an answer that ended so may be compared with others: an equilibrium under the whole load,
+    stable and physical or not."""
+    return status in _EQUILIBRIA and load_factor == 1.0
+
+
+_EQUILIBRIA = (Status.CONVERGED, Status.UNSTABLE, Status.STRAIN_OUTSIDE_MODEL)
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """One equilibrium iteration: load factor, residual relative to the forces, step length [m]."""
+
+    load_factor: float
+    residual: float
+    step: float
+
+
+@dataclass(frozen=True)
+class FieldMesh:
+    """A mesh with fields, ready to be written as VTU.
+
+    points: (n, 3) [m] undeformed; cells: meshio type → (m, k) connectivity; point_data: name → (n, …),
+    always with "displacement" (n, 3) [m]; cell_data: name → one array per cell block, in order.
+    """
+
+    points: np.ndarray
+    cells: list[tuple[str, np.ndarray]]
+    point_data: dict[str, np.ndarray]
+    cell_data: dict[str, list[np.ndarray]] = field(default_factory=dict)
+
+    def to_meshio(self) -> meshio.Mesh:
+        """Convert to `meshio.Mesh`."""
+        import meshio
+
+        return meshio.Mesh(self.points, self.cells, self.point_data, self.cell_data)
+
+    def to_pyvista(self) -> pyvista.UnstructuredGrid:
+        """Convert to pyvista's grid, undeformed, with `displacement` as the active vectors."""
+        import pyvista
+
+        grid = pyvista.from_meshio(self.to_meshio())
+        grid.set_active_vectors("displacement")
+        return grid
+
+    def save(self, path: str | Path) -> None:
+        """Write the mesh in the format of the path's suffix: .vtu, .vtk, .xdmf, …"""
+        self.to_meshio().write(path)
+
+    def __repr__(self) -> str:
+        cells = ", ".join(f"{len(block)} {kind}" for kind, block in self.cells)
+        fields = ", ".join([*self.point_data, *self.cell_data])
+        return f"FieldMesh of {len(self.points)} points and {cells} with {fields}"
+
+
+@dataclass(frozen=True)
+class CostRow:
+    """What an answer cost, and how far the sheet moves."""
+
+    unknowns: Annotated[int, NUMBER("d")]
+    iterations: Annotated[int, NUMBER("d", "factorisations")]
+    setup_seconds: Annotated[float, MILLISECONDS(".3g", "set-up")]
+    solve_seconds: Annotated[float, MILLISECONDS(".3g", "solve")]
+    largest: Annotated[float, MILLIMETRES(".4g", "largest displacement")]
+
+
+@dataclass(frozen=True)
+class VectorRow:
+    """A probe's displacement by component."""
+
+    probe: str
+    displacement: Annotated[Mapping[str, float], MILLIMETRES("z.3f")]
+
+
+@dataclass(frozen=True)
+class ForceRow:
+    """A support's force by component."""
+
+    edge: str
+    force: Annotated[Mapping[str, float], NEWTONS("z.4f")]
+
+
+@dataclass(frozen=True, repr=False)
+class Solution(Answer):
+    """A model's answer to a static scene.
+
+    sample: plan points (n, 2) [m] → mid-surface displacement (n, 3) [m]; reactions: force (3,) [N] that a
+    support or a prescribed motion exerts on the sheet, by its edge, and a held base on its chain, by "EDGE
+    base"; energies: name → [J]; iterations: tangent factorisations, all
+    of them; load_factor: 1 where the full load was reached, else the last converged load; actuators: name →
+    force and moment of each segment on the sheet, (segments, 6) [N, N·m]. balance: what the forces leave
+    over, None where a model does not tell; an equilibrium that is out of balance is none, its status
+    `diverged`. snaps: load factors at which the
+    sheet left its load path for an equilibrium far away; fallback: what was solved in place of what was
+    asked, and why; remarks: what else there is to say, a clause each. stretch: the largest elongation of the
+    mid-surface, None where a model does not tell. bar: plan points (n, 2) [m] → how far each component of
+    the displacement (n, 3) [m] may be off, None where a model does not tell. points: plan points [m] of the
+    scene's probes by name, as far as a verb knows them. contacts: what is known of the contact with each
+    obstacle, whose force on the sheet is among the reactions.
+    """
+
+    file_name = "solution"
+    model: str
+    label: str
+    settings: dict[str, Any]
+    status: Status
+    unknowns: int
+    iterations: int
+    setup_seconds: float
+    solve_seconds: float
+    sample: Callable[[np.ndarray], np.ndarray]
+    reactions: dict[str, np.ndarray]
+    energies: dict[str, float]
+    mesh: FieldMesh
+    history: tuple[Iteration, ...] = ()
+    load_factor: float = 1.0
+    actuators: dict[str, np.ndarray] = field(default_factory=dict)
+    balance: Balance | None = None
+    snaps: tuple[float, ...] = ()
+    fallback: str = ""
+    remarks: tuple[str, ...] = ()
+    stretch: float | None = None
+    bar: Callable[[np.ndarray], np.ndarray] | None = None
+    points: dict[str, PlanPoint] = field(default_factory=dict)
+    contacts: dict[str, ContactState] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.status in _EQUILIBRIA and self.balance is not None and not self.balance.holds:
+            object.__setattr__(self, "status", Status.DIVERGED)
+            object.__setattr__(self, "remarks", (self.balance.in_words(), *self.remarks))
+
+    @property
+    def message(self) -> str:
+        """Fallback, snaps and remarks in a line, for people."""
+        snapped = (f"snapped at load factor {load_factor:.4g}" for load_factor in self.snaps)
+        return "; ".join(filter(None, [self.fallback, *snapped, *self.remarks]))
+
+    @property
+    def status_text(self) -> str:
+        """The status, with the share of the load that was reached if it is not all of it."""
+        reached = "" if self.load_factor == 1.0 else f" at {100 * self.load_factor:.3g} % of the load"
+        return f"{self.status}{reached}"
+
+    def document(self, scene: Scene | None = None) -> dict[str, Any]:
+        """The JSON document, SI units; probes are the scene's, or else those whose points are known."""
+        points = self.points if scene is None else scene.probes
+        moved = [*self.displacement(np.array([*points.values()]))] if points else []
+        return {
+            "model": self.model,
+            "label": self.label,
+            "settings": self.settings,
+            "status": str(self.status),
+            "advice": self.status.advice,
+            "message": self.message,
+            "stretch": self.stretch,
+            "snaps": list(self.snaps),
+            "load_factor": self.load_factor,
+            "unknowns": self.unknowns,
+            "iterations": self.iterations,
+            "solve_seconds": self.solve_seconds,
+            "setup_seconds": self.setup_seconds,
+            "probes": dict(zip(points, moved, strict=True)),
+            "reactions": self.reactions,
+            "energies": self.energies,
+            "contacts": {name: contact.document() for name, contact in self.contacts.items()},
+            "balance": self.balance.document() if self.balance is not None else None,
+        }
+
+    @property
+    def comparable(self) -> bool:
+        """Whether it may be compared with others, as `comparable` has it."""
+        return comparable(self.status, self.load_factor)
+
+    def require_stable(self) -> Self:
+        """Return this answer. Raises NoEquilibrium unless it is a stable equilibrium under the whole load."""
+        if self.status is not Status.CONVERGED or not self.comparable:
+            raise NoEquilibrium(f"{self.label}: {self.status}: {self.message or self.status.advice}")
+        return self
+
+    @property
+    def probes(self) -> dict[str, np.ndarray]:
+        """Displacement (3,) [m] at each of the scene's probes, by name."""
+        return {name: self.displacement(np.array([at]))[0] for name, at in self.points.items()}
+
+    def displacement(self, points: np.ndarray | str) -> np.ndarray:
+        """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m] of the undeformed sheet, or (3,) at
+        the probe of a name. Raises BadInput for a name that no probe has."""
+        if isinstance(points, str):
+            if points not in self.points:
+                known = ", ".join(self.points) or "none are kept here: give plan points (n, 2) [m]"
+                raise BadInput(f"displacement('{points}'): no probe of this name; known are {known}")
+            return self.probes[points]
+        return self.sample(np.asarray(points, dtype=float).reshape(-1, 2))
+
+    def to_pyvista(self) -> pyvista.UnstructuredGrid:
+        """The model's mesh with its fields, for pyvista: `solution.to_pyvista().warp_by_vector().plot()`."""
+        return self.mesh.to_pyvista()
+
+    def heading(self) -> tuple[str, str, str]:
+        return f"Solution of {self.label}", self.status_text, ""
+
+    def tables(self) -> tuple[Table, ...]:
+        """What it cost and how far it goes, displacement at the scene's probes, forces of the supports."""
+        u = self.mesh.point_data.get("displacement", np.zeros((1, 3)))
+        largest = float(np.max(np.linalg.norm(u, axis=1)))
+        cost = CostRow(self.unknowns, self.iterations, self.setup_seconds, self.solve_seconds, largest)
+        moved = self.probes.items()
+        probes = [VectorRow(at, dict(zip(("ux", "uy", "uz"), u, strict=True))) for at, u in moved]
+        forces = summary.without_rounding(self.reactions)
+        held = [ForceRow(at, dict(zip(("Fx", "Fy", "Fz"), f, strict=True))) for at, f in forces.items()]
+        return (
+            Table.of(CostRow, [cost], "Cost and largest displacement", "solution"),
+            *([Table.of(VectorRow, probes, "Displacement of the mid-surface", "probes")] if probes else []),
+            *([Table.of(ForceRow, held, "Force of each support on the sheet", "reactions")] if held else []),
+        )
+
+    def figures(self) -> tuple[Picture, ...]:
+        """Heights over the plan."""
+        compose = "sheetbench.answers.solution_figure:compose"
+        return (Picture("solution", compose, (self,), formats=RASTER),)
+
+    def files(self) -> dict[str, Write]:
+        return {f"{self.model}.vtu": self.mesh.save}
+
+    def notes(self) -> list[str]:
+        energies = ", ".join(f"{name} {value:.4g} J" for name, value in self.energies.items())
+        return [text for text in (f"energies: {energies}" if energies else "", self.message) if text]
+
+    def complaints(self) -> list[str]:
+        return [] if self.succeeded else [f"{self.status_text}: {self.status.advice}"]
+
+    def choices(self) -> dict[str, Any]:
+        return self.settings
+
+    @property
+    def succeeded(self) -> bool:
+        return self.status is Status.CONVERGED

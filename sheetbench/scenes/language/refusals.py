@@ -1,0 +1,223 @@
+"""Why a scene is refused: pydantic's list of faults as one line that names key, value and what is allowed.
+
+    load 2.pressure = 200.0: unknown key; known here are history, kind, value
+
+Lists count from 1. Of many faults the first three are named, and how many more there are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+from reprlib import Repr
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from sheetbench.errors import BadInput
+from sheetbench.scenes.language.limits import wish
+from sheetbench.scenes.language.schema import branches, json_schema, kind
+from sheetbench.scenes.language.units import quantity
+
+SHOWN = 3  # faults
+LONGEST = 60  # characters of a key or a value
+MANY_DIGITS = 30
+
+
+def in_one_line(error: ValidationError, model: type[BaseModel]) -> str:
+    """The faults of data for `model`, separated by semicolons."""
+    faults = [fault for fault in error.errors(include_url=False) if not _follows(fault)]
+    faults_in_words = [_sentence(fault, json_schema(model)) for fault in faults[:SHOWN]]
+    if len(faults) > SHOWN:
+        faults_in_words.append(f"and {len(faults) - SHOWN} more")
+    return "; ".join(faults_in_words)
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str | None:
+    """The known word that is nearest in spelling, if any is near."""
+    by_lower = {name.lower(): name for name in known}
+    near = get_close_matches(word.lower(), by_lower, n=1)
+    return by_lower[near[0]] if near else None
+
+
+def shown(value: Any) -> str:
+    """A value as it was written, shortened where it is long."""
+    return _SHORT.repr(value)
+
+
+class _Short(Repr):
+    def repr_int(self, x: int, level: int) -> str:
+        digits = int(abs(x).bit_length() * 0.30103) + 1
+        return repr(x) if digits <= MANY_DIGITS else f"a number of about {digits} digits"
+
+    def repr_bool(self, x: bool, level: int) -> str:
+        return str(x).lower()  # as TOML has it
+
+
+_SHORT = _Short()
+_SHORT.maxstring = _SHORT.maxother = LONGEST
+
+
+def _follows(fault: Any) -> bool:
+    """Whether the fault only counts the entries that other faults have left."""
+    return fault["type"] == "too_short" and len(fault["input"]) >= fault["ctx"]["min_length"]
+
+
+def _sentence(fault: Any, schema: dict[str, Any]) -> str:
+    where, nodes = _place(fault["loc"], schema)
+    key = _path(where)
+    value = fault["input"]
+    facts = fault.get("ctx", {})
+    match fault["type"]:
+        case "extra_forbidden":
+            if not_modelled := wish(str(where[-1])):
+                return f"{key}: {not_modelled}"
+            keys = _keys(_place(fault["loc"][:-1], schema)[1])
+            near = did_you_mean(str(where[-1]), keys)
+            hint = f"did you mean {near}?" if near else f"known here are {', '.join(keys)}"
+            return f"{key} = {shown(value)}: unknown key; {hint}"
+        case "missing":
+            return f"{key}: missing"
+        case "value_error":
+            text = str(facts["error"])
+            return f"{key}: {text}" if key else text
+        case "union_tag_not_found":
+            return f"{key}: kind is missing; {_one_of(_kinds(nodes))}"
+        case "union_tag_invalid":
+            if not_modelled := wish(str(facts["tag"])):
+                return f"{key}: kind = {shown(facts['tag'])}: {not_modelled}"
+            return f"{key}: kind = {shown(facts['tag'])}: {_choose(str(facts['tag']), _kinds(nodes))}"
+        case "literal_error":
+            choices = [str(choice) for node in nodes for choice in _choices(node)]
+            return f"{key} = {shown(value)}: {_choose(str(value), choices)}"
+        case "float_type" if isinstance(value, str) and (unit := _unit(fault["loc"], schema)) is not None:
+            return f"{key}: {_no_quantity(value, unit)}"
+        case "tuple_type":
+            entries = [entry for node in nodes for entry in _inside(node, 0, schema)]
+            if _keys(entries):
+                return f"{key} = {shown(value)}: must be a list of tables, each headed [[{key}]]"
+            sizes = {len(node["prefixItems"]) for node in nodes if "prefixItems" in node}
+            of = f" of {min(sizes)}" if sizes else ""
+            return f"{key} = {shown(value)}: must be a list{of}"
+        case "model_type" | "model_attributes_type" | "dict_type":
+            keys = _keys(nodes)
+            table = f"a table with the keys {', '.join(keys)}" if keys else "a table"
+            return f"{key} = {shown(value)}: must be {table}"
+    return f"{key} = {shown(value)}: {_allowed(fault['type'], facts)}"
+
+
+def _no_quantity(text: str, unit: str) -> str:
+    """Why a text stands for no number in this unit."""
+    try:
+        quantity(text, unit)
+    except BadInput as error:
+        return str(error)
+    return f"'{text}' is text: write the number [{unit}] without quotes, or with a unit"
+
+
+def _unit(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None:
+    """The SI unit of the number at a location, or None where it has none."""
+    for end in range(len(location), 0, -1):
+        for node in _place(location[:end], schema)[1]:
+            if "unit" in node:
+                return str(node["unit"])
+    return None
+
+
+ALLOWED = {  # by pydantic's types of fault
+    "float_type": "a number",
+    "finite_number": "finite",
+    "int_type": "a whole number",
+    "string_type": "text, in quotes",
+    "greater_than": "greater than {gt:g}",
+    "greater_than_equal": "{ge:g} or more",
+    "less_than": "less than {lt:g}",
+    "less_than_equal": "{le:g} or less",
+    "too_large": "{largest:g} or less in magnitude",
+    "too_small": "{smallest:g} or more",
+}
+
+
+def _allowed(fault: str, facts: dict[str, Any]) -> str:
+    """What a number, a text or a list must be."""
+    if fault in ALLOWED:
+        return f"must be {ALLOWED[fault].format(**facts)}"
+    match fault:
+        case "string_too_short":
+            return "must not be empty"
+        case "too_short":
+            return f"must have at least {_entries(facts['min_length'])}, not {facts['actual_length']}"
+        case "too_long":
+            return f"must have {_entries(facts['max_length'])}, not {facts['actual_length']}"
+    return f"is not allowed ({fault.replace('_', ' ')})"
+
+
+def _entries(count: int) -> str:
+    return "1 entry" if count == 1 else f"{count} entries"
+
+
+def _choose(word: str, choices: list[str]) -> str:
+    near = did_you_mean(word, choices)
+    return f"did you mean {near}? {_one_of(choices)}" if near else _one_of(choices)
+
+
+def _one_of(choices: Iterable[str]) -> str:
+    return f"choose one of {', '.join(choices)}"
+
+
+def _place(
+    location: tuple[int | str, ...], schema: dict[str, Any]
+) -> tuple[list[int | str], list[dict[str, Any]]]:
+    """The keys and list numbers of a fault's location, and what the schema says may stand there.
+
+    Between them pydantic names the kind of table that it took, which no key is.
+    """
+    where: list[int | str] = []
+    nodes = branches(schema, schema)
+    for part in location:
+        of_kind = [node for node in nodes if kind(node) == part]
+        if of_kind and len(nodes) > 1:
+            nodes = of_kind
+            continue
+        inside = [below for node in nodes for below in _inside(node, part, schema)]
+        if isinstance(part, str) and not inside and part in _FORMS:
+            continue
+        where.append(part)
+        nodes = inside
+    return where, nodes
+
+
+_FORMS = {"a number", "a list", "a table"}
+
+
+def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> list[dict[str, Any]]:
+    """What the schema says about an entry of a list or a key of a table."""
+    if isinstance(part, int):
+        items = (node.get("prefixItems") or [])[part : part + 1] or [node.get("items")]
+    else:
+        items = [node.get("properties", {}).get(part, node.get("additionalProperties"))]
+    return [branch for below in items if isinstance(below, dict) for branch in branches(schema, below)]
+
+
+def _path(where: list[int | str]) -> str:
+    text = ""
+    for part in where:
+        if isinstance(part, int):
+            text += f" {part + 1}"
+        else:
+            name = part if len(part) <= LONGEST else part[:LONGEST] + "…"
+            text += f".{name}" if text else name
+    return text
+
+
+def _keys(nodes: list[dict[str, Any]]) -> list[str]:
+    """The keys of the tables that may stand here, sorted."""
+    return sorted({key for node in nodes for key in node.get("properties", {})})
+
+
+def _kinds(nodes: list[dict[str, Any]]) -> list[str]:
+    return [str(kind(node)) for node in nodes if kind(node)]
+
+
+def _choices(node: dict[str, Any]) -> list[Any]:
+    return [node["const"]] if "const" in node else list(node.get("enum", ()))

@@ -1,0 +1,204 @@
+"""What a sheet is made of at a point: tapers of its thickness, and patches, of which later ones win.
+
+    h(x, y) = thickness · (taper_x(x)/thickness) · (taper_y(y)/thickness)
+
+outside patches with a thickness of their own. A plain sheet is the same all over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from sheetbench.errors import Impossible
+from sheetbench.scenes.meaning.region import area_in, require_rectangle
+from sheetbench.scenes.objects.cells import NUMBERS, Constants
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.layers import plies
+from sheetbench.scenes.objects.orthotropy import in_own_axes
+from sheetbench.scenes.objects.patches import Patch
+from sheetbench.scenes.objects.shapes import COINCIDENT, straight_sides
+
+if TYPE_CHECKING:
+    from shapely import Polygon
+
+FINE = 33  # lines between which a taper is taken for its mean
+LEAST_SHARE = 1e-12  # of a cell's area, below which a part is rounding
+
+
+class Part(NamedTuple):
+    """share: (rows, columns) of each cell's area that a part of the sheet takes; constants: (rows, columns),
+    its own there."""
+
+    share: np.ndarray
+    constants: Constants
+
+
+def of_sheet(scene: SceneFields) -> Constants:
+    """Return the constants of a scene's sheet and its layers, without tapers and patches."""
+    constants = Constants.of(scene.sheet, scene.material)
+    return constants.replace(plies=plies(scene.layers, scene.material)) if scene.layers else constants
+
+
+def constants_at(scene: SceneFields, points: np.ndarray) -> Constants:
+    """Return the constants at plan points (…, 2) [m], arrays (…); of a sheet that is the same all over its
+    numbers."""
+    sheet = of_sheet(scene)
+    if scene.homogeneous:
+        return sheet
+    constants = sheet.arrays(points.shape[:-1])
+    constants.thickness[...] = scene.sheet.thickness_at(points[..., 0], points[..., 1])
+    for patch in scene.patches:
+        _put(constants, patch.own, patch.shape.contains(points))
+    return constants
+
+
+def composition_at(scene: SceneFields, points: np.ndarray) -> dict[str, np.ndarray]:
+    """Return what the sheet is made of at plan points (…, 2) [m]: the number of its patch, 0 for none, and
+    the constants by their names, (…) each."""
+    patch = np.zeros(points.shape[:-1])
+    for number, each in enumerate(scene.patches, start=1):
+        patch[each.shape.contains(points)] = number
+    constants = constants_at(scene, points).arrays(points.shape[:-1]).by_name()
+    return {"patch": patch, **constants} if scene.patches else constants
+
+
+def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
+    """Write a patch's own constants into arrays."""
+    for name, value in own.items():
+        if name in NUMBERS:
+            getattr(constants, name)[where] = value
+    for ply in constants.plies:
+        for name, value in in_own_axes(own).items():
+            getattr(ply, name)[where] = value
+
+
+def parts_between(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
+    """Yield the parts of the sheet that have a share in the cells between lines at x and at y [m], as if it
+    had no outline. The shares of a cell sum up to 1; the thickness of a taper is that in its middle."""
+    boxes = boxes_of(x, y)
+    middle = 0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1])
+    plain = of_sheet(scene).replace(thickness=scene.sheet.thickness_at(*np.meshgrid(*middle)))
+    left_over = np.ones(boxes.shape)
+    for area, own in _disjoint(scene.patches):
+        share = shares_in(area, boxes)
+        left_over -= share
+        constants = plain.arrays(boxes.shape)
+        _put(constants, own)
+        yield Part(share, constants)
+    yield Part(_without_rounding(left_over), plain.arrays(boxes.shape))
+
+
+def shares_of(area: Polygon, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """What share an area takes of every cell between lines at x and at y [m], (rows, columns)."""
+    return shares_in(area, boxes_of(x, y))
+
+
+def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The cells between lines at x and at y [m], (rows, columns)."""
+    import shapely
+
+    low, left = np.meshgrid(y[:-1], x[:-1], indexing="ij")
+    high, right = np.meshgrid(y[1:], x[1:], indexing="ij")
+    return np.asarray(shapely.box(left, low, right, high))
+
+
+def shares_in(area: Any, boxes: np.ndarray) -> np.ndarray:
+    """What share of each box (…) an area takes."""
+    import shapely
+
+    shapely.prepare(area)
+    touched = shapely.intersects(area, boxes)
+    share = np.zeros(boxes.shape)
+    share[touched] = shapely.area(shapely.intersection(area, boxes[touched])) / shapely.area(boxes[touched])
+    return _without_rounding(share)
+
+
+def _disjoint(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float]]]:
+    """The areas in which the same patches lie upon each other, and the constants that are not the sheet's
+    there."""
+    import shapely
+
+    pieces: list[tuple[Any, dict[str, float]]] = []
+    for patch in patches:
+        new = patch.shape.area
+        touched = shapely.intersects(new, np.array([area for area, _ in pieces], dtype=object))
+        met = [piece for piece, touches in zip(pieces, touched, strict=True) if touches]
+        both = [(area.intersection(new), {**own, **patch.own}) for area, own in met]
+        rest = [
+            (area.difference(new) if touches else area, own)
+            for (area, own), touches in zip(pieces, touched, strict=True)
+        ]
+        alone = new.difference(shapely.union_all([area for area, _ in met]))
+        pieces = [(area, own) for area, own in [*both, *rest, (alone, patch.own)] if area.area > 0.0]
+    yield from pieces
+
+
+def _without_rounding(share: np.ndarray) -> np.ndarray:
+    share = np.where(share < LEAST_SHARE, 0.0, share)
+    return np.where(share > 1.0 - LEAST_SHARE, 1.0, share)
+
+
+def mass_of(scene: SceneFields) -> float:
+    """Mass [kg] of the sheet."""
+    sheet = scene.sheet
+    if scene.homogeneous:
+        return float(of_sheet(scene).per_area * area_in(scene, None))
+    x, y = (np.linspace(0.0, length, FINE) for length in sheet.lengths)
+    per_area = sum(part.share * part.constants.per_area for part in parts_between(scene, x, y))
+    if scene.pierced:
+        per_area *= shares_of(scene.region, x, y)
+    return float(np.diff(y) @ per_area @ np.diff(x))
+
+
+def mass_over_stiffness(scene: SceneFields) -> float:
+    """ρ/E [s²/m²] of the sheet as a whole: its mass over the integral of its membrane's stiffness E h, as
+    if a taper's thickness were the sheet's."""
+    sheet = of_sheet(scene)
+    if scene.homogeneous:
+        return float(sheet.per_area / sheet.stretching)
+    rest, mass, stiffness = area_in(scene, None), 0.0, 0.0
+    for area, own in _disjoint(scene.patches):
+        constants, size = sheet.arrays(()), scene.region.intersection(area).area
+        _put(constants, own)
+        rest -= size
+        mass, stiffness = mass + size * constants.per_area, stiffness + size * constants.stretching
+    return float((mass + rest * sheet.per_area) / (stiffness + rest * sheet.stretching))
+
+
+def sides_of(scene: SceneFields) -> tuple[np.ndarray, np.ndarray]:
+    """x and y [m], rising, of the patches' sides along the axes, of those within the sheet's edges."""
+    places = []
+    for axis, length in enumerate(scene.sheet.lengths):
+        sides = np.unique([*straight_sides(*(patch.shape.area for patch in scene.patches))[axis]])
+        inside = sides[(sides > COINCIDENT * length) & (sides < (1.0 - COINCIDENT) * length)]
+        places.append(inside[np.diff(inside, prepend=-length) > COINCIDENT * length])
+    return places[0], places[1]
+
+
+def require_uniform(scene: SceneFields, who: str, instead: str = "") -> None:
+    """Raise Impossible for a sheet that is not the same all over, which `who` does not know: a model or a
+    file; instead: what does."""
+    if not scene.uniform:
+        raise Impossible(
+            f"scene '{scene.name}': {scene.varied_by}: {who} is for isotropic sheets that are the same all "
+            f"over{instead and '; '}{instead}"
+        )
+
+
+def require_flat_at_rest(scene: SceneFields, who: str) -> None:
+    """Raise Impossible for a sheet that is not flat and free of stress at rest, which `who` does not know."""
+    if scene.natural_by:
+        raise Impossible(
+            f"scene '{scene.name}': {scene.natural_by}: {who} is for sheets that are flat at rest"
+        )
+
+
+def require_plain(scene: SceneFields, who: str) -> None:
+    """Raise Impossible for a sheet that is no plain one (`Scene.drawn_by`), which a verb or a file does not
+    know."""
+    require_uniform(scene, who)
+    require_rectangle(scene, who)
+    require_flat_at_rest(scene, who)

@@ -1,0 +1,202 @@
+"""What holds or moves an edge and its corners, and whether all of it can be obeyed.
+
+An edge has one support, one motion, or chains that agree. Where two edges meet, a support holds components of
+the corner, and one that holds the director that of the corner too; bent rods, tilted clamps and motions move
+both (`scenes.meaning.kinematics`). Two that hold the same must agree on it at every moment, for what is
+left out is not the same in every model: at the samples of both tables, and between them at two points that no
+periodic motion takes for samples. A corner that a motion agrees on belongs to the motion; a chain goes where
+its corner goes, unless its base stands there.
+
+A chain does not stretch. Held along its edge at two places it could bend only if it did, and how stiff it is
+against that no scene says: lattice and references would each answer for a stiffness of their own, tens of
+percent apart. Such scenes are refused. A chain is held along itself
+
+- where its base stands;
+- at a corner that a support on the neighbouring edge holds along the chain, unless the support moves;
+- at a corner where the chain of the neighbouring edge has its base, or where that chain is kept in a plane
+  across this one by a base elsewhere: `plane = "normal"`, and not free.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations, pairwise, product
+
+import numpy as np
+
+from sheetbench.scenes.meaning.kinematics import UP, BentEdge, MovedEdge, Placed, TiltedEdge, bent_or_tilted
+from sheetbench.scenes.objects.actuators import Chain, EdgeMotion
+from sheetbench.scenes.objects.quantities import PlanPoint
+from sheetbench.scenes.objects.sheet import EDGES, Sheet
+from sheetbench.scenes.objects.supports import (
+    AnySupport,
+    Clamped,
+    Curved,
+    Motion,
+    Symmetric,
+    held_axes,
+    holds_director,
+    named,
+    place,
+)
+
+EXACT = 1e-6  # m per metre of the longer side, and in a director: what numbers written in decimals leave
+BETWEEN = (0.381966, 0.618034)
+
+Holder = AnySupport | EdgeMotion
+AnyActuator = Chain | EdgeMotion
+Driven = Mapping[str, BentEdge | TiltedEdge]  # by their edges
+
+
+def conflicts(
+    actuators: Sequence[AnyActuator], supports: tuple[AnySupport, ...], sheet: Sheet
+) -> Iterator[tuple[str, str]]:
+    """Yield what may not go together on an edge or at a corner: key and reason, "" where it does."""
+    on_edges = [support for support in supports if place(support) is None]
+    driven = {edge.edge: edge for edge in bent_or_tilted(supports, sheet)}
+    for one, other in combinations(on_edges, 2):
+        if one.edge == other.edge:
+            yield "support: ", f"edge {one.edge} has two supports, {one.kind} and {other.kind}"
+        yield "support: ", _at_corner(one, other, driven, sheet)
+    supported = {support.edge for support in on_edges}
+    for i, actuator in enumerate(actuators):
+        if actuator.edge in supported:
+            yield (
+                "actuator: ",
+                f"edge {actuator.edge} has a support, which holds the masses that the actuator would move",
+            )
+        for later in actuators[i + 1 :]:
+            yield "actuator: ", _on_one_edge(actuator, later)
+    yield "actuator ", _held_twice(actuators, supports)
+    for motion in actuators:
+        if isinstance(motion, EdgeMotion):
+            for beside in (*on_edges, *(each for each in actuators if each is not motion)):
+                yield "actuator: ", _at_corner(motion, beside, driven, sheet)
+
+
+def _on_one_edge(first: AnyActuator, second: AnyActuator) -> str:
+    """Why two actuators cannot act on one edge, "" where they can or are on two."""
+    if first.edge != second.edge:
+        return ""
+    if not isinstance(first, Chain) or not isinstance(second, Chain):
+        return f"edge {first.edge} has a prescribed motion and another actuator"
+    for key in ("segments", "plane", "base"):
+        mine, theirs = getattr(first, key), getattr(second, key)
+        if mine != theirs:
+            return (
+                f"two chains on edge {first.edge} have {key} = {mine!r} and {theirs!r}: "
+                "chains on one edge must agree in segments, plane and base"
+            )
+    return ""
+
+
+def _at_corner(one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet) -> str:
+    """Why two cannot both be obeyed at the corner of their edges, "" where they can or have none."""
+    if EDGES[one.edge].normal_axis == EDGES[other.edge].normal_axis:
+        return ""
+    ends = sheet.edge_ends(other.edge)
+    corner = next(end for end in ends if end in sheet.edge_ends(one.edge))
+    if isinstance(other, Chain):
+        if other.base not in ("start", "end") or corner != ends[other.base == "end"]:
+            return ""
+        return (
+            f"the base of the chain on edge {other.edge} stands at the corner that the motion on edge "
+            f"{one.edge} moves"
+        )
+    tables = [table for each in (one, other) if (table := _table(each)) is not None]
+    if not tables and driven.keys().isdisjoint((one.edge, other.edge)):
+        return ""  # both at rest
+    axes, turns = ([*(a & b)] for a, b in zip(_held(one), _held(other), strict=True))
+    samples = sorted({time for table in tables for time in table.time}) or [0.0]
+    between = [a + share * (b - a) for (a, b), share in product(pairwise(samples), BETWEEN)]
+    largest, moved, turned = 0.0, "", ""
+    for time in sorted([*samples, *between]):
+        when = f" at t = {time:.3g} s" if tables else ""
+        (u, director), (v, normal) = (_pose(each, corner, driven, sheet, time) for each in (one, other))
+        for axis in axes:
+            if (gap := abs(u[axis] - v[axis])) > max(largest, EXACT * max(sheet.lengths)):
+                mover, held = (one, other) if abs(u[axis]) >= abs(v[axis]) else (other, one)
+                by = f"{'xyz'[axis]} by {gap:.3g} m{when}"
+                largest, moved = gap, f"{_named(mover)} moves the corner that {_named(held)} holds: {by}"
+        if np.abs(director - normal)[turns].max(initial=0.0) > EXACT:
+            turner, held = (one, other) if director[2] <= normal[2] else (other, one)
+            where = f"the corner where {_named(held)} holds it otherwise"
+            turned = f"{_named(turner)} turns the director at {where}{when}"
+    return moved or turned
+
+
+def _table(holder: Holder) -> EdgeMotion | Motion | None:
+    """What a holder does over time."""
+    return holder if isinstance(holder, EdgeMotion) else holder.motion
+
+
+def _held(holder: Holder) -> tuple[set[int], set[int]]:
+    """Axes of position and of director that are held at the corners."""
+    every = {0, 1, 2}
+    if isinstance(holder, EdgeMotion):
+        return every, every
+    axes = set(held_axes(holder))
+    return axes, axes if isinstance(holder, Symmetric) else every if holds_director(holder) else set()
+
+
+def _pose(
+    holder: Holder, corner: PlanPoint, driven: Driven, sheet: Sheet, time: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement [m] and director (3,) that are given to the corner."""
+    point, shift = np.array([corner]), np.zeros(3)
+    if isinstance(holder, EdgeMotion):
+        placed = MovedEdge(holder, sheet).placed(point, time=time)
+    else:
+        still = Placed(np.zeros((1, 3)), np.zeros((3, 3)))
+        placed = driven[holder.edge].placed(point) if holder.edge in driven else still
+        if holder.motion is not None:
+            shift = holder.motion.course.at(time)
+    return placed.displacement[0] + shift, UP + np.atleast_2d(placed.director)[0]
+
+
+def _named(holder: Holder) -> str:
+    if isinstance(holder, EdgeMotion):
+        return f"the motion on edge {holder.edge}"
+    if isinstance(holder, Curved) and holder.curvature:
+        return f"the rod on edge {holder.edge} (curvature {holder.curvature:g} 1/m)"
+    if isinstance(holder, Clamped) and holder.tilt:
+        return f"the clamp on edge {holder.edge} (tilt {holder.tilt:g} rad)"
+    return f"the {holder.kind} support on edge {holder.edge}"
+
+
+def _held_twice(actuators: Sequence[AnyActuator], supports: Sequence[AnySupport]) -> str:
+    """Which chain is held along itself at two places, and what to change; "" for none."""
+    chains = {str(chain.edge): chain for chain in actuators if isinstance(chain, Chain)}
+    fixed = {name: support for name, support in named(supports).items() if support.motion is None}
+    for number, chain in enumerate(actuators, start=1):
+        if not isinstance(chain, Chain):
+            continue
+        places = {end: holder for end in (0, 1) if (holder := _holder(chain, end, chains, fixed))}
+        if chain.base != "free":
+            places[{"start": 0, "middle": -1, "end": 1}[chain.base]] = f'by its own base = "{chain.base}"'
+        if len(places) > 1:
+            where = {0: "where it starts", 1: "where it ends", -1: "in its middle"}
+            held = ", and ".join(f"{where[place]} {by}" for place, by in places.items())
+            return (
+                f"{number} on edge {chain.edge} is held along itself {held}: a chain does not stretch, so "
+                "this one could not bend; let go of all but one, a chain's hold by its "
+                'base = "free" or plane = "spatial", a support\'s by one that does not hold the corner along '
+                "the edge"
+            )
+    return ""
+
+
+def _holder(chain: Chain, end: int, chains: Mapping[str, Chain], fixed: Mapping[str, AnySupport]) -> str:
+    """What holds an end (0 or 1) of a chain along the chain, other than its own base; "" where nothing."""
+    along = EDGES[chain.edge].along_axis
+    edge = f"{'xy'[along]}{end}"
+    if edge in fixed and along in held_axes(fixed[edge]):
+        return f"by the {fixed[edge].kind} support on edge {edge}"
+    other = chains.get(edge)
+    if other is None:
+        return ""
+    if int(chain.edge[1]) in other.base_ends:
+        return f'by the base = "{other.base}" of the chain on edge {edge}'
+    if other.plane == "normal" and other.base != "free":
+        return f'by the chain on edge {edge}, which plane = "normal" and base = "{other.base}" keep straight'
+    return ""

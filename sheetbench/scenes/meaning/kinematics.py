@@ -1,0 +1,200 @@
+"""Where edges are that a support bends or tilts or an actuator moves: what those words mean, to every model.
+
+A point X of such an edge goes to X + u and its director from e_z to R(θ) e_z, with a rotation vector θ; what
+lies at the height ζ on the director moves by u + ζ (R − I) e_z. At load factor λ
+
+    curved   θ = λκs e × e_z,   u = (sin λκs/λκ − s) e + (1 − cos λκs)/λκ e_z,   s along e
+    tilt     θ = λτ n × e_z,    u = 0,                                           n out of the sheet
+    motion   θ = λϑ(t),         u = λd(t) + (R − I)(X − X_m),                    X_m the edge's middle
+    support that moves  adds λd to u, in the components it holds, and turns nothing
+
+with s measured from the rod's middle, and d and ϑ at a time t, or their last, as statics take them. To first
+order in λ the director changes by θ × e_z, and u is ½ λκs² e_z, 0 and λd + θ × (X − X_m). A motion's velocity
+is ḋ + ω × R(X − X_m), with ω = (sin ϑ/ϑ + (1 − cos ϑ)/ϑ² [ϑ]× + (1 − sin ϑ/ϑ)/ϑ² ϑ ϑᵀ) ϑ̇.
+
+Solvers share this, which is part of the question, but no mechanics: which masses, nodes or columns an edge
+has, how they are held there and what that takes is each solver's own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sheetbench.scenes.objects.actuators import EdgeMotion
+from sheetbench.scenes.objects.quantities import Vector3
+from sheetbench.scenes.objects.sheet import EDGES, Sheet
+from sheetbench.scenes.objects.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, named
+from sheetbench.scenes.objects.tables import PiecewiseLinear
+
+UP = np.array([0.0, 0.0, 1.0])
+_CROSS = np.cross(np.eye(3)[:, None], np.eye(3)[None]).swapaxes(1, 2).reshape(3, 9)  # [e]× of the axes
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Where k points of an edge are: displacement u (k, 3) [m], turn R − I (k, 3, 3) or of all (3, 3)."""
+
+    displacement: np.ndarray
+    turn: np.ndarray
+
+    @property
+    def director(self) -> np.ndarray:
+        """The director's change, (k, 3) or (3,)."""
+        return self.turn[..., 2]
+
+    def lifted(self, height: np.ndarray) -> np.ndarray:
+        """Displacement (k, 3) [m] of what lies at heights (k,) [m] on the directors."""
+        lifted: np.ndarray = self.displacement + height[:, None] * self.director
+        return lifted
+
+
+class BentEdge:
+    """An edge on a bent rod."""
+
+    def __init__(self, rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet):
+        self.edge: str = rod.edge
+        self._curvature, self._middle = rod.curvature, _middle(rod, supports, sheet)
+        self._axis = EDGES[rod.edge].along_axis
+        self._along = np.eye(3)[self._axis]
+
+    def placed(self, points: np.ndarray, load_factor: float = 1.0) -> Placed:
+        """Where plan points (k, 2) [m] are."""
+        s, kappa = points[:, self._axis] - self._middle, load_factor * self._curvature
+        half = 0.5 * kappa * s
+        # sin κs/κ − s and (1 − cos κs)/κ by sinc, which has no trouble at κ = 0
+        across, rise = s * (np.sinc(2.0 * half / np.pi) - 1.0), s * np.sin(half) * np.sinc(half / np.pi)
+        return Placed(np.outer(across, self._along) + np.outer(rise, UP), _turn(self._rotation(kappa * s)))
+
+    def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement [m] and change of director, (k, 3), to first order in the load factor, at 1."""
+        s = points[:, self._axis] - self._middle
+        rise = np.outer(0.5 * self._curvature * s**2, UP)
+        return rise, np.cross(self._rotation(self._curvature * s), UP)
+
+    def _rotation(self, angle: np.ndarray) -> np.ndarray:
+        return np.outer(angle, np.cross(self._along, UP))
+
+
+class TiltedEdge:
+    """An edge in a tilted clamp."""
+
+    def __init__(self, clamp: Clamped):
+        self.edge: str = clamp.edge
+        self._rotation = clamp.tilt * np.cross(EDGES[clamp.edge].outward, UP)
+
+    def placed(self, points: np.ndarray, load_factor: float = 1.0) -> Placed:
+        """Where plan points (k, 2) [m] are."""
+        return Placed(np.zeros((len(points), 3)), _turn(load_factor * self._rotation))
+
+    def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement (k, 3) [m] and change of director (3,), to first order in the load factor, at 1."""
+        return np.zeros((len(points), 3)), np.cross(self._rotation, UP)
+
+
+class MovedEdge:
+    """An edge moved rigidly."""
+
+    def __init__(self, motion: EdgeMotion, sheet: Sheet):
+        self.edge: str = motion.edge
+        self._middle = np.mean(sheet.edge_ends(motion.edge), axis=0)
+        still = ((0.0, 0.0, 0.0),) * len(motion.time)
+        self._displacement = PiecewiseLinear(motion.time, motion.displacement or still)
+        self._rotation = PiecewiseLinear(motion.time, motion.rotation or still)
+
+    def placed(self, points: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Placed:
+        """Where plan points (k, 2) [m] are."""
+        turn = _turn(load_factor * self._rotation.at(time))
+        turned = (points - self._middle) @ turn[:, :2].T
+        return Placed(load_factor * self._displacement.at(time) + turned, turn)
+
+    def pose(self, time: float) -> tuple[Vector3, Vector3]:
+        """Displacement [m] of the edge's middle and rotation vector [rad] at a time [s]."""
+        x, y, z = self._displacement.at(time).tolist()
+        a, b, c = self._rotation.at(time).tolist()
+        return (x, y, z), (a, b, c)
+
+    def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement (k, 3) [m] and change of director (3,), to first order in the load factor, at 1."""
+        cross = _cross(self._rotation.at())
+        return self._displacement.at() + (points - self._middle) @ cross[:, :2].T, cross[:, 2]
+
+    def velocity(self, points: np.ndarray, height: np.ndarray, time: float) -> np.ndarray:
+        """Velocity (k, 3) [m/s], from a time [s] on, of what lies at heights (k,) [m] on the directors."""
+        rotation, rate = self._rotation.at(time), self._rotation.slope(time)
+        arms = np.column_stack([points - self._middle, height])
+        turning = _cross(_angular_velocity(rotation, rate)) @ (np.eye(3) + _turn(rotation))
+        velocity: np.ndarray = self._displacement.slope(time) + arms @ turning.T
+        return velocity
+
+
+DrivenEdge = BentEdge | TiltedEdge | MovedEdge
+
+
+def bent_or_tilted(supports: tuple[AnySupport, ...], sheet: Sheet) -> list[BentEdge | TiltedEdge]:
+    """The edges that supports bend or tilt."""
+    edges: list[BentEdge | TiltedEdge] = []
+    for support in supports:
+        if isinstance(support, Curved) and support.curvature != 0.0:
+            edges.append(BentEdge(support, supports, sheet))
+        elif isinstance(support, Clamped) and support.tilt != 0.0:
+            edges.append(TiltedEdge(support))
+    return edges
+
+
+@dataclass(frozen=True)
+class Shift:
+    """Where a support that moves ends, by its name in answers: the axes that it holds and its displacement
+    along them [m]."""
+
+    support: str
+    axes: tuple[int, ...]
+    displacement: np.ndarray
+
+
+def shifts(supports: tuple[AnySupport, ...]) -> list[Shift]:
+    """The supports' displacements at the last sample of their motion, as statics take it."""
+    moves = []
+    for name, support in named(supports).items():
+        if support.motion is not None:
+            axes = held_axes(support)
+            last = np.array(support.motion.displacement[-1])[list(axes)]
+            moves.append(Shift(name, axes, last))
+    return moves
+
+
+def _middle(rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet) -> float:
+    """Where the middle of a bent rod lies along its edge [m]: on the plane of symmetry it meets, if any."""
+    along = EDGES[rod.edge].along_axis
+    for support in supports:
+        if isinstance(support, Symmetric) and EDGES[support.edge].normal_axis == along:
+            return sheet.edge_at(support.edge)
+    return sheet.lengths[along] / 2.0
+
+
+def _cross(rotation: np.ndarray) -> np.ndarray:
+    """[θ]× of vectors (…, 3), (…, 3, 3)."""
+    return (rotation @ _CROSS).reshape(*rotation.shape, 3)
+
+
+def _turn(rotation: np.ndarray) -> np.ndarray:
+    """R(θ) − I = sin θ/θ [θ]× + (1 − cos θ)/θ² [θ]×² of rotation vectors (…, 3), (…, 3, 3)."""
+    cross = _cross(rotation)
+    sine, versine = (c[..., None, None] for c in _coefficients(rotation))
+    turn: np.ndarray = sine * cross + versine * (cross @ cross)
+    return turn
+
+
+def _angular_velocity(rotation: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """ω (3,) [rad/s] of a rotation vector (3,) and its rate."""
+    sine, versine = _coefficients(rotation)
+    along = (1.0 - sine) / max(rotation @ rotation, np.finfo(float).tiny) * (rotation @ rate)
+    omega: np.ndarray = sine * rate + versine * (_cross(rotation) @ rate) + along * rotation
+    return omega
+
+
+def _coefficients(rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """sin θ/θ and (1 − cos θ)/θ²."""
+    angle = np.linalg.norm(rotation, axis=-1)
+    return np.sinc(angle / np.pi), 0.5 * np.sinc(0.5 * angle / np.pi) ** 2

@@ -1,0 +1,100 @@
+"""What a scene's words mean for a motion: where it starts, what is let go then, when something changes its
+course.
+
+A motion starts at rest. Unless `[initial]` says otherwise nothing but the supports has acted on the sheet: it
+is flat, or as bent and tilted supports shape it. With `shape = "static"` it is in the equilibrium under all
+that acts at t = 0, and the loads with `hold = true` are let go then.
+"""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+from sheetbench.scenes.meaning.kinematics import MovedEdge, bent_or_tilted
+from sheetbench.scenes.objects.actuators import Chain, EdgeMotion
+from sheetbench.scenes.objects.fields import AScene, SceneFields
+from sheetbench.scenes.objects.natural import Natural
+from sheetbench.scenes.objects.obstacles import AnyObstacle
+from sheetbench.scenes.objects.patches import Patch
+from sheetbench.scenes.objects.supports import AnySupport, Motion
+from sheetbench.scenes.objects.tables import FactorTable, Loading, OverTime
+
+Loaded = TypeVar("Loaded", bound=Loading)
+Held = TypeVar("Held", bound=AnySupport | AnyObstacle)
+NO_START = "the motion would start from no stable equilibrium"
+
+
+def kinks(scene: SceneFields) -> list[float]:
+    """The times [s] at which a history, a command or a motion has a sample, increasing: between them all that
+    is prescribed is smooth."""
+    natural = (scene.natural, scene.temperature, *(patch.natural for patch in scene.patches))
+    tables: list[OverTime | None] = [
+        load.history for load in (scene.gravity, *scene.loads, *natural) if load is not None
+    ]
+    tables += [*(one.motion for one in (*scene.supports, *scene.obstacles)), *scene.motions().values()]
+    commands = (getattr(actuator, "curvature", None) for actuator in scene.actuators)
+    tables += [command for command in commands if isinstance(command, OverTime)]
+    return sorted({time for table in tables if table is not None for time in table.time})
+
+
+def let_go(scene: AScene) -> AScene:
+    """The scene without the loads that hold the sheet until the motion starts."""
+    return scene.replace(loads=tuple(load for load in scene.loads if not load.hold))
+
+
+def starts_flat(scene: SceneFields) -> bool:
+    """Whether no equilibrium has to be found for the start."""
+    return scene.initial is None and not bent_or_tilted(scene.supports, scene.sheet)
+
+
+def at_start(scene: AScene) -> AScene:
+    """The statics in whose equilibrium a motion starts: supports and moved edges where they are at t = 0;
+    with `[initial]` loads, commands and natural states as they are then, else none."""
+    static = scene.initial is not None
+    return scene.replace(
+        initial=None,
+        gravity=scene.gravity and _now(scene.gravity) if static else None,
+        natural=scene.natural and _now(scene.natural) if static else None,
+        temperature=scene.temperature and _now(scene.temperature) if static else None,
+        patches=tuple(_bent_now(patch, static) for patch in scene.patches),
+        loads=tuple(_now(load).replace(hold=False) for load in scene.loads) if static else (),
+        supports=tuple(_placed(support) for support in scene.supports),
+        obstacles=tuple(_placed(one).replace(friction=0.0) for one in scene.obstacles),
+        actuators=tuple(
+            _moved(one, scene) if isinstance(one, EdgeMotion) else _bent(one, static)
+            for one in scene.actuators
+        ),
+    )
+
+
+def _now(load: Loaded) -> Loaded:
+    if load.history is None:
+        return load
+    return load.replace(history=FactorTable(time=(0.0,), factor=(float(load.course.at(0.0)),)))
+
+
+def _bent_now(patch: Patch, static: bool) -> Patch:
+    if patch.natural is None:
+        return patch
+    return patch.replace(natural=_now(patch.natural) if static else Natural())
+
+
+def _placed(held: Held) -> Held:
+    if held.motion is None:
+        return held
+    place = tuple(held.motion.course.at(0.0).tolist())
+    moved: Held = held.replace(motion=Motion(time=(0.0,), displacement=(place,)))  # type: ignore[assignment]
+    return moved
+
+
+def _bent(chain: Chain, static: bool) -> Chain:
+    if not static:
+        return chain.replace(curvature=0.0)
+    if not isinstance(chain.curvature, OverTime):
+        return chain
+    return chain.replace(curvature=float(chain.curvatures().at(0.0)[0]))
+
+
+def _moved(motion: EdgeMotion, scene: SceneFields) -> EdgeMotion:
+    displacement, rotation = MovedEdge(motion, scene.sheet).pose(0.0)
+    return motion.replace(time=(0.0,), displacement=(displacement,), rotation=(rotation,))

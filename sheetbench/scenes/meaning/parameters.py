@@ -1,0 +1,195 @@
+"""The parameters of a scene by name: where each sits, its unit and what it may be.
+
+young, poisson, density, damping_time, damping_rate   of the material
+young_1, young_2, poisson_12, shear_12, angle, …      of a material with fibres; young scales all its moduli
+loss_factor                                           of the material, with its frequency or its band
+share_N, time_N                                       of the material's branch N of [[material.relaxation]]
+thickness                                             of the sheet; its tapers and layers go with it
+patchN.young, poisson, density, thickness, angle      of the scene's Nth [[patch]], where that has its own
+curvature_EDGE                                        of the curved support, or of the chains, on an edge
+tilt_EDGE                                             of the clamp on an edge
+drag                                                  of the air
+massN                                                 of the scene's Nth [[mass]]
+obstacleN.x, y, z, radius, friction                   of the scene's Nth [[obstacle]]
+natural.exx, …, natural.kxy                           of [natural]: strain (e), curvature (k)
+patchN.natural.exx, …                                 of the scene's Nth [[patch]], where that has its own
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import reduce
+from math import inf, pi
+from typing import Any
+
+from sheetbench.errors import BadInput, SceneError
+from sheetbench.scenes.objects.actuators import Chain
+from sheetbench.scenes.objects.fields import AScene, SceneFields
+from sheetbench.scenes.objects.natural import LARGEST_STRAIN
+from sheetbench.scenes.objects.patches import CONSTANTS
+from sheetbench.scenes.objects.supports import LARGEST_TILT, Clamped, Curved
+
+MATERIAL = ("young", "poisson", "density", "damping_time", "damping_rate", "loss_factor")
+FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23", "angle")
+BRANCH = ("share", "time")
+NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
+NAMES += ["drag", "massN", "obstacleN.KEY", "natural.KEY", "patchN.natural.KEY"]
+UNITS = {  # none of other keys
+    **dict.fromkeys(("young", "young_1", "young_2", "shear_12", "shear_13", "shear_23"), "Pa"),
+    **{"density": "kg/m³", "thickness": "m", "curvature": "1/m", "angle": "rad", "tilt": "rad"},
+    **{"damping_time": "s", "damping_rate": "1/s", "time": "s", "mass": "kg"},
+    **{"position": "m", "radius": "m"},
+}
+BOUNDS = {  # others are above 0
+    "poisson": (-0.99, 0.4999),
+    "angle": (-0.999 * pi, 0.999 * pi),
+    "tilt": (-LARGEST_TILT, LARGEST_TILT),
+    "curvature": (-inf, inf),
+    "share": (0.0, 1.0),
+    "position": (-inf, inf),
+    "strain": (-LARGEST_STRAIN, LARGEST_STRAIN),
+}
+Path = tuple[str | int, ...]  # keys, and numbers in lists
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number of a scene: its name, unit and value (SI), and the bounds within which it makes sense."""
+
+    name: str
+    unit: str
+    value: float
+    low: float
+    high: float
+
+
+def parameter(scene: SceneFields, name: str) -> Parameter:
+    """Return the parameter of this name. Raises BadInput where the scene has none."""
+    path = _paths(scene, name)[0]
+    key = [part for part in path if isinstance(part, str)][-1]
+    low, high = BOUNDS.get(key, (0.0, inf))
+    if key == "thickness":
+        high = min(scene.sheet.lengths)
+    if key == "poisson_12":
+        high = 0.999 * ((scene.material.young_1 or 1.0) / (scene.material.young_2 or 1.0)) ** 0.5
+        low = -high
+    return Parameter(name, UNITS.get(key, ""), float(_value(scene, path) or 0.0), low, high)
+
+
+def put(scene: AScene, name: str, value: float) -> AScene:
+    """Return the scene with a parameter at another value. Raises BadInput where it has none of this name, and
+    SceneError where the value cannot be."""
+    paths = _paths(scene, name)
+    try:
+        if name == "thickness":
+            return _with_thickness(scene, value / scene.sheet.thickness)
+        return reduce(lambda changed, path: _replaced(changed, path, value), paths, scene)
+    except SceneError as error:
+        raise SceneError(f"{name} = {value:g}: {error}") from None
+
+
+def _paths(scene: SceneFields, name: str) -> list[Path]:
+    """Return the places in a scene that a parameter's value is at. Raises BadInput where there are none."""
+    material = scene.material
+    fibres = [key for key in FIBRES if getattr(material, key) is not None]
+    if material.kind == "orthotropic":
+        fibres.append("angle")  # 0 unless given
+    if (name in FIBRES or (name == "poisson" and fibres)) and name not in fibres:
+        raise BadInput(
+            f"'{name}': the scene's material has none; of fibres it has {', '.join(fibres) or 'none'}"
+        )
+    if name in (*MATERIAL, *FIBRES):
+        if getattr(material, name) is None and name != "angle":
+            raise BadInput(
+                f"'{name}': the scene's material has none; give a first guess, with frequency or band"
+            )
+        return [("material", name)]
+    if name == "thickness":
+        return [("sheet", name)]
+    if name == "drag":
+        if scene.air is None:
+            raise BadInput("'drag': the scene has no [air]; give a first guess there")
+        return [("air", name)]
+    if (patch := re.fullmatch(r"patch(\d+)\.(\w+)", name)) and patch[2] in CONSTANTS:
+        number, key = int(patch[1]), patch[2]
+        if not 1 <= number <= len(scene.patches):
+            raise BadInput(f"'{name}': the scene has {len(scene.patches)} patches")
+        if key not in scene.patches[number - 1].own:
+            raise BadInput(f"'{name}': patch {number} has no {key} of its own; give a first guess there")
+        return [("patches", number - 1, key)]
+    if natural := re.fullmatch(r"(?:patch(\d+)\.)?natural\.([ek])(xx|yy|xy)", name):
+        return [_natural(scene, name, *natural.groups())]
+    if payload := re.fullmatch(r"mass(\d+)", name):
+        if not 1 <= int(payload[1]) <= len(scene.masses):
+            raise BadInput(f"'{name}': the scene has {len(scene.masses)} masses")
+        return [("masses", int(payload[1]) - 1, "mass")]
+    if touched := re.fullmatch(r"obstacle(\d+)\.(x|y|z|radius|friction)", name):
+        number, key = int(touched[1]), touched[2]
+        if not 1 <= number <= len(scene.obstacles) or not hasattr(
+            scene.obstacles[number - 1], "position" if key in "xyz" else key
+        ):
+            raise BadInput(f"'{name}': the scene has {len(scene.obstacles)} obstacles, or not this key of it")
+        place: Path = ("position", "xyz".index(key)) if key in "xyz" else (key,)
+        return [("obstacles", number - 1, *place)]
+    key, _, of = name.partition("_")
+    if key in BRANCH and of.isdecimal():
+        if not 1 <= int(of) <= len(material.relaxation):
+            raise BadInput(f"'{name}': the material has {len(material.relaxation)} branches")
+        return [("material", "relaxation", int(of) - 1, key)]
+    if key == "tilt":
+        if clamps := _holders(scene, Clamped, of):
+            return [(*clamp, key) for clamp in clamps]
+        raise BadInput(f"'{name}': edge '{of}' has no clamp")
+    if key == "curvature":
+        paths = [(*holder, key) for holder in _holders(scene, Curved | Chain, of)]
+        values = {_value(scene, path) for path in paths}
+        if len(values) == 1 and isinstance(values.pop(), int | float):
+            return paths
+        raise BadInput(f"'{name}': edge '{of}' has no support or actuator of one curvature")
+    raise BadInput(f"'{name}': not a parameter of a scene; choose from {', '.join(NAMES)}")
+
+
+def _natural(scene: SceneFields, name: str, patch: str | None, kind: str, component: str) -> Path:
+    """Return the place of a component of a natural strain or curvature."""
+    if patch is not None and not 1 <= int(patch) <= len(scene.patches):
+        raise BadInput(f"'{name}': the scene has {len(scene.patches)} patches")
+    path: Path = (*(() if patch is None else ("patches", int(patch) - 1)), "natural")
+    if _value(scene, path) is None:
+        raise BadInput(f"'{name}': the scene has no {'.'.join(map(str, path))}; give a first guess there")
+    return (*path, {"e": "strain", "k": "curvature"}[kind], ("xx", "yy", "xy").index(component))
+
+
+def _holders(scene: SceneFields, kind: Any, edge: str) -> list[Path]:
+    """Return the places of an edge's supports and actuators of a kind."""
+    lists = {"supports": scene.supports, "actuators": scene.actuators}
+    every = ((key, i, one) for key, ones in lists.items() for i, one in enumerate(ones))
+    return [(key, i) for key, i, one in every if isinstance(one, kind) and one.edge == edge]
+
+
+def _value(scene: SceneFields, path: Path) -> Any:
+    of: Any = scene
+    for part in path:
+        of = of[part] if isinstance(part, int) else getattr(of, part)
+    return of
+
+
+def _replaced(of: Any, path: Path, value: Any) -> Any:
+    """Return a scene object, or a list of some, with another value at a place within."""
+    if not path:
+        return value
+    part, *rest = path
+    if isinstance(part, int):
+        new = _replaced(of[part], tuple(rest), value) if rest else value
+        return tuple(new if i == part else one for i, one in enumerate(of))
+    inside = _replaced(getattr(of, part), tuple(rest), value) if rest else value
+    return of.replace(**{part: inside})
+
+
+def _with_thickness(scene: AScene, factor: float) -> AScene:
+    """Return the scene with its sheet so many times as thick, tapers and layers too."""
+    sheet = scene.sheet
+    given = {key: getattr(sheet, key) for key in ("taper_x", "taper_y")}
+    tapers = {key: tuple(factor * h for h in ends) for key, ends in given.items() if ends is not None}
+    layers = tuple(layer.replace(thickness=factor * layer.thickness) for layer in scene.layers)
+    return scene.replace(sheet=sheet.replace(thickness=factor * sheet.thickness, **tapers), layers=layers)

@@ -1,0 +1,166 @@
+"""Slips that no rule forbids: numbers that are fine in SI units and hardly meant, nearly always a unit.
+
+Each is reported in a sentence that names the key, the value, the unit and how the likely quantity is written.
+Hardly meant are E below 1 kPa or above 10 GPa, a density outside 100 to 20 000 kg/m³, sides above 10 m, a
+thickness over a quarter of the shorter side, a gravity other than the Earth's, and layers of springs much
+nearer to or farther from each other than the sheet is thick; then a weight or loads that would tear the
+sheet, and a sheet that nothing moves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import hypot
+from warnings import warn
+
+from sheetbench.errors import Implausible
+from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.meaning.composition import mass_of
+from sheetbench.scenes.meaning.payloads import weights
+from sheetbench.scenes.meaning.region import resultant
+from sheetbench.scenes.meaning.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.material import Material
+from sheetbench.scenes.objects.sheet import Gravity, Sheet
+
+SOFTEST, STIFFEST = 1e3, 1e10  # Pa: agar, and the stiffest polymers
+STIFFEST_FIBRE = 1e12  # Pa: of a ply of carbon fibres 3e11
+LIGHTEST, HEAVIEST = 100.0, 20_000.0  # kg/m³: foam, gold
+LARGEST = 10.0  # m, of a side
+THICKEST = 0.25  # of the shorter side
+EARTH = (9.3, 10.3)  # m/s²; anything else is another planet or another unit
+RUBBER = 10.0  # stress over E of small strains: Treloar's rubber at seven times its length has 5
+LAYERS = 5.0  # times thicker or thinner than the sheet
+BURDEN = 100.0  # a payload's mass over the sheet's
+
+
+def slips(scene: SceneFields) -> tuple[str, ...]:
+    """Sentences about what was hardly meant; for most scenes none."""
+    warnings = [*sheet_slips(scene.sheet), *material_slips(scene.material)]
+    if scene.gravity is not None:
+        warnings += _gravity(scene.gravity)
+    warnings += _payloads(scene)
+    if scene.springs is not None:
+        warnings += layer_slips(scene.sheet, scene.springs.layer_distance, "springs.layer_distance")
+    if not warnings:  # else that may be why
+        warnings = _strains(scene)
+    if _unmoved(scene):
+        warnings.append(
+            "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
+        )
+    return tuple(warnings)
+
+
+def warn_of_slips(scenes: Iterable[tuple[str, SceneFields]], stacklevel: int) -> None:
+    """Warn (Implausible) of the slips of scenes under the names given."""
+    for name, scene in scenes:
+        for slip in slips(scene):
+            warn(Implausible(f"{name}: {slip}"), stacklevel=stacklevel + 1)
+
+
+def sheet_slips(sheet: Sheet) -> list[str]:
+    """Lengths that are not in metres."""
+    sizes = {key: getattr(sheet, key) for key in ("length_x", "length_y", "thickness")}
+    if max(sheet.lengths) > LARGEST:
+        written = ", ".join(f"{key} = {value:g} m" for key, value in sizes.items())
+        side = max(sheet.lengths)
+        return [f'{written}: lengths are in metres; {side:g} mm is written {side / 1e3:g} or "{side:g} mm"']
+    shorter = min(sheet.lengths)
+    if sheet.thickness > THICKEST * shorter:
+        return [
+            f"thickness = {sheet.thickness:g} m is {few(sheet.thickness / shorter)} of the shorter side, "
+            f"{shorter:g} m, which is no thin sheet; lengths are in metres"
+        ]
+    return []
+
+
+def material_slips(material: Material) -> list[str]:
+    """A modulus that is not in pascals, a density that is not in kilograms a cubic metre."""
+    warnings = []
+    density = material.density
+    for key in ("young",) if material.kind == "isotropic" else ("young_1", "young_2"):
+        young = getattr(material, key)
+        if young < SOFTEST:
+            warnings.append(
+                f"{key} = {young:g} Pa is softer than any solid sheet; "
+                f'it is in pascals: {young:g} MPa is written {young:g}e6 or "{young:g} MPa"'
+            )
+        elif young > (STIFFEST if key == "young" else STIFFEST_FIBRE):
+            warnings.append(
+                f"{key} = {young:g} Pa is {young / 1e9:g} GPa, stiffer than any soft sheet; it is in pascals"
+            )
+    if density < LIGHTEST:
+        warnings.append(
+            f"density = {density:g} kg/m³ is lighter than foam; "
+            f'it is in kg/m³: {density:g} g/cm³ is written {1e3 * density:g} or "{density:g} g/cm³"'
+        )
+    elif density > HEAVIEST:
+        warnings.append(f"density = {density:g} kg/m³ is heavier than any metal; water's is 1000 kg/m³")
+    return warnings
+
+
+def _payloads(scene: SceneFields) -> list[str]:
+    """Payloads that are not in kilograms."""
+    heaviest = BURDEN * mass_of(scene) if scene.masses else 0.0
+    return [
+        f"mass {n}.mass = {payload.mass:g} kg is {few(payload.mass * BURDEN / heaviest)} of the sheet's; "
+        f'masses are in kg: {payload.mass:g} g is written "{payload.mass:g} g"'
+        for n, payload in enumerate(scene.masses, start=1)
+        if payload.mass > heaviest
+    ]
+
+
+def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> list[str]:
+    """A distance of neighbouring layers [m] far from the sheet's thickness; `key` is how it was given."""
+    ratio = distance / sheet.thickness
+    if 1.0 / LAYERS <= ratio <= LAYERS:
+        return []
+    times = f"{_three_digits(ratio)} times the thickness, {sheet.thickness:g} m"
+    return [f"{key} = {distance:g} m is {times}; lengths are in metres"]
+
+
+def _strains(scene: SceneFields) -> list[str]:
+    """A weight or loads that would tear the sheet."""
+    warnings = []
+    sheet, young, law = scene.sheet, scene.material.young, scene.material.law
+    heaviest, strongest = (WEIGHT_LIMIT, STRETCH_LIMIT) if law is None else (RUBBER, RUBBER)
+    if (weight := weight_strain(scene)) > heaviest:
+        warnings.append(
+            f"the weight alone stretches the sheet: ρ g a/E = {_three_digits(weight)}, and above "
+            f"{heaviest:g} {'no linear model means anything' if law is None else 'rubber tears'}"
+        )
+    acting = (*scene.loads, *weights(scene))
+    whole = sum(abs(load.last_factor) * hypot(*resultant(scene, load)) for load in acting)
+    pull = whole / (young * sheet.thickness * min(sheet.lengths))
+    if pull > strongest:
+        warnings.append(
+            f"the loads are {_three_digits(pull)} times E · thickness · shorter side and would tear the "
+            "sheet; forces are in N, forces per length in N/m, pressures in Pa"
+        )
+    return warnings
+
+
+def _three_digits(value: float) -> str:
+    return f"{float(format(value, '.3g')):g}"  # 1000, not 1e+03
+
+
+def _gravity(gravity: Gravity) -> list[str]:
+    size = hypot(*gravity.acceleration)
+    if size == 0.0 or EARTH[0] <= size <= EARTH[1]:
+        return []
+    likely = f": {size:g} mm/s² is written {size / 1e3:g}" if EARTH[0] <= size / 1e3 <= EARTH[1] else ""
+    return [
+        f"gravity.acceleration = {list(gravity.acceleration)} is {size:g} m/s² strong, not the Earth's 9.81; "
+        f"it is in m/s²{likely}"
+    ]
+
+
+def _unmoved(scene: SceneFields) -> bool:
+    """Whether nothing whatever moves the sheet; its modes are all there is to ask for."""
+    weight = scene.gravity is not None and any(scene.gravity.acceleration)
+    bent = any(
+        getattr(support, "tilt", 0.0) or getattr(support, "curvature", 0.0) or support.motion is not None
+        for support in scene.supports
+    )
+    bent = bent or any(obstacle.motion is not None for obstacle in scene.obstacles)
+    return not (weight or bent or scene.loads or scene.actuators or scene.natural_by)

@@ -1,0 +1,179 @@
+"""Parts of a scene's plan: lengths, areas and resultants there, and what lies where there is no sheet."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sheetbench.errors import Impossible
+from sheetbench.scenes.objects.cutouts import NECK, common
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.grading import Places
+from sheetbench.scenes.objects.loads import AnyLoad, AreaLoad, EdgeLoad, PointLoad
+from sheetbench.scenes.objects.quantities import PlanPoint
+from sheetbench.scenes.objects.shapes import COINCIDENT, Shape, straight_sides
+from sheetbench.scenes.objects.sheet import EDGES
+from sheetbench.scenes.objects.supports import Point, named, place
+
+if TYPE_CHECKING:
+    pass
+
+
+def edge_parts(scene: SceneFields, edge: str, where: Shape | None = None) -> list[tuple[float, float]]:
+    """From where to where along an edge [m] the sheet reaches it: the sides of the plan on that line, or the
+    part of them in a shape."""
+    (normal, along, _), at = EDGES[edge], scene.sheet.edge_at(edge)
+    spans = []
+    for ring in (scene.region.exterior, *scene.region.interiors):
+        corners = np.array(ring.coords)
+        there = np.abs(corners[:, normal] - at) < COINCIDENT * max(scene.sheet.lengths)
+        sides = np.stack([corners[:-1, along], corners[1:, along]], axis=1)[there[:-1] & there[1:]]
+        spans += [(low, high) for low, high in np.sort(sides, axis=1).tolist()]
+    if where is None:
+        return spans
+    from shapely import LineString
+
+    lines = [LineString([(c, at) if along == 0 else (at, c) for c in ends]) for ends in spans]
+    cut: list[Any] = [line.intersection(where.area) for line in lines]
+    bounds = [part.bounds for each in cut for part in getattr(each, "geoms", [each]) if part.length > 0.0]
+    return [(each[along], each[along + 2]) for each in bounds]
+
+
+def sides_of_shapes(scene: SceneFields) -> Places:
+    """x and y [m], rising, of the sides along the axes of the rim and of shapes that hold or load the sheet,
+    and of the ends of its sides at the edges; those within the edges."""
+    shapes = [place(support) for support in scene.supports if not isinstance(support, Point)]
+    shapes += [getattr(acting, "where", None) for acting in (*scene.loads, *scene.masses)]
+    rims = [scene.region] if scene.pierced else []
+    sides = straight_sides(*rims, *(shape.area for shape in shapes if shape is not None))
+    for axis, at in ((axis, s.at[axis]) for s in scene.supports if isinstance(s, Point) for axis in (0, 1)):
+        sides[axis].add(at)
+    for name, edge in EDGES.items() if scene.pierced else ():
+        sides[edge.along_axis].update(at for part in edge_parts(scene, name) for at in part)
+    x, y = (
+        tuple(sorted(at for at in one if COINCIDENT * length < at < (1.0 - COINCIDENT) * length))
+        for one, length in zip(sides, scene.sheet.lengths, strict=True)
+    )
+    return x, y
+
+
+def edge_length(scene: SceneFields, edge: str, where: Shape | None = None) -> float:
+    """Length [m] of the part of an edge that the sheet reaches; where: of that in a shape."""
+    if where is None and not scene.pierced:
+        return scene.sheet.lengths[EDGES[edge].along_axis]
+    return sum(stop - start for start, stop in edge_parts(scene, edge, where))
+
+
+def area_in(scene: SceneFields, shape: Shape | None) -> float:
+    """Area [m²] of the sheet in a shape, or of all of it."""
+    if not scene.pierced and shape is None:
+        return scene.sheet.length_x * scene.sheet.length_y
+    return float((scene.region if shape is None else common(scene.region, shape.area)).area)
+
+
+def resultant(scene: SceneFields, load: AnyLoad, length: float | None = None) -> np.ndarray:
+    """The force (3,) [N] of a load in full, a pressure's on the flat sheet; length: of its edge [m] as a
+    model has it."""
+    if isinstance(load, PointLoad):
+        return np.array(load.force)
+    if isinstance(load, EdgeLoad):
+        if length is None or load.where is not None:
+            length = edge_length(scene, load.edge, load.where)
+        return length * np.array(load.force_per_length)
+    per_area = load.force_per_area if isinstance(load, AreaLoad) else (0.0, 0.0, load.value)
+    return area_in(scene, load.where) * np.array(per_area)
+
+
+def marked(scene: SceneFields) -> dict[str, PlanPoint]:
+    """Plan points [m] of probes, point loads, payloads and held points, by their keys."""
+    loads = {f"load {n}.at": each.at for n, each in enumerate(scene.loads, 1) if isinstance(each, PointLoad)}
+    payloads = {f"mass {n}.at": each.at for n, each in enumerate(scene.masses, 1) if each.at is not None}
+    pins = {f"{name}.at": s.at for name, s in named(scene.supports).items() if isinstance(s, Point)}
+    return {f"probes.{name}": point for name, point in scene.probes.items()} | loads | payloads | pins
+
+
+def share_of(scene: SceneFields, corners: np.ndarray) -> np.ndarray:
+    """What share of quadrilaterals with corners (n, 4, 2) [m] is on the sheet, (n,); 1 of other cells."""
+    import shapely
+
+    if corners.shape[1] != 4:
+        return np.ones(len(corners))
+    cells = shapely.polygons(corners)
+    return np.asarray(shapely.area(shapely.intersection(cells, scene.region)) / shapely.area(cells))
+
+
+def off_sheet(scene: SceneFields, point: PlanPoint) -> bool:
+    """Whether there is no sheet at a plan point [m]."""
+    from shapely import Point
+
+    return bool(scene.region.distance(Point(point)) > COINCIDENT * max(scene.sheet.lengths))
+
+
+def misplaced(scene: SceneFields) -> str:
+    """Why something is held, loaded or probed where there is no sheet; "" where nothing is."""
+    for key, point in marked(scene).items():
+        if off_sheet(scene, point):
+            return f"{key} = {list(point)} m: there is no sheet, by its outline or a cutout"
+    extended = {name: s for name, s in named(scene.supports).items() if not isinstance(s, Point)}
+    shapes = {name: place(support) for name, support in extended.items()}
+    shapes |= {f"load {n}": getattr(load, "where", None) for n, load in enumerate(scene.loads, start=1)}
+    shapes |= {f"mass {n}": payload.where for n, payload in enumerate(scene.masses, start=1)}
+    least = NECK * min(scene.sheet.lengths)
+    for name, shape in shapes.items():
+        if shape is not None and area_in(scene, shape) <= least**2:
+            return f"{name}.where: {shape.in_words()}: no part of it is on the sheet"
+    for n, load in enumerate(scene.loads, start=1):
+        if isinstance(load, EdgeLoad) and load.where and edge_length(scene, load.edge, load.where) <= least:
+            return f"load {n}.where: {load.where.in_words()}: no part of edge {load.edge} is in it"
+    edges = {f"support on edge {s.edge}": s.edge for s in scene.supports if place(s) is None}
+    edges |= {
+        f"load {n} on edge {each.edge}": each.edge
+        for n, each in enumerate(scene.loads, start=1)
+        if isinstance(each, EdgeLoad)
+    }
+    for name, edge in edges.items():
+        if edge_length(scene, edge) <= least:
+            return f"{name}: the sheet touches that edge at points at most; say where by a shape"
+    for number, actuator in enumerate(scene.actuators, start=1):
+        whole = scene.sheet.lengths[EDGES[actuator.edge].along_axis]
+        if edge_length(scene, actuator.edge) < (1.0 - COINCIDENT) * whole:
+            return f"actuator {number}: the sheet does not reach all of edge {actuator.edge}, which it moves"
+    return _disconnected(scene)
+
+
+def _disconnected(scene: SceneFields) -> str:
+    """Why supports that hold the same part of the sheet cannot both be obeyed; "" where all can."""
+    import shapely
+
+    supports = named(scene.supports)
+    names, shapes = list(supports), [place(support) for support in supports.values()]
+    motions: list[Any] = []
+    which = []  # of them each makes
+    for support in supports.values():
+        if support.motion not in motions:
+            motions.append(support.motion)
+        which.append(motions.index(support.motion))
+    if len(motions) < 2:
+        return ""
+    move, on_edge = np.array(which), np.array([shape is None for shape in shapes])
+    ends = (support.edge for support in supports.values() if place(support) is None)
+    lines = iter([shapely.LineString(scene.sheet.edge_ends(edge)) for edge in ends])
+    held = np.array([next(lines) if shape is None else shape.area for shape in shapes])
+    tree = shapely.STRtree(held)
+    for i in np.flatnonzero(~on_edge):
+        others = np.sort(tree.query(held[i]))
+        others = others[(move[others] != move[i]) & (on_edge[others] | (others > i))]
+        if (met := others[shapely.intersects(held[i], held[others])]).size:
+            return f"{names[i]} and {names[met[0]]} move the same part of the sheet differently"
+    return ""
+
+
+def require_rectangle(scene: SceneFields, who: str, instead: str = "") -> None:
+    """Raise Impossible for a sheet that is no whole rectangle, held and loaded at edges, points and all over,
+    if `who` knows no other: a verb, a model or a file; instead: what does."""
+    if words := scene.shaped_by:
+        raise Impossible(
+            f"scene '{scene.name}': {words}: {who} is for whole rectangles held at their edges"
+            f"{instead and '; '}{instead}"
+        )

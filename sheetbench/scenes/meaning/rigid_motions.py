@@ -1,0 +1,97 @@
+"""The rigid motions that a scene's supports and actuators leave free: a static answer needs none."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from sheetbench.errors import SceneError
+from sheetbench.scenes.meaning.distances import require_frictionless
+from sheetbench.scenes.objects.actuators import Chain
+from sheetbench.scenes.objects.cutouts import Cutout, common, region
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.sheet import EDGES, Sheet
+from sheetbench.scenes.objects.supports import Held, Point, Support, held_axes, holds_tilt, place
+
+ROUND_OFF = 1e-9
+
+
+def free_rigid_motions(scene: SceneFields) -> list[str]:
+    """Names of the rigid motions that supports and actuators leave free, as many as there are independent
+    ones (empty: a static answer can exist).
+
+    An actuator whose base is held, or that prescribes the edge's motion, leaves none.
+    A support fixes rows of the rigid velocity t + θ × X at both ends of its edge and, if it holds
+    the tilt, those of θ × e_z; what the stacked rows leave in their null space is free. A translation is
+    named where it is free alone; a rotation with the translation that it needs, about the edge that rests.
+    """
+    if any(not isinstance(actuator, Chain) or actuator.base != "free" for actuator in scene.actuators):
+        return []
+    return list(_left_free(scene.sheet, scene.supports, scene.cutouts))
+
+
+@lru_cache(maxsize=64)
+def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutout, ...]) -> tuple[str, ...]:
+    """Names of the rigid motions that supports leave free: computed at every solve of a scene."""
+    import shapely
+
+    centre = np.array([sheet.length_x / 2, sheet.length_y / 2, 0.0])
+    scale = max(sheet.lengths)
+    rows = [np.zeros((6, 6))]
+    plan = region(sheet, cutouts) if any(place(support) is not None for support in supports) else None
+    for support in supports:
+        shape, axes = place(support), list(held_axes(support))
+        if isinstance(support, Point):
+            ends = np.array([support.at])
+        elif plan is None or shape is None:
+            ends = np.array(sheet.edge_ends(support.edge))
+        else:
+            ends = shapely.get_coordinates(common(plan, shape.area).convex_hull)
+        arms = (np.column_stack([ends, np.zeros(len(ends))]) - centre) / scale
+        velocities = np.concatenate([np.broadcast_to(np.eye(3), (len(arms), 3, 3)), _turned(arms)], axis=2)
+        rows.append(velocities[:, axes].reshape(-1, 6))
+        if holds_tilt(support):
+            rows.append(np.hstack([np.zeros((3, 3)), _turned(np.array([0.0, 0.0, 1.0]))])[axes])
+    _, singular, motions = np.linalg.svd(np.concatenate(rows), full_matrices=False)
+    rank = int(np.sum(singular > ROUND_OFF))
+    free = motions[rank:]
+    fixed = np.eye(6) - free.T @ free  # what of a motion is not free
+    sliding = np.linalg.norm(fixed[:, :3], axis=0) < ROUND_OFF
+    in_words = [f"translation along {name}" for name, slides in zip("xyz", sliding, strict=True) if slides]
+    for axis, name in enumerate("xyz"):
+        moved = np.linalg.lstsq(fixed[:, :3], -fixed[:, 3 + axis], rcond=ROUND_OFF)[0]
+        if np.linalg.norm(fixed[:, :3] @ moved + fixed[:, 3 + axis]) < ROUND_OFF:
+            in_words.append(f"rotation about {_resting(sheet, axis, scale * moved) or name}")
+    return (*in_words, *["a screw"] * (len(free) - len(in_words)))
+
+
+def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
+    """The edge about which a unit rotation about an axis turns where the centre moves by `moved` [m]; "" for
+    none, as about the centre."""
+    for name, edge in EDGES.items():
+        arm = np.zeros(3)
+        arm[edge.normal_axis] = (0.5 if edge.far_end else -0.5) * sheet.lengths[edge.normal_axis]
+        if edge.along_axis == axis and np.allclose(moved, np.cross(arm, np.eye(3)[axis]), atol=ROUND_OFF):
+            return f"edge {name}"
+    return ""
+
+
+def require_static(scene: SceneFields) -> None:
+    """Raise SceneError unless the supports stop every rigid motion, or obstacles those out of the plane; and
+    for friction."""
+    require_frictionless(scene)
+    free = free_rigid_motions(scene)
+    if free and scene.obstacles:
+        resting = (Held(edge="x0", components=("z",)), Held(edge="x1", components=("z",)))
+        free = list(_left_free(scene.sheet, scene.supports + resting, scene.cutouts))
+    if free:
+        raise SceneError(
+            f"scene '{scene.name}': support: nothing stops {', '.join(free)}; a static answer needs supports "
+            'that stop every rigid motion (for instance kind = "clamped" on one edge)'
+        )
+
+
+def _turned(arm: np.ndarray) -> np.ndarray:
+    """Matrices (…, 3, 3) of θ ↦ θ × arm (…, 3)."""
+    return np.cross(np.eye(3), arm[..., None, :], axisa=-1, axisb=-1, axisc=-1).swapaxes(-1, -2)

@@ -1,0 +1,330 @@
+"""A scene in words, as its author would read it back: what is where, how large, and which way it acts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import degrees, hypot
+
+from sheetbench.scenes.meaning.composition import mass_of
+from sheetbench.scenes.meaning.distances import nearest, obstacles_by_name
+from sheetbench.scenes.meaning.natural_words import natural_in_words
+from sheetbench.scenes.meaning.payloads import carried
+from sheetbench.scenes.meaning.region import area_in, resultant
+from sheetbench.scenes.meaning.rigid_motions import free_rigid_motions
+from sheetbench.scenes.objects.actuators import Actuator, Chain, CurvatureTable
+from sheetbench.scenes.objects.air import Air
+from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.objects.layers import Layer
+from sheetbench.scenes.objects.loads import AnyLoad, AreaLoad, PointLoad, Pressure
+from sheetbench.scenes.objects.masses import Mass
+from sheetbench.scenes.objects.material import CONSTANTS, Material
+from sheetbench.scenes.objects.obstacles import AnyObstacle, Plane
+from sheetbench.scenes.objects.patches import Patch
+from sheetbench.scenes.objects.quantities import PlanPoint
+from sheetbench.scenes.objects.shapes import Shape
+from sheetbench.scenes.objects.sheet import EDGES, Sheet
+from sheetbench.scenes.objects.supports import AnySupport, Clamped, Curved, Held, Hinged, Point, named, place
+from sheetbench.scenes.objects.tables import FactorTable
+
+
+def in_words(scene: SceneFields) -> list[tuple[str, str]]:
+    """What each part of the scene means: pairs of a part's name and a sentence."""
+    sheet, material = scene.sheet, scene.material
+    shorter = min(sheet.lengths)
+    mass = mass_of(scene)
+    sentences = [
+        (
+            "sheet",
+            f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm{_outline(scene)}, "
+            f"{_mm(sheet.thickness)} mm thick (1/{shorter / sheet.thickness:.3g} of the shorter side)"
+            f"{_tapers(sheet)}, {1e3 * mass:.3g} g",
+        ),
+        (
+            "material",
+            f"{_elasticity(material)}, ρ = {material.density:g} kg/m³"
+            + (
+                f" at small strains, rubber by the law {material.law}{_constants(material)}"
+                if material.law
+                else ""
+            )
+            + _relaxation(material)
+            + (f", dampers of {1e3 * material.dashpot_time:.4g} ms · k" if material.dashpot_time else "")
+            + (f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""),
+        ),
+        *((f"layer {n}", _layer(layer)) for n, layer in enumerate(scene.layers, start=1)),
+        *((f"patch {n}", _patch(patch)) for n, patch in enumerate(scene.patches, start=1)),
+        *((f"cutout {n}", cutout.shape.in_words()) for n, cutout in enumerate(scene.cutouts, start=1)),
+        *((f"mass {n}", _payload(payload, sheet)) for n, payload in enumerate(scene.masses, start=1)),
+        *natural_in_words(scene),
+        ("weight", _weight(scene, mass + carried(scene))),
+    ]
+    if scene.air is not None:
+        sentences.append(("air", _air(scene.air, scene.sheet, mass)))
+    for name, support in named(scene.supports).items():
+        shape = place(support)
+        inside = f", everywhere in the {shape.in_words()}" if shape is not None else ""
+        inside = f" at {_point(support.at)} mm" if isinstance(support, Point) else inside
+        where = name if shape is not None else f"edge {name}"
+        sentences.append((where, f"{_support(support, sheet)}{inside}"))
+    sentences += [(f"load {n}", _load(load, scene)) for n, load in enumerate(scene.loads, start=1)]
+    sentences += [
+        (name, _obstacle(one, nearest(scene, one)[0])) for name, one in obstacles_by_name(scene).items()
+    ]
+    sentences += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
+    if scene.initial is not None:
+        gone = ", ".join(str(n) for n, load in enumerate(scene.loads, start=1) if load.hold)
+        then = f"; load {gone} is let go then" if gone else ""
+        sentences.append(("start", f"motion starts from the equilibrium under all loads at t = 0{then}"))
+    if scene.springs is not None:
+        sentences.append(
+            ("springs", "the lattice takes the scene's own constants instead of calibrated ones")
+        )
+    points = ", ".join(f"{name} {_point(point)}" for name, point in scene.probes.items())
+    sentences.append(("probes", f"{points} mm"))
+    free = free_rigid_motions(scene)
+    sentences.append(
+        (
+            "at rest",
+            f"not solved: nothing stops {', '.join(free)}" if free else "held: no rigid-body motion is free",
+        )
+    )
+    return sentences
+
+
+def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
+    """Return what the sheet may touch, where it is and how far from the flat sheet."""
+    x, y, z = (_mm(coordinate) for coordinate in obstacle.position)
+    round_ = "" if isinstance(obstacle, Plane) else f" of radius {_mm(obstacle.radius)} mm"
+    along = getattr(obstacle, "normal", None) or getattr(obstacle, "axis", None)
+    turned = "" if along is None else f" {'facing' if isinstance(obstacle, Plane) else 'along'} "
+    turned += "" if along is None else f"({', '.join(f'{part:.3g}' for part in along)})"
+    more = ", moving" if obstacle.motion is not None else ""
+    more += f", friction {obstacle.friction:g} in motion" if obstacle.friction else ""
+    return (
+        f"{obstacle.kind}{round_} at ({x}, {y}, {z}) mm{turned}{more}; {1e3 * gap:.4g} mm from the flat sheet"
+    )
+
+
+def _outline(scene: SceneFields) -> str:
+    """Return a clause on the outline and the area of a sheet that is no whole rectangle, "" for one."""
+    if not scene.pierced:
+        return ""
+    outline = scene.sheet.outline
+    corners = "" if outline is None else f", a polygon of {len(outline)} corners in it"
+    if scene.sheet.mesh is not None:
+        corners = f", a mesh of {len(scene.sheet.mesh.quads)} quadrilaterals in it"
+    return f"{corners}, {1e4 * area_in(scene, None):.4g} cm² in all"
+
+
+def _tapers(sheet: Sheet) -> str:
+    """Return a clause on each taper."""
+    tapers = {"x": sheet.taper_x, "y": sheet.taper_y}
+    return "".join(
+        f", from {_mm(ends[0])} to {_mm(ends[1])} mm along {axis}" for axis, ends in tapers.items() if ends
+    )
+
+
+def _elasticity(material: Material) -> str:
+    """Return E and ν, or the constants of fibres."""
+    if material.kind == "isotropic":
+        return f"E = {_pascals(material.young)}, ν = {material.poisson:g}"
+    ply = material.ply
+    moduli = ", ".join(
+        f"{name} = {_pascals(value)}"
+        for name, value in (("E₁", ply.young_1), ("E₂", ply.young_2), ("G₁₂", ply.shear_12))
+    )
+    return f"fibres at {degrees(ply.angle):.4g}° from x, {moduli}, ν₁₂ = {ply.poisson_12:g}"
+
+
+def _layer(layer: Layer) -> str:
+    """Return a layer's thickness, angle and other constants of its own."""
+    own = ", ".join(
+        f"{name} = {[*map(float, value)] if isinstance(value, tuple) else f'{value:g}'}"
+        for name, value in layer.own.items()
+        if name != "angle"
+    )
+    at = "" if layer.angle is None else f", fibres at {degrees(layer.angle):.4g}°"
+    return f"{_mm(layer.thickness)} mm thick{at}{f', {own}' if own else ''}"
+
+
+def _patch(patch: Patch) -> str:
+    """Return a patch's place and its own constants."""
+    words = {
+        "thickness": lambda value: f"{_mm(value)} mm thick",
+        "young": lambda value: f"E = {_pascals(value)}",
+        "poisson": lambda value: f"ν = {value:g}",
+        "density": lambda value: f"ρ = {value:g} kg/m³",
+        "angle": lambda value: f"fibres at {degrees(value):.4g}°",
+    }
+    own = [words[name](value) for name, value in patch.own.items()]
+    return f"{patch.shape.in_words()}: {', '.join(own) or 'not flat at rest'}"
+
+
+def _constants(material: Material) -> str:
+    """Return the constants of a rubber's law."""
+    given = {key: value for key in CONSTANTS if (value := getattr(material, key)) is not None}
+    texts = [f"{key} = {v:g}" if key == "limit" else f"{key} = {_pascals(v)}" for key, v in given.items()]
+    return f" ({', '.join(texts)})" if texts else ""
+
+
+def _relaxation(material: Material) -> str:
+    if not (branches := material.branches).times:
+        return ""
+    parts = zip(branches.shares, branches.times, strict=True)
+    listed = ", ".join(f"{share:.3g} in {1e3 * time:.3g} ms" for share, time in parts)
+    at_once = material.young * (1.0 + sum(branches.stiffness))
+    return f" at rest, {_pascals(float(f'{at_once:.4g}'))} at once, of which relax {listed}"
+
+
+def sheet_in_words(sheet: Sheet, material: Material) -> str:
+    """The sheet and its material in a line."""
+    sides = " × ".join(f"{1e3 * length:g}" for length in (*sheet.lengths, sheet.thickness))
+    if material.kind == "isotropic":
+        young = f"{material.young / 1e6:g} MPa" + (" (long-time)" if material.branches.times else "")
+        elasticity = f"E = {young}, ν = {material.poisson:g}"
+    else:
+        elasticity = _elasticity(material)
+    return f"{sides} mm, {elasticity}, ρ = {material.density:g} kg/m³"
+
+
+def _payload(payload: Mass, sheet: Sheet) -> str:
+    if payload.at is None:
+        return f"{1e3 * payload.mass:.3g} g, spread evenly{_in(payload.where)}"
+    x, y, z = (1e7 * moment for moment in payload.inertia or (0.0, 0.0, 0.0))
+    turning = f", moments of inertia {x:.3g} and {y:.3g} g·cm² about x and y" if x or y else ""
+    turning += ", of that about z, the sheet's normal, nothing is taken" if z else ""
+    place = f"{_point(payload.at)} mm{_on_edges(payload.at, sheet)}"
+    return f"{1e3 * payload.mass:.3g} g at {place}{turning}"
+
+
+def _weight(scene: SceneFields, mass: float) -> str:
+    whole = f", of {1e3 * mass:.3g} g in all" if scene.masses else ""
+    if scene.gravity is None:
+        return f"none: weightless{whole}"
+    force = [mass * component for component in scene.gravity.acceleration]
+    return f"{_vector(force, 'N')}{whole}{_over_time(scene.gravity.history)}"
+
+
+def _air(air: Air, sheet: Sheet, mass: float) -> str:
+    share = air.carried_along(sheet) * sheet.length_x * sheet.length_y / mass
+    return (
+        f"drag of {air.coefficient:.3g} kg/m³ · v² per area, v along the normal; none at rest. The mass of "
+        f"air that moves along, up to {100.0 * share:.2g} % of the sheet's, is left out"
+    )
+
+
+def _support(support: AnySupport, sheet: Sheet) -> str:
+    moved = ""
+    if support.motion is not None:
+        far = max(support.motion.displacement, key=lambda moved: sum(part * part for part in moved))
+        how = {"smooth": "smoothly", "linear": "linearly between samples"}[support.motion.interpolation]
+        by = _vector([1e3 * part for part in far], "mm")
+        moved = f", moved {how} over {support.motion.time[-1]:g} s, farthest by {by}"
+    if isinstance(support, Clamped):
+        if support.tilt == 0.0:
+            return f"clamped: the mid-surface and its normal held{moved}"
+        way = "downwards" if support.tilt > 0.0 else "upwards"
+        return (
+            f"clamped, turned by {abs(support.tilt):g} rad ({degrees(abs(support.tilt)):.3g}°): "
+            f"the sheet starts off {way}{moved}"
+        )
+    if isinstance(support, Hinged):
+        return f"hinged: the mid-surface held, free to turn{moved}"
+    if isinstance(support, Held | Point):
+        free = [axis for axis in "xyz" if axis not in support.components]
+        slides = f", free to move along {' and '.join(free)}" if free else ""
+        return f"held along {' and '.join(support.components)}{slides}, free to turn{moved}"
+    if isinstance(support, Curved):
+        return f"clamped to a rigid rod, {_bent(support.curvature, sheet, support.edge)}{moved}"
+    return "a plane of symmetry: the sheet goes on beyond it as its mirror image"
+
+
+def _bent(curvature: float, sheet: Sheet, edge: str) -> str:
+    if curvature == 0.0:
+        return "straight"
+    turned = degrees(abs(curvature) * sheet.lengths[EDGES[edge].along_axis])
+    way = "up" if curvature > 0.0 else "down"
+    return f"bent to a radius of {_mm(1.0 / abs(curvature))} mm, {turned:.3g}° in all, its ends {way}"
+
+
+def _load(load: AnyLoad, scene: SceneFields) -> str:
+    history, whole = _over_time(load.history), hypot(*resultant(scene, load))
+    if isinstance(load, PointLoad):
+        return f"{_vector(load.force, 'N')} at {_point(load.at)} mm{_on_edges(load.at, scene.sheet)}{history}"
+    if isinstance(load, Pressure):
+        way = "along the normal, at first +z" if load.value > 0.0 else "against the normal, at first −z"
+        where = _in(load.where)
+        return f"pressure of {abs(load.value):g} Pa {way}{where}; {whole:.3g} N on the flat sheet{history}"
+    if isinstance(load, AreaLoad):
+        return f"{_vector(load.force_per_area, 'N/m²')}, {whole:.3g} N in all{_in(load.where)}{history}"
+    parts = []
+    if any(load.force_per_length):
+        parts.append(f"{_vector(load.force_per_length, 'N/m')} ({whole:.3g} N in all)")
+    if load.moment_per_length:
+        way = "up" if load.moment_per_length > 0.0 else "down"
+        parts.append(f"a moment of {abs(load.moment_per_length):g} N·m/m that turns what is outside it {way}")
+    return f"on edge {load.edge}{_in(load.where)}: {' and '.join(parts) or 'nothing'}{history}"
+
+
+def _in(where: Shape | None) -> str:
+    return "" if where is None else f", in the {where.in_words()}"
+
+
+def _actuator(actuator: Actuator, sheet: Sheet) -> str:
+    if not isinstance(actuator, Chain):
+        return f"edge {actuator.edge} moved rigidly as prescribed, over {actuator.time[-1]:g} s"
+    length = sheet.lengths[EDGES[actuator.edge].along_axis]
+    curvature = actuator.curvature
+    if isinstance(curvature, CurvatureTable):
+        first, last = curvature.value[0], curvature.value[-1]
+        bent = f"its curvature from {first:g} to {last:g} 1/m in {curvature.time[-1]:g} s"
+    elif isinstance(curvature, tuple):
+        bent = f"its joints' curvatures from {min(curvature):g} to {max(curvature):g} 1/m"
+    else:
+        bent = _bent(curvature, sheet, actuator.edge)
+    where = {"mid": "in the mid-surface", "top": "on the top face", "bottom": "on the bottom face"}[
+        actuator.face
+    ]
+    held = "" if actuator.base == "free" else f", held at its {actuator.base}"
+    return (
+        f"on edge {actuator.edge} a chain of {actuator.segments} segments of "
+        f"{_mm(length / actuator.segments)} mm {where}, {1e3 * actuator.line_density * length:.3g} g, "
+        f"EI = {actuator.bending_stiffness:g} N·m², {bent}{held}"
+    )
+
+
+def _vector(vector: Sequence[float], unit: str) -> str:
+    """A force in words: along an axis where it lies on one."""
+    along = [(axis, value) for axis, value in zip("xyz", vector, strict=True) if value != 0.0]
+    if not along:
+        return f"0 {unit}"
+    if len(along) == 1:
+        axis, value = along[0]
+        return f"{abs(value):.3g} {unit} along {'+' if value > 0.0 else '−'}{axis}"
+    return f"({', '.join(f'{value:.3g}' for value in vector)}) {unit}".replace("-", "−")
+
+
+def _on_edges(point: PlanPoint, sheet: Sheet) -> str:
+    at = [name for name, edge in EDGES.items() if point[edge.normal_axis] == sheet.edge_at(name)]
+    return f", the corner of {' and '.join(at)}" if len(at) == 2 else f", on edge {at[0]}" if at else ""
+
+
+def _over_time(history: FactorTable | None) -> str:
+    if history is None:
+        return ""
+    return f", times {history.factor[0]:g} to {history.factor[-1]:g} over {history.time[-1]:g} s"
+
+
+def _point(point: PlanPoint) -> str:
+    return f"({_mm(point[0])}, {_mm(point[1])})"
+
+
+def _pascals(value: float) -> str:
+    for size, unit in ((1e6, "MPa"), (1e3, "kPa")):
+        if value >= size:
+            return f"{value / size:g} {unit}"
+    return f"{value:g} Pa"
+
+
+def _mm(length: float) -> str:
+    return f"{1e3 * length:.4g}"

@@ -1,0 +1,167 @@
+"""The two kinds of actuator, each bound to one edge of the sheet.
+
+A chain is an elastic rod: joints divide the edge evenly into segments, and a joint's curvature is that of
+what lies nearest to it. A model may have it as rigid parts, with joints of the stiffness EI/ds and the rest
+angle curvature × ds between them. The chain alone carries its own weight and inertia, and holds the edge's
+tilt about the rod. A curvature is a number, a list with one value a joint (in the order of the edge's axis; a
+held base adds the half-length joints beside it), or a table {time, value}, of which statics take the last
+value, as of a motion. A motion is no chain and has no forces of its own. What neighbouring edges must agree
+on: `sheetbench.scenes.meaning.corners`.
+
+An actuator's name is its edge, or, where an edge has several, its edge and its number in the scene: "x1.2".
+What holds it is named among the reactions: a motion as its edge, the base of an edge's chains as "EDGE base".
+
+Actuators on one edge share its masses: chains of a pair must have the same segments, plane and base, and lie
+anywhere through the thickness. They move as one chain whose axis is the mean of theirs; the joints of each
+slide along its axis, since two inextensible rods on opposite faces could not bend together.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from sheetbench.scenes.objects.quantities import (
+    A_LIST,
+    A_NUMBER,
+    A_TABLE,
+    FORM,
+    Frozen,
+    Length,
+    NonNegative,
+    Number,
+    Positive,
+    Unit,
+    Vector3,
+)
+from sheetbench.scenes.objects.sheet import EdgeName
+from sheetbench.scenes.objects.tables import OverTime, PiecewiseLinear
+
+Plane = Literal["normal", "inplane", "spatial"]
+Base = Literal["free", "start", "middle", "end"]
+
+
+class CurvatureTable(OverTime):
+    """Intrinsic curvature over time, one for all joints."""
+
+    value: Annotated[tuple[Number, ...], Unit("1/m")]
+    """Intrinsic curvature of all joints at each time, linear between them; statics take the last one."""
+
+
+Curvature = Annotated[
+    Annotated[Number, A_NUMBER] | Annotated[tuple[Number, ...], A_LIST] | Annotated[CurvatureTable, A_TABLE],
+    FORM,
+]
+
+
+class Chain(Frozen):
+    """A flexible chain bound to an edge: a rod that bends; it carries weight and inertia of its own."""
+
+    kind: Literal["chain"] = Field(default="chain", kw_only=True)
+    edge: EdgeName
+    """The edge it is bound to, which has no support."""
+    segments: Annotated[int, Field(ge=1, strict=True)]
+    """Segments of equal length, with a curvature for each joint between them; forces are summed over them.
+    Every model has a rod that bends smoothly: the lattice divides segments that are longer than its cells."""
+    bending_stiffness: Annotated[Positive, Unit("N·m²")]
+    """EI of the chain; a joint's stiffness is EI divided by the length of a rigid part."""
+    line_density: Annotated[Positive, Unit("kg/m")]
+    """Mass per length of the chain."""
+    radius: Length
+    """Of its round cross-section, for the rotary inertia and, on a face, the distance of its axis."""
+    face: Literal["mid", "top", "bottom"] = "mid"
+    """Where its axis lies: in the mid-surface, or thickness/2 + radius above (top) or below (bottom) it."""
+    curvature: Annotated[Curvature, Unit("1/m")] = 0.0
+    """Intrinsic curvature: a number, one a joint, or a table over time; > 0 lifts the ends towards +z (plane
+    "normal", "spatial") or bends them outwards ("inplane")."""
+    damping_time: Annotated[NonNegative, Unit("s")] = 0.0
+    """Every joint has a damper of damping_time times its stiffness."""
+    plane: Plane = "normal"
+    """It bends in the plane of the edge and the sheet's normal ("normal"), in the sheet's plane ("inplane"),
+    or in both ("spatial")."""
+    base: Base = "free"
+    """Held nowhere ("free"), or at its middle or at the end where the edge starts or ends."""
+
+    @model_validator(mode="after")
+    def _one_curvature_a_joint(self) -> Chain:
+        if isinstance(self.curvature, tuple) and len(self.curvature) != self.joints:
+            raise ValueError(
+                f"curvature has {len(self.curvature)} values, but {self.segments} segments with base = "
+                f'"{self.base}" have {self.joints} joints'
+            )
+        return self
+
+    @property
+    def held_as(self) -> str:
+        """The name of its base among the reactions, where it is held."""
+        return f"{self.edge} base"
+
+    @property
+    def base_ends(self) -> tuple[int, ...]:
+        """Ends that its base holds: 0 where the edge starts, 1 where it ends."""
+        return {"free": (), "start": (0,), "middle": (), "end": (1,)}[self.base]
+
+    def axis_height(self, thickness: float) -> float:
+        """Height [m] of its axis along the director of a sheet of a thickness [m]."""
+        side = {"mid": 0.0, "top": 1.0, "bottom": -1.0}[self.face]
+        return side * (thickness / 2.0 + self.radius)
+
+    def pieces(self) -> np.ndarray:
+        """Bounds (n + 1,) of the pieces of its edge that have a joint's curvature each, in segments: what
+        lies nearest to the joint, and what is left at the ends. All of it is one piece where no joint is."""
+        inner = np.arange(1, self.segments - 1) + 0.5  # between joints of whole length
+        extra = {"start": 0.5, "end": self.segments - 0.5, "middle": self.segments / 2.0}.get(self.base)
+        if extra is not None and self.joints == self.segments and self.joints > 1:
+            inner = np.sort(np.append(inner, extra))
+        return np.concatenate([[0.0], inner, [self.segments]])
+
+    def curvatures(self) -> PiecewiseLinear:
+        """Intrinsic curvature (joints,) [1/m] of every joint over time; (1,), if it has none."""
+        count = max(self.joints, 1)
+        if isinstance(self.curvature, CurvatureTable):
+            return PiecewiseLinear(self.curvature.time, [(value,) * count for value in self.curvature.value])
+        each = self.curvature if isinstance(self.curvature, tuple) else (self.curvature,) * count
+        return PiecewiseLinear((0.0,), [each or (0.0,)])
+
+    @property
+    def joints(self) -> int:
+        """Joints between segments, and the half-length joints that a held base carries."""
+        between = self.segments - 1
+        if self.base in ("start", "end"):
+            return between + 1
+        return between + 1 if self.base == "middle" and self.segments % 2 == 0 else between
+
+
+class EdgeMotion(OverTime):
+    """The edge moved rigidly as prescribed over time."""
+
+    kind: Literal["motion"] = Field(kw_only=True)
+    edge: EdgeName
+    """The edge that is moved, which has no support."""
+    displacement: Annotated[tuple[Vector3, ...], Unit("m")] = ()
+    """[ux, uy, uz] of the edge's middle at each time, linear between them."""
+    rotation: Annotated[tuple[Vector3, ...], Unit("rad")] = ()
+    """Rotation vector [about x, about y, about z] of the edge about its middle at each time, right-handed,
+    linear between them."""
+
+    @property
+    def held_as(self) -> str:
+        """Its name among the reactions."""
+        return str(self.edge)
+
+    @model_validator(mode="after")
+    def _moves_something(self) -> EdgeMotion:
+        if not self.displacement and not self.rotation:
+            raise ValueError("needs displacement [m] or rotation [rad]")
+        return self
+
+
+def _kind(data: Any) -> str:
+    return str(data.get("kind", "chain") if isinstance(data, dict) else getattr(data, "kind", "chain"))
+
+
+Actuator = Annotated[
+    Annotated[Chain, Tag("chain")] | Annotated[EdgeMotion, Tag("motion")], Discriminator(_kind)
+]

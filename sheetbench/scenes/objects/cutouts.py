@@ -1,0 +1,89 @@
+"""Cutouts of a sheet, and its plan without them.
+
+What lies on a shape's boundary belongs to it. A plan is one piece that is connected by more than points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sheetbench.scenes.objects.quantities import Frozen, PlanPoint
+from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
+from sheetbench.scenes.objects.sheet import Sheet
+
+if TYPE_CHECKING:
+    from shapely import Polygon
+
+NECK = 1e-6  # of the shorter side, that connects a sheet: less is a point
+
+
+class Cutout(Frozen):
+    """A part of the rectangle or the outline where there is no sheet."""
+
+    shape: Shape
+    """Where: a rectangle, a circle or a polygon; it may reach over the rim."""
+
+
+def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
+    """The sheet's plan [m]: a polygon with holes. Raises ValueError for a sheet without area or in pieces."""
+    import shapely
+
+    plan: Any = shapely.box(0.0, 0.0, *sheet.lengths)
+    if sheet.outline is not None:
+        plan = shapely.Polygon(sheet.outline)
+    elif sheet.mesh is not None:
+        if cutouts:
+            raise ValueError("cutout 1: beside sheet.mesh; the holes of a sheet with a mesh are the mesh's")
+        plan = sheet.mesh.area
+    neck = NECK * min(sheet.lengths)
+    if (number := _idle(plan, cutouts)) is not None:
+        words = f"cutout {number + 1}.shape: {cutouts[number].shape.in_words()}"
+        raise ValueError(f"{words}: no part of it is on what is left of the sheet")
+    if cutouts:
+        plan = plan.difference(shapely.union_all([cutout.shape.area for cutout in cutouts]))
+    inner = plan.buffer(-0.5 * neck)
+    if (count := 0 if inner.is_empty else shapely.get_num_geometries(inner)) != 1:
+        drawn = "sheet.mesh: it covers" if sheet.mesh is not None else "sheet.outline: it encloses"
+        what = "cutout: they leave" if cutouts else drawn
+        parts = f"{count} parts that are connected at points at most" if count else "no part"
+        raise ValueError(f"{what} {parts}; a sheet is one piece")
+    if plan.geom_type != "Polygon":  # slivers beside it
+        plan = max(plan.geoms, key=lambda part: part.area)
+    return plan
+
+
+def _idle(plan: Polygon, cutouts: Sequence[Cutout]) -> int | None:
+    """Return the first cutout, from 0, that takes nothing from what those before it leave of a plan."""
+    import shapely
+
+    areas = np.array([cutout.shape.area for cutout in cutouts])
+    tree = shapely.STRtree(areas)
+    for number, area in enumerate(areas):
+        taken = plan.intersection(area)
+        before = tree.query(area)
+        before = np.sort(before[before < number])
+        # from the last on: it is the nearest of a row, and leaves few others to test
+        while len(before := before[shapely.intersects(taken, areas[before])]):
+            taken, before = taken.difference(areas[before[-1]]), before[:-1]
+        if taken.area <= COINCIDENT * plan.area:
+            return number
+    return None
+
+
+def nearest(plan: Polygon, point: PlanPoint) -> PlanPoint:
+    """The point of a plan that is nearest to one [m]: itself where it lies there."""
+    import shapely
+
+    x, y = (float(c) for c in shapely.shortest_line(plan, shapely.Point(point)).coords[0])
+    return x, y
+
+
+def common(plan: Polygon, area: Any) -> Any:
+    """The part of a plan in an area; of a plan with many holes it is soon known where that is all of it."""
+    import shapely
+
+    shapely.prepare(plan)
+    return area if plan.contains(area) else plan.intersection(area)

@@ -1,0 +1,136 @@
+"""Layers of a laminate, from the sheet's lower face up: plies of one material at other angles, or of several.
+
+Classical lamination, symmetric about the mid-surface: stretching and bending are uncoupled. Layers that
+[temperature] bends, a bimetal's, need not be: what stands for the mid-surface then is the plane about which
+they are uncoupled, as it is of isotropic layers of one Poisson's ratio.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from sheetbench.scenes.objects import orthotropy
+from sheetbench.scenes.objects.material import Material
+from sheetbench.scenes.objects.orthotropy import Fibres, Ply, in_own_axes
+from sheetbench.scenes.objects.quantities import Angle, Density, Length, Modulus, PoissonRatio
+from sheetbench.scenes.objects.sheet import Sheet
+
+ROUNDING = 1e-9  # of the thickness
+LARGEST_COUPLING = 0.01  # of the bending stiffness, that is left of what a pull bends
+
+
+class Layer(Fibres):
+    """A ply: thickness, the angle of its fibres, and constants that are not the material's."""
+
+    thickness: Length
+    """All of them add up to the sheet's."""
+    angle: Angle | None = Field(default=None, kw_only=True)
+    """Of its axis 1 from x towards y; the material's unless given."""
+    young: Modulus | None = Field(default=None, kw_only=True)
+    """Young's modulus of an isotropic layer, with poisson."""
+    poisson: PoissonRatio | None = Field(default=None, kw_only=True)
+    """Poisson's ratio of an isotropic layer."""
+    density: Density | None = Field(default=None, kw_only=True)
+    """The material's unless given."""
+
+    @model_validator(mode="after")
+    def _of_one_kind(self) -> Layer:
+        own = self.own
+        if (self.young is None) != (self.poisson is None):
+            raise ValueError("young and poisson: an isotropic layer has both")
+        if any(key in own for key in (*orthotropy.NEEDED, "shear_13", "shear_23")):
+            if self.young is not None:
+                raise ValueError(
+                    f"young = {self.young:g}: the layer has constants of fibres too; give either"
+                )
+            if reason := orthotropy.impossible(own):
+                raise ValueError(reason.removeprefix(f"{orthotropy.KIND}: "))
+        return self
+
+    @property
+    def own(self) -> dict[str, Any]:
+        """What is its own."""
+        given = {name: getattr(self, name) for name in type(self).model_fields if name != "thickness"}
+        return {name: value for name, value in given.items() if value is not None}
+
+
+def plies(layers: tuple[Layer, ...], material: Material) -> tuple[Ply, ...]:
+    """Return the plies of a sheet's layers. Heights are from the plane in which a pull does not bend the
+    sheet: its middle, but of a laminate that is not symmetric about that."""
+    ends = np.cumsum([0.0, *(layer.thickness for layer in layers)])
+    base = material.ply
+    found = tuple(
+        base._replace(**{**in_own_axes(layer.own), **_angle(layer), "low": low, "high": high})
+        for layer, (low, high) in zip(layers, pairwise((ends / ends[-1] - 0.5).tolist()), strict=True)
+    )
+    if not unlike_its_mirror(found):
+        return found
+    stretching, mixed, _ = resultants(found)
+    pulled = float(np.trace(mixed[:2, :2]) / np.trace(stretching[:2, :2]))
+    return tuple(ply._replace(low=ply.low - pulled, high=ply.high - pulled) for ply in found)
+
+
+def plane_stress(ply: Ply) -> np.ndarray:
+    """Return the stress (3, 3) [Pa] over (xx, yy, xy) of strains (xx, yy, 2xy) where nothing pulls along z:
+    the inverse of its compliance, turned."""
+    c, s = np.cos(ply.angle), np.sin(ply.angle)
+    turn = np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
+    mixed = -ply.poisson_12 / ply.young_1
+    soft = np.array([[1.0 / ply.young_1, mixed, 0.0], [mixed, 1.0 / ply.young_2, 0.0]])
+    soft = np.vstack([soft, [0.0, 0.0, 1.0 / ply.shear_12]])
+    return np.asarray(turn.T @ np.linalg.inv(soft) @ turn)
+
+
+def resultants(found: tuple[Ply, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return A [Pa], B and D [Pa] of plies per thickness, its square and its cube, (3, 3) each."""
+    return moments(found, [plane_stress(ply) for ply in found])
+
+
+def moments(found: tuple[Ply, ...], values: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ∫ f dz, ∫ f z dz and ∫ f z² dz of values f of plies, over the thickness as 1."""
+    powers = np.array([[(p.high**n - p.low**n) / n for p in found] for n in (1, 2, 3)])
+    first, second, third = np.tensordot(powers, np.array(values), 1)
+    return first, second, third
+
+
+def unlike_its_mirror(found: tuple[Ply, ...]) -> int:
+    """Return the number of the first ply that is not as its counterpart from the other face, 0 for none."""
+    for number, (ply, above) in enumerate(zip(found, found[::-1], strict=True), start=1):
+        mirrored = above._replace(low=-above.high, high=-above.low)
+        if not np.allclose(ply, mirrored, rtol=1e-9, atol=ROUNDING):
+            return number
+    return 0
+
+
+def _angle(layer: Layer) -> dict[str, float]:
+    return {} if layer.angle is None else {"angle": layer.angle}
+
+
+def misfit(layers: tuple[Layer, ...], sheet: Sheet, material: Material, heated: bool = False) -> str:
+    """Return why layers are not those of a sheet, "" where they are. heated: whether they need not be
+    symmetric about its middle."""
+    total = sum(layer.thickness for layer in layers)
+    if abs(total - sheet.thickness) > ROUNDING * sheet.thickness:
+        return f"thicknesses add up to {total:g} m; the sheet's is {sheet.thickness:g} m"
+    if material.law is not None:
+        return f"material.law = '{material.law}': layers are of linear material"
+    found = plies(layers, material)
+    number = unlike_its_mirror(found)
+    if not number:
+        return ""
+    unlike = f"{number} is not {len(layers) + 1 - number} from the other face: a laminate that is not "
+    if not heated:
+        return f"{unlike}symmetric about its middle bends when it is pulled, which no model here has"
+    a, b, d = resultants(found)
+    softer = np.linalg.eigvals(np.linalg.solve(d, b @ np.linalg.solve(a, b))).real.max()
+    if softer > LARGEST_COUPLING:
+        return (
+            f"{unlike}symmetric about its middle bends or twists when it is pulled, whatever plane that is "
+            f"in, by {100.0 * softer:.2g} % of its bending stiffness here; no model has more than "
+            f"{100.0 * LARGEST_COUPLING:g} %"
+        )
+    return ""

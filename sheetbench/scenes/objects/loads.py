@@ -1,0 +1,82 @@
+"""The kinds of load, each with a `history` that scales it over time: linear between samples, the first factor
+before and the last one after. Without one it acts in full from t = 0 on. Statics take the last factor.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from sheetbench.scenes.objects.quantities import Number, PlanPoint, Unit, Vector3
+from sheetbench.scenes.objects.shapes import Shape
+from sheetbench.scenes.objects.sheet import EdgeName
+from sheetbench.scenes.objects.tables import Loading
+
+
+class _Load(Loading):
+    hold: bool = Field(default=False, kw_only=True)
+    """Whether it holds the sheet only until a motion starts, which lets it go at t = 0: with [initial]
+    shape = "static". Statics have it as any other load."""
+
+    @model_validator(mode="after")
+    def _holds_steadily(self) -> Self:
+        if self.hold and self.history is not None:
+            raise ValueError(
+                "hold = true: it acts in full until t = 0 and no longer; leave hold or history out"
+            )
+        return self
+
+
+class PointLoad(_Load):
+    """A dead force at a point of the mid-surface."""
+
+    kind: Literal["point"] = Field(default="point", kw_only=True)
+    at: Annotated[PlanPoint, Unit("m")]
+    """Plan point [x, y] of the undeformed sheet where the force acts."""
+    force: Annotated[Vector3, Unit("N")]
+    """Along x, y and z; it keeps its direction while the sheet moves."""
+
+
+class EdgeLoad(_Load):
+    """A dead force and a moment along an edge."""
+
+    kind: Literal["edge"] = Field(default="edge", kw_only=True)
+    edge: EdgeName
+    """The edge that is loaded."""
+    force_per_length: Annotated[Vector3, Unit("N/m")] = (0.0, 0.0, 0.0)
+    """Along x, y and z, per undeformed length of the edge; it keeps its direction."""
+    moment_per_length: Annotated[Number, Unit("N·m/m")] = 0.0
+    """About the current edge; > 0 turns the edge so that material just outside it would move towards +z."""
+    where: Shape | None = Field(default=None, kw_only=True)
+    """The part of the edge that is loaded, which lies in a shape; the whole edge unless given."""
+
+    @model_validator(mode="after")
+    def _loads_something(self) -> EdgeLoad:
+        if not self.model_fields_set & {"force_per_length", "moment_per_length"}:
+            raise ValueError("needs force_per_length [N/m] or moment_per_length [N·m/m]")
+        return self
+
+
+class AreaLoad(_Load):
+    """A dead force on the whole sheet, or on a part of it."""
+
+    kind: Literal["area"] = Field(default="area", kw_only=True)
+    force_per_area: Annotated[Vector3, Unit("N/m²")]
+    """Along x, y and z, per undeformed area; it keeps its direction."""
+    where: Shape | None = None
+    """The part that is loaded; the whole sheet unless given."""
+
+
+class Pressure(_Load):
+    """A follower pressure on the whole sheet, or on a part of it."""
+
+    kind: Literal["pressure"] = Field(default="pressure", kw_only=True)
+    value: Annotated[Number, Unit("Pa")]
+    """> 0 pushes along the sheet's current normal, at first +z; per current area."""
+    where: Shape | None = None
+    """The part that is loaded; the whole sheet unless given."""
+
+
+AnyLoad = PointLoad | EdgeLoad | AreaLoad | Pressure
+Load = Annotated[AnyLoad, Field(discriminator="kind")]

@@ -1,0 +1,52 @@
+"""A payload on the sheet: a body at a point, or a mass spread evenly over a part of it.
+
+It has weight under gravity and inertia in motion, and no stiffness. A body turns with the director d of the
+sheet at its point, at first e_z: with its moments of inertia I about x and y, ω = d × ḋ,
+
+    T = ½ m |φ̇|² + ½ (Iyy ḋ_x² + Ixx ḋ_y² + max(Ixx, Iyy) ḋ_z²)
+
+of small turns from the flat sheet, and of any turn of a body that is round about its normal, Ixx = Iyy, or
+that turns about the axis of the larger one alone. Being of constant coefficients in the coordinates it leaves
+the mass matrix constant. Of Izz nothing is taken: a point of a sheet has no couple about its normal. Source:
+the kinetic energy of a rigid body; e.g. Wittenburg, Dynamics of Multibody Systems, 2008, 3.3.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from sheetbench.scenes.objects.quantities import Frozen, NonNegative, PlanPoint, Positive, Unit
+from sheetbench.scenes.objects.shapes import Shape
+
+
+class Mass(Frozen):
+    """A payload: a body at a point of the mid-surface, or a mass spread evenly over a part of it."""
+
+    mass: Annotated[Positive, Unit("kg")]
+    """Of the whole payload; it weighs under gravity and is inert in motion."""
+    at: Annotated[PlanPoint, Unit("m")] | None = None
+    """Plan point [x, y] of the undeformed sheet where it is; or `where`."""
+    where: Shape | None = None
+    """In place of `at`: the part of the sheet over which it is spread evenly, in the mid-surface."""
+    inertia: Annotated[tuple[NonNegative, NonNegative, NonNegative], Unit("kg·m²")] | None = Field(
+        default=None, kw_only=True
+    )
+    """Moments of inertia about x, y and z through the point `at`, of a body that turns with the sheet's
+    normal there; that about z, the normal, takes no part. Without them it is a point."""
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Mass:
+        if (self.at is None) == (self.where is None):
+            raise ValueError("give one of at, a point [x, y], and where, a part of the sheet")
+        if self.inertia is not None and self.at is None:
+            raise ValueError("inertia: is of a body at a point; with where leave it out")
+        return self
+
+    @property
+    def of_director(self) -> np.ndarray:
+        """What resists the components of ḋ, (3,) [kg m²]."""
+        x, y, _ = self.inertia or (0.0, 0.0, 0.0)
+        return np.array([y, x, max(x, y)])

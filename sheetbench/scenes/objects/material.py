@@ -1,0 +1,339 @@
+"""The material: linear at small strains, and of rubber a law for large ones.
+
+With the principal stretches λ_i, J = λ₁ λ₂ λ₃, I₁ = Σ λ_i², I₂ = Σ_{i<j} λ_i² λ_j² and x = I₁ − 3, a law of
+rubber stores per volume
+
+    W = f(x) + c₀₁ (I₂ − 3) − (2 f′(0) + 4 c₀₁) ln J + ½ Λ ln² J,   Λ = λ − 4 c₀₁ − 4 f″(0),
+
+λ Lamé's constant: free of stress at rest, of the shear modulus μ = 2 f′(0) + 2 c₀₁ and of the Poisson's ratio
+given at small strains. By `law`:
+
+    neo-hookean     f = ½ μ x
+    mooney-rivlin   f = c1 x, c₀₁ = c2
+    yeoh            f = c1 x + c2 x² + c3 x³
+    gent            f = −½ shear · limit · ln(1 − x/limit)
+
+`young` is the long-time modulus, which everything at rest has; in motion Maxwell branches add to it
+(`sheetbench.scenes.objects.relaxation`). All moduli relax alike, Poisson's ratio stays.
+
+Sources: Mooney (1940), Rivlin (1948), Yeoh (1990), Gent (1996); ln J as in Bonet and Wood, Nonlinear
+Continuum Mechanics (2008), 6.4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from math import pi
+from typing import Annotated, Any, Literal, NamedTuple, Self
+
+from pydantic import ConfigDict, Field, model_validator
+
+from sheetbench.errors import BadInput
+from sheetbench.scenes.language.units import numbers
+from sheetbench.scenes.objects import orthotropy
+from sheetbench.scenes.objects.orthotropy import Fibres, Ply
+from sheetbench.scenes.objects.quantities import (
+    Angle,
+    Density,
+    Finite,
+    Modulus,
+    NonNegative,
+    Number,
+    PoissonRatio,
+    Positive,
+    Unit,
+)
+from sheetbench.scenes.objects.relaxation import Branches, Relaxation, constant_loss
+
+RubberLaw = Literal["neo-hookean", "mooney-rivlin", "yeoh", "gent"]
+
+
+class Energy(NamedTuple):
+    """A law's f(x) = c10 x + c20 x² + c30 x³ [Pa] or, with a limit [-], Gent's of f′(0) = c10; c01 [Pa]."""
+
+    c10: float
+    c01: float = 0.0
+    c20: float = 0.0
+    c30: float = 0.0
+    limit: float = 0.0
+
+    @property
+    def shear(self) -> float:
+        """μ of small strains [Pa]."""
+        return 2.0 * (self.c10 + self.c01)
+
+    @property
+    def stiffening(self) -> float:
+        """f″(0) [Pa]."""
+        return 2.0 * self.c20 + (self.c10 / self.limit if self.limit else 0.0)
+
+    def volume(self, poisson: float) -> float:
+        """Λ [Pa]."""
+        return 2.0 * self.shear * poisson / (1.0 - 2.0 * poisson) - 4.0 * (self.c01 + self.stiffening)
+
+
+@dataclass(frozen=True)
+class Words:
+    """A law's keys in [material] and the energy that they mean."""
+
+    keys: tuple[str, ...]
+    energy: Callable[..., Energy]
+
+
+WORDS: Mapping[str, Words] = {
+    "mooney-rivlin": Words(("c1", "c2"), lambda c1, c2: Energy(c1, c01=c2)),
+    "yeoh": Words(("c1", "c2", "c3"), lambda c1, c2, c3: Energy(c1, c20=c2, c30=c3)),
+    "gent": Words(("shear", "limit"), lambda shear, limit: Energy(shear / 2.0, limit=limit)),
+}
+STRESSES = ("c1", "c2", "c3", "shear")
+CONSTANTS = (*STRESSES, "limit")
+LARGEST_LOSS = 2.0  # of a loss factor: rubber in its transition
+
+
+def _constants_in_schema(schema: dict[str, Any]) -> None:
+    """Write into a JSON Schema which keys a material needs: of fibres, of a law with constants, of others."""
+    needed: dict[str, Any] = {"required": ["young", "poisson"]}
+    for law, words in WORDS.items():
+        of_law = {"properties": {"law": {"const": law}}, "required": ["law"]}
+        needed = {"if": of_law, "then": {"required": [*words.keys, "poisson"]}, "else": needed}
+    fibres = {"properties": {"kind": {"const": "orthotropic"}}, "required": ["kind"]}
+    schema["required"] = ["density"]
+    schema["allOf"] = [{"if": fibres, "then": {"required": [*orthotropy.NEEDED]}, "else": needed}]
+
+
+class Material(Fibres):
+    """Elasticity, density, viscous damping and relaxation; of rubber a law with its constants, of a sheet
+    with fibres those along and across them (`sheetbench.scenes.objects.orthotropy`)."""
+
+    model_config = ConfigDict(json_schema_extra=_constants_in_schema)
+
+    young: Modulus
+    """Young's modulus E: 1 MPa is 1.0e6; needed, but of fibres and of a law with constants, from which it
+    follows. Of a material that relaxes, the long-time modulus."""
+    poisson: PoissonRatio
+    """Poisson's ratio ν, below 0.5: rubber and silicone are about 0.48 to 0.499; needed, but of fibres."""
+    density: Density
+    """Density ρ: water's is 1000."""
+    damping_time: Annotated[NonNegative, Unit("s")] = 0.0
+    """Stiffness-proportional damping: every spring has a damper of damping_time times its stiffness."""
+    damping_rate: Annotated[NonNegative, Unit("1/s")] = 0.0
+    """Mass-proportional damping: a force damping_rate · mass · velocity on every mass, against its motion."""
+    law: RubberLaw | None = Field(default=None, kw_only=True)
+    """Of rubber at large strains: neo-hookean (young, poisson), mooney-rivlin (c1, c2), yeoh (c1, c2, c3) or
+    gent (shear, limit), each with poisson."""
+    c1: Annotated[Number, Unit("Pa")] | None = Field(default=None, kw_only=True)
+    """Of I1 - 3 in the energy: mooney-rivlin, yeoh."""
+    c2: Annotated[Number, Unit("Pa")] | None = Field(default=None, kw_only=True)
+    """Of I2 - 3: mooney-rivlin; of (I1 - 3)²: yeoh."""
+    c3: Annotated[Number, Unit("Pa")] | None = Field(default=None, kw_only=True)
+    """Of (I1 - 3)³: yeoh."""
+    shear: Modulus | None = Field(default=None, kw_only=True)
+    """Shear modulus at small strains: gent."""
+    limit: Positive | None = Field(default=None, kw_only=True)
+    """I1 - 3 that no load reaches: gent."""
+    kind: Literal["isotropic", "orthotropic"] = Field(default="isotropic", kw_only=True)
+    """Of an orthotropic sheet, one with fibres, the constants along axis 1 and across it are given; young and
+    poisson are left out."""
+    young_3: Modulus | None = Field(default=None, kw_only=True)
+    """Young's modulus through the thickness, which solids alone ask for; young_2 unless given."""
+    poisson_13: Number | None = Field(default=None, kw_only=True)
+    """How much it contracts through the thickness where it is pulled along 1, likewise; poisson_12 unless
+    given."""
+    poisson_23: Number | None = Field(default=None, kw_only=True)
+    """The same where it is pulled along 2; poisson_12 unless given."""
+    angle: Angle | None = Field(default=None, kw_only=True)
+    """Of axis 1 from x towards y: 30 degrees are 0.5236 or "30 deg"; 0 unless given."""
+
+    loss_factor: Annotated[Finite, Field(gt=0, le=LARGEST_LOSS)] | None = Field(default=None, kw_only=True)
+    """η = 2ζ = tan δ = 1/Q, in place of damping_time: with `frequency` one damper a spring, right at that
+    frequency alone; with `band` Maxwell branches that keep it over the band."""
+    frequency: Annotated[Positive, Unit("Hz")] | None = Field(default=None, kw_only=True)
+    """Where one damper a spring has the loss factor: damping_time = loss_factor/(2π frequency)."""
+    band: Annotated[tuple[Positive, Positive], Unit("Hz")] | None = Field(default=None, kw_only=True)
+    """[low, high]: where two Maxwell branches a decade keep the loss factor."""
+    relaxation: tuple[Relaxation, ...] = Field(default=(), kw_only=True)
+    """Maxwell branches, in the order of their times: a Prony series."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _young_of_constants(cls, data: Any) -> Any:
+        """Young's modulus of small strains from a law's constants, where it is not given; of fibres it and
+        Poisson's ratio, as measures of the material's size."""
+        if isinstance(data, dict) and data.get("kind") == "orthotropic":
+            return orthotropy.with_likeness(data)
+        words = WORDS.get(data.get("law", "")) if isinstance(data, dict) else None
+        if words is None or "young" in data:
+            return data
+        given = numbers(data, {key: "Pa" if key in STRESSES else "" for key in ("poisson", *words.keys)})
+        poisson, *constants = given.values() or (0.0,)
+        young = 2.0 * (1.0 + poisson) * words.energy(*constants).shear if constants else 0.0
+        # where it makes no sense `_law_with_its_constants` says why
+        return {**data, "young": young if young > 0.0 else 1.0}
+
+    @model_validator(mode="after")
+    def _law_with_its_constants(self) -> Self:
+        words = WORDS.get(self.law or "", Words((), Energy))
+        for key in CONSTANTS:
+            value = getattr(self, key)
+            if value is not None and key not in words.keys:
+                of = (
+                    f"law = '{self.law}' takes {' and '.join(words.keys) or 'young'}"
+                    if self.law
+                    else "law is missing"
+                )
+                raise ValueError(f"{key} = {value:g}: {of}; leave {key} out, or choose law: {_choices(key)}")
+            if value is None and key in words.keys:
+                raise ValueError(f"law = '{self.law}': {key} is missing; it takes {', '.join(words.keys)}")
+        if self.law is not None:
+            self._require_a_rubber()
+        return self
+
+    def _require_a_rubber(self) -> None:
+        """Raise ValueError for constants of which a material would not be stable at rest, or pull on."""
+        energy = self.energy
+        given = ", ".join(
+            f"{key} = {getattr(self, key):g}" for key in CONSTANTS if getattr(self, key) is not None
+        )
+        if energy.shear <= 0.0:
+            raise ValueError(
+                f"{given}: the shear modulus at small strains is {energy.shear:g} Pa; it must be > 0"
+            )
+        young = 2.0 * (1.0 + self.poisson) * energy.shear
+        if abs(self.young - young) > 1e-9 * young:
+            raise ValueError(
+                f"young = {self.young:g}: {given} and poisson = {self.poisson:g} make it {young:g} Pa "
+                "at small strains; leave young out"
+            )
+        if energy.volume(self.poisson) < 0.0:
+            ratio = 2.0 * (energy.c01 + energy.stiffening) / energy.shear
+            raise ValueError(
+                f"poisson = {self.poisson:g}: with law = '{self.law}' {given} it must "
+                f"be {ratio / (1.0 + 2.0 * ratio):.3g} or more"
+            )
+        _require_pull(energy, given, self.law)
+
+    @model_validator(mode="after")
+    def _fibres_with_their_constants(self) -> Self:
+        if reason := orthotropy.fault({key: getattr(self, key) for key in type(self).model_fields}):
+            raise ValueError(reason)
+        return self
+
+    @model_validator(mode="after")
+    def _damped_in_one_way(self) -> Self:
+        if self.loss_factor is None:
+            for key in ("frequency", "band"):
+                if getattr(self, key) is not None:
+                    raise ValueError(f"{key}: is of a loss_factor; give one")
+        else:
+            for key in ("damping_time", "relaxation"):
+                if getattr(self, key):
+                    raise ValueError(f"loss_factor and {key}: each says how the material damps; give one")
+            if (self.frequency is None) == (self.band is None):
+                raise ValueError(
+                    f"loss_factor = {self.loss_factor:g}: give frequency, where one damper a spring has it, "
+                    "or band = [low, high], over which Maxwell branches keep it"
+                )
+        if self.loss_factor and self.band:
+            try:
+                constant_loss(self.loss_factor, *self.band)
+            except BadInput as error:
+                raise ValueError(str(error)) from None
+        times = [branch.time for branch in self.relaxation]
+        if any(b <= a for a, b in pairwise(times)):
+            raise ValueError(f"relaxation: times must increase, not {', '.join(f'{t:g}' for t in times)} s")
+        if (total := sum(branch.share for branch in self.relaxation)) >= 1.0:
+            raise ValueError(f"relaxation: shares add up to {total:g}; the rest, below 1, is young's")
+        return self
+
+    @property
+    def ply(self) -> Ply:
+        """Return the ply that a sheet of this material alone is."""
+        given = {key: getattr(self, key) for key in (*orthotropy.KEYS, "young", "poisson", "density")}
+        return Ply(-0.5, 0.5, **orthotropy.in_own_axes(given))
+
+    @property
+    def dashpot_time(self) -> float:
+        """Coefficient over stiffness [s] of the one damper that every spring has, 0 where it has none."""
+        if self.loss_factor is not None and self.frequency is not None:
+            return self.loss_factor / (2.0 * pi * self.frequency)
+        return self.damping_time
+
+    @property
+    def branches(self) -> Branches:
+        """The Maxwell branches, as stiffnesses over the long-time one and times; none for most materials."""
+        if self.loss_factor is not None and self.band is not None:
+            return constant_loss(self.loss_factor, *self.band)
+        rest = 1.0 - sum(branch.share for branch in self.relaxation)
+        return Branches(
+            tuple(branch.share / rest for branch in self.relaxation),
+            tuple(branch.time for branch in self.relaxation),
+        )
+
+    @property
+    def energy(self) -> Energy:
+        """The energy of its law; of none neo-Hooke's, which has the same small strains."""
+        words = WORDS.get(self.law or "")
+        if words is None:
+            return Energy(self.young / (4.0 * (1.0 + self.poisson)))
+        return words.energy(*(getattr(self, key) for key in words.keys))
+
+    def replace(self, **values: Any) -> Self:
+        """Return a copy with other values for some keys; of a law with constants, and of fibres, these follow
+        another young, and young follows other constants. Raises SceneError for what makes no sense."""
+        kinds = {self.kind, values.get("kind", self.kind)}
+        if "orthotropic" in kinds:
+            own = {"young", "poisson", *(orthotropy.KEYS if len(kinds) == 2 else ())}
+            scale = values.pop("young") / self.young if len(kinds) == 1 and "young" in values else 1.0
+            moduli = {k: scale * v for k in orthotropy.MODULI if (v := getattr(self, k)) is not None}
+            return self._with({**moduli, **values} if scale != 1.0 else values, own)
+        if WORDS.get(self.law or "") is None or ("law" in values and values["law"] != self.law):
+            dropped = {} if "law" not in values else {key: None for key in CONSTANTS if key not in values}
+            return super().replace(**dropped, **values)
+        young = values.pop("young", None)
+        if young is not None:
+            scale = young / (2.0 * (1.0 + values.get("poisson", self.poisson)) * self.energy.shear)
+            of_young = {k: scale * v for k in STRESSES if (v := getattr(self, k)) is not None}
+            values = {**of_young, **values}
+        return self._with(values, {"young"})
+
+    def _with(self, values: dict[str, Any], derived: set[str]) -> Self:
+        """Return a copy with other values for some keys, without those that are derived."""
+        kept = {name: getattr(self, name) for name in type(self).model_fields if name not in derived}
+        return type(self)(**{**kept, **values})
+
+
+def limit_note(material: Material) -> str:
+    """Return a sentence on the limit of the material's law, for an answer that what is prescribed may rule
+    out."""
+    return (
+        f"the law 'gent' lets no load bring I1 - 3 to its limit = {material.limit:g}, as what is prescribed "
+        "here may do: move the supports less, or give a larger limit"
+    )
+
+
+def _require_pull(energy: Energy, given: str, law: str | None) -> None:
+    """Raise ValueError for constants of which a sheet, pulled one way or both ways far enough, would push."""
+    least = energy.c20**2 / (3.0 * energy.c10) if energy.c20 < 0.0 < energy.c10 else 0.0
+    if energy.c10 < 0.0 or energy.c30 < least or (least and energy.c30 == least):
+        above = f" and c3 above {least:g} Pa" if law == "yeoh" else ""
+        raise ValueError(f"{given}: pulled far enough this rubber would push; c1 must be 0 or more{above}")
+    if energy.c01 < 0.0:
+        stretch = (-energy.c10 / energy.c01) ** 0.5
+        raise ValueError(
+            f"{given}: pulled both ways beyond a stretch of {stretch:.3g} this rubber would push; c2 must "
+            "be 0 or more: take law = 'yeoh' or 'gent' for what stiffens"
+        )
+
+
+def _choices(key: str) -> str:
+    return ", ".join(law for law, words in WORDS.items() if key in words.keys)
+
+
+def require_no_branches(material: Material, who: str) -> None:
+    """Raise BadInput for a material with Maxwell branches, which `who`, a model or a file, does not have."""
+    if material.branches.times:
+        key = "band" if material.band else "relaxation"
+        remedy = "give a frequency in place of the band" if material.band else "give a damping_time"
+        raise BadInput(f"material.{key}: {who} has no Maxwell branches: {remedy}")

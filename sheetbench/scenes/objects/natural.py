@@ -1,0 +1,51 @@
+"""What makes a sheet other than flat at rest: natural strains and curvatures, temperatures.
+
+A part of the sheet that nothing else held would at the height z over the mid-surface have the stretch
+U = 1 + e0 − z k0 (2 × 2, symmetric), so that k0 > 0 curls it towards +z. A rise of temperature ΔT + z ΔT′
+gives what the layers' own stresses, with C, α of each, would bring about if nothing held them:
+
+    ∫ C (e0 − z k0 − α (ΔT + z ΔT′)) (1, z) dz = 0;    of one layer e0 = α ΔT,   k0 = −α ΔT′.
+
+Source: Timoshenko, J. Opt. Soc. Am. 11 (1925) 233, whose formula follows for two isotropic layers.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from sheetbench.scenes.objects.quantities import Number, Unit, Vector3
+from sheetbench.scenes.objects.tables import Loading
+
+LARGEST_STRAIN = 0.5
+NOTHING = (0.0, 0.0, 0.0)
+
+
+class Natural(Loading):
+    """Strain and curvature that the sheet, or a patch of it, would have if nothing held it."""
+
+    strain: Annotated[Vector3, Unit("")] = NOTHING
+    """[exx, eyy, exy] of the mid-surface; > 0 is longer than drawn."""
+    curvature: Annotated[Vector3, Unit("1/m")] = NOTHING
+    """[kxx, kyy, kxy]; > 0 curls the sheet towards +z."""
+    pretension: Annotated[tuple[Number, Number], Unit("N/m")] | None = Field(default=None, kw_only=True)
+    """In place of strain: [Nx, Ny] that stretch the sheet as long as it is held where it is drawn."""
+
+    @model_validator(mode="after")
+    def _possible(self) -> Natural:
+        if self.pretension is not None and any(self.strain):
+            raise ValueError("strain and pretension: give one of them")
+        xx, yy, xy = (self.last_factor * component for component in self.strain)
+        if max(abs(xx), abs(yy), abs(xy)) > LARGEST_STRAIN:
+            raise ValueError(f"strain = [{xx:g}, {yy:g}, {xy:g}]: at most {LARGEST_STRAIN:g} either way")
+        return self
+
+
+class Temperature(Loading):
+    """How much warmer the sheet is than where it is flat and free of stress (`expansion`)."""
+
+    change: Annotated[Number, Unit("K")] = 0.0
+    """In the middle of the thickness; > 0 is warmer."""
+    gradient: Annotated[Number, Unit("K/m")] = 0.0
+    """Along z: > 0 is warmer on the upper face."""

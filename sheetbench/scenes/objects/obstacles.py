@@ -1,0 +1,85 @@
+"""The kinds of obstacle, rigid bodies that the sheet touches: a plane, a sphere, a cylinder.
+
+Positions are of the obstacle's own surface: with φ(x) the distance of a point of the mid-surface from it, the
+sheet touches where φ = h/2. A plane that the flat sheet lies on is at z = −h/2.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field, field_validator
+
+from sheetbench.scenes.objects.quantities import Frozen, Length, NonNegative, Unit, Vector3
+from sheetbench.scenes.objects.supports import Motion
+
+SLIP_SPEED = 1e-3  # m/s, v₀ of the friction −μ p v/√(v² + v₀²)
+
+
+class _Obstacle(Frozen):
+    position: Annotated[Vector3, Unit("m")]
+    """A point of the plane, the sphere's centre, a point of the cylinder's axis."""
+    motion: Motion | None = Field(default=None, kw_only=True)
+    """How the obstacle moves over time; statics bring it to its last place as the load grows."""
+    friction: NonNegative = Field(default=0.0, kw_only=True)
+    """Coefficient of friction, in motion only."""
+    contact_damping: Annotated[NonNegative, Unit("s/m")] = Field(default=0.0, kw_only=True)
+    """τ, in motion only: the pressure is k d (1 + τ ḋ) at a depth d; a part of the sheet that meets the
+    obstacle at a speed v ≪ 1/τ leaves it at about (1 − 2 τ v/3) v."""
+
+    @property
+    def direction(self) -> np.ndarray:
+        """A plane's normal or a cylinder's axis as a unit vector (3,), 0 of a sphere."""
+        along = np.array(getattr(self, "normal", getattr(self, "axis", (0.0, 0.0, 0.0))))
+        unit: np.ndarray = along / (np.linalg.norm(along) or 1.0)
+        return unit
+
+    def displacement(self, load_factor: float, time: float | None = None) -> np.ndarray:
+        """Return how far the obstacle has moved, (3,) [m]: at a time [s] or, without one, a share of its last
+        displacement."""
+        if self.motion is None:
+            return np.zeros(3)
+        last = self.motion.time[-1]
+        moved: np.ndarray = self.motion.course.at(last if time is None else time)
+        return load_factor * moved if time is None else moved
+
+
+def _turned_somewhere(vector: Vector3) -> Vector3:
+    if not any(vector):
+        raise ValueError("needs a direction, not [0, 0, 0]")
+    return vector
+
+
+class Plane(_Obstacle):
+    """A half space below a plane."""
+
+    kind: Literal["plane"] = Field(default="plane", kw_only=True)
+    normal: Vector3 = (0.0, 0.0, 1.0)
+    """Out of the obstacle, towards the sheet, of any length."""
+
+    _direction = field_validator("normal")(_turned_somewhere)
+
+
+class Sphere(_Obstacle):
+    """A ball."""
+
+    kind: Literal["sphere"] = Field(default="sphere", kw_only=True)
+    radius: Length
+    """Of the ball."""
+
+
+class Cylinder(_Obstacle):
+    """A round bar without ends."""
+
+    kind: Literal["cylinder"] = Field(default="cylinder", kw_only=True)
+    axis: Vector3
+    """Along the bar, of any length."""
+    radius: Length
+    """Of the bar."""
+
+    _direction = field_validator("axis")(_turned_somewhere)
+
+
+AnyObstacle = Plane | Sphere | Cylinder
+Obstacle = Annotated[AnyObstacle, Field(discriminator="kind")]

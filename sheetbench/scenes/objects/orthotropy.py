@@ -1,0 +1,163 @@
+"""Orthotropic materials: the constants of a ply in its own axes, and which of them can be.
+
+Axis 1 lies in the plane at an `angle` [rad] from x towards y, axis 2 across it in the plane, axis 3 is the
+normal. With ν₂₁ = ν₁₂ E₂/E₁ the compliances are
+
+    ε₁ = σ₁/E₁ − ν₁₂ σ₂/E₁ − ν₁₃ σ₃/E₁,   ε₂ = −ν₁₂ σ₁/E₁ + σ₂/E₂ − ν₂₃ σ₃/E₂,   γ_ij = τ_ij/G_ij.
+
+Their energy is positive where all moduli are and 1 − ν₁₂² E₂/E₁ > 0, of a sheet whose normal stress is 0; in
+space the 3 × 3 matrix of 1/E and ν/E must be positive definite.
+Source: R. M. Jones, Mechanics of Composite Materials (1999), 2.3 and 2.4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+from pydantic import Field
+
+from sheetbench.scenes.language.units import numbers
+from sheetbench.scenes.objects.quantities import Frozen, Modulus, Number, Unit
+
+NEEDED = ("young_1", "young_2", "poisson_12", "shear_12")
+MODULI = ("young_1", "young_2", "young_3", "shear_12", "shear_13", "shear_23")
+KEYS = (*NEEDED, "shear_13", "shear_23", "young_3", "poisson_13", "poisson_23", "angle")
+KIND = "kind = 'orthotropic'"
+FIBRES = f"material.{KIND}"
+LARGEST_POISSON = 0.49  # of the isotropic material that stands for one with fibres
+
+
+class Fibres(Frozen):
+    """The constants of a material or a layer with fibres, in its plane and across it."""
+
+    young_1: Modulus | None = Field(default=None, kw_only=True)
+    """Young's modulus along axis 1, that of the fibres: orthotropic."""
+    young_2: Modulus | None = Field(default=None, kw_only=True)
+    """Young's modulus across them, in the plane: orthotropic."""
+    poisson_12: Number | None = Field(default=None, kw_only=True)
+    """How much it contracts along 2 where it is pulled along 1; its square is below young_1/young_2."""
+    shear_12: Modulus | None = Field(default=None, kw_only=True)
+    """Shear modulus in the plane: orthotropic."""
+    shear_13: Modulus | None = Field(default=None, kw_only=True)
+    """Transverse shear modulus along 1; shear_12 unless given."""
+    shear_23: Modulus | None = Field(default=None, kw_only=True)
+    """Transverse shear modulus along 2; shear_12 unless given."""
+    expansion: Annotated[Number | tuple[Number, Number], Unit("1/K")] | None = Field(
+        default=None, kw_only=True
+    )
+    """Thermal expansion, or [along axis 1, across it]; see [temperature]."""
+
+    @property
+    def expansions(self) -> tuple[float, float] | None:
+        """Return the expansion along axis 1 and across it, if it is given."""
+        return self.expansion if isinstance(self.expansion, tuple | None) else 2 * (self.expansion,)
+
+
+class Ply(NamedTuple):
+    """low, high: where it begins and ends, −½ to ½ of the thickness; its constants, and the angle [rad] of
+    axis 1 from x; density [kg/m³]: numbers, or arrays of points or cells."""
+
+    low: float
+    high: float
+    young_1: Any
+    young_2: Any
+    young_3: Any
+    poisson_12: Any
+    poisson_13: Any
+    poisson_23: Any
+    shear_12: Any
+    shear_13: Any
+    shear_23: Any
+    angle: Any
+    density: Any
+
+
+def in_own_axes(own: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the constants of a ply that keys of a material, patch or layer mean: what is left out of an
+    orthotropic material's is that of another axis, and E and ν are an isotropic one's."""
+    constants = {key: value for key, value in own.items() if key in Ply._fields and value is not None}
+    if "young_1" in constants:
+        for key, like in (("shear_13", "shear_12"), ("shear_23", "shear_12"), ("young_3", "young_2")):
+            constants.setdefault(key, constants[like])
+        for key in ("poisson_13", "poisson_23"):
+            constants.setdefault(key, constants["poisson_12"])
+        constants.setdefault("angle", 0.0)
+    elif own.get("young") is not None:
+        young, poisson = own["young"], own["poisson"]
+        constants |= dict.fromkeys(("young_1", "young_2", "young_3"), young)
+        constants |= dict.fromkeys(("poisson_12", "poisson_13", "poisson_23"), poisson)
+        constants |= dict.fromkeys(("shear_12", "shear_13", "shear_23"), young / (2.0 * (1.0 + poisson)))
+        constants.setdefault("angle", 0.0)
+    return constants
+
+
+def like_isotropic(given: Mapping[str, float]) -> tuple[float, float]:
+    """Return E = √(E₁ E₂) and ν = √(ν₁₂ ν₂₁), a measure of an orthotropic material's size where one number is
+    wanted; of no model's stiffness."""
+    young = (given["young_1"] * given["young_2"]) ** 0.5
+    poisson = given["poisson_12"] * (given["young_2"] / given["young_1"]) ** 0.5
+    return young, min(max(poisson, -LARGEST_POISSON), LARGEST_POISSON)
+
+
+def with_likeness(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the keys of an orthotropic material with young and poisson, where those are not given; any,
+    where constants are not numbers, which their own checks say."""
+    given = numbers(data, {key: "" if key == "poisson_12" else "Pa" for key in NEEDED})
+    real = given and min(given["young_1"], given["young_2"]) > 0.0
+    young, poisson = like_isotropic(given) if real else (1.0, 0.0)
+    return {"young": young, "poisson": poisson, **data}
+
+
+def fault(given: Mapping[str, Any]) -> str:
+    """Return what is wrong with the keys of a material as far as fibres are concerned, "" for nothing."""
+    own = [key for key in KEYS if given[key] is not None]
+    if given["kind"] == "isotropic":
+        if not own:
+            return ""
+        return f"{own[0]} = {given[own[0]]:g}: is of kind = 'orthotropic'; say so, or leave it out"
+    if given["law"] is not None:
+        return f"law = '{given['law']}': is of isotropic rubber; an orthotropic material has none"
+    if reason := impossible(given):
+        return reason
+    for key, value in zip(("young", "poisson"), like_isotropic(given), strict=True):
+        if abs(given[key] - value) > 1e-9 * abs(value):
+            needed = ", ".join(NEEDED)
+            return f"{key} = {given[key]:g}: of an orthotropic material {needed} are given; leave {key} out"
+    return ""
+
+
+def impossible(given: Mapping[str, Any]) -> str:
+    """Return why an orthotropic material's constants cannot be, "" where they can."""
+    if missing := [key for key in NEEDED if given.get(key) is None]:
+        return f"{KIND}: {', '.join(missing)} missing; it takes {', '.join(NEEDED)}"
+    poisson, ratio = given["poisson_12"], given["young_1"] / given["young_2"]
+    if poisson**2 >= ratio:
+        return (
+            f"poisson_12 = {poisson:g}: its square must be below young_1/young_2 = {ratio:.4g}, "
+            "or stretching would give energy"
+        )
+    if any(given.get(key) is not None for key in ("young_3", "poisson_13", "poisson_23")):
+        return impossible_in_space(Ply(-0.5, 0.5, **in_own_axes(given)))
+    return ""
+
+
+def impossible_in_space(ply: Ply) -> str:
+    """Return why a ply's constants with those of the third axis cannot be, "" where they can."""
+    e1, e2, e3, n12, n13, n23 = ply[2:8]
+    compliance = np.array(
+        [
+            [1.0 / e1, -n12 / e1, -n13 / e1],
+            [-n12 / e1, 1.0 / e2, -n23 / e2],
+            [-n13 / e1, -n23 / e2, 1.0 / e3],
+        ]
+    )
+    scale = np.sqrt(np.diag(compliance))
+    if np.linalg.eigvalsh(compliance / np.outer(scale, scale))[0] > 0.0:
+        return ""
+    return (
+        f"poisson_12 = {n12:g}, poisson_13 = {n13:g}, poisson_23 = {n23:g}: with young_1 = {e1:g}, "
+        f"young_2 = {e2:g}, young_3 = {e3:g} Pa some strain would give energy; poisson_13 and poisson_23 are "
+        "poisson_12 and young_3 is young_2 unless given"
+    )

@@ -1,0 +1,76 @@
+"""Patches: parts of a sheet with a thickness, a material or a natural state of their own."""
+
+from __future__ import annotations
+
+from pydantic import Field, model_validator
+
+from sheetbench.scenes.objects.material import Material
+from sheetbench.scenes.objects.natural import Natural
+from sheetbench.scenes.objects.quantities import Angle, Density, Frozen, Length, Modulus, PoissonRatio
+from sheetbench.scenes.objects.shapes import Shape
+from sheetbench.scenes.objects.sheet import Sheet
+
+CONSTANTS = ("thickness", "young", "poisson", "density", "angle")
+
+
+class Patch(Frozen):
+    """A part of the sheet with a thickness or material constants of its own."""
+
+    shape: Shape
+    """Where: a rectangle, a circle or a polygon."""
+    thickness: Length | None = None
+    """Half of it above and half below the mid-surface; the sheet's unless given."""
+    young: Modulus | None = None
+    """Young's modulus; the material's unless given."""
+    poisson: PoissonRatio | None = None
+    """Poisson's ratio; the material's unless given."""
+    density: Density | None = None
+    """The material's unless given."""
+    angle: Angle | None = Field(default=None, kw_only=True)
+    """Of an orthotropic material's axis 1 from x towards y; the material's unless given."""
+    natural: Natural | None = Field(default=None, kw_only=True)
+    """Natural strain and curvature in place of the sheet's, there."""
+
+    @model_validator(mode="after")
+    def _differs(self) -> Patch:
+        if not self.own and self.natural is None:
+            raise ValueError(f"needs one of {', '.join((*CONSTANTS, 'natural'))}")
+        if self.natural is not None and self.natural.pretension is not None:
+            raise ValueError("natural.pretension: is of a whole sheet; give strain")
+        return self
+
+    @property
+    def own(self) -> dict[str, float]:
+        """The constants that are its own."""
+        given = {name: getattr(self, name) for name in CONSTANTS}
+        return {name: value for name, value in given.items() if value is not None}
+
+
+def misplaced(patches: tuple[Patch, ...], sheet: Sheet) -> str:
+    """Why a patch cannot be where it is or as thick as it is, "" where all can."""
+    import shapely
+
+    plan = shapely.box(0.0, 0.0, *sheet.lengths)
+    for number, patch in enumerate(patches, start=1):
+        if patch.shape.area.intersection(plan).area <= 0.0:
+            return (
+                f"{number}.shape: {patch.shape.in_words()}: no part of it is on the sheet, "
+                f"0 ≤ x ≤ {1e3 * sheet.length_x:.4g}, 0 ≤ y ≤ {1e3 * sheet.length_y:.4g} mm"
+            )
+        if patch.thickness is not None and patch.thickness > min(sheet.lengths):
+            return f"{number}.thickness = {patch.thickness:g} m is more than the sheet's shorter side"
+    return ""
+
+
+def mismatched(patches: tuple[Patch, ...], material: Material) -> str:
+    """Why a patch's constants are not of the sheet's kind of material, "" where all are."""
+    for number, patch in enumerate(patches, start=1):
+        if material.kind == "isotropic" and patch.angle is not None:
+            return f"{number}.angle = {patch.angle:g}: is of a material of kind = 'orthotropic'"
+        if material.kind == "orthotropic" and (patch.young is None) != (patch.poisson is None):
+            given = "poisson" if patch.young is None else "young"
+            return (
+                f"{number}.{given} = {getattr(patch, given):g}: young and poisson together make a part of an "
+                "orthotropic sheet isotropic; give both, or neither"
+            )
+    return ""

@@ -1,0 +1,123 @@
+"""A mesh of one's own of a sheet's plan: quadrilaterals, from a file or as numbers.
+
+[sheet] mesh = "fin.msh"     in metres, in the plane z = 0, its path relative to the scene's file
+
+Of the file's cells those that cover areas count, by their corners alone: sides are straight. Where there are
+triangles, each is cut into three quadrilaterals and each quadrilateral into four. The outline and the holes
+of the sheet are the mesh's boundary. A scene keeps the numbers, and no longer needs the file.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from sheetbench.scenes.objects.mesh_files import read_cells
+from sheetbench.scenes.objects.quantities import Frozen, PlanPoint, Unit
+
+if TYPE_CHECKING:
+    from shapely import Polygon
+
+ROUNDING = 1e-9  # of the mesh's size: places closer than that are one
+TRIANGLE, QUADRILATERAL = "triangle", "quad"
+Corner = Annotated[int, Field(ge=0)]
+
+
+class PlanMesh(Frozen):
+    """Quadrilaterals that cover a sheet's plan; in a scene's file the name of a mesh file stands for them."""
+
+    points: Annotated[tuple[PlanPoint, ...], Unit("m"), Field(min_length=4)]
+    """Corners of the elements [x, y]."""
+    quads: Annotated[tuple[tuple[Corner, Corner, Corner, Corner], ...], Field(min_length=1)]
+    """Numbers of each element's corners in turn, from 0 on; neighbours share corners."""
+
+    @model_validator(mode="after")
+    def _covers(self) -> PlanMesh:
+        import shapely
+
+        points, quads = self.arrays
+        if quads.max() >= len(points):
+            raise ValueError(f"quads: corner {quads.max()} is beyond the last of {len(points)} points")
+        corners = points[quads]
+        onwards, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+        turn = onwards[..., 0] * back[..., 1] - onwards[..., 1] * back[..., 0]
+        size = np.ptp(points, axis=0).max()
+        folded = np.any(turn * np.sign(turn.sum(axis=1, keepdims=True)) <= (ROUNDING * size) ** 2, axis=1)
+        if folded.any():
+            at = ", ".join(f"({x:g}, {y:g})" for x, y in corners[np.argmax(folded)])
+            raise ValueError(f"the element with corners {at} m crosses itself, or is not convex")
+        sides = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+        rim, count = np.unique(sides, axis=0, return_counts=True)
+        rim = rim[count == 1]
+        length = np.linalg.norm(np.diff(points[rim], axis=1)[:, 0], axis=1).sum()
+        area = shapely.area(shapely.polygons(corners)).sum()
+        if abs(self.area.area - area) > ROUNDING * area or count.max() > 2:
+            raise ValueError("elements lie over each other")
+        if abs(self.area.length - length) > ROUNDING * length:
+            raise ValueError("elements touch without sharing corners: merge what lies at one place")
+        return self
+
+    @property
+    def arrays(self) -> tuple[np.ndarray, np.ndarray]:
+        """Points (n, 2) [m] and quadrilaterals (m, 4)."""
+        return np.array(self.points), np.array(self.quads)
+
+    @property
+    def across(self) -> int:
+        """Elements of the mean size along the shorter side."""
+        size = np.sqrt(self.area.area / len(self.quads))
+        return max(1, round(np.ptp(self.arrays[0], axis=0).min() / size))
+
+    @cached_property
+    def area(self) -> Polygon:
+        """What it covers, as shapely has it; of a mesh in pieces several polygons."""
+        import shapely
+
+        points, quads = self.arrays
+        covered = shapely.union_all(shapely.polygons(points[quads]))
+        return covered.simplify(ROUNDING * np.ptp(points, axis=0).max())
+
+
+def read_mesh(value: Any) -> Any:
+    """Return the PlanMesh of a file that text names, anything else as it is. Raises ValueError."""
+    if not isinstance(value, str):
+        return value
+    try:
+        return _mesh_of(*read_cells(Path(value)))
+    except ValueError as error:
+        raise ValueError(f"{value}: {error}") from None
+
+
+def _mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
+    """The mesh of points (n, 2 or 3) [m] and of polygons of 3 and of 4 corners."""
+    used = np.unique(np.concatenate([one.ravel() for one in cells.values()]))
+    points, every = points[used], {kind: np.searchsorted(used, one) for kind, one in cells.items()}
+    size = np.ptp(points, axis=0).max()
+    if points.shape[1] > 2 and (high := np.abs(points[:, 2]).max()) > ROUNDING * size:
+        raise ValueError(f"a point lies {high:g} m off the plane z = 0, in which the flat sheet is")
+    corners = every.get(QUADRILATERAL, np.empty((0, 4), int))
+    places = points[:, :2]
+    if TRIANGLE in every:
+        places, corners = divided(places, [corners, every[TRIANGLE]])
+    return PlanMesh(points=tuple(map(tuple, places.tolist())), quads=tuple(map(tuple, corners.tolist())))
+
+
+def divided(points: np.ndarray, polygons: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Points (n, 2) [m] and quadrilaterals (m, 4) of polygons (k, c), each cut into c about its middle."""
+    sides = [np.stack([one, np.roll(one, -1, axis=1)], axis=-1) for one in polygons]
+    ends, which = np.unique(
+        np.sort(np.concatenate([side.reshape(-1, 2) for side in sides]), axis=1), axis=0, return_inverse=True
+    )
+    centres = [points[one].mean(axis=1) for one in polygons]
+    every = np.concatenate([points, points[ends].mean(axis=1), *centres])
+    quads, first, centre = [], 0, len(points) + len(ends)
+    for one in polygons:
+        on = len(points) + which.ravel()[first : first + one.size].reshape(one.shape)
+        middle = np.broadcast_to(centre + np.arange(len(one))[:, None], one.shape)
+        quads.append(np.stack([one, on, middle, np.roll(on, 1, axis=1)], axis=-1).reshape(-1, 4))
+        first, centre = first + one.size, centre + len(one)
+    return every, np.concatenate(quads)

@@ -1,0 +1,140 @@
+"""Shapes in the plan of a sheet: rectangles, circles, polygons, for patches, cutouts, supports and loads.
+
+shape = { rectangle = { x = [0.0, 0.05], y = [0.0, 0.188] } }
+shape = { circle = { centre = [0.1, 0.1], radius = 0.02 } }
+shape = { polygon = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]] }
+
+Areas are shapely's; a circle is a polygon of CIRCLE_SIDES sides there, of the circle's area.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from itertools import pairwise
+from math import cos, pi, sin, sqrt
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+from pydantic import ConfigDict, Field, model_validator
+
+from sheetbench.scenes.objects.quantities import Frozen, Number, PlanPoint, Positive, Unit
+
+if TYPE_CHECKING:
+    from shapely import Polygon as Area
+
+CIRCLE_SIDES = 256
+COINCIDENT = 1e-9  # of the sheet, within which two places are one
+Span = Annotated[tuple[Number, Number], Unit("m")]
+
+
+class Rectangle(Frozen):
+    """Sides along x and y."""
+
+    x: Span
+    """From and to, along x."""
+    y: Span
+    """From and to, along y."""
+
+    @model_validator(mode="after")
+    def _rises(self) -> Rectangle:
+        for name, (low, high) in (("x", self.x), ("y", self.y)):
+            if high <= low:
+                raise ValueError(f"{name} = [{low:g}, {high:g}]: the second must be greater than the first")
+        return self
+
+
+class Circle(Frozen):
+    """A disc."""
+
+    centre: Annotated[PlanPoint, Unit("m")]
+    """Plan point [x, y]."""
+    radius: Annotated[Positive, Unit("m")]
+    """Of the disc."""
+
+
+class Shape(Frozen):
+    """One of a rectangle, a circle and a polygon, in the plan."""
+
+    model_config = ConfigDict(json_schema_extra={"minProperties": 1, "maxProperties": 1})
+
+    rectangle: Rectangle | None = None
+    """Sides along x and y: { x = [from, to], y = [from, to] }."""
+    circle: Circle | None = None
+    """{ centre = [x, y], radius = … }."""
+    polygon: Annotated[tuple[PlanPoint, ...], Unit("m"), Field(min_length=3)] | None = None
+    """Corners [x, y] in turn, either way round; its sides do not cross."""
+
+    @model_validator(mode="after")
+    def _one(self) -> Shape:
+        given = [name for name in type(self).model_fields if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise ValueError(f"{' and '.join(given) or 'empty'}: give one of rectangle, circle, polygon")
+        if self.polygon is not None and (wrong := crossing(self.polygon)):
+            raise ValueError(f"polygon: {wrong}")
+        return self
+
+    @cached_property
+    def area(self) -> Area:
+        """Return its area as a polygon of shapely."""
+        import shapely  # a fifth of a second that plain sheets need not wait for
+
+        if self.rectangle is not None:
+            (left, right), (low, high) = self.rectangle.x, self.rectangle.y
+            return shapely.box(left, low, right, high)
+        if self.circle is not None:
+            angle = 2.0 * pi / CIRCLE_SIDES
+            radius = self.circle.radius * sqrt(angle / sin(angle))
+            x, y = self.circle.centre
+            turns = [angle * n for n in range(CIRCLE_SIDES)]
+            return shapely.polygons(np.array([(x + radius * cos(a), y + radius * sin(a)) for a in turns]))
+        return shapely.Polygon(self.polygon)
+
+    def contains(self, points: np.ndarray) -> np.ndarray:
+        """Whether plan points (…, 2) [m] lie inside or on its boundary."""
+        x, y = np.moveaxis(np.asarray(points, dtype=float), -1, 0)
+        if self.rectangle is not None:
+            (left, right), (low, high) = self.rectangle.x, self.rectangle.y
+            return (left <= x) & (x <= right) & (low <= y) & (y <= high)
+        if self.circle is not None:
+            centre = self.circle.centre
+            return np.hypot(x - centre[0], y - centre[1]) <= self.circle.radius
+        import shapely
+
+        inside: np.ndarray = shapely.intersects_xy(self.area, x, y)
+        return inside
+
+    def in_words(self) -> str:
+        """Kind and place, in millimetres."""
+        left, low, right, high = (f"{1e3 * value:.4g}" for value in self.area.bounds)
+        if self.circle is not None:
+            x, y = (f"{1e3 * value:.4g}" for value in self.circle.centre)
+            return f"circle of radius {1e3 * self.circle.radius:.4g} mm about ({x}, {y}) mm"
+        what = (
+            "rectangle" if self.rectangle is not None else f"polygon of {len(self.polygon or ())} corners in"
+        )
+        return f"{what} {left} ≤ x ≤ {right}, {low} ≤ y ≤ {high} mm"
+
+
+def crossing(corners: tuple[PlanPoint, ...]) -> str:
+    """Why corners [m] in turn are no polygon, "" where they are one."""
+    import shapely
+
+    polygon = shapely.Polygon(corners)
+    if polygon.is_valid and polygon.area > 0.0:
+        return ""
+    return f"its sides cross or it has no area ({shapely.is_valid_reason(polygon)} m)"
+
+
+def straight_sides(*areas: Area) -> tuple[set[float], set[float]]:
+    """Return x and y [m] of the sides along the axes of areas and of their holes."""
+    sides: tuple[set[float], set[float]] = (set(), set())
+    if not areas:
+        return sides
+    import shapely
+
+    for ring in shapely.get_rings(areas):
+        for first, second in pairwise(ring.coords):
+            for axis in (0, 1):
+                if first[axis] == second[axis]:
+                    sides[axis].add(first[axis])
+    return sides

@@ -1,0 +1,140 @@
+"""The sheet, its edges and its weight.
+
+The flat sheet's mid-surface is z = 0 with x in [0, length_x] and y in [0, length_y].
+An edge is named by the axis it is normal to and the end of that axis: x0, x1, y0, y1.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, NamedTuple
+
+import numpy as np
+from pydantic import BeforeValidator, Field, model_validator
+
+from sheetbench.scenes.objects.plan_mesh import PlanMesh, read_mesh
+from sheetbench.scenes.objects.quantities import Frozen, Length, PlanPoint, Positive, Unit, Vector3
+from sheetbench.scenes.objects.shapes import COINCIDENT, crossing
+from sheetbench.scenes.objects.tables import Loading
+
+EdgeName = Literal["x0", "x1", "y0", "y1"]
+MeshLike = Annotated[PlanMesh, BeforeValidator(read_mesh, json_schema_input_type=str | PlanMesh)]
+Taper = Annotated[tuple[Positive, Positive], Unit("m")]
+
+
+class Edge(NamedTuple):
+    """Where an edge lies: its normal axis, the axis it runs along (0 = x, 1 = y), and which end."""
+
+    normal_axis: int
+    along_axis: int
+    far_end: bool
+
+    @property
+    def outward(self) -> tuple[float, float, float]:
+        """Unit vector in the plane, pointing out of the sheet."""
+        sign = 1.0 if self.far_end else -1.0
+        return (sign, 0.0, 0.0) if self.normal_axis == 0 else (0.0, sign, 0.0)
+
+
+EDGES: dict[str, Edge] = {
+    "x0": Edge(0, 1, False),
+    "x1": Edge(0, 1, True),
+    "y0": Edge(1, 0, False),
+    "y1": Edge(1, 0, True),
+}
+
+
+class Sheet(Frozen):
+    """A flat sheet: sides of the rectangle that it is or that lies around its outline, thickness [m]."""
+
+    length_x: Length
+    """Side along x: the sheet lies in 0 ≤ x ≤ length_x."""
+    length_y: Length
+    """Side along y: the sheet lies in 0 ≤ y ≤ length_y."""
+    thickness: Length
+    """Thickness, half of it above and half below the mid-surface z = 0; at most the shorter side."""
+    taper_x: Taper | None = Field(default=None, kw_only=True)
+    """Thickness at x0 and at x1, linear between, one at least and one at most `thickness`."""
+    taper_y: Taper | None = Field(default=None, kw_only=True)
+    """Thickness at y0 and at y1 likewise; with taper_x the product of both over `thickness`."""
+
+    outline: Annotated[tuple[PlanPoint, ...], Unit("m"), Field(min_length=3)] | None = Field(
+        default=None, kw_only=True
+    )
+    """Corners [x, y] in turn of a sheet that is no rectangle: length_x and length_y are the sides of the
+    rectangle around it, which begins at x = 0 and y = 0."""
+    mesh: MeshLike | None = Field(default=None, kw_only=True)
+    """In place of `outline`: a mesh file of Gmsh or another format (docs/limits.md), as "fin.msh", relative
+    to the scene's file. Its triangles and quadrilaterals [m] in the plane z = 0 are what plate, shell and
+    solid solve on, its boundary is the outline, with its holes."""
+
+    @model_validator(mode="after")
+    def _thinner_than_wide(self) -> Sheet:
+        if self.thickness > min(self.lengths):
+            raise ValueError(
+                f"thickness = {self.thickness:g} m is more than the shorter side, {min(self.lengths):g} m; "
+                "lengths are in metres"
+            )
+        for name in ("taper_x", "taper_y"):
+            ends = getattr(self, name)
+            if ends is not None and not min(ends) <= self.thickness <= max(ends):
+                raise ValueError(
+                    f"{name} = [{ends[0]:g}, {ends[1]:g}] m: thickness = {self.thickness:g} m is not "
+                    "between the two"
+                )
+            if ends is not None and max(ends) > min(self.lengths):
+                raise ValueError(f"{name} = [{ends[0]:g}, {ends[1]:g}] m is more than the shorter side")
+        if self.outline is not None and self.mesh is not None:
+            raise ValueError("outline and mesh: give one of them; the outline of a mesh is its boundary")
+        drawn = {"outline": self.outline, "mesh": None if self.mesh is None else self.mesh.points}
+        for key, corners in drawn.items():
+            if corners is None:
+                continue
+            for name, length, places in zip("xy", self.lengths, zip(*corners, strict=True), strict=True):
+                if max(abs(min(places)), abs(max(places) - length)) > COINCIDENT * length:
+                    raise ValueError(
+                        f"{key}: its corners are at {min(places):g} ≤ {name} ≤ {max(places):g} m; they "
+                        f"have to reach from 0 to length_{name} = {length:g} m"
+                    )
+        if self.outline is not None and (wrong := crossing(self.outline)):
+            raise ValueError(f"outline: {wrong}")
+        return self
+
+    @property
+    def drawn(self) -> bool:
+        """Whether it has an outline or a mesh, and need not be a rectangle."""
+        return self.outline is not None or self.mesh is not None
+
+    def thickness_at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Thickness [m] at places x, y [m], without patches."""
+        thickness = np.full(np.broadcast_shapes(np.shape(x), np.shape(y)), self.thickness)
+        for ends, length, at in zip((self.taper_x, self.taper_y), self.lengths, (x, y), strict=True):
+            if ends is not None:
+                thickness *= (ends[0] + (ends[1] - ends[0]) * at / length) / self.thickness
+        return thickness
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        """Sides along x and y [m]."""
+        return (self.length_x, self.length_y)
+
+    def edge_at(self, name: str) -> float:
+        """Return where an edge lies along its normal axis [m]."""
+        return self.lengths[EDGES[name].normal_axis] if EDGES[name].far_end else 0.0
+
+    def edge_ends(self, name: str) -> tuple[PlanPoint, PlanPoint]:
+        """Return plan points [m] of an edge's two ends, in the direction of its axis."""
+        at, length = self.edge_at(name), self.lengths[EDGES[name].along_axis]
+        return ((at, 0.0), (at, length)) if EDGES[name].normal_axis == 0 else ((0.0, at), (length, at))
+
+
+class Gravity(Loading):
+    """A uniform acceleration [m/s²] of every mass; may have a `history`, as loads do."""
+
+    acceleration: Annotated[Vector3, Unit("m/s²")]
+    """Along x, y and z: [0.0, 0.0, -9.81] for a sheet that lies level, z pointing up."""
+
+    @property
+    def last_acceleration(self) -> Vector3:
+        """The acceleration [m/s²] in the end, and in statics."""
+        x, y, z = (self.last_factor * component for component in self.acceleration)
+        return x, y, z

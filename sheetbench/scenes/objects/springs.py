@@ -1,0 +1,230 @@
+"""Spring constants of a lattice, as data: the optional [springs] and [dampers] tables of a scene.
+
+Only the lumped model reads them. Axial, diagonal, vertical, cross and cross_diagonal are link
+stiffnesses [N/m] (Habibi et al.'s ka, kd, kz, kdT, kddT); area and mid_area are area-spring stiffnesses
+[N/m], energy ½ k (a/a0 − 1)² a0 per cell of a layer and of the mid-surface. Strain springs [N/m], energy
+½ k ε² a0 of a cell's mean strain, make up what those cannot: shear and mid_shear against the in-plane shear
+of a layer's and of the mid-surface's cells, stretch and mid_stretch against their stretching along x, y.
+edge_shear and strip_shear change the twisting stiffness of the cells along an edge whose director nothing
+holds and leave their membrane stiffness alone: energy ½ k (γ + r ε)² a0 on every layer's cell, ε its strain
+along the edge and r the edge_coupling, and of the other sign for all layers together on the mid-surface's.
+The rim_ springs do so at the rims of outlines and cutouts, cell by cell.
+
+On a graded grid every cell has springs of its own: a constant is then a table of cells, a list of rows from
+y0 to y1, each from x0 to x1. A link takes half the value of each cell beside it, a vertical one a quarter of
+each around it. edge_shear, strip_shear and edge_coupling are a list along the edges; where cells differ
+from one of two opposite edges to the other they are x0's and y0's, and those that begin with far_ x1's and
+y1's.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, Strict, model_validator
+
+from sheetbench.scenes.objects.grading import Graded, through, towards
+from sheetbench.scenes.objects.quantities import (
+    A_LIST,
+    A_NUMBER,
+    A_TABLE,
+    FORM,
+    Finite,
+    Frozen,
+    NonNegative,
+    Number,
+    Positive,
+    Unit,
+)
+from sheetbench.scenes.objects.sheet import EdgeName
+
+ByCell = tuple[tuple[Number, ...], ...]
+PositiveByCell = tuple[tuple[NonNegative, ...], ...]
+AnySign = Annotated[Annotated[Number, A_NUMBER] | Annotated[ByCell, A_LIST], FORM]
+Links = Annotated[Annotated[NonNegative, A_NUMBER] | Annotated[PositiveByCell, A_LIST], FORM]
+AlongEdge = Annotated[Annotated[Number, A_NUMBER] | Annotated[tuple[Number, ...], A_LIST], FORM]
+
+
+class PerDirection(Frozen):
+    """One value per direction: along x, y and (where it has a meaning) z."""
+
+    x: Links
+    """For springs along x."""
+    y: Links
+    """For springs along y."""
+    z: NonNegative | None = None
+    """For springs along z."""
+
+
+class Either(Frozen):
+    """One value a direction, of either sign."""
+
+    x: AlongEdge
+    """Along the edges x0 and x1."""
+    y: AlongEdge
+    """Along the edges y0 and y1."""
+
+
+Stiffness = Annotated[
+    Annotated[NonNegative, A_NUMBER] | Annotated[PositiveByCell, A_LIST] | Annotated[PerDirection, A_TABLE],
+    FORM,
+    Unit("N/m"),
+]
+EdgeStiffness = Annotated[Annotated[Number, A_NUMBER] | Annotated[Either, A_TABLE], FORM, Unit("N/m")]
+EdgeCoupling = Annotated[Annotated[Number, A_NUMBER] | Annotated[Either, A_TABLE], FORM]
+Damping = Annotated[
+    Annotated[NonNegative, A_NUMBER] | Annotated[PerDirection, A_TABLE],
+    FORM,
+    Unit("N·s/m"),
+]
+
+Masses = Annotated[int, Strict(), Field(ge=2)]
+Distribution = Literal["tributary", "gregory"]
+
+
+class SpringSet(Frozen):
+    """Stiffness of each family [N/m] and the distance of neighbouring layers [m]."""
+
+    axial: Stiffness
+    """Links along x and y within a layer."""
+    diagonal: Stiffness
+    """Diagonals of a layer's cells."""
+    vertical: Stiffness
+    """Links between the layers, across the thickness."""
+    cross: Stiffness
+    """Links between the layers along x and y: diagonals of the upright faces."""
+    cross_diagonal: Stiffness
+    """Space diagonals of the cells."""
+    area: Annotated[AnySign, Unit("N/m")] = 0.0
+    """Area springs of a layer's cells, energy ½ k (a/a0 − 1)² a0; < 0 is allowed while the cell is stable."""
+    mid_area: Annotated[AnySign, Unit("N/m")] = 0.0
+    """Area springs of the mid-surface's cells."""
+    shear: Annotated[Links, Unit("N/m")] = 0.0
+    """Strain springs against the in-plane shear of a layer's cells, energy ½ k γ² a0."""
+    stretch: Stiffness = 0.0
+    """Strain springs against the stretching of a layer's cells along x and y."""
+    mid_shear: Annotated[AnySign, Unit("N/m")] = 0.0
+    """Strain springs against the in-plane shear of the mid-surface's cells."""
+    mid_stretch: Stiffness = 0.0
+    """Strain springs against the stretching of the mid-surface along x and y."""
+    coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
+    """Of a layer's cells with fibres, energy k ε1 ε2 a0 of their strains along x and y."""
+    coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """Of a layer's cells with fibres at an angle, energy k ε1 γ a0 of their strain along x and shear."""
+    coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of their strain along y and shear."""
+    mid_coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
+    """coupling_xy of the mid-surface's cells."""
+    mid_coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """coupling_x of the mid-surface's cells."""
+    mid_coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """coupling_y of the mid-surface's cells."""
+    neo_hookean_shear: Annotated[Links, Unit("N/m")] = 0.0
+    """Cells of a layer as a rubber membrane instead of area and stretch: 2 f'(0) of its energy's f(I1 - 3),
+    neo-Hooke's shear modulus, times its thickness. Axial links then resist only the bending of cells in
+    their plane."""
+    neo_hookean_volume: Annotated[Links, Unit("N/m")] = 0.0
+    """That membrane's Λ, of ½ ln² J, times its thickness; neo-Hooke's is Lamé's λ."""
+    mooney_rivlin: Annotated[AnySign, Unit("N/m")] = 0.0
+    """That membrane's coefficient of I2 - 3 times its thickness."""
+    yeoh_square: Annotated[AnySign, Unit("N/m")] = 0.0
+    """That membrane's coefficient of (I1 - 3)² times its thickness."""
+    yeoh_cube: Annotated[Links, Unit("N/m")] = 0.0
+    """That membrane's coefficient of (I1 - 3)³ times its thickness."""
+    gent_limit: Links = 0.0
+    """Gent's limit of I1 - 3 of that membrane; 0 for none."""
+    face_shear: Stiffness = 0.0
+    """Strain springs against the shear of the cells' upright faces, energy ½ k γ² a0, a0 the cell's area and
+    γ the angle between mean chord and mean director."""
+    face_diagonal_shear: Annotated[Links, Unit("N/m")] = 0.0
+    """The same of the upright faces over a cell's two diagonals."""
+    edge_shear: EdgeStiffness = 0.0
+    """Strain springs against the twist of cells along a free, hinged or held edge, its opposite not so."""
+    strip_shear: EdgeStiffness = 0.0
+    """The same where the opposite edge is free, hinged or held too."""
+    edge_coupling: EdgeCoupling = 0.0
+    """Of cells with fibres at an angle: what edge_shear and strip_shear resist is γ + edge_coupling ε, ε the
+    strain along the edge."""
+    far_edge_shear: EdgeStiffness | None = None
+    """edge_shear of the edges x1 and y1, where it is not that of x0 and y0."""
+    far_strip_shear: EdgeStiffness | None = None
+    """strip_shear of the edges x1 and y1, where it is not that of x0 and y0."""
+    far_edge_coupling: EdgeCoupling | None = None
+    """edge_coupling of the edges x1 and y1, where it is not that of x0 and y0."""
+    rim_shear: Annotated[AnySign, Unit("N/m")] = 0.0
+    """edge_shear of the cells at rims of outlines and cutouts: energy ½ k γ² a0 of every layer's cell, and of
+    the other sign for all layers together of the mid-surface's, as all rim_ springs."""
+    rim_stretch_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """Of such cells with fibres at an angle or at oblique rims, energy ½ k ε1² a0 of the strain along x."""
+    rim_stretch_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of the strain along y."""
+    rim_coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same, energy k ε1 ε2 a0."""
+    rim_coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same, energy k ε1 γ a0."""
+    rim_coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same, energy k ε2 γ a0."""
+    layer_distance: Annotated[Positive, Unit("m")] = Field(kw_only=True)
+    """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
+
+    @property
+    def rubber(self) -> bool:
+        """Whether the layers' cells are rubber membranes."""
+        return bool(self.neo_hookean_shear or self.mooney_rivlin)
+
+    @model_validator(mode="after")
+    def _one_law_a_cell(self) -> SpringSet:
+        if self.rubber and (self.area or self.stretch or self.shear):
+            raise ValueError("neo_hookean_shear: the same cells cannot have area, stretch and shear springs")
+        return self
+
+
+class SpringTable(SpringSet):
+    """The [springs] table of a scene: springs, and the lattice that they were found for."""
+
+    grid: tuple[Masses, Masses, Masses] | None = None
+    """Masses along x and y, and layers, of the lattice that these springs belong to: what is solved unless a
+    grid is requested; another grid is refused."""
+    grading: Annotated[Finite, Field(ge=0, le=1)] = 0.0
+    """How much smaller that lattice's cells are at the edges: 0, all alike, to 1; another one is refused."""
+    graded_edges: tuple[EdgeName, ...] | None = None
+    """The edges towards which they are smaller, where that is not all four."""
+    lines_at: Annotated[tuple[tuple[Finite, ...], tuple[Finite, ...]] | None, Unit("m")] = None
+    """x and y that lines of that lattice were moved to: the sides of a drawn sheet's shapes."""
+    masses: Distribution = "tributary"
+    """How frequencies share out its mass: as usual (tributary), or as a fit to them has it (gregory)."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_springs_alone(cls, data: Any) -> Any:
+        return data.model_dump() if type(data) is SpringSet else data
+
+    @model_validator(mode="after")
+    def _graded_somewhere(self) -> SpringTable:
+        towards(self.grading, self.graded_edges)  # raises for what is no grading
+        return self
+
+    @property
+    def graded(self) -> Graded:
+        """The grading of that lattice's lines."""
+        return through(self.lines_at) if self.lines_at else towards(self.grading, self.graded_edges)
+
+    @property
+    def constants(self) -> SpringSet:
+        """The springs alone."""
+        return SpringSet(**{name: getattr(self, name) for name in SpringSet.model_fields})
+
+
+class DamperSet(Frozen):
+    """Damping of each family [N·s/m]."""
+
+    axial: Damping = 0.0
+    """Dampers along the links along x and y within a layer."""
+    diagonal: Damping = 0.0
+    """Dampers along the diagonals of a layer's cells."""
+    vertical: Damping = 0.0
+    """Dampers along the links between the layers."""
+    cross: Damping = 0.0
+    """Dampers along the diagonals of the upright faces."""
+    cross_diagonal: Damping = 0.0
+    """Dampers along the space diagonals."""

@@ -1,0 +1,204 @@
+"""The kinds of support, of an edge or, in place of `edge`, of the part of the sheet `where` a shape says.
+
+A support holds the mid-surface, or components of it, and may hold its normal too, the director. With n
+pointing out of the sheet, e along the edge and s measured from its middle, the director is
+
+    e_z cos τ − n sin τ    in a clamp of tilt τ, which turns about the edge's mid-line
+    e_z cos κs − e sin κs  on a rod of curvature κ, which keeps arc length and the middle's place and tangent
+
+A rod that ends at a plane of symmetry has its middle there. A plane of symmetry holds the displacement across
+it and the director's tilt across it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import pi
+from typing import Annotated, Literal, Self
+
+from pydantic import AfterValidator, ConfigDict, Field, field_validator, model_validator
+
+from sheetbench.scenes.objects.quantities import Angle, Frozen, Number, PlanPoint, Unit, Vector3
+from sheetbench.scenes.objects.shapes import Rectangle, Shape
+from sheetbench.scenes.objects.sheet import EDGES, EdgeName
+from sheetbench.scenes.objects.tables import CURVES, Interpolation, OverTime, PiecewiseCurve
+
+Component = Literal["x", "y", "z"]
+
+
+def _each_once(components: tuple[Component, ...]) -> tuple[Component, ...]:
+    if len(set(components)) != len(components):
+        raise ValueError("a component is named twice")
+    return components
+
+
+Components = Annotated[tuple[Component, ...], Field(min_length=1), AfterValidator(_each_once)]
+LARGEST_TILT = pi / 2.0  # rad, of a clamp
+SMALLEST_PLACE = 1e-12  # m, to each side of a point
+
+
+class Motion(OverTime):
+    """Prescribed displacement of a support over time; statics take the last sample."""
+
+    displacement: Annotated[tuple[Vector3, ...], Unit("m")]
+    """[ux, uy, uz] of the whole edge at each time."""
+    interpolation: Interpolation = Field(default="smooth", kw_only=True)
+    """Between samples "smooth" has cubics that do not overshoot, so that the velocity jumps at the first and
+    last sample at most; "linear" has lines, and the velocity jumps at every sample."""
+
+    @property
+    def course(self) -> PiecewiseCurve:
+        """The displacement (3,) [m] over time."""
+        return CURVES[self.interpolation](self.time, self.displacement)
+
+
+class _EdgeSupport(Frozen):
+    edge: EdgeName
+    """The edge that is supported."""
+    motion: Motion | None = Field(default=None, kw_only=True)
+    """How the support moves over time, in the components that it holds; statics take the last sample."""
+
+
+class _Support(_EdgeSupport):
+    model_config = ConfigDict(
+        json_schema_extra={"allOf": [{"oneOf": [{"required": ["edge"]}, {"required": ["where"]}]}]}
+    )
+
+    # None beside `where` alone, which `require_rectangle` keeps from models that read edges
+    edge: Annotated[EdgeName, Field(default=None)]
+    """The edge that is supported."""
+    where: Shape | None = Field(default=None, kw_only=True)
+    """In place of `edge`: the part of the sheet that is supported."""
+
+    @model_validator(mode="after")
+    def _somewhere(self) -> Self:
+        if (self.edge is None) == (self.where is None):
+            raise ValueError("needs one of edge and where")
+        return self
+
+
+class Clamped(_Support):
+    """Mid-surface and its normal held."""
+
+    kind: Literal["clamped"] = Field(default="clamped", kw_only=True)
+    tilt: Angle = 0.0
+    """The clamp turned about the edge, at most π/2 either way; > 0 lets the sheet start off downwards."""
+
+    @field_validator("tilt")
+    @classmethod
+    def _a_quarter_turn_at_most(cls, tilt: Number) -> Number:
+        if abs(tilt) > LARGEST_TILT:
+            raise ValueError(f"{tilt:g} rad is more than π/2 either way, the most a clamp may be turned")
+        return tilt
+
+    @model_validator(mode="after")
+    def _about_an_edge(self) -> Self:
+        if self.tilt and self.where is not None:
+            raise ValueError(f"tilt = {self.tilt:g} rad turns the clamp of an edge; leave tilt or where out")
+        return self
+
+
+class Hinged(_Support):
+    """Mid-surface held, free to turn."""
+
+    kind: Literal["hinged"] = Field(default="hinged", kw_only=True)
+
+
+class Held(_Support):
+    """Some components of the mid-surface's displacement held, free to turn."""
+
+    kind: Literal["held"] = Field(default="held", kw_only=True)
+    components: Components
+    """Which of "x", "y" and "z" are held, for instance ["z"] for an edge that slides on a rail."""
+
+
+class Point(_EdgeSupport):
+    """Some components of the mid-surface's displacement held at one point, free to turn: a pin, a tack, one
+    of the three points that a free sheet rests on."""
+
+    kind: Literal["point"] = Field(default="point", kw_only=True)
+    at: Annotated[PlanPoint, Unit("m")]
+    """Plan point [x, y] of the undeformed sheet that is held."""
+    components: Components = ("x", "y", "z")
+    """Which of "x", "y" and "z" are held there; all unless given."""
+    edge: Annotated[EdgeName, Field(default=None, kw_only=True)]
+    """Of no edge: left out."""
+    motion: Motion | None = Field(default=None, kw_only=True)
+    """A point that is held does not move: left out."""
+
+    @model_validator(mode="after")
+    def _stays(self) -> Self:
+        for key in ("edge", "motion"):
+            if getattr(self, key) is not None:
+                raise ValueError(f"{key}: a point that is held has none; leave it out")
+        return self
+
+    @property
+    def where(self) -> Shape:
+        """Return the point as a shape, smaller than any distance on a sheet."""
+        (x, y), half = self.at, SMALLEST_PLACE
+        return Shape(rectangle=Rectangle(x=(x - half, x + half), y=(y - half, y + half)))
+
+
+class Curved(_EdgeSupport):
+    """Clamped to a rigid rod bent in the plane of the edge and z."""
+
+    kind: Literal["curved"] = Field(default="curved", kw_only=True)
+    curvature: Annotated[Number, Unit("1/m")]
+    """Of the rod; > 0 lifts the edge's ends towards +z, its middle stays where it is."""
+
+
+class Symmetric(Frozen):
+    """A plane of symmetry: beyond the edge the sheet goes on as its own mirror image."""
+
+    kind: Literal["symmetric"] = Field(default="symmetric", kw_only=True)
+    edge: EdgeName
+    """The edge where the sheet is cut."""
+    motion: None = Field(default=None, kw_only=True)
+    """A plane of symmetry does not move."""
+
+
+AnySupport = Clamped | Hinged | Held | Point | Curved | Symmetric
+Support = Annotated[AnySupport, Field(discriminator="kind")]
+
+
+def place(support: AnySupport) -> Shape | None:
+    """Return the shape in which the sheet is supported, None of an edge."""
+    return getattr(support, "where", None)
+
+
+def named(supports: Iterable[AnySupport]) -> dict[str, AnySupport]:
+    """Return supports by the names that answers give them: their edge, or "support 2" by their number."""
+    return {s.edge if place(s) is None else f"support {n}": s for n, s in enumerate(supports, start=1)}
+
+
+def held_axes(support: AnySupport) -> tuple[int, ...]:
+    """Axes (0, 1, 2) in which the support holds the mid-surface."""
+    if isinstance(support, Symmetric):
+        return (EDGES[support.edge].normal_axis,)
+    if isinstance(support, Held | Point):
+        return tuple("xyz".index(component) for component in support.components)
+    return (0, 1, 2)
+
+
+def encloses_volume(supports: Iterable[AnySupport]) -> bool:
+    """Whether the volume between the sheet and its plan is the sheet's alone to change: every edge is held
+    across itself, so that none sweeps an area. A pressure then has a potential, − p × that volume."""
+    on_edges = [support for support in supports if place(support) is None]
+    held = {support.edge for support in on_edges if EDGES[support.edge].normal_axis in held_axes(support)}
+    return held == set(EDGES)
+
+
+def holds_director(support: AnySupport) -> bool:
+    """Whether the support holds the normal as well as the mid-surface."""
+    return isinstance(support, Clamped | Curved)
+
+
+def holds_tilt(support: AnySupport) -> bool:
+    """Whether the director may not tilt in the axes held: all layers are held there, not just their mean."""
+    return isinstance(support, Clamped | Curved | Symmetric)
+
+
+def lets_twist_go(edge: str, supports: tuple[AnySupport, ...]) -> bool:
+    """Whether no support holds the director along an edge, so that a twisting moment fades towards it."""
+    return not any(support.edge == edge and holds_tilt(support) for support in supports)

@@ -1,0 +1,144 @@
+"""Values over time: samples at increasing times [s], joined by lines or by a smooth curve, constant before
+and after.
+
+Smooth means cubics between the samples whose slopes go over into each other and which do not overshoot: where
+the samples rise the curve rises, where two are equal it rests. Source: Fritsch and Butland (1984), SIAM J.
+Sci. Stat. Comput. 5, 300–304, as SciPy's `PchipInterpolator` has it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from sheetbench.scenes.objects.quantities import Frozen, Number, Unit
+
+INSTANT = 1e-9  # of a table's span, that a sum of time steps may lack of the moment it stands for
+
+Interpolation = Literal["smooth", "linear"]
+Values = Sequence[float] | Sequence[Sequence[float]]
+
+
+class PiecewiseCurve:
+    """Values (n, …) at increasing times (n,) [s], constant outside; between: the pieces, of times and values
+    their polynomials' coefficients (degree + 1, n − 1, …) in the time since each began, constants first."""
+
+    def __init__(
+        self, time: Sequence[float], values: Values, between: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    ):
+        self._time, samples = np.array(time, dtype=float), np.array(values, dtype=float)
+        self._instant = INSTANT * (self._time[-1] - self._time[0])
+        inner = between(self._time, samples) if len(time) > 1 else samples[None, :0]
+        # coefficients of each piece in the time since its start, from the constant on; the first and the last
+        # piece are what lies before and after
+        self._pieces = np.zeros((len(inner), len(samples) + 1, *samples.shape[1:]))
+        self._pieces[:, 1:-1] = inner
+        self._pieces[0, 0], self._pieces[0, -1] = samples[0], samples[-1]
+
+    def at(self, time: float | np.ndarray | None = None) -> np.ndarray:
+        """The value at a time [s], or those at times (k,), (k, …); without one the last, as statics take
+        it."""
+        if time is None:
+            return np.asarray(self._pieces[0, -1])
+        return self._sum(time, np.searchsorted(self._time, time, side="right"), 0)
+
+    def slope(self, time: float | np.ndarray, before: bool = False) -> np.ndarray:
+        """Its derivative [1/s] from a time [s] on, or until then."""
+        return self._sum(time, self._piece(time, before), 1)
+
+    def bend(self, time: float | np.ndarray) -> np.ndarray:
+        """Its second derivative [1/s²] from a time [s] on."""
+        return self._sum(time, self._piece(time, False), 2)
+
+    def _piece(self, time: float | np.ndarray, before: bool) -> np.ndarray:
+        shifted = time - self._instant if before else time + self._instant
+        return np.searchsorted(self._time, shifted, side="right")
+
+    def _sum(self, time: float | np.ndarray, piece: np.ndarray, derivative: int) -> np.ndarray:
+        """The derivative of this order of the pieces' polynomials, by Horner's rule."""
+        since = time - self._time[np.maximum(piece - 1, 0)]
+        since = np.reshape(since, (*np.shape(time), *(1,) * (self._pieces.ndim - 2)))
+        found = np.zeros(np.shape(self._pieces[0, piece]))
+        for power in range(len(self._pieces) - 1, derivative - 1, -1):
+            factor = float(np.prod(np.arange(power - derivative + 1, power + 1)))
+            found = factor * self._pieces[power, piece] + since * found
+        return found
+
+
+class PiecewiseLinear(PiecewiseCurve):
+    """Linear between the samples."""
+
+    def __init__(self, time: Sequence[float], values: Values):
+        super().__init__(time, values, _lines)
+
+
+class SmoothCurve(PiecewiseCurve):
+    """Cubic between the samples; a table of two is a line."""
+
+    def __init__(self, time: Sequence[float], values: Values):
+        super().__init__(time, values, _cubics)
+
+
+def _lines(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    spacing = np.diff(time).reshape(-1, *(1,) * (values.ndim - 1))
+    return np.stack([values[:-1], np.diff(values, axis=0) / spacing])
+
+
+def _cubics(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    from scipy.interpolate import PchipInterpolator  # a scene that is only read need not wait for it
+
+    return np.asarray(PchipInterpolator(time, values).c[::-1])
+
+
+CURVES: dict[Interpolation, type[PiecewiseLinear] | type[SmoothCurve]] = {
+    "smooth": SmoothCurve,
+    "linear": PiecewiseLinear,
+}
+
+
+class OverTime(Frozen):
+    """Base of the tables: time (n,) [s], increasing, and n samples of everything else that is a list."""
+
+    time: Annotated[tuple[Number, ...], Unit("s")] = Field(min_length=1)
+    """Increasing times; the first sample holds before and the last one after."""
+
+    @model_validator(mode="after")
+    def _one_sample_each(self) -> OverTime:
+        for name, field in type(self).model_fields.items():
+            samples = getattr(self, name)
+            if not isinstance(samples, tuple) or not (samples or field.is_required()):
+                continue
+            if len(samples) != len(self.time):
+                raise ValueError(f"{len(self.time)} times but {len(samples)} in {name}")
+        if any(b <= a for a, b in pairwise(self.time)):
+            raise ValueError("times must increase")
+        return self
+
+
+class FactorTable(OverTime):
+    """A factor over time."""
+
+    factor: tuple[Number, ...]
+    """What the load is multiplied by at each time, linear between them; statics take the last one."""
+
+
+class Loading(Frozen):
+    """Base of loads and gravity, whose `history` scales them over time."""
+
+    history: FactorTable | None = Field(default=None, kw_only=True)
+    """A factor over time; without it the load acts in full from t = 0 on."""
+
+    @property
+    def last_factor(self) -> float:
+        """What the load is multiplied by in the end, and in statics."""
+        return self.history.factor[-1] if self.history is not None else 1.0
+
+    @property
+    def course(self) -> PiecewiseLinear:
+        """The factor over time."""
+        table = self.history or FactorTable(time=(0.0,), factor=(1.0,))
+        return PiecewiseLinear(table.time, table.factor)

@@ -1,0 +1,136 @@
+"""`sheetbench crosscheck` with external codes whose errors are known."""
+
+import json
+
+import pytest
+from commands import json_of, one_line, run
+
+from comparisons.comparison.crosscheck import Crosscheck
+from sheetbench.scenes import load
+
+SEED = load("two-edges-clamped")
+
+FAKE = '''
+import numpy as np
+from pathlib import Path
+from sheetbench.answers.solution import FieldMesh, Solution, Status
+from sheetbench.scenes import BadInput, Chain
+
+
+class Fake:
+    """Answers limit + error h² at every point; counts its solves."""
+
+    called, needs, meshes, layered = "a fake", "nothing", (4, 6, 8), False
+    settings = {"elements": 4}
+    limit, error, fails = -0.01, 0.001, ""
+
+    def __init__(self, name, **own):
+        self.name = name
+        vars(self).update(own)
+
+    def version(self):
+        return "1.0"
+
+    def solve(self, scene, settings):
+        with open(Path(__file__).with_name("solves"), "a") as kept:
+            kept.write(f"{self.name} {settings['elements']}\\n")
+        n = settings["elements"]
+        u = np.array([0.1, 0.2, 1.0]) * (self.limit + self.error / n**2)
+        status = Status.CONVERGED
+        if self.fails == "refuses" or scene.actuators:
+            status = Status.REFUSED
+        elif self.fails == "raises":
+            raise RuntimeError("out of luck")
+        elif self.fails == "diverges" and n == 8:
+            status = Status.DIVERGED
+        mesh = FieldMesh(np.zeros((1, 3)), [("vertex", np.array([[0]]))], {"displacement": np.zeros((1, 3))})
+        return Solution(
+            self.name, f"{self.name} {n}", {"elements": [n, n]}, status, 0, 1, 0.0, 0.0,
+            lambda points: np.tile(u, (len(points), 1)), {}, {}, mesh,
+            load_factor=1.0 * (status == "converged"),
+            remarks=("takes no such scene",) if status is Status.REFUSED else (),
+        )
+
+
+EXACT = Fake("exact")
+SAME = Fake("same", error=-0.002)
+OTHER = Fake("other", limit=-0.0102)
+REFUSES = Fake("refuses", fails="refuses")
+RAISES = Fake("raises", fails="raises")
+DIVERGES = Fake("diverges", fails="diverges")
+
+
+class Absent(Fake):
+    def version(self):
+        return None
+
+
+ABSENT = Absent("absent", needs="luck")
+'''
+NONE = ("--lumped", "", "--plate", "", "--shell", "", "--solid", "")
+
+
+@pytest.fixture
+def fakes(tmp_path, in_process):
+    """The judges' names as options: `fakes("EXACT", "SAME")`."""
+    file = tmp_path / "fakes.py"
+    file.write_text(FAKE, encoding="utf-8")
+    return lambda *names: ("--judges", ",".join(f"{file}:{name}" for name in names))
+
+
+def test_judges_side_by_side(fakes, capsys):
+    document = json_of(capsys, "crosscheck", "two-edges-clamped", *NONE, *fakes("EXACT", "SAME", "OTHER"))
+    assert [one["model"] for one in document["solutions"]] == ["exact", "same", "other"]
+    exact = document["solutions"][0]
+    assert (
+        exact["meshes"] == "4, 6, 8" and exact["version"] == "1.0" and exact["settings"]["elements"] == [8, 8]
+    )
+    assert exact["extrapolated"]["P4"][2] == pytest.approx(-0.01)
+    assert exact["uncertainty"]["P4"][2] == pytest.approx(1.35 * 0.001 / 64)
+    points = {(one["a"], one["b"]): one["apart"] for one in document["pairs"]}
+    assert points["exact", "same"] == [] and points["exact", "other"] == ["P1", "P2", "P3", "P4"]
+    assert [judge["status"] for judge in document["judges"]] == ["found"] * 3
+
+
+def test_without_judges_there_is_no_table_of_them():
+    """It had a heading and no row."""
+    found = Crosscheck((SEED,), {SEED.name: ()}, ())
+    assert "judges" not in [table.name for table in found.report().tables]
+
+
+def test_what_a_judge_refuses_or_fails_at_is_a_row_of_its_own(fakes, capsys):
+    judges = fakes("EXACT", "REFUSES", "DIVERGES")
+    assert run("crosscheck", "two-edges-clamped", *NONE, *judges, "--json") == 3  # one mesh of diverges
+    captured = capsys.readouterr()
+    exact, refuses, diverges = json.loads(captured.out)["solutions"]
+    assert refuses["status"] == "refused" and refuses["message"] == "takes no such scene"
+    assert "uncertainty" not in refuses and refuses["failed"] == []
+    assert diverges["meshes"] == "4, 6" and "diverges 8: diverged" in diverges["failed"][0]
+    assert "uncertainty" in diverges and exact["failed"] == []
+    assert "diverges 8: diverged" in captured.err
+    assert run("crosscheck", "two-edges-clamped", *NONE, *fakes("EXACT", "RAISES")) == 3
+    captured = capsys.readouterr()
+    assert "no answer" in captured.out and "out of luck" in captured.err
+
+
+def test_only_meshes_that_the_folder_does_not_have_are_solved(fakes, tmp_path):
+    """As an interrupted run is resumed."""
+    line = ("crosscheck", "two-edges-clamped", *NONE, "--out", str(tmp_path / "out"), *fakes("EXACT"))
+    assert run(*line) == run(*line, "--meshes", "6,8,12") == 0
+    assert (tmp_path / "solves").read_text().split("\n")[:-1] == [f"exact {n}" for n in (4, 6, 8, 12)]
+
+
+def test_scenes_stand_in_one_table_and_their_refusals_in_one_sentence(fakes, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "160")
+    scenes = ("two-edges-clamped", "one-edge-clamped", "actuated-edge")
+    assert run("crosscheck", *scenes, *NONE, *fakes("EXACT", "REFUSES")) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "exact leaves out actuated-edge: takes no such scene." in said
+    assert (
+        "refuses leaves out two-edges-clamped, one-edge-clamped, actuated-edge: takes no such scene." in said
+    )
+
+
+def test_an_absent_code_is_refused_with_what_it_needs(fakes, capsys):
+    assert run("crosscheck", "two-edges-clamped", *fakes("ABSENT")) == 2
+    assert "needs luck" in one_line(capsys)

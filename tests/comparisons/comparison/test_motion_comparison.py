@@ -1,0 +1,230 @@
+"""A scene's motion by the lattice and by a reference, side by side: what is measured, shown and written."""
+
+import json
+from dataclasses import replace
+
+import meshio
+import numpy as np
+import pytest
+from commands import json_of, run
+
+import sheetbench as sb
+from comparisons.comparison.measures import difference, extrema, measured_alike
+from comparisons.comparison.motion import compare_motion
+from comparisons.comparison.motion_answer import MotionComparison
+from comparisons.models.spec import Lattice
+from comparisons.pages.stage import stage
+from comparisons.pages.studies import read
+from sheetbench.answers.history import ENERGIES, History
+from sheetbench.answers.solution import Status
+from sheetbench.errors import BadInput
+from sheetbench.scenes import load
+from sheetbench.scenes.objects.supports import Motion
+
+SMALL = {"grid": 5, "elements": 2}
+
+
+def swing(frequency, damping, size=1.0):
+    """A history whose only probe goes like 1 − e^(−ζωt) cos ω_d t."""
+    time = np.linspace(0.0, 1.0, 1001)
+    turn = 2.0 * np.pi * frequency
+    own = turn / np.sqrt(1.0 - damping**2)
+    height = -size * (1.0 - np.exp(-damping * own * time) * np.cos(turn * time))
+    probes = {"P": np.column_stack([0.0 * time, 0.0 * time, height])}
+    energies = {name: np.ones(1001) for name in ENERGIES}
+    return History("", "", {}, Status.CONVERGED, "", time, probes, energies, {}, {}, 1, 0.0, 0.0)
+
+
+def test_period_and_decay_of_a_damped_swing_are_its_own():
+    """Extrema of 1 − e^(−at) cos ωt lie half a period apart, wherever they are; parabolas place them to 1e-4
+    of the samples' 1/200 of a period."""
+    measured, _ = measured_alike(swing(5.0, 0.05), swing(5.0, 0.05))
+    assert measured.period == pytest.approx(0.2, rel=1e-4)
+    assert measured.decay == pytest.approx(2.0 * np.pi * 0.05 / np.sqrt(1.0 - 0.05**2), rel=1e-3)
+    assert measured.damping == pytest.approx(0.05, rel=1e-3)
+    first = -(1.0 + np.exp(-np.pi * 0.05))
+    assert measured.peak == pytest.approx(first, rel=2e-3)
+
+
+def test_what_two_motions_differ_by_is_what_was_changed():
+    slower = difference(swing(4.95, 0.05, 1.02), swing(5.0, 0.05))
+    assert slower["period"] == pytest.approx(0.01 / 0.99, rel=2e-2)
+    assert slower["peak"] == pytest.approx(-0.02, rel=2e-2)
+    assert slower["phase"] == pytest.approx(4.5 * 0.01 / 0.99, rel=0.1)
+    assert slower["rms"] < slower["largest"] < 0.4
+    alike = difference(swing(5.0, 0.05), swing(5.0, 0.05))
+    assert (alike["largest"], alike["rms"], alike["period"], alike["decay"]) == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_extrema_that_do_not_go_in_pairs_measure_nothing():
+    """A swing three times as fast has its first peak where the other has none."""
+    fast, slow = measured_alike(swing(15.0, 0.05), swing(5.0, 0.05))
+    assert (fast.peak, slow.peak, slow.period) == (None, None, None)
+    fast, near, slow = measured_alike(swing(15.0, 0.05), swing(4.9, 0.05), swing(5.0, 0.05))
+    assert fast.peak is None and (near, slow) == measured_alike(swing(4.9, 0.05), swing(5.0, 0.05))
+
+
+def test_the_references_row_is_of_the_extrema_that_the_other_row_is_of():
+    """A swing of 5 Hz beside one that gets slower: after the third extremum they do not pair, and the mean
+    of all the reference's extrema would be of a longer time."""
+    still, (one, other) = np.linspace(0.0, 1.0, 1001), (swing(5.0, 0.05), swing(5.0, 0.05))
+    late = np.interp(still - 0.5 * np.clip(still - 0.25, 0.0, None), other.time, one.probes["P"][:, 2])
+    one.probes["P"][:, 2] = late
+    mine, truth = measured_alike(one, other)
+    assert None not in (mine.period, truth.period)
+    assert abs(mine.last - truth.last) < 0.05  # half the way from one to the next
+    assert difference(one, other)["period"] == pytest.approx(mine.period / truth.period - 1.0, rel=1e-9)
+    both = MotionComparison(load("two-edges-settling"), {"lumped": one, "shell": other})
+    rows = both.document()["motion"]["measures"]
+    assert rows == {"lumped": mine.as_dict(), "shell": truth.as_dict()}
+    assert truth.last < extrema(other.time, other.probes["P"][:, 2])[-1, 0]
+
+
+def test_a_driven_motion_says_that_its_decrement_is_not_a_dampers():
+    free, motions = load("two-edges-settling"), {"lumped": swing(5.0, 0.05), "shell": swing(5.0, 0.05)}
+    for until, said in ((0.05, False), (0.5, True)):  # the first peak is at 0.1 s
+        motion = Motion(time=(0.0, until), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 1e-3)))
+        scene = free.replace(supports=tuple(one.replace(motion=motion) for one in free.supports))
+        notes = " ".join(MotionComparison(scene, motions).notes())
+        assert ("those of the driven motion" in notes) == said
+
+
+def test_what_does_not_swing_has_no_period():
+    still = swing(5.0, 0.05, 0.0)
+    assert len(extrema(still.time, still.probes["P"][:, 2])) == 0
+    measured, _ = measured_alike(still, still)
+    assert (measured.peak, measured.period, measured.decay) == (None, None, None)
+
+
+def test_lattice_and_shell_move_alike():
+    both = sb.compare("two-edges-settling", duration=0.1, grid=9, elements=4, uncertainty=False)
+    assert both.succeeded and both.reference == "shell"
+    assert list(both.histories) == ["lumped", "shell"]
+    (off,) = both.differences
+    assert 0.0 < off["rms"] < off["largest"] < 0.03
+    assert abs(off["peak"]) < 0.02
+    assert np.array_equal(*(history.time for history in both.histories.values()))
+
+
+def test_lattice_and_shell_move_alike_with_a_driven_chain():
+    """Its segments are rigid, the shell's rod is not: 0.1 to 0.2 % of the peak are the rod's."""
+    both = sb.compare("actuated-edge", duration=0.06, grid=9, elements=2, uncertainty=False)
+    (off,) = both.differences
+    assert both.succeeded and off["largest"] < 0.01
+    shell, lattice = both.histories["shell"].energies["work"], both.histories["lumped"].energies["work"]
+    assert shell[-1] == pytest.approx(lattice[-1], rel=0.02)
+
+
+def test_the_reference_has_a_bar_by_mesh_and_by_step():
+    both = sb.compare("two-edges-settling", duration=0.05, **SMALL)
+    assert 0.0 < both.uncertainty["step"] < both.uncertainty["mesh"] < 0.2
+    notes = both.report().notes
+    assert "% with elements twice as large" in notes[0] and "% with steps twice as long" in notes[0]
+    good = replace(both, uncertainty={"mesh": 1e-6, "step": 1e-6})
+    poor = replace(both, uncertainty={"mesh": 0.5, "step": 0.01})
+    assert good.differences[0]["distinguishable"] and not poor.differences[0]["distinguishable"]
+    shown = [one.report() for one in (good, poor)]
+    for report, within in zip(shown, (False, True), strict=True):
+        table = next(one for one in report.tables if one.name == "differences")
+        assert table.rows[-1][-2:] == (
+            pytest.approx(report.document["motion"]["bar"]),
+            "yes" if within else "no",
+        )
+        assert ("lumped: within the shell's own error." in report.notes) == within
+    assert shown[1].lead.startswith("The shell itself is uncertain by 51 % of its largest displacement")
+    assert shown[0].lead.startswith("motion over")
+    near = replace(both, uncertainty={"mesh": 0.5 * both.differences[0]["largest"], "step": 0.0})
+    assert near.doubt and near.differences[0]["distinguishable"]
+    unknown = replace(both, uncertainty={"mesh": None, "step": 1e-6})
+    assert unknown.bar is None and unknown.differences[0]["distinguishable"] is None and not unknown.doubt
+    (said,) = unknown.complaints()
+    assert said.startswith("shell: how far it may be off is not known") and "elements twice as large" in said
+    assert not good.complaints() and not replace(both, uncertainty={}).complaints()
+
+
+def test_the_command_prints_and_writes_a_motion(tmp_path, capsys):
+    command = ["compare", "two-edges-settling", "--duration", "0.02", "--elements", "2", "--lumped", "3"]
+    assert run(*command, "--no-uncertainty", "--out", str(tmp_path), "--no-pictures") == 0
+    printed = capsys.readouterr().out
+    assert all(word in printed for word in ("first peak", "rms", "generalised-alpha"))
+    document = json.loads((tmp_path / "motion.json").read_text())
+    motion = document["motion"]
+    assert set(motion["probes"]) == {"lumped", "shell"}
+    assert len(motion["probes"]["shell"]["P4"]) == len(motion["time"])
+    assert {"of", "against", "largest", "rms", "peak", "period", "decay"} <= set(motion["differences"][0])
+    last = sorted((tmp_path / "difference").glob("*.vtu"))[-1]
+    fields = meshio.read(last).point_data
+    corner = np.argmax(np.sum(meshio.read(last).points[:, :2], axis=1))
+    expected = np.subtract(motion["probes"]["lumped"]["P4"][-1], motion["probes"]["shell"]["P4"][-1])
+    assert fields["difference"][corner] == pytest.approx(expected, abs=1e-12)
+    assert (tmp_path / "shell.pvd").exists() and (tmp_path / "lumped.pvd").exists()
+    assert "[s]   [s]" in printed and max(map(len, printed.splitlines())) <= 80
+    shown = stage(read(tmp_path).studies[0])
+    assert [view["label"] for view in shown["views"]] == ["lumped and shell", "lumped", "shell"]
+    assert shown["views"][0]["sheets"] == [sheet["name"] for sheet in shown["sheets"]]
+    assert all(len(sheet["frames"]) > 1 for sheet in shown["sheets"])
+
+
+def test_its_picture_has_a_panel_a_probe():
+    from comparisons.comparison.motion_figure import compose
+
+    both = sb.compare("two-edges-settling", duration=0.01, uncertainty=False, grid=3, elements=1)
+    assert len(compose(both).axes) == 5
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [({"reference": "beam"}, "beam"), ({"elements": 0}, "elements"), ({"elements": 2000}, "large")],
+)
+def test_what_cannot_be_compared_is_refused(options, said):
+    with pytest.raises(BadInput, match=said):
+        sb.compare("two-edges-settling", duration=0.1, **options)
+
+
+def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
+    """A second time every run goes on from its last checkpoint, to the same answer to the last bit."""
+    settling, how = load("two-edges-settling"), {"every": 2e-4, "elements": 2, "store": tmp_path}
+    first, second = (compare_motion(settling, 0.02, Lattice(5), **how) for _ in range(2))
+    assert all(history.resumed_from > 0.0 for history in second.histories.values())
+    assert any("went on from" in note for note in second.report().notes)
+    for name, history in first.histories.items():
+        for probe, u in history.probes.items():
+            assert np.array_equal(second.histories[name].probes[probe], u)
+    assert len(list(tmp_path.iterdir())) == 4  # the lattice, the shell, and its two for the bars
+
+
+def test_both_sheets_move_side_by_side(tmp_path):
+    """A GIF with both in every frame, the lattice's half and the shell's each changing over time."""
+    from PIL import Image
+
+    from comparisons.pictures import offscreen
+
+    if impossible := offscreen.why_not():
+        pytest.skip(impossible)
+    both = compare_motion(
+        "two-edges-settling", 0.05, Lattice(3), elements=2, uncertainty=False, every=0.01, frames=3
+    )
+    film = replace(both, animate=True).figures()[-1]
+    assert film.write(tmp_path) is None
+    with Image.open(tmp_path / "both.gif") as image:
+        assert image.n_frames == 3
+        pages = []
+        for number in (0, 2):
+            image.seek(number)
+            pages.append(np.asarray(image.convert("RGB"), dtype=int))
+    changed = np.abs(pages[1] - pages[0]).sum(axis=2) > 60
+    middle = changed.shape[1] // 2
+    below = slice(changed.shape[0] // 5, None)  # the title and the time
+    assert changed[below, :middle].sum() > 50 and changed[below, middle:].sum() > 50
+
+
+def test_an_undamped_sheet_is_said_not_to_settle():
+    swinging = sb.simulate("one-edge-clamped", 0.02, grid=3)
+    assert any("does not settle" in note for note in swinging.notes())
+    assert not any("settle" in note for note in sb.simulate("two-edges-settling", 0.02, grid=3).notes())
+
+
+def test_samples_lie_as_far_apart_as_requested(capsys):
+    motion = ["compare", "two-edges-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty"]
+    document = json_of(capsys, *motion, "--duration", "0.02", "--every", "0.005")
+    assert document["motion"]["time"] == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02])

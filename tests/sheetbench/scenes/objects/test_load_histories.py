@@ -1,0 +1,294 @@
+"""Loads over time: what is refused, statics at the last factor, motion against solve_ivp, energy, orders."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from dynamic_cases import make_scene, springs, system
+from lattice_cases import ALL, MATERIAL, SHEET, assembly_of, dense, derivative, state
+from scipy.integrate import solve_ivp
+
+import fem_reference
+import lumped
+from comparisons.models.scales import scales
+from comparisons.models.symmetry import half, planes
+from lumped.dynamics import INTEGRATORS
+from lumped.loads import Loads
+from sheetbench import scenes
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import Clamped, EdgeLoad, FactorTable, Pressure, Scene
+
+TIP = (0.188, 0.094)
+RAMP = {"time": [0.0, 0.02, 0.05], "factor": [0.0, 1.0, -0.4]}
+
+
+def largest(values):
+    return float(np.abs(values).max())
+
+
+def tip_force(history, force=(0.0, 0.02, 0.1)):
+    return {"kind": "point", "at": TIP, "force": force, "history": history}
+
+
+def pull_on_a_cantilever(history, **material):
+    return make_scene("one-edge-clamped", gravity=False, loads=[tip_force(history)], **material)
+
+
+@pytest.mark.parametrize(
+    "history, said",
+    [
+        ("{time = [0.0, 1.0], factor = [1.0]}", "history: 2 times but 1 in factor"),
+        ("{time = [0.0, 0.0], factor = [0.0, 1.0]}", "history: times must increase"),
+        ("{time = [], factor = []}", "history.time = []"),
+        ("{time = [0.0]}", "history.factor: missing"),
+        ('{time = [0.0], factor = ["full"]}', "history.factor 1 = 'full'"),
+        ("{time = [0.0], factor = [inf]}", "history.factor 1 = inf"),
+        ("{time = [0.0], factor = [1.0], value = [1.0]}", "history.value = [1.0]: unknown key"),
+        ("3.0", "history = 3.0"),
+    ],
+)
+@pytest.mark.parametrize("of", ["gravity", "load 1"])
+def test_bad_histories_are_refused_in_one_line(tmp_path, history, said, of):
+    text = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8")
+    if of == "gravity":
+        text = text.replace("[gravity]", f"[gravity]\nhistory = {history}")
+    else:
+        load = f'[[load]]\nkind = "pressure"\nvalue = 1.0\nhistory = {history}\n'
+        text = text.replace("[probes]", load + "[probes]")
+    path = tmp_path / "scene.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(scenes.SceneError) as caught:
+        scenes.load(path)
+    assert f"{of}.{said}" in str(caught.value) and "\n" not in str(caught.value)
+
+
+def loaded(*actuators):
+    """A sheet under its weight and every kind of load, each with a history of its own."""
+
+    def ending(factor):
+        return {"time": [0.0, 0.1, 0.3], "factor": [7.0, -3.0, factor]}
+
+    loads = [
+        {"kind": "point", "at": [0.15, 0.12], "force": [0.0, 0.02, 0.05], "history": ending(-0.8)},
+        {"kind": "edge", "edge": "x1", "force_per_length": [0.1, 0.0, 0.1], "history": ending(2.0)},
+        {"kind": "edge", "edge": "y1", "moment_per_length": 5e-3, "history": ending(-2.0)},
+        {"kind": "pressure", "value": 8.0, "history": ending(0.5)},
+    ]
+    scene = make_scene("one-edge-clamped", actuators, loads=loads)
+    history = FactorTable.model_validate(ending(0.3))
+    return scene.model_copy(update={"gravity": scene.gravity.model_copy(update={"history": history})})
+
+
+def multiplied_out(scene):
+    """The scene without histories, its loads and weight multiplied by the last factors."""
+
+    def part(load):
+        by, changed = load.history.factor[-1], {"history": None}
+        for name in ("acceleration", "force", "force_per_length"):
+            if hasattr(load, name):
+                changed[name] = tuple(by * component for component in getattr(load, name))
+        for name in ("moment_per_length", "value"):
+            if hasattr(load, name):
+                changed[name] = by * getattr(load, name)
+        return load.model_copy(update=changed)
+
+    return scene.model_copy(update={"gravity": part(scene.gravity), "loads": tuple(map(part, scene.loads))})
+
+
+STATICS = {
+    "lattice": lambda scene: lumped.solve(scene, springs(scene)),
+    "linear lattice": lambda scene: lumped.solve(scene, springs(scene), linear=True),
+    "plate": lambda scene: fem_reference.solve(scene, "plate", elements=4),
+    "shell": lambda scene: fem_reference.solve(scene, "shell", elements=3),
+    "solid": lambda scene: fem_reference.solve(scene, "solid", elements=3),
+}
+
+
+@pytest.mark.parametrize("model", STATICS)
+def test_statics_take_the_last_factor(model):
+    scene = loaded()
+    found, truth = STATICS[model](scene), STATICS[model](multiplied_out(scene))
+    assert found.status is truth.status is Status.CONVERGED
+    moved, expected = (s.displacement(scene.probe_points()) for s in (found, truth))
+    assert largest(expected) > 1e-3
+    assert largest(moved - expected) < 1e-9 * largest(expected)
+    assert found.reactions["x0"] == pytest.approx(truth.reactions["x0"], rel=1e-7, abs=1e-9)
+
+
+@pytest.mark.parametrize("model", ["lattice", "shell"])
+def test_statics_take_the_last_factor_of_a_rods_weight(model):
+    scene = loaded({"line_density": 1.0}).model_copy(update={"loads": ()})
+    moved, expected = (
+        STATICS[model](a).displacement(scene.probe_points()) for a in (scene, multiplied_out(scene))
+    )
+    assert largest(expected) > 1e-3
+    assert largest(moved - expected) < 1e-9 * largest(expected)
+
+
+def test_scales_and_halves_know_of_histories():
+    assert scales(loaded()).as_dict() == pytest.approx(scales(multiplied_out(loaded())).as_dict())
+    scene = pull_on_a_cantilever(RAMP)
+    upwards = scene.loads[0].model_copy(update={"force": (0.0, 0.0, 0.1)})
+    scene = scene.model_copy(update={"loads": (upwards,)})
+    assert planes(scene) == (1,)
+    assert half(scene, 1).loads[0].history == upwards.history
+    ends = [upwards.model_copy(update={"at": (0.188, y)}) for y in (0.0, 0.188)]
+    assert planes(scene.model_copy(update={"loads": tuple(ends)})) == (1,)
+    ends[1] = ends[1].model_copy(update={"history": None})
+    assert planes(scene.model_copy(update={"loads": tuple(ends)})) == ()
+
+
+@pytest.mark.parametrize("time, factors", [(-1.0, (2.0, 1.0)), (0.05, (0.5, 0.0)), (9.0, (-4.0, -1.0))])
+def test_forces_and_tangents_at_a_time(time, factors):
+    """Factors before, between and after the samples, of two histories beside loads with none."""
+    first = FactorTable(time=(0.0, 0.1, 0.2), factor=(2.0, -1.0, -4.0))
+    second = FactorTable(time=(0.0, 0.1), factor=(1.0, -1.0))
+    assembly = assembly_of(**ALL)
+    u = state(assembly)
+
+    def of(pressure, moment, **histories):
+        loads = (
+            Pressure(value=30.0 * pressure, history=histories.get("first")),
+            EdgeLoad(
+                edge="x1",
+                moment_per_length=2.0 * moment,
+                force_per_length=(0.0, 3.0 * moment, moment),
+                history=histories.get("second"),
+            ),
+            EdgeLoad(edge="y0", moment_per_length=1.0, force_per_length=(0.0, 0.0, 1.0)),
+        )
+        supports = (Clamped(edge="x0"),)
+        return Loads(
+            Scene(name="s", sheet=SHEET, material=MATERIAL, supports=supports, loads=loads), assembly
+        )
+
+    changing, still = of(1.0, 1.0, first=first, second=second), of(*factors)
+    assert not changing.potential and not changing.conservative
+    force = changing.force(u, time)
+    assert force == pytest.approx(still.force(u), rel=1e-12, abs=1e-14)
+    blocks = np.zeros((assembly.pattern.blocks, 3, 3))
+    changing.add_tangent(u, 0.7, blocks, time)
+    numeric = -0.7 * derivative(lambda v: changing.force(v, time), u)
+    assert np.allclose(dense(assembly, blocks), numeric, atol=1e-6 * largest(numeric))
+
+
+def test_loads_without_a_history_are_one_constant_array():
+    equations, rest = system(make_scene(loads=[{"kind": "point", "at": TIP, "force": [0.0, 0.0, 0.1]}]))
+    loads = equations.problem.loads
+    assert loads.potential and not equations.working
+    assert loads.force(rest.u, 0.3) is loads.dead
+
+
+@pytest.fixture(scope="module")
+def reference():
+    """The tip of a 3 × 3 × 2 cantilever under a ramped force, M ü + f_int(u) = f(t) by hand."""
+    scene = pull_on_a_cantilever(RAMP)
+    equations, _ = system(scene, 3)
+    lattice, mass = equations.assembly.lattice, equations.lattice_mass
+    free = np.flatnonzero(lattice.positions[:, 0] > 0.0)
+    pulled = np.flatnonzero(np.abs(lattice.positions[:, :2] - TIP).max(axis=1) < 1e-12)
+    assert len(pulled) == 2
+    force = np.zeros((lattice.mass_count, 3))
+    force[pulled] = np.array([0.0, 0.02, 0.1]) / 2.0
+
+    def rate(time, y):
+        u = np.zeros_like(force)
+        u[free] = y[: 3 * len(free)].reshape(-1, 3)
+        pull = np.interp(time, RAMP["time"], RAMP["factor"]) * force - equations.assembly.force(u)[1]
+        return np.concatenate([y[3 * len(free) :], (pull[free] / mass[free, None]).ravel()])
+
+    times, found = np.linspace(0.0, 0.2, 101), [np.zeros((1, 6 * len(free)))]
+    for begin, end in ((0.0, 0.02), (0.02, 0.05), (0.05, 0.2)):  # no kink within an integration
+        at = times[(times > begin + 1e-9) & (times < end + 1e-9)]
+        part = solve_ivp(rate, (begin, end), found[-1][-1], "DOP853", at, rtol=1e-9, atol=1e-12)
+        found.append(part.y.T)
+    moved = np.concatenate(found)[:, : 3 * len(free)].reshape(len(times), -1, 3)
+    tip = moved[:, np.isin(free, pulled)].mean(axis=1)
+    return scene, times, tip
+
+
+@pytest.mark.sweep(2)
+@pytest.mark.parametrize(
+    "name, step", [("verlet", None), ("generalised-alpha", None), ("esdirk", None), ("midpoint", 2e-4)]
+)
+def test_a_ramped_force_moves_the_cantilever_as_solve_ivp_says(reference, name, step):
+    scene, times, truth = reference
+    history = lumped.simulate(scene, springs(scene, 3), 0.2, integrator=name, step=step, every=0.002)
+    assert history.status is Status.CONVERGED
+    assert history.time == pytest.approx(times)
+    assert largest(history.probes["P3"] - truth) < 1e-3 * largest(truth)  # measured below 1e-4
+
+
+def test_the_sheet_follows_slow_ramps_through_the_static_solutions():
+    pressure = {"kind": "pressure", "value": 6.0, "history": {"time": [0.0, 4.0], "factor": [0.0, 1.0]}}
+    scene = make_scene("one-edge-clamped", gravity=False, loads=[pressure], damping_time=1e-2)
+    history = lumped.simulate(scene, springs(scene, 4), 4.0, step=0.02, every=1.0)
+    assert history.status is Status.CONVERGED
+    for i, factor in enumerate(history.time[1:] / 4.0, start=1):
+        there = scene.model_copy(update={"loads": (Pressure(value=6.0 * factor),)})
+        static = lumped.solve(there, springs(scene, 4)).displacement(scene.probe_points())
+        found = np.array([history.probes[name][i] for name in scene.probes])
+        assert largest(found - static) < 0.01 * largest(history.probes["P4"])
+
+
+def shaken(damping_time=0.0):
+    """Constant weight, a swinging force, a pulse of pressure and an edge moment."""
+    time = np.linspace(0.0, 0.2, 401)
+    swing = {"time": time.tolist(), "factor": np.sin(20.0 * time).tolist()}
+    pulse = {"time": [0.0, 0.03, 0.06], "factor": [0.0, 1.0, 0.0]}
+    loads = [
+        tip_force(swing, force=(0.0, 0.1, 1.0)),
+        {"kind": "pressure", "value": 60.0, "history": pulse},
+        {"kind": "edge", "edge": "x1", "moment_per_length": 0.1, "history": swing},
+    ]
+    return make_scene("one-edge-clamped", loads=loads, damping_time=damping_time)
+
+
+@pytest.mark.sweep
+@pytest.mark.parametrize("damping", [0.0, 1e-3])
+@pytest.mark.parametrize(
+    "name, tolerance", [("midpoint", 1e-9), ("generalised-alpha", 1e-4), ("esdirk", 1e-4), ("verlet", 1e-4)]
+)
+def test_the_energy_balance_holds_with_loads_that_change(name, tolerance, damping):
+    scene = shaken(damping)
+    step = {"midpoint": 5e-4, "generalised-alpha": 2e-4, "esdirk": 5e-4, "verlet": None}[name]
+    history = lumped.simulate(scene, springs(scene, 3), 0.05, integrator=name, step=step, every=0.001)
+    assert history.status is Status.CONVERGED
+    scale = max(largest(energy) for energy in history.energies.values())
+    assert largest(history.energies["work"]) > 0.2 * scale
+    # measured 1e-11, 2e-6 and 6e-6
+    assert largest(history.balance - history.balance[0]) < tolerance * scale
+
+
+def test_weight_with_a_history_does_work_and_has_no_potential():
+    history = FactorTable(time=(0.0, 0.05), factor=(0.0, 1.0))
+    scene = make_scene("one-edge-clamped")
+    scene = scene.model_copy(update={"gravity": scene.gravity.model_copy(update={"history": history})})
+    found = lumped.simulate(scene, springs(scene, 4), 0.1, integrator="midpoint", step=5e-4, every=0.005)
+    assert largest(found.energies["potential"]) == 0.0
+    assert largest(found.balance) < 1e-8 * largest(found.energies["work"])
+    weight = 9.81 * 1678.0 * 0.188**2 * 0.003
+    static = lumped.solve(scene, springs(scene, 4))
+    assert static.reactions["x0"][2] == pytest.approx(weight)
+
+
+ORDER_STEPS = {"verlet": 4e-5, "generalised-alpha": 4e-5, "midpoint": 4e-5}
+
+
+@pytest.mark.parametrize("name", ORDER_STEPS)  # a table's corners hide the error of a fifth order
+def test_orders_are_as_declared_under_a_smooth_load(name):
+    time = np.linspace(0.0, 0.002, 2001)
+    history = {"time": time.tolist(), "factor": np.sin(400.0 * time).tolist()}
+    loads = [
+        tip_force(history, force=[0.0, 0.0, 0.5]),
+        {"kind": "pressure", "value": 100.0, "history": history},
+    ]
+    scene = make_scene("one-edge-clamped", gravity=False, loads=loads)
+    ends = []
+    for halvings in (1, 2, 3):
+        step = ORDER_STEPS[name] / 2**halvings
+        found = lumped.simulate(scene, springs(scene, 3), 0.002, integrator=name, step=step, every=0.002)
+        ends.append(found.probes["P4"][-1])
+    changes = [largest(a - b) for a, b in pairwise(ends)]
+    assert np.log2(changes[0] / changes[1]) == pytest.approx(INTEGRATORS[name].order, abs=0.15)
+    assert changes[1] < 2e-3 * largest(ends[-1])

@@ -1,0 +1,107 @@
+"""Rubber in a scene: laws, the small strains that their constants mean, and what is refused."""
+
+import numpy as np
+import pytest
+from rubbers import LAWS, rubber
+
+import sheetbench as sb
+from sheetbench.scenes.meaning.words import in_words
+
+
+def stored(material, stretches):
+    """The energy that the docstring of the module says, of principal stretches (…, 3)."""
+    squares = stretches**2
+    first, third = squares.sum(-1) - 3.0, np.log(stretches).sum(-1)
+    second = 0.5 * (squares.sum(-1) ** 2 - (squares**2).sum(-1)) - 3.0
+    e, x = material.energy, first
+    f = e.c10 * x + e.c20 * x**2 + e.c30 * x**3
+    if e.limit:
+        f = -e.c10 * e.limit * np.log(1.0 - x / e.limit)
+    return f + e.c01 * second - (2 * e.c10 + 4 * e.c01) * third + 0.5 * e.volume(material.poisson) * third**2
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_young_and_poisson_are_those_of_the_energy_at_small_strains(law):
+    material, h = rubber(law, 0.4), 1e-3
+    steps = h * np.eye(3)
+
+    def second(i, j):
+        signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)]
+        return sum(a * b * stored(material, 1.0 + a * steps[i] + b * steps[j]) for a, b in signs) / (
+            4 * h * h
+        )
+
+    lame, both = second(0, 1), second(0, 0)
+    shear = 0.5 * (both - lame)
+    # a central difference: h² of the fourth derivatives, here up to 30 times the second ones
+    assert lame / (2.0 * (lame + shear)) == pytest.approx(0.4, rel=1e-4)
+    assert 2.0 * shear * 1.4 == pytest.approx(material.young, rel=1e-4)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_rubber_comes_back_from_its_file(law, tmp_path):
+    scene = sb.load("two-edges-clamped").replace(material=rubber(law))
+    scene.save(tmp_path / "scene.toml")
+    assert sb.load(tmp_path / "scene.toml") == scene
+    assert law in dict(in_words(scene))["material"]
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_constants_follow_young_and_young_follows_constants(law):
+    stiffer = rubber(law).replace(young=2e6)
+    assert stiffer.young == pytest.approx(2e6, rel=1e-12)
+    assert stiffer.energy.c20 / stiffer.energy.c10 == pytest.approx(
+        rubber(law).energy.c20 / rubber(law).energy.c10
+    )
+    assert stiffer.limit == rubber(law).limit
+    for key, value in LAWS[law].items():
+        assert getattr(rubber(law).replace(**{key: 2.0 * value}), key) == 2.0 * value
+    assert rubber(law).replace(law="neo-hookean").energy.c20 == 0.0
+
+
+SPRINGS = """[springs]
+axial = 1.0
+diagonal = 1.0
+vertical = 1.0
+cross = 1.0
+cross_diagonal = 1.0
+layer_distance = 0.001"""
+REFUSED = {
+    "material: c1 = 1: law is missing": {"young": 1e6, "c1": 1.0},
+    "material: c1 = 1: law = 'gent' takes shear and limit": {"law": "gent", **LAWS["gent"], "c1": 1.0},
+    "material: law = 'yeoh': c3 is missing": {"law": "yeoh", "c1": 1.0, "c2": 1.0},
+    "make it 952000 Pa at small strains; leave young out": {
+        "law": "mooney-rivlin", **LAWS["mooney-rivlin"], "young": 1e6},
+    "poisson = 0.4: with law = 'gent' shear = 340000, limit = 0.1 it must be 0.476 or more": {
+        "law": "gent", "shear": 3.4e5, "limit": 0.1},
+    "the shear modulus at small strains is -20000 Pa": {"law": "mooney-rivlin", "c1": 1e4, "c2": -2e4},
+    "c2 = -20000: pulled both ways beyond a stretch of 2.24 this rubber would push; c2 must be 0": {
+        "law": "mooney-rivlin", "c1": 1e5, "c2": -2e4},
+    "c3 above 333.333 Pa": {"law": "yeoh", "c1": 1e5, "c2": -1e4, "c3": 300.0},
+    "material.limit = -1.0: must be greater than 0": {"law": "gent", "shear": 3.4e5, "limit": -1.0},
+    "material.law = 'ogden'": {"law": "ogden", "young": 1e6},
+    "material.c10: of rubber there are the laws": {"young": 1e6, "c10": 1.0},
+    "springs: of a material with law = 'gent' they are calibrated; leave one out": {
+        "law": "gent", **LAWS["gent"], "springs": SPRINGS},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("said", REFUSED)
+def test_constants_that_make_no_rubber_are_refused_with_file_key_and_value(said, tmp_path):
+    path = tmp_path / "scene.toml"
+    material = {"poisson": 0.4, "density": 1000.0, **REFUSED[said]}
+    springs = material.pop("springs", "")
+    lines = [f"{key} = {value!r}" for key, value in material.items()]
+    before = "[sheet]\nlength_x = 0.1\nlength_y = 0.1\nthickness = 0.001\n"
+    path.write_text(f'name = "a"\n{before}[material]\n' + "\n".join([*lines, springs]) + "\n")
+    with pytest.raises(sb.SceneError) as refused:
+        sb.load(path)
+    assert str(refused.value).startswith(f"{path}: ") and said in str(refused.value)
+
+
+def test_references_take_the_law_of_the_material():
+    import fem_reference
+
+    scene = sb.load("two-edges-clamped").replace(material=rubber("neo-hookean"))
+    assert fem_reference.solve(scene, elements=2).settings["law"] == "neo-hookean"
+    assert fem_reference.solve(scene, elements=2, law="biot").settings["law"] == "biot"

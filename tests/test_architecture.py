@@ -285,7 +285,6 @@ TWICE = {  # class names that stand in several files of the core
     "Modes",  # each solver's answer, public
     "State",  # of the lattice in motion, which is public, and of a reference at rest
     "Shape",  # of a reference's sheet, and of a scene's region
-    *("Held", "Motion"),  # what holds a mesh, a reference's state; public ones of scenes
     "Section",  # of the lattice's cells, and of the shell's
     "Unit",  # of a table's column, and of a scene's key
 }

@@ -107,6 +107,14 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     ],
 }
 ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(dimensions)]
+DEAR = {("--vary", "time-step"), ("--calibration", "hyperelastic")}  # a fifth of all rows' time
+
+
+def cases():
+    """Return every row under its name."""
+    for verb, row in ROWS:
+        marks = [pytest.mark.nightly] if set(row) >= DEAR else []
+        yield pytest.param(verb, row, id=f"{verb} {named(row)}", marks=marks)
 
 
 @pytest.fixture(scope="module")
@@ -134,6 +142,6 @@ def places(places, tmp_path_factory):
 
 
 @pytest.mark.usefixtures("few")
-@pytest.mark.parametrize(("verb", "row"), ROWS, ids=[f"{verb} {named(row)}" for verb, row in ROWS])
+@pytest.mark.parametrize(("verb", "row"), list(cases()))
 def test_verb(verb, row, ends):
     ends(*verb.split(), *(part for one in row for part in one))

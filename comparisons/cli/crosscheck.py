@@ -67,8 +67,7 @@ def command(
 
     An empty list leaves a model, or all external codes, out: --solid "". An interrupted run is resumed.
     """
-    from comparisons.comparison.candidates import candidates, load_scenes
-    from comparisons.comparison.crosscheck import crosscheck
+    from comparisons.comparison.crosscheck import candidates, crosscheck, load_scenes
     from comparisons.comparison.motion import compare_motion
     from comparisons.external.installed import find_codes
     from comparisons.models.spec import Elements, Lattice, items

@@ -121,37 +121,42 @@ def command(
     --solid "". With --tolerance or --budget it names one model and the command that solves it; exit status 3
     where none meets the tolerance.
     """
-    from comparisons.tradeoff.choices import trade
+    from comparisons.comparison.comparison import load_static
+    from comparisons.models.spec import items
+    from comparisons.tradeoff import choices
+    from comparisons.tradeoff.advisor import advise
+    from comparisons.tradeoff.motion import dynamic_tradeoff
+    from comparisons.tradeoff.statics import tradeoff
+    from sheetbench.errors import BadInput, require_effect
+    from sheetbench.scenes import scene_of
 
+    loaded = scene_of(scene) if duration is not None else load_static(scene)
+    meshes = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
     if tolerance is not None or budget is not None:
-        from comparisons.comparison.comparison import load_static
-        from comparisons.tradeoff.advisor import advise
-        from sheetbench.errors import require_effect
-
-        lists = {"lumped": grid, "plate": plate, "shell": shell, "solid": solid}
+        lists = {"lumped": grid, **meshes}
         require_effect(
             "with --tolerance or --budget", {f"--{name}": of or None for name, of in lists.items()}
         )
         models = [name for name, of in lists.items() if of is None and name != "solid"]
-        loaded = load_static(scene)
         with output.open(scene=loaded, variant={"--tolerance": True}) as out:
             found = advise(loaded, tolerance, budget, lattice.spec, models=models, calibration=calibration)
             return out.show(replace(found, called=scene) if isinstance(scene, str) else found)
-    loaded, measure = trade(
-        scene,
-        lattice.spec,
-        grid=grid,
-        lumped_pair=lumped_pair,
-        calibration=calibration,
-        meshes=dict(zip(REFERENCES, (plate, shell, solid), strict=True)),
-        models=model or (),
-        symmetry=symmetry,
-        elements=elements,
-        repeats=repeats,
-        duration=duration,
-        integrator=integrator,
-    )
+    own, usual = lattice.spec, MESHES if duration is None else MOVING
+    others, extra = choices.of_references(meshes, usual, symmetry), choices.named(model or ())
+    reference = choices.finest(elements)
+    if duration is not None:
+        more: dict[str, Any] = {"lattices": choices.moving_lattices(own, grid, calibration)}
+        measure: Any = dynamic_tradeoff
+        more |= {"duration": duration, "integrators": items(integrator) or sorted(INTEGRATORS)}
+        more |= {"others": [*others, *extra]}
+    else:
+        measure = tradeoff
+        lattices, reasons = choices.of_lattices(loaded, own, grid, lumped_pair, calibration)
+        lattices = [one.but(symmetry=True) for one in lattices] if symmetry else lattices
+        more = {"candidates": [*lattices, *others, *extra], "reasons": reasons, "repeats": repeats or REPEATS}
+        if not more["candidates"]:
+            raise BadInput("no model left to measure")
     with output.open(scene=loaded) as out:
         with out.campaign(campaign) as run:
-            traded = measure(**run)
+            traded = measure(loaded, **run, reference=reference, **more)
         return out.show(traded)

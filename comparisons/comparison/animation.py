@@ -63,16 +63,16 @@ def _images(
     speed = (moments[-1][0][0] - moments[0][0][0]) * PER_SECOND / max(len(moments) - 1, 1)
     images = []
     for moment in moments:
-        views = [_view(scene, frame, limits, seen, len(moment)) for _, frame in moment]
+        views = [_view(scene, time, frame, limits, seen, len(moment)) for time, frame in moment]
         caption = f"t = {moment[0][0]:.3f} s   (shown at {speed:.2g} × real time)"
         images.append(_page(scene, list(zip(views, labels, strict=True)), caption, limits))
     return images
 
 
 def _view(
-    scene: Scene, frame: Frame, limits: tuple[float, float], seen: np.ndarray, beside: int
+    scene: Scene, time: float, frame: Frame, limits: tuple[float, float], seen: np.ndarray, beside: int
 ) -> np.ndarray:
-    """The pixels of a sheet, of so many beside each other."""
+    """The pixels of a sheet and of what it touches, of so many beside each other."""
     held: Any = frame
     stage = Stage(scene, held, 1.0, pixels=round(1.5 * WIDTH * PER_INCH / beside))
     if frame.of_lattice:
@@ -82,7 +82,8 @@ def _view(
         stage.surface(held, 1e3 * frame.displacement(plan)[:, 2], limits, HEIGHTS, SURFACE_LINES)
     for rest, u in frame.axes:
         stage.chain(rest + u)
-    return stage.take(seen, np.empty((0, 3)))[0]
+    corners = [stage.obstacle(obstacle, time) for obstacle in scene.obstacles]
+    return stage.take(np.vstack([seen, *corners]), np.empty((0, 3)))[0]
 
 
 def _page(

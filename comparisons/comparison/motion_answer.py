@@ -24,6 +24,7 @@ from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.meaning.motion import kinks
 
 DOUBTFUL, SHARE = 0.1, 1.0 / 3.0  # a reference's bar beyond which it is doubtful: of itself, of a difference
+DOUBLED = {"mesh": "with elements twice as large", "step": "with steps twice as long"}
 WHOLE = ("of", "largest", "rms", "peak", "period", "phase", "decay")  # of two motions' difference
 
 
@@ -191,7 +192,14 @@ class MotionComparison(Answer):
         ]
 
     def complaints(self) -> list[str]:
-        return [f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints()]
+        found = [f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints()]
+        unknown = [DOUBLED[name] for name, bar in self.uncertainty.items() if bar is None]
+        if unknown:
+            found.append(
+                f"{self.reference}: how far it may be off is not known, nor what is told apart from it: "
+                f"{' and '.join(unknown)} there is no motion to its end; more --elements may help"
+            )
+        return found
 
     def files(self) -> dict[str, Write]:
         """Return samples of every model and, where frames were kept, sheets at some moments."""
@@ -268,8 +276,7 @@ def _bars(found: MotionComparison) -> list[str]:
     known = {name: bar for name, bar in found.uncertainty.items() if bar is not None}
     if not known:
         return []
-    how = {"mesh": "with elements twice as large", "step": "with steps twice as long"}
-    parts = (f"{number(100 * bar, '.2g')} % {how[name]}" for name, bar in known.items())
+    parts = (f"{number(100 * bar, '.2g')} % {DOUBLED[name]}" for name, bar in known.items())
     changes = " and ".join(parts)
     notes = [f"{found.reference}: its own motion changes by up to {changes}"]
     within = [one["of"] for one in found.differences if one["distinguishable"] is False]

@@ -60,9 +60,10 @@ class Stage:
         balls = pyvista.PolyData(points).glyph(geom=ball, scale=False, orient=False)
         self.plotter.add_mesh(balls, color=DARK, smooth_shading=True, specular=0.3)
 
-    def obstacle(self, obstacle: AnyObstacle) -> np.ndarray:
-        """The part of an obstacle that is near the sheet, at its last place; corners (n, 3) [m] of it."""
-        at, along = np.array(obstacle.position) + obstacle.displacement(1.0), obstacle.direction
+    def obstacle(self, obstacle: AnyObstacle, time: float | None = None) -> np.ndarray:
+        """The part of an obstacle that is near the sheet, at a time [s] or its last place; corners (n, 3) [m]
+        of it."""
+        at, along = np.array(obstacle.position) + obstacle.displacement(1.0, time), obstacle.direction
         middle = np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0])
         if isinstance(obstacle, Plane):
             foot = middle - ((middle - at) @ along) * along

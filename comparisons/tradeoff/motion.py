@@ -70,7 +70,7 @@ def dynamic_tradeoff(
     """
     import lumped
 
-    require_positive("duration", duration, "s")
+    require_positive("--duration", duration, "s")
     for name in integrators:
         lumped.require_integrator(name)
     finest = reference or finest_shell(others, FINEST)

@@ -11,7 +11,7 @@ from fem_reference.discrete.sheet import Discrete
 
 
 @dataclass(frozen=True)
-class Motion:
+class SheetMotion:
     """Coordinates, their rates, accelerations and the algorithm's (N,) at a time [s]; exerted: M a + g;
     memory: of the material's branches."""
 
@@ -32,7 +32,7 @@ class Energies(NamedTuple):
     potential: float
 
 
-def energies(sheet: Discrete, motion: Motion) -> Energies:
+def energies(sheet: Discrete, motion: SheetMotion) -> Energies:
     """Return the energies of a motion."""
     q, v, time = motion.q, motion.v, motion.time
     sheet.grow(time)
@@ -43,7 +43,7 @@ def energies(sheet: Discrete, motion: Motion) -> Energies:
     return Energies(0.5 * float(v @ (sheet.mass @ v)), elastic + stored, potential)
 
 
-def spent(sheet: Discrete, start: Motion, end: Motion, late: float) -> np.ndarray:
+def spent(sheet: Discrete, start: SheetMotion, end: SheetMotion, late: float) -> np.ndarray:
     """Return energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
     forces times changes, of dampers those that the step balances. late: the end's share in them."""
     h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
-from fem_reference.surface.actuator_forces import Held, OnEdge
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Plan
@@ -50,7 +50,7 @@ class Output(ABC):
         """The sheet as it lies."""
 
     @abstractmethod
-    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         """Force and couple on the nodes of g (N,)."""
 
     @abstractmethod

@@ -23,7 +23,8 @@ def penalties(structure: Static) -> Penalties[State]:
     flat = sheet.shape(np.zeros(sheet.size), 1.0)
     others = [item for item in sheet.items if not isinstance(item, Touching)]
     dead = sheet.displacement(sum((item.force(flat) for item in others), np.zeros(sheet.size)))
-    placed = sheet.displacement(sheet.placed(np.zeros(sheet.size), 1.0))
+    flat_q = np.zeros(sheet.size)
+    moved = np.abs(sheet.on_surface(sheet.placed(flat_q, 1.0)) - sheet.on_surface(flat_q)).max(axis=(0, 2))
 
     def passes(start: State, since: float, end: State, load_factor: float) -> bool:
         ways = sheet.on_surface(start.q), since, sheet.on_surface(end.q), load_factor
@@ -33,7 +34,8 @@ def penalties(structure: Static) -> Penalties[State]:
         balanced = structure.potential(state, 1.0)[1]
         return Start(structure.unextrapolated(state), 1.0, 1.0, balanced)
 
-    force, travel = float(np.abs(dead).sum()), float(np.abs(placed).max())
+    force = float(np.abs(dead).sum())
+    travel = float(max(moved[:9].max(), sheet.longest * moved[9:].max()))  # a director's turn moves the end
     return Penalties(sheet.contacts, force, travel, sheet.longest, False, passes, restart)
 
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.discrete.energies import Motion
+from fem_reference.discrete.energies import SheetMotion
 from fem_reference.motion.generalised_alpha import ConstrainedAlpha, Linear
 from sheetbench.numerics.time.rule import MidpointStep
 
@@ -26,16 +26,16 @@ REUSED = 0.3  # a correction's share of the one before, up to which factors are 
 class EnergyMomentum(ConstrainedAlpha):
     """Steps of a reference, of a fixed length."""
 
-    def _advanced(self, motion: Motion, h: float) -> Motion:
+    def _advanced(self, motion: SheetMotion, h: float) -> SheetMotion:
         self.late = 0.5
         model, half_way, time = self._model, motion.time + 0.5 * h, motion.time + h
         rule = MidpointStep(h, motion.q, motion.v)
 
-        def at(q: np.ndarray) -> Motion:
+        def at(q: np.ndarray) -> SheetMotion:
             v, a = rule.velocity(q), rule.acceleration(q)
-            return Motion(time, q, v, a, a, model.mass @ a + model.mean_forces(motion.q, q, h, half_way))
+            return SheetMotion(time, q, v, a, a, model.mass @ a + model.mean_forces(motion.q, q, h, half_way))
 
-        def linear(found: Motion) -> Linear:
+        def linear(found: SheetMotion) -> Linear:
             middle, rate = rule.place(found.q), rule.rate(found.q)
             basis, shape = model.basis(middle), model.shape(middle, half_way, rate)
             return (

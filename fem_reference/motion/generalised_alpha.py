@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
-from fem_reference.discrete.energies import Motion, spent
+from fem_reference.discrete.energies import SheetMotion, spent
 from fem_reference.discrete.relaxation import remembered
 from fem_reference.motion.moving import MovingSheet
 from sheetbench.numerics.direct import Factor, SingularMatrixError
@@ -48,7 +48,7 @@ class Sampled(NamedTuple):
     """Motions at k moments (k,) [s], and the energies (k,) [J] dissipated and put in since a step began."""
 
     time: np.ndarray
-    motions: list[Motion]
+    motions: list[SheetMotion]
     dissipated: np.ndarray
     work: np.ndarray
 
@@ -61,7 +61,7 @@ class ConstrainedAlpha:
     small strains that a cubic between the ends of a step leaves, steps end at samples.
     """
 
-    state = Motion
+    state = SheetMotion
 
     def __init__(
         self, model: MovingSheet, step: float | None, error: float, first: float, radius: float = RADIUS
@@ -107,25 +107,25 @@ class ConstrainedAlpha:
         for name in REMEMBERED:
             setattr(self, name, type(getattr(self, name))(memory[name]))
 
-    def start(self) -> Advance[Motion]:
+    def start(self) -> Advance[SheetMotion]:
         """Return the motion at t = 0, with the work of what moves at once."""
         q = self._model.start()
         return self._begun(0.0, q, np.zeros_like(q))
 
-    def _branches(self, motion: Motion, time: float) -> BranchStep | None:
+    def _branches(self, motion: SheetMotion, time: float) -> BranchStep | None:
         """The step of the branches from a motion to a time [s], if there are any."""
         branches = self._model.branches
         return branches.step(motion.memory, time - motion.time) if branches.times else None
 
     def _begun(
         self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None
-    ) -> Advance[Motion]:
+    ) -> Advance[SheetMotion]:
         """The motion from a time on, with the work of what changes its velocity at once."""
         motion, mass = self.begin(time, q, v, branches), self._model.mass
         work = 0.5 * float(motion.v @ (mass @ motion.v) - v @ (mass @ v))
         return Advance(motion, 0.0, work)
 
-    def go(self, motion: Motion, at_most: float) -> Advance[Motion]:
+    def go(self, motion: SheetMotion, at_most: float) -> Advance[SheetMotion]:
         """Return a step, begun anew where what is prescribed changes its velocity at once. Raises
         StepFailed."""
         model, work = self._model, 0.0
@@ -138,7 +138,7 @@ class ConstrainedAlpha:
         self._step = motion, spent(model, motion, after, self.late), work
         return Advance(after, float(self._step[1][0]), work + float(self._step[1][1]))
 
-    def at(self, times: np.ndarray, last: Advance[Motion]) -> Sampled:
+    def at(self, times: np.ndarray, last: Advance[SheetMotion]) -> Sampled:
         """Return the motions at times (k,) [s] within the last step; energies since it began."""
         end = last.state
         if end.time == times[0]:
@@ -155,7 +155,9 @@ class ConstrainedAlpha:
     def _remembered(self, q: np.ndarray, branches: BranchStep | None) -> np.ndarray:
         return remembered(self._model.branches, self._model.strains(q), branches)
 
-    def begin(self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None) -> Motion:
+    def begin(
+        self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None
+    ) -> SheetMotion:
         """The motion from a time on, its velocities as motions have them and with the accelerations of its
         forces. branches: their step until then; at rest without one."""
         model = self._model
@@ -176,14 +178,14 @@ class ConstrainedAlpha:
             twice_kinetic = max(float(u @ (model.mass @ u)) for u in (v, rate))
             taken = float(a @ (model.mass @ a))  # h² times half of it
             self._control.step = min(self._control.step, np.sqrt(TAKEN * twice_kinetic / max(taken, 1e-30)))
-        return Motion(time, q, rate, a, a, model.mass @ a + forces, self._remembered(q, branches))
+        return SheetMotion(time, q, rate, a, a, model.mass @ a + forces, self._remembered(q, branches))
 
-    def advance(self, motion: Motion, at_most: float) -> Motion:
+    def advance(self, motion: SheetMotion, at_most: float) -> SheetMotion:
         """One step of at most so long [s]. Raises StepFailed."""
         control, largest = self._control, self._largest
         control.order = self._rule.order
 
-        def attempt(h: float) -> tuple[tuple[Motion, float], float, float]:
+        def attempt(h: float) -> tuple[tuple[SheetMotion, float], float, float]:
             nonlocal largest
             old = shifted(motion.a, motion.algorithm, h, self._before)
             after = self._halving(motion, h)
@@ -208,12 +210,12 @@ class ConstrainedAlpha:
             self._factor = self._factor if self._euler else None
         return after
 
-    def _local_error(self, after: Motion, before: np.ndarray, h: float) -> float:
+    def _local_error(self, after: SheetMotion, before: np.ndarray, h: float) -> float:
         """Of the displacement [m] in a step; before: its a'₀."""
         jump = after.a if self._euler else after.algorithm - before
         return h * h * self._rule.error * float(np.abs(self._model.displacement(jump)).max())
 
-    def _halving(self, motion: Motion, h: float, times: int = 0) -> Motion:
+    def _halving(self, motion: SheetMotion, h: float, times: int = 0) -> SheetMotion:
         """A step, in halves where it is fixed and fails. Raises StepFailed, SingularMatrixError."""
         try:
             after = self._advanced(motion, h)
@@ -228,19 +230,19 @@ class ConstrainedAlpha:
             self._before = h
         return after
 
-    def _advanced(self, motion: Motion, h: float) -> Motion:
+    def _advanced(self, motion: SheetMotion, h: float) -> SheetMotion:
         model, time, rule = self._model, motion.time + h, self._rule
         branches = self._branches(motion, time)
         self.late = 1.0 - rule.af
         old = shifted(motion.a, motion.algorithm, h, self._before)
         step = step_of(rule, h, motion.q, motion.v, motion.a, old)
 
-        def at(q: np.ndarray) -> Motion:
+        def at(q: np.ndarray) -> SheetMotion:
             v, a = step.velocity(q), step.acceleration(q)
             exerted = model.mass @ a + model.forces(model.shape(q, time, v, branches))
-            return Motion(time, q, v, a, step.algorithm(a), exerted)
+            return SheetMotion(time, q, v, a, step.algorithm(a), exerted)
 
-        def linear(found: Motion) -> Linear:
+        def linear(found: SheetMotion) -> Linear:
             basis = model.basis(found.q)
             return (
                 basis,
@@ -260,13 +262,13 @@ class ConstrainedAlpha:
     def _solved(
         self,
         h: float,
-        found: Motion,
-        at: Callable[[np.ndarray], Motion],
-        linear: Callable[[Motion], Linear],
+        found: SheetMotion,
+        at: Callable[[np.ndarray], SheetMotion],
+        linear: Callable[[SheetMotion], Linear],
         solved: Callable[[float, float, float], bool],
         quick: float,
         corrections: int = CORRECTIONS,
-    ) -> Motion:
+    ) -> SheetMotion:
         """Return the end of a step of h [s] by Newton's iteration from a guess, factors kept as long as
         corrections shrink to the share `quick`. at: the motion at q; solved: whether it ends by the length
         of a correction, its share of the one before and the largest displacement. Raises StepFailed."""
@@ -293,7 +295,7 @@ class ConstrainedAlpha:
         raise StepFailed("the corrections do not shrink")
 
 
-def between(start: Motion, end: Motion, time: float) -> Motion:
+def between(start: SheetMotion, end: SheetMotion, time: float) -> SheetMotion:
     """The motion within a step: coordinates cubic in time, all else linear."""
     h = end.time - start.time
     s = min((time - start.time) / h, 1.0)
@@ -305,4 +307,4 @@ def between(start: Motion, end: Motion, time: float) -> Motion:
         (1.0 - s) * getattr(start, name) + s * getattr(end, name)
         for name in ("v", "a", "algorithm", "exerted")
     )
-    return Motion(time, cubic, v, a, algorithm, exerted)
+    return SheetMotion(time, cubic, v, a, algorithm, exerted)

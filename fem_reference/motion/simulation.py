@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from fem_reference.defaults import with_defaults
-from fem_reference.discrete.energies import Motion
+from fem_reference.discrete.energies import SheetMotion
 from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
 from fem_reference.motion.moving import MovingSheet
@@ -25,6 +25,7 @@ from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
 from fem_reference.motion.solid import MovingSolid
 from fem_reference.vibration import modes
+from sheetbench.answers.contact import friction_notes
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE, STRAIN_LAW, listed
 from sheetbench.clock import now
@@ -108,7 +109,7 @@ def simulate(
         "settings": settings,
         "every": every,
     }
-    recipe: Recipe[Motion] = Recipe(
+    recipe: Recipe[SheetMotion] = Recipe(
         label=moving.label,
         integrator=integrator,
         settings=settings,
@@ -119,6 +120,7 @@ def simulate(
         observer=ReferenceObserver(moving, requested),
         start=lambda method: method.start(),
         rows=len(flat),
+        notes=tuple(friction_notes(requested)),
     )
     history = record(recipe, frames, store, progress, began)
     of_model = {"mesh": moving.mesh(flat), "sample": moving.sample, "unknowns": moving.unknowns}

@@ -24,7 +24,7 @@ from fem_reference.plate.natural import OwnStrains, own_strains
 from fem_reference.plate.validity import TURN_LIMIT, strained
 from fem_reference.surface import carried, rod
 from fem_reference.surface import supports as surface_supports
-from fem_reference.surface.actuator_forces import Held, OnEdge, on_edges
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, on_edges
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS, integrated, shape
 from fem_reference.surface.bound_rods import BoundRods, on_surface
@@ -253,10 +253,10 @@ class DiscretePlate(Discrete):
         """The flat one, on which everything acts."""
         return Surface(self.plan, self.flat, np.tile([0.0, 0.0, 1.0], (self.nodes, 1)), self.own)
 
-    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         nodal = self._fields(exerted)  # of the tilts' forces f the couple is e_z × f
         couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])
-        return Held(np.concatenate([nodal[:, :3], couple], axis=1), self.surface(q).position)
+        return HoldingForces(np.concatenate([nodal[:, :3], couple], axis=1), self.surface(q).position)
 
     def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
         surface = self.surface(q)

@@ -29,7 +29,7 @@ from fem_reference.shell.mass import mass_matrix, products
 from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
-from fem_reference.surface.actuator_forces import Held, OnEdge, on_edges
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, on_edges
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import cross
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
@@ -322,9 +322,11 @@ class DiscreteShell(DiscreteElements):
     def surface(self, q: np.ndarray) -> Surface:
         return Surface(self.plan, self.flat + self.displacement(q), self.directors(q)[: self.nodes], self.own)
 
-    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         surface, (force, turning) = self.surface(q), exerted[: 6 * self.nodes].reshape(2, -1, 3)
-        return Held(np.concatenate([force, cross(surface.director, turning)], axis=1), surface.position)
+        return HoldingForces(
+            np.concatenate([force, cross(surface.director, turning)], axis=1), surface.position
+        )
 
     def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
         surface = self.surface(q)

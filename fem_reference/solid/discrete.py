@@ -27,7 +27,7 @@ from fem_reference.solid.natural import at_rest
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.supports import components, from_forces, into_forces, of_scene, vectors
 from fem_reference.surface import carried, rod
-from fem_reference.surface.actuator_forces import Held, OnEdge
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal
 from fem_reference.surface.stretch import largest_stretch
@@ -280,10 +280,10 @@ class DiscreteSolid(DiscreteElements):
         mean, director = np.einsum("pl,nlc->pnc", self.columns.averages, position)
         return Surface(self.plan, mean, director, self.own)
 
-    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> Held:
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         columns, displacement = self.columns, self._on_columns(q)
         middle = (columns.positions + displacement)[:, columns.layers]
-        return Held(columns.about_middle(displacement, self._on_columns(exerted)), middle)
+        return HoldingForces(columns.about_middle(displacement, self._on_columns(exerted)), middle)
 
     def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
         columns, bound, displacement = self.columns, self.rods.bound, self._on_columns(q)

@@ -31,7 +31,7 @@ class OnEdge(NamedTuple):
     director: np.ndarray
 
 
-class Held(NamedTuple):
+class HoldingForces(NamedTuple):
     """What holds the sheet at its n nodes: force and couple (n, 6) [N, N·m], position (n, 3) [m]."""
 
     nodal: np.ndarray
@@ -51,7 +51,7 @@ def on_edges(rods: BoundRods, pull: np.ndarray, position: np.ndarray, director: 
 
 
 def exerted(
-    scene: Scene, edges: Iterable[OnEdge], moved: dict[str, Driven], held: Held
+    scene: Scene, edges: Iterable[OnEdge], moved: dict[str, Driven], held: HoldingForces
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Name of an actuator → force and moment (segments, 6) [N, N·m] of its segments on the sheet; the rods'
     line force (n, 3) [N/m], zero off their edges."""
@@ -66,7 +66,7 @@ def exerted(
     return {name: found[name] for name in scene.named_actuators()}, line
 
 
-def _of_motion(moved: Driven, held: Held) -> np.ndarray:
+def _of_motion(moved: Driven, held: HoldingForces) -> np.ndarray:
     """Force and moment about the edge's middle, (1, 6)."""
     nodal, position = moved.part[:, None] * held.nodal[moved.nodes], held.position[moved.nodes]
     arm = position - 0.5 * (position.min(axis=0) + position.max(axis=0))

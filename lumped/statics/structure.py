@@ -145,6 +145,9 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         """Return the penalties of the problem's contacts."""
         problem = self.problem
         contacts = [item for item in problem.items if isinstance(item, Contact)]
+        placed, lattice = problem.prescribed(1.0), problem.assembly.lattice
+        layers = placed[lattice.columns()]  # a column that is turned moves the end of the sheet
+        turn = float(np.abs(layers[..., -1, :] - layers[..., 0, :]).max()) / lattice.spacing[2]
 
         def passes(start: LatticeState, since: float, end: LatticeState, load_factor: float) -> bool:
             ways = start.u, end.u - start.u, Drive(load_factor), Drive(since)
@@ -153,7 +156,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         return Penalties(
             contacts,
             float(np.abs(problem.external(np.zeros_like(problem.loads.dead), 1.0)).sum()),
-            float(np.abs(problem.prescribed(1.0)).max()),
+            max(float(np.abs(placed).max()), problem.size * turn),
             problem.size,
             any(one.radius < one.cell for one in contacts),
             passes,

@@ -171,6 +171,7 @@ def test_every_verb_refuses_what_does_not_fit(verb, arguments, capsys):
     assert "of memory, and 0.001 MB are free here" in said and "--large" in said
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("verb", ["compare", "compare motions", "identify", "modes", "simulate"])
 def test_large_goes_on_all_the_same(verb, arguments, capsys):
     assert json_of(capsys, verb.partition(" ")[0], *arguments, "--large")

@@ -176,6 +176,7 @@ def test_a_free_dome_snaps_into_a_cylinder_at_the_same_curvature_in_both_models(
         assert rise[1] == pytest.approx(3.78, rel=rel) and rise[0] == pytest.approx(0.45, abs=0.06)
 
 
+@pytest.mark.nightly
 def test_a_bistable_bilayer_is_snapped_by_the_same_force_in_both_models():
     """An arch on its corners, pushed down in its middle step by step, each answer from the last one's shape,
     up to the force at which it has no shape beside that any more. The lattice is of second order: from 9

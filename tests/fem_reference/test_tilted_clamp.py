@@ -161,6 +161,7 @@ def test_a_tilt_is_the_edge_moved_by_that_rotation(model, edge, axis):
     assert relative(tilted, moved) < 1e-7
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("other", [Hinged(edge="y0"), Held(edge="y0", components=("z",))])
 def test_a_corner_shared_with_a_hinge_obeys_both(other):
     scene = make_scene(Clamped(edge="x0", tilt=0.2), other, gravity=GRAVITY)

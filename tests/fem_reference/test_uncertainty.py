@@ -125,6 +125,7 @@ def test_misuse(count, sizes):
 
 def test_meshes():
     assert coarser(16) == [16, 12, 8] and coarser(2) == [2, 1] and coarser(1) == [1]
+    assert coarser((16, 40)) == [(16, 40), (12, 30), (8, 20)]
 
 
 @pytest.mark.sweep(2)

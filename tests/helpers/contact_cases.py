@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
+from scipy.special import beta
 
 from sheetbench.scenes import (
     Clamped,
@@ -48,6 +49,24 @@ def bent_over(at: float = 0.4, radius: float = 0.15 - THICKNESS / 2, height: flo
         loads=(EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, -6.0)),),
         obstacles=(Cylinder(position=(at, 0.0, height), axis=(0.0, 1.0, 0.0), radius=radius),),
     )
+
+
+def pressed_loop(gap: float) -> Scene:
+    """A quarter of a long loop of B = 1 N m that two plates hold flat at a distance (Flaherty and Keller,
+    1973): it leaves the symmetry plane across it, and lies along a plate from where it has turned by π/2."""
+    return Scene(
+        name="pressed loop",
+        sheet=Sheet(length_x=1.0, length_y=0.1, thickness=THICKNESS),
+        material=Material(young=12.0 / THICKNESS**3, poisson=0.0, density=DENSITY),
+        supports=(Clamped(edge="x0", tilt=-np.pi / 2),),
+        obstacles=(Plane(position=(0.0, 0.0, 0.5 * gap + THICKNESS / 2), normal=(0.0, 0.0, -1.0)),),
+    )
+
+
+def loop_force(gap: float) -> float:
+    """The plate's force [N] on it: with B κ²/2 = P cos φ, φ from the plate's normal, half the distance is
+    √(B/2P) ∫ √cos φ dφ, so that P = 2 B (I/gap)² a width, I = ½ Β(¾, ½) = 1.19814."""
+    return float(0.1 * 2.0 * (0.5 * beta(0.75, 0.5) / gap) ** 2)
 
 
 def lying_quarter(**more: object) -> Scene:

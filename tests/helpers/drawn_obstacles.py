@@ -83,14 +83,17 @@ def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
 
 
 def surface(solution: Solution, grid: tuple[int, int, int], scene: Scene) -> np.ndarray:
-    """Return places (m, n, 3) of points INSIDE a cell on the deformed mid-surface."""
-    axes = [
-        np.linspace(0.0, length, INSIDE * (n - 1) + 1)
-        for length, n in zip(scene.sheet.lengths, grid, strict=False)
-    ]
+    """Return places (m, n, 3) of points INSIDE a cell on the deformed mid-surface, straight between
+    masses."""
+    axes = [np.linspace(0.0, length, n) for length, n in zip(scene.sheet.lengths, grid, strict=False)]
     x, y = np.meshgrid(*axes, indexing="ij")
     plan = np.column_stack([x.ravel(), y.ravel()])
-    return (np.column_stack([plan, np.zeros(len(plan))]) + solution.displacement(plan)).reshape(*x.shape, 3)
+    masses = np.column_stack([plan, np.zeros(len(plan))]) + solution.displacement(plan)
+    within = [np.linspace(0.0, n - 1.0, INSIDE * (n - 1) + 1) for n in grid[:2]]
+    along_x, along_y = (
+        np.maximum(0.0, 1.0 - np.abs(at[:, None] - np.arange(n))) for at, n in zip(within, grid, strict=False)
+    )
+    return np.einsum("ai,bj,ijk->abk", along_x, along_y, masses.reshape(*x.shape, 3))
 
 
 def crossings(places: np.ndarray, start: np.ndarray, way: float) -> int:

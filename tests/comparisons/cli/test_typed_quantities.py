@@ -8,6 +8,7 @@ from commands import run
 
 import sheetbench as sb
 from comparisons.cli import new
+from comparisons.models.quantities import sides
 
 
 def test_options_take_units(capsys):
@@ -20,6 +21,22 @@ def test_options_take_units(capsys):
         == 0
     )
     assert json.loads(capsys.readouterr().out)["springs"] == typed["springs"]
+
+
+@pytest.mark.parametrize(
+    ("text", "lengths"),
+    [
+        ("120x80 mm", (0.12, 0.08)),
+        ("12 × 8cm", (0.12, 0.08)),
+        ("1.2e2X80mm", (0.12, 0.08)),
+        ("12cmx80mm", (0.12, 0.08)),
+        ("0.12x80 mm", (0.12e-3, 0.08)),  # refused or warned of as a sheet, not guessed
+        ("0.12x0.08", (0.12, 0.08)),
+        ("80 mm", (0.08, 0.08)),
+    ],
+)
+def test_a_unit_at_the_end_is_that_of_both_sides(text, lengths):
+    assert tuple(sides(text).values()) == pytest.approx(lengths, rel=1e-12)
 
 
 @pytest.fixture

@@ -137,6 +137,9 @@ def test_the_reference_has_a_bar_by_mesh_and_by_step():
     assert near.doubt and near.differences[0]["distinguishable"]
     unknown = replace(both, uncertainty={"mesh": None, "step": 1e-6})
     assert unknown.bar is None and unknown.differences[0]["distinguishable"] is None and not unknown.doubt
+    (said,) = unknown.complaints()
+    assert said.startswith("shell: how far it may be off is not known") and "elements twice as large" in said
+    assert not good.complaints() and not replace(both, uncertainty={}).complaints()
 
 
 def test_the_command_prints_and_writes_a_motion(tmp_path, capsys):

@@ -48,19 +48,19 @@ def test_exact_data_give_the_value_back(truth):
     assert np.abs(found.residuals).max() < 1e-9
 
 
-def test_the_interval_holds_the_true_value_in_45_of_50_draws():
+def test_the_interval_holds_the_true_value_in_17_of_20_draws():
     """1 % of the largest displacement as noise in every component; the search starts up to 65 % away."""
     rng = np.random.default_rng(11)
     truth = lattice(with_material(SCENE, young=TRUE), (3, 3)).displacement(POINTS)
     hits, widths = 0, []
-    for _ in range(50):
+    for _ in range(20):
         start = with_material(SCENE, young=TRUE * float(np.exp(rng.uniform(-0.5, 0.5))))
         measured = Displacements(POINTS, noisy(truth, rng))
         found = identify(start, measured, ["young"], Lattice((3, 3, 2)), refine=False)
         low, high = found.unknowns["young"].interval
         hits += low <= TRUE <= high
         widths.append((high - low) / TRUE)
-    assert hits >= 45
+    assert hits >= 17
     assert 0.005 < np.median(widths) < 0.05
 
 

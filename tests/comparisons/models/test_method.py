@@ -9,7 +9,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models.method import FAR, MEMBRANE, method_for, resolve_calibration
 from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice
-from comparisons.tradeoff.choices import trade
+from comparisons.tradeoff.choices import of_lattices
 from sheetbench.face import solve
 from sheetbench.scenes import Clamped, Scene, load
 from studies.transfer.scenes import transfer_scenes
@@ -28,10 +28,10 @@ def held(*edges, poisson=0.3, softer=1.0):
 def test_a_trade_names_the_springs_that_auto_takes():
     """Each once, on grids and pairs of grids, with the reason; what is named outright stays."""
     methods = "consistent,consistent-membrane,auto"
-    _, measure = trade(RUBBER, Lattice(), grid="3,5", calibration=methods, lumped_pair="3:5", meshes={})
-    names = [candidate.settings["calibration"] for candidate in measure.args[1]]
+    found, reasons = of_lattices(RUBBER, Lattice(), "3,5", "3:5", methods)
+    names = [candidate.settings["calibration"] for candidate in found]
     assert names == [*2 * ["consistent"], *2 * [MEMBRANE], "consistent", MEMBRANE]
-    assert measure.keywords["reasons"] == (f"calibration {MEMBRANE}: ν = 0.48 is above 0.4",)
+    assert reasons == (f"calibration {MEMBRANE}: ν = 0.48 is above 0.4",)
 
 
 def test_by_edges_load_and_poissons_ratio():

@@ -116,6 +116,7 @@ def test_a_paper_has_its_columns_width_units_and_no_title(composed, scene, name)
     assert box.width <= paper.get_figwidth() + 0.1
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", ["probes", "tradeoff"])
 def test_the_same_picture_is_the_same_bytes_with_its_fonts(composed, tmp_path, name):
     files = [tmp_path / f"{name}.{form}" for form in ("pdf", "svg")]

@@ -9,11 +9,13 @@ import pytest
 from commands import json_of
 
 import fem_reference
+from comparisons.scoring.answers import read_answers
 from comparisons.scoring.cases import cases
 from comparisons.scoring.curves import way
 from comparisons.scoring.reference import FILE, VERSION, document, references
 from sheetbench import scenes
 from sheetbench.choices import SUITES
+from sheetbench.errors import BadInput
 
 FROZEN = {  # of scenes and values, by the version that they are from
     ("statics", "motion", "modes"): "15198e1a28208c6d",  # 2.0
@@ -80,6 +82,13 @@ def test_the_verb_lists_and_exports_it(tmp_path, capsys):
     assert len(rows) == 4 * 20 and float(rows[0]["ux"]) == references()["two-edges-clamped"].values[0, 0]
     forms = {(tmp_path / f"answers-{suite}.csv").read_text().splitlines()[0] for suite in SUITES}
     assert len(forms) == 3  # all at rest have that of statics
+    for suite in ("statics", "motion"):  # where the probes are, and nothing answered yet
+        with (tmp_path / f"answers-{suite}.csv").open() as file:
+            row = list(csv.DictReader(file))[-1]
+        place = references(suite)[row["case"]].scene.probes[row["probe"]]
+        assert (float(row["x"]), float(row["y"])) == place and row["ux"] == row["seconds"] == ""
+        with pytest.raises(BadInput, match="no answer yet"):  # x and y are none
+            read_answers(tmp_path / f"answers-{suite}.csv")
 
 
 @pytest.mark.parametrize(("load", "drop"), [(0.1, 0.01249), (1.0, 0.12456), (10.0, 1.0668), (100.0, 5.8881)])

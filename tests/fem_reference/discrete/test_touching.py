@@ -10,7 +10,9 @@ from contact_cases import (
     draped_quarter,
     heavy_elastica,
     laid_strip,
+    loop_force,
     lying_quarter,
+    pressed_loop,
 )
 
 import fem_reference
@@ -77,6 +79,13 @@ def test_solid_agrees_with_the_shell():
     assert solid.reactions["x0"][2] == pytest.approx(shell.reactions["x0"][2], rel=5e-3)
 
 
+def test_loop_pressed_between_plates():
+    """That a clamp turns, without loads, against a plane."""
+    solution = fem_reference.solve(pressed_loop(0.6), "shell", elements=(20, 1), graded=False)
+    assert solution.status is Status.CONVERGED
+    assert solution.reactions["obstacle 1"][2] == pytest.approx(-loop_force(0.6), rel=1e-3)
+
+
 def test_sheet_that_lies_presses_evenly():
     solution = fem_reference.solve(lying_quarter(), "shell", elements=4)
     pressure = solution.mesh.point_data["contact_pressure"]
@@ -111,3 +120,10 @@ def test_energy_of_a_shell_that_falls(integrator, within):
     assert history.status is Status.CONVERGED
     assert np.abs(whole - whole[0]).max() < within * 1e3 * 0.002 * 0.02 * GRAVITY * 0.01
     assert history.reactions["obstacle 1"][:, 2].max() > 0.0
+
+
+def test_friction_that_cannot_stick_is_said():
+    floor = Plane(position=(0.0, 0.0, -0.011), friction=0.3)
+    scene = laid_strip(0.05, obstacles=(floor,)).replace(length_x=0.2, thickness=0.002, young=5e6)
+    history = fem_reference.simulate(scene, "shell", 2e-3, elements=(2, 1), every=1e-3)
+    assert "should stick creeps" in history.message

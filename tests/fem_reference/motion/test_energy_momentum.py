@@ -59,7 +59,7 @@ def test_a_sheet_thrown_and_spinning_keeps_both_momenta_and_its_energy(kind):
     def kept():
         momentum = (model.mass @ motion.v).reshape(-1, 3)
         angular = np.cross(rest + motion.q.reshape(-1, 3), momentum).sum(axis=0)
-        energy = sum(energies(model, motion.q, motion.v, motion.time))
+        energy = sum(energies(model, motion))
         return [momentum[: len(places)].sum(axis=0), angular, np.array(energy)]
 
     before = kept()

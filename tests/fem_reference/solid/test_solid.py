@@ -188,6 +188,7 @@ def test_a_compressed_flat_sheet_is_unstable():
         assert solid.solve(scene, (8, 2), grading="uniform").status is status
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("elements", "grading"), [((24, 1), "edges"), ((48, 1), "edges"), ((90, 1), "uniform")]
 )

@@ -34,6 +34,7 @@ def fin(own=(12, 6), **keys):
     return Scene(**{**scene, **keys})
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("model", "own", "ours"), [("plate", (12, 6), 8), ("shell", (12, 6), 8), ("solid", (4, 2), 3)]
 )

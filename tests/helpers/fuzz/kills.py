@@ -1,7 +1,7 @@
 """`make kills`: campaigns, runs in time and trade-offs, killed at drawn instants and resumed to their end.
 
     python -m fuzz.kills FOLDER [--campaign 45] [--run 30] [--reference 15] [--muscles 15]
-                         [--tradeoff 15] [--seed 1]
+                         [--contact 15] [--tradeoff 15] [--seed 1]
 
 A process writes into a folder and gets SIGKILL at an instant drawn between its start and somewhat beyond the
 time that it takes undisturbed; the next process goes on in the same folder, and is killed in turn, until one
@@ -70,6 +70,12 @@ def run_of_muscles(folder: Path) -> None:
     lumped.simulate(scene, springs(scene, 5), 0.3, store=folder, every=2e-3, frames=20)
 
 
+def run_of_contact(folder: Path) -> None:
+    """A motion of a strip that falls on a table."""
+    scene = load("strip-on-table")
+    lumped.simulate(scene, springs(scene, 5), 0.15, store=folder, every=5e-4, frames=20)
+
+
 def run_tradeoff(folder: Path) -> None:
     """The command itself, with a worker process."""
     os.execv(sys.executable, [sys.executable, "-m", "sheetbench", *TRADEOFF, "--out", str(folder)])
@@ -126,6 +132,7 @@ KINDS = {
     "run": Kind("runs in time of a lattice", run_in_time, checkpointed, contents, 30),
     "reference": Kind("runs in time of a reference", run_of_reference, checkpointed, contents, 15),
     "muscles": Kind("runs in time of muscle bands", run_of_muscles, checkpointed, contents, 15),
+    "contact": Kind("runs in time of a strip on a table", run_of_contact, checkpointed, contents, 15),
     "tradeoff": Kind("the verb tradeoff with a worker", run_tradeoff, rows, answers, 15),
 }
 

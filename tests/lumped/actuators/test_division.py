@@ -79,6 +79,7 @@ def composite_elastica():
     return found.y[2:, -1]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("segments", [6, 24])
 @pytest.mark.parametrize(
     "grid", [(25, 3), (37, 3), (49, 3), *(pytest.param(n, marks=pytest.mark.nightly) for n in (9, 17))]

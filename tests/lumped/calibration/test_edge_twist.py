@@ -1,11 +1,14 @@
 """The twist that a free edge lets go: torsion of strips, second order, and what must not change."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import lumped
 from lumped.assembly import Assembly
-from lumped.calibration.edge_twist import edge_factors, layer_width
+from lumped.calibration.edge_twist import diagonals_share, edge_factors, layer_width
+from lumped.spring_constants import Springs
 from sheetbench.scenes import Clamped, Material, PointLoad, Scene, Sheet, load
 from sheetbench.scenes.objects.grading import Grading
 
@@ -153,3 +156,10 @@ def test_edges_of_a_grid_that_is_graded_to_one_side_are_each_others_on_its_mirro
         np.testing.assert_allclose(mine, np.array(getattr(other.springs, f"far_{name}").x), rtol=1e-9)
         if name == "edge_shear":
             assert not np.allclose(mine, far, rtol=1e-2)
+
+
+def test_the_faces_over_diagonals_share_shear_by_the_squares_of_a_cells_sides():
+    """A cell of 20 × 10 mm: 4/5 of twice the diagonal faces' along x, 1/5 along y, and those of its sides."""
+    springs = Springs.made(1e-3, face_shear=3.0, face_diagonal_shear=5.0)
+    found = diagonals_share(SimpleNamespace(sides=np.array([[[0.02, 0.01]]])), springs)
+    np.testing.assert_allclose(found[0, 0], [8.0 / (8.0 + 3.0), 2.0 / (2.0 + 3.0)])

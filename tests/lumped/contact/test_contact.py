@@ -13,7 +13,9 @@ from contact_cases import (
     draped_quarter,
     heavy_elastica,
     laid_strip,
+    loop_force,
     lying_quarter,
+    pressed_loop,
 )
 from scipy.optimize import fsolve
 
@@ -141,6 +143,17 @@ def test_strip_that_lies_down_against_the_heavy_elastica(drop, masses):
     place, force = float(pressed @ mesh.points[:, 0] / pressed.sum()), plane
     s1 = fsolve(lambda s: force * (place - s) - 0.5 * (1.0 - s) ** 2, 0.5)[0]
     assert s1 == pytest.approx(lift_off, rel=0.01)
+
+
+@pytest.mark.parametrize(("gap", "masses"), [(0.6, 41), (0.6, 81), (0.3, 81)])
+def test_loop_pressed_between_plates(gap, masses):
+    """The spring's sine takes κ²l²/6 of the force, the chord for the arc 1/12 of κ²l², the lift-off's phase
+    0.44 (l/s₁)², κ s₁ = ½ Β(¼, ½) = 2.62205."""
+    solution = solve(pressed_loop(gap), (masses, 3, 2))
+    assert solution.status is Status.CONVERGED
+    turn = (2.0 * 1.19814 / gap / (masses - 1.0)) ** 2
+    within = (1 / 6 + 1 / 12 + 0.44 / 2.62205**2) * turn
+    assert solution.reactions["obstacle 1"][2] == pytest.approx(-loop_force(gap), rel=within)
 
 
 def test_sheet_that_lies_presses_evenly():

@@ -25,6 +25,7 @@ P4 = np.array(
 )
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("masses, held", [(9, 0.007), (17, 0.005)])
 @pytest.mark.parametrize("integrator", ["esdirk", "verlet"])
 def test_a_free_swing_is_the_shells(masses, held, integrator):

@@ -106,60 +106,57 @@ def test_another_run_in_the_folder_is_refused_by_what_differs(kept):
     assert (folder / "run.json").read_bytes() == before
 
 
-@pytest.mark.parametrize("name", ["samples.bin", "frames.bin"])
-@pytest.mark.parametrize("left", [0, 0.5, None])
-def test_files_shorter_than_the_checkpoint_says_are_refused(kept, name, left):
-    """They were filled up with zeros, and the run was said to be converged."""
+def half(content):
+    return content[: len(content) // 2 - 3]
+
+
+def flipped(content):
+    return (
+        content[: len(content) // 3]
+        + bytes([content[len(content) // 3] ^ 1])
+        + content[len(content) // 3 + 1 :]
+    )
+
+
+SHORT, CHANGED = "holds .* that the checkpoint counts", "is not what the run wrote: .*"
+DAMAGE = [  # file, what is made of its content (None: removed), what is said
+    *((name, change, SHORT) for name in ("samples.bin", "frames.bin") for change in (b"", half, None)),
+    *((name, flipped, CHANGED) for name in ("samples.bin", "frames.bin")),
+    *(("run.json", text, "is damaged") for text in (b"", b"{}", b"[1]", b"\xff\xfe")),
+    ("run.json", None, "is missing beside a checkpoint"),
+    *(("checkpoint.npz", change, "is damaged") for change in (b"not a checkpoint", b"", half)),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "said"), DAMAGE)
+def test_damaged_files_are_refused_in_a_line_with_the_remedy_and_left_alone(kept, name, change, said):
+    """Short ones were filled up with zeros, changed ones went unnoticed into the history."""
     folder, _, again = kept
     path = folder / name
-    if left is None:
+    if change is None:
         path.unlink()
     else:
-        os.truncate(path, int(left * path.stat().st_size) - 3 * (left > 0))
+        path.write_bytes(change(path.read_bytes()) if callable(change) else change)
     before = {file.name: file.read_bytes() for file in folder.iterdir()}
-    with pytest.raises(BadInput, match=rf"{name}: holds .* that the checkpoint counts; remove the folder"):
+    with pytest.raises(BadInput, match=rf"{name}: {said}.*; remove the folder {folder}"):
         again()
     assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
 
 
-@pytest.mark.parametrize("name", ["samples.bin", "frames.bin"])
-def test_files_of_the_right_length_that_were_changed_are_refused(kept, name):
-    """They went unnoticed into the history."""
-    folder, _, again = kept
-    path = folder / name
-    content = bytearray(path.read_bytes())
-    content[len(content) // 3] ^= 1
-    path.write_bytes(content)
-    before = {file.name: file.read_bytes() for file in folder.iterdir()}
-    with pytest.raises(BadInput, match=rf"{name}: is not what the run wrote: .*; remove the folder"):
-        again()
-    assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
-
-
-@pytest.mark.parametrize(
-    "name, content, said",
-    [
-        ("run.json", b"", "run.json: is damaged"),
-        ("run.json", b"{}", "run.json: is damaged"),
-        ("run.json", b"[1]", "run.json: is damaged"),
-        ("run.json", b"\xff\xfe", "run.json: is damaged"),
-        ("run.json", None, "run.json: is missing beside a checkpoint"),
-        ("checkpoint.npz", b"not a checkpoint", "checkpoint.npz: is damaged"),
-        ("checkpoint.npz", b"", "checkpoint.npz: is damaged"),
-        ("checkpoint.npz", 0.5, "checkpoint.npz: is damaged"),
-    ],
-)
-def test_damaged_files_are_refused_in_a_line_with_the_remedy(kept, name, content, said):
+def test_the_remedy_is_one(kept):
     folder, history, again = kept
-    path = folder / name
-    if content is None:
-        path.unlink()
-    else:
-        path.write_bytes(path.read_bytes()[: path.stat().st_size // 2] if content == 0.5 else content)
-    with pytest.raises(BadInput, match=rf"{said}.*; remove the folder {folder}"):
-        again()
     shutil.rmtree(folder)
     assert np.array_equal(again().probes["P4"], history.probes["P4"])
+
+
+@pytest.mark.parametrize("key", ["version", "source"])
+def test_a_run_that_other_code_began_is_not_gone_on_with(kept, key):
+    folder, _, again = kept
+    run = json.loads((folder / "run.json").read_text())
+    run["asked"][key] = "another"
+    (folder / "run.json").write_text(json.dumps(run))
+    with pytest.raises(BadInput, match="another state of sheetbench's code began"):
+        again()
 
 
 def test_a_checkpoint_is_on_the_disk_after_what_it_counts_and_before_it_has_its_name(tmp_path, monkeypatch):
@@ -247,16 +244,6 @@ def test_memory_does_not_grow_with_the_duration(tmp_path):
     # objects whose number levels off: half of what samples would take distinguishes the two
     assert peak(0.8) < peak(0.1) + 90_000
     assert (tmp_path / "0.8" / "samples.bin").stat().st_size > 150_000
-
-
-@pytest.mark.parametrize("key", ["version", "source"])
-def test_a_run_that_other_code_began_is_not_gone_on_with(kept, key):
-    folder, _, again = kept
-    run = json.loads((folder / "run.json").read_text())
-    run["asked"][key] = "another"
-    (folder / "run.json").write_text(json.dumps(run))
-    with pytest.raises(BadInput, match="another state of sheetbench's code began"):
-        again()
 
 
 @pytest.mark.parametrize("name", ["esdirk", "verlet"])

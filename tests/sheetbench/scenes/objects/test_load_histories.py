@@ -207,6 +207,7 @@ def reference():
     return scene, times, tip
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     "name, step", [("verlet", None), ("generalised-alpha", None), ("esdirk", None), ("midpoint", 2e-4)]
 )

@@ -1,9 +1,10 @@
 """The expected error of a lattice's grid on a hundred stored scenes, beside the true one.
 
-`results/promises.json` has every scene (some that an earlier rule by the layers' widths got wrong, the
-catalogue, the transfer study's and fifty drawn at random), and the displacements [m] of its probes: by the
-shell of 16 elements along the shorter side, and by the lattices of 5, 9 and 17 masses and the finer ones that
-the estimate takes. The estimates are computed from these by the rule of today.
+`results/promises.json` has every scene (some that an earlier rule by the layers' widths got wrong, eight that
+were drawn up by somebody else, the catalogue, the transfer study's and fifty drawn at random), and the
+displacements [m] of its probes: by the shell of 16 elements along the shorter side, and by the lattices of 5,
+9 and 17 masses and the finer ones that the estimate takes. The estimates are computed from these by the rule
+of today.
 """
 
 from __future__ import annotations

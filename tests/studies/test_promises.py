@@ -111,7 +111,7 @@ def test_on_the_stored_scenes_errors_are_expected_within_a_factor_of_two():
     one."""
     rows = list(expected_errors())
     assert Promises(tuple(rows), {}).succeeded
-    for group in ("hard", "catalogue", "transfer", "drawn"):
+    for group in ("hard", "independent", "catalogue", "transfer", "drawn"):
         own = [row for row in rows if row.where == group]
         assert share(own).met and share(own).cases >= 0.8 * len(own)
 

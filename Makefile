@@ -127,6 +127,8 @@ animations: install
 	@cp $(OUT)/actuated/animation.gif docs/images/actuated.gif
 	@$(BIN)/sheetbench simulate muscle-bands --duration 1.5 --animate --out $(OUT)/muscles
 	@cp $(OUT)/muscles/animation.gif docs/images/muscles.gif
+	@$(BIN)/sheetbench simulate strip-on-table --duration 1 --animate --out $(OUT)/laid
+	@cp $(OUT)/laid/animation.gif docs/images/laid.gif
 
 pictures: install
 	@$(BIN)/python docs/pictures.py

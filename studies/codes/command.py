@@ -24,9 +24,7 @@ def command(
     budget: Annotated[float, typer.Option(help="Seconds after which no further run of a code begins.")] = 1e9,
     ladder: Annotated[
         list[str] | None,
-        option(
-            f"Measure sizes of {listed(LADDERS)} on test 1; may be repeated.", "NAME", choices=LADDERS
-        ),
+        option(f"Measure sizes of {listed(LADDERS)} on test 1; may be repeated.", "NAME", choices=LADDERS),
     ] = None,
     standing: Annotated[
         bool, option("Measure models on a suite, into the reference set's file.", None, "--standing")

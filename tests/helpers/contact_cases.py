@@ -51,6 +51,26 @@ def bent_over(at: float = 0.4, radius: float = 0.15 - THICKNESS / 2, height: flo
     )
 
 
+def bent_elastica(at: float, radius: float = 0.15, height: float = -0.15) -> float:
+    """The cylinder's force [N] on that strip at another place: B θ'' = f_z cos θ + f_x sin θ, with the tip's
+    6 N/m beyond the point of contact and the cylinder's N along its normal before it, by shooting."""
+
+    def bent(fx: float, fz: float, ends: list[float], start: np.ndarray) -> np.ndarray:
+        def slope(s: float, y: np.ndarray) -> list[float]:
+            return [np.cos(y[2]), -np.sin(y[2]), y[3], fz * np.cos(y[2]) + fx * np.sin(y[2])]
+
+        return solve_ivp(slope, ends, start, rtol=1e-10, atol=1e-12).y[:, -1]
+
+    def missed(z: np.ndarray) -> list[float]:
+        s1, force, bend, turned = z
+        normal = np.array([np.sin(turned), np.cos(turned)])
+        x, y, theta, _ = touch = bent(*(force * normal - [0.0, 6.0]), [0.0, s1], np.array([0, 0, 0, bend]))
+        away = np.array([x - at, y - height]) - radius * normal
+        return [*away, theta - turned, bent(0.0, -6.0, [s1, 1.0], touch)[3]]
+
+    return float(0.1 * abs(fsolve(missed, [at + 0.03, 14.0, 3.0, 0.3])[1]))
+
+
 def pressed_loop(gap: float) -> Scene:
     """A quarter of a long loop of B = 1 N m that two plates hold flat at a distance (Flaherty and Keller,
     1973): it leaves the symmetry plane across it, and lies along a plate from where it has turned by π/2."""

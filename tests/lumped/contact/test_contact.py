@@ -9,6 +9,7 @@ from contact_cases import (
     GRAVITY,
     THICKNESS,
     WEIGHT,
+    bent_elastica,
     bent_over,
     draped_quarter,
     heavy_elastica,
@@ -169,6 +170,13 @@ def test_strip_over_a_cylinder_against_the_elastica():
     force = np.linalg.norm(solution.reactions["obstacle 1"])
     assert force == pytest.approx(CYLINDER_FORCE, rel=5e-3)
     assert solution.displacement([[1.0, 0.05]])[0, 2] == pytest.approx(CYLINDER_TIP, abs=1e-3)
+
+
+@pytest.mark.parametrize("at", [0.3, 0.35, 0.45, 0.5])
+def test_strip_over_a_cylinder_at_other_places(at):
+    assert bent_elastica(0.4) == pytest.approx(CYLINDER_FORCE, rel=1e-5)
+    force = np.linalg.norm(solve(bent_over(at), (41, 3, 2)).reactions["obstacle 1"])
+    assert force == pytest.approx(bent_elastica(at), rel=5e-3)
 
 
 def test_thin_rod_is_not_walked_through_and_one_thinner_than_the_points_is_refused():

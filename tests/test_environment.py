@@ -11,6 +11,7 @@ from commands import one_line, run
 PROGRAM = (sys.executable, "-m", "sheetbench")
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
 @pytest.mark.parametrize("arguments", [("check",), ("check", "--json"), ("--help",), ("--version",)], ids=str)
 def test_an_output_that_cannot_be_written_is_said_in_a_line(arguments):
@@ -32,14 +33,14 @@ def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing():
     plain = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     usual, *odd = (
         subprocess.run([*PROGRAM, "check"], env=plain | given, capture_output=True, text=True)
-        for given in ({}, *({"COLUMNS": size, "LINES": size} for size in ("0", "²", "9" * 12)))
+        for given in ({}, {"COLUMNS": "0", "LINES": "²"}, {"COLUMNS": "9" * 12, "LINES": "0"})
     )
     for one in odd:
         assert (one.returncode, one.stdout, one.stderr) == (0, usual.stdout, "")
 
 
 def test_a_drawing_needs_no_window_whatever_matplotlib_is_told(tmp_path):
-    few = ["modes", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--out", str(tmp_path)]
+    few = ["check", "one-edge-clamped", "--out", str(tmp_path)]
     environment = {**os.environ, "MPLBACKEND": "nope"}
     done = subprocess.run([*PROGRAM, *few], env=environment, capture_output=True, text=True)
     assert done.returncode == 0 and "nope" not in done.stderr and list(tmp_path.glob("*.png"))

@@ -18,7 +18,6 @@ import numpy as np
 
 from comparisons.comparison.measures import largest
 from comparisons.comparison.motion_answer import MotionComparison
-from comparisons.comparison.moving import refusal, require_motion
 from comparisons.external import plugins
 from comparisons.models import sizes
 from comparisons.models.context import context
@@ -29,6 +28,7 @@ from comparisons.models.spec import Elements, External, Lattice, Spec, parse, un
 from comparisons.pictures.work import Pace, Work
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE
+from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, Scene, scene_of
 
 ELEMENTS = 8  # of a moving reference along the shorter side
@@ -121,3 +121,23 @@ def _expected_steps(scene: Scene, duration: float) -> int:
     lowest = float(fem_reference.modes(scene, "plate", 2, count=1).frequencies[0])
     each = STEPS_PER_PERIOD[scene.material.dashpot_time == 0.0]
     return int(np.ceil(each * max(duration * lowest, 0.5)))
+
+
+def require_motion(scene: Scene, spec: Spec) -> None:
+    """Raise BadInput for a model that does not move the scene, or takes more memory than there is."""
+    import fem_reference
+
+    resolve(scene, spec, "motion")
+    if isinstance(spec, Elements):
+        fem_reference.require_moving(scene, spec.kind)
+    elif isinstance(spec, External):
+        plugins.require_moving(spec.model, scene, spec.settings)
+
+
+def refusal(scene: Scene, spec: Spec) -> str:
+    """Return why a model does not move a scene, "" if it does."""
+    try:
+        require_motion(scene, spec)
+    except BadInput as why:
+        return str(why)
+    return ""

@@ -24,7 +24,7 @@ from typing import Unpack
 import numpy as np
 
 from comparisons.comparison.measures import largest
-from comparisons.comparison.moving import require_motion
+from comparisons.comparison.motion import require_motion
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.sweep.campaign import CampaignKeywords

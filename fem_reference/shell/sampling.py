@@ -34,7 +34,7 @@ def magnitudes(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> n
     return out
 
 
-@njit(cache=True, inline="always", fastmath=REORDERED)
+@njit(cache=True, fastmath=REORDERED)
 def sampled(vectors: np.ndarray, tables: np.ndarray, at: np.ndarray, out: np.ndarray) -> None:
     """B (54, 18, 3) of one element into zeros, whose membrane strains leave the directors' part alone; at:
     room (6, 54)."""

@@ -40,7 +40,7 @@ from sheetbench.scenes.objects.loads import AreaLoad
 from sheetbench.scenes.objects.shapes import Circle, Shape
 
 TOLERANCE, OF_FREQUENCY, OF_ORDER = 5e-3, 1e-2, 0.5
-ELEMENTS, ACROSS = 32, 32  # of the disc, of the strip's width
+ELEMENTS, ACROSS = 32, 48  # of the disc, of the strip's width
 UNCUT = 8  # elements of the disc that are cut in four
 RADIUS, HUB, THICK, LOAD = 1.0, 0.3, 2e-3, 0.1
 THICKER = 0.1

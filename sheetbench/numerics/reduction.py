@@ -15,8 +15,6 @@ from numba import njit
 
 from sheetbench.numerics.fronts import CoupledCells
 
-LONG = 512  # entries of a column, from which on they are sorted at the end
-
 
 class BlockPattern(Protocol):
     """Blocks (b,) of a symmetric pattern over n nodes, as in BSR: rows, indices (b,), indptr (n + 1,). cells:
@@ -104,34 +102,43 @@ def _reduction(
     c_values: np.ndarray,
     count: int,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, int]:
-    size = len(c_pointers) - 1
-    pointers, rows = np.zeros(size + 1, np.int32), np.empty(count, np.int32)
-    starts = np.empty(count + 1, np.int32)
-    source, weight, to = np.empty(count, np.int32), np.empty(count), np.empty(count, np.int32)
-    filled = nonzeros = 0
+    """The map: its entries by columns, then by rows, then by columns again, which have their rows sorted."""
+    size, filled, nonzeros = len(c_pointers) - 1, 0, 0
+    given, target, weighed = np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count)
+    ends, of_row = np.empty(size + 1, np.int32), np.zeros(size + 1, np.int32)
     for column in range(size):
-        begin = filled
+        ends[column] = filled
         for at in range(c_pointers[column], c_pointers[column + 1]):
             block, axis = c_rows[at] // 3, c_rows[at] % 3
             for b in range(block_pointers[block], block_pointers[block + 1]):
                 for q in range(3):
                     row = 3 * block_rows[b] + q
                     for e in range(t_pointers[row], t_pointers[row + 1]):
-                        # by insertion: rows come nearly sorted, but in long columns, of actuators
-                        place, target = filled, t_columns[e]
-                        while filled - begin < LONG and place > begin and to[place - 1] > target:
-                            to[place], source[place] = to[place - 1], source[place - 1]
-                            weight[place] = weight[place - 1]
-                            place -= 1
-                        to[place], source[place] = target, 9 * by_column[b] + 3 * q + axis
-                        weight[place] = t_values[e] * c_values[at]
+                        given[filled], target[filled] = 9 * by_column[b] + 3 * q + axis, t_columns[e]
+                        weighed[filled] = t_values[e] * c_values[at]
+                        of_row[t_columns[e] + 1] += 1
                         filled += 1
-        if filled - begin > LONG:
-            order = begin + np.argsort(to[begin:filled], kind="mergesort")
-            to[begin:filled], source[begin:filled] = to[order], source[order]
-            weight[begin:filled] = weight[order]
-        for e in range(begin, filled):
-            if e == begin or to[e] != to[e - 1]:
+    ends[size] = filled
+    for row in range(size):
+        of_row[row + 1] += of_row[row]
+    by_row, columns = np.empty(count, np.int32), np.empty(count, np.int32)
+    for column in range(size):
+        for e in range(ends[column], ends[column + 1]):
+            place = of_row[target[e]]
+            by_row[place], columns[place] = e, column
+            of_row[target[e]] += 1
+    source, weight, to = np.empty(count, np.int32), np.empty(count), np.empty(count, np.int32)
+    at_end = ends.copy()
+    for place in range(count):
+        e, column = by_row[place], columns[place]
+        k = at_end[column]
+        source[k], weight[k], to[k] = given[e], weighed[e], target[e]
+        at_end[column] += 1
+    pointers, rows = np.zeros(size + 1, np.int32), np.empty(count, np.int32)
+    starts = np.empty(count + 1, np.int32)
+    for column in range(size):
+        for e in range(ends[column], ends[column + 1]):
+            if e == ends[column] or to[e] != to[e - 1]:
                 rows[nonzeros], starts[nonzeros] = to[e], e
                 nonzeros += 1
         pointers[column + 1] = nonzeros

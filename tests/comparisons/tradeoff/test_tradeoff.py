@@ -265,6 +265,7 @@ def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until
     assert len(found.rows) == 1 or found.rows[0].status != "converged"
 
 
+@pytest.mark.nightly
 def test_motions_with_strains_beyond_the_model_are_measured_and_say_so(tmp_path):
     """A sheet too heavy for its law: its rows had neither error nor cost."""
     heavy = Scene(

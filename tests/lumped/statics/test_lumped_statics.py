@@ -288,3 +288,12 @@ def test_small_displacements_store_half_the_work_of_their_loads():
     assert solution.status is Status.CONVERGED
     work = float(solution.displacement([at])[0] @ force)
     assert work > 0.0 and solution.energies["elastic"] == pytest.approx(0.5 * work, rel=1e-6)
+
+
+def test_small_displacements_under_a_pressure_are_held_by_forces_across_the_flat_sheet():
+    """To first order a pressure has no part in the plane."""
+    scene = LOADED["two-edges-clamped"].replace(gravity=None, loads=[Pressure(value=5.0)])
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=5)
+    solution = lumped.solve(scene, springs, linear=True)
+    whole = 5.0 * scene.sheet.length_x * scene.sheet.length_y
+    np.testing.assert_allclose(sum(solution.reactions.values()), [0.0, 0.0, -whole], atol=1e-9 * whole)

@@ -32,7 +32,8 @@ def drift(history):
     return float(np.abs(whole - whole[0]).max()) / FALLEN
 
 
-# ten touches in 0.3 s, seen by the millisecond; the conserving steps keep energy to their iteration's tolerance, at any length
+# ten touches in 0.3 s, seen by the millisecond; the conserving steps keep energy to their iteration's
+# tolerance, at any length
 @pytest.mark.parametrize(
     ("integrator", "options", "within"),
     [

@@ -13,7 +13,7 @@ import pytest
 import fem_reference
 import lumped
 import sheetbench as sb
-from comparisons.tradeoff import choices
+from comparisons.tradeoff import motion, statics
 
 NAME = "one-edge-clamped"
 HEAVY = ["numpy", "scipy", "pydantic", "numba", "skfem", "meshio", "pyvista", "vtkmodules", "matplotlib"]
@@ -122,7 +122,7 @@ def test_grids_are_numbers_or_tuples():
 
 def test_a_trade_off_is_asked_in_lists(monkeypatch):
     passed: list[Any] = []
-    monkeypatch.setattr(choices, "tradeoff", lambda scene, candidates, store, **_: passed.extend(candidates))
+    monkeypatch.setattr(statics, "tradeoff", lambda scene, candidates, store, **_: passed.extend(candidates))
     none: dict[str, Any] = {"plate": (), "solid": ""}
     sb.tradeoff(NAME, grid=(3, (5, 7)), calibration=("consistent", "uniform"), shell=(4,), **none)
     assert [one.settings.get("grid") for one in passed] == [[3, 3, 2], [5, 7, 2], [3, 3, 2], [5, 7, 2], None]
@@ -135,7 +135,7 @@ def test_a_trade_off_of_a_motion_is_asked_in_lists(monkeypatch):
     def moved(scene, duration, *, lattices, others, store, **settings):
         passed.update(duration=duration, lattices=lattices, others=others, **settings)
 
-    monkeypatch.setattr(choices, "dynamic_tradeoff", moved)
+    monkeypatch.setattr(motion, "dynamic_tradeoff", moved)
     sb.tradeoff(NAME, duration="50 ms", grid=(5,), integrator=("esdirk",), plate="", shell=(2,), solid=())
     assert passed["duration"] == 0.05 and passed["integrators"] == ["esdirk"]
     assert [one.label for one in passed["lattices"]] == ["lumped grid 5"]

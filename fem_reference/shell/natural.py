@@ -11,16 +11,16 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 COMPONENTS = {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}
+_VALUES, _SLOPES = zip(*(shape(*product_grid(*GRIDS[name])) for name in COMPONENTS), strict=True)
 
 
 def natural_strains(scene: Scene, nodes: np.ndarray) -> NaturalState | None:
     """Return those (m, 54) of elements with nodes (m, 9, 2) [m], None of a sheet that is flat at rest."""
-    tables = [shape(*product_grid(*GRIDS[name])) for name in COMPONENTS]
-    state = natural_at(scene, np.concatenate([value for value, _ in tables]) @ nodes)
+    state = natural_at(scene, np.concatenate(_VALUES) @ nodes)
     if state is None:
         return None
     sides = [
-        np.concatenate([slope[a] for (_, slope), a in zip(tables, axes, strict=True)]) @ nodes
+        np.concatenate([slope[a] for slope, a in zip(_SLOPES, axes, strict=True)]) @ nodes
         for axes in zip(*COMPONENTS.values(), strict=True)
     ]
 

@@ -95,7 +95,8 @@ def read_columns(path: Path, units: Mapping[str, str] | None = None) -> Columns:
     ]
     if not kept:
         return Columns((), ())
-    separator = next((mark for mark in SEPARATORS if mark in kept[0][1]), ",")
+    _, sample = kept[0 if units is None else -1]  # below a machine's own lines, whose marks separate nothing
+    separator = next((mark for mark in SEPARATORS if mark in sample), ",")
     lines_of_cells = list(_parsed(path, kept, separator))
     at = 0 if units is None else _header(lines_of_cells, units)
     (_, header), *parsed = lines_of_cells[at:]

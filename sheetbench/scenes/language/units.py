@@ -146,8 +146,10 @@ def _unit(text: str) -> tuple[Fraction, Dimension]:
             continue
         match = FACTOR.fullmatch(part)
         if match is None or match[1] not in SPELLED:
+            alike = [unit for unit in SPELLED if unit.casefold() == part.casefold()]
+            meant = f" ({' or '.join(alike)}?)" if alike else ""
             known = ", ".join(list(UNITS)[:-1])
-            raise BadInput(f"'{part}' is no unit known here; known are {known}, with prefixes G to µ")
+            raise BadInput(f"'{part}' is no unit known here{meant}; known are {known}, with prefixes G to µ")
         power = sign * int((match[2] or "1").translate(POWERS))
         one, of = SPELLED[match[1]]
         size *= one**power

@@ -159,3 +159,11 @@ def test_a_silicone_file_is_read_as_the_machine_wrote_it():
     found = identify_tensile(str(measured_data("silicone-tensile/Ecoflex 00-30.csv")), up_to=2.5)
     assert len(found.curves[0].stretch) == 64
     assert found.law is not None and found.law.young == pytest.approx(47e3, rel=0.05)
+
+
+def test_marks_in_a_machines_own_lines_separate_nothing(tmp_path):
+    file = tmp_path / "pulled.csv"
+    file.write_text("Instron 5544; specimen x;\nstrain,engineering stress [MPa]\n0,0\n0.1,0.05\n0.2,0.09\n0.3,0.125\n")
+    assert largest_x(identify_tensile(str(file)).curves[0]) > 0.0
+    file.write_text("Instron 5544, specimen x\nstrain;engineering stress [MPa]\n0;0\n0,1;0,05\n0,2;0,09\n0,3;0,125\n")
+    assert identify_tensile(str(file)).curves[0].stretch[-1] == pytest.approx(1.3)

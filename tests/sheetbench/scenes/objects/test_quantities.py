@@ -50,6 +50,7 @@ def test_a_quantity_is_the_number_in_si_units_to_the_last_digit(text, unit, valu
         ("2 mm", "Pa", "'2 mm' is a length; needed is a stress or modulus: 0.6 MPa"),
         ("5 %", "rad", "is a pure number; needed is an angle: 2 deg"),
         ("2 foo", "m", "'foo' is no unit known here"),
+        ("2 Mpa", "Pa", "'Mpa' is no unit known here (MPa or mPa?)"),
         ("3 mm/", "m", "nothing stands after the last /"),
         ("1,2 mm", "m", "with a decimal point"),
         ("two", "m", "write a number [m], or with a unit: 2 mm"),

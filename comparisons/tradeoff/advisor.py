@@ -72,9 +72,9 @@ def advise(
     linear = not (scene.actuators or scene.obstacles) and trials.scales.span_load_number <= LINEAR_LOAD_NUMBER
     candidates = trials.candidates(linear)
     for candidate in candidates[:3]:
-        trials.row(candidate)
+        trials.tried(candidate)
     if linear:  # each family's rate
-        trials.row(trials.lattice(4, linear=True))
+        trials.tried(trials.lattice(4, linear=True))
         trials.row(trials.elements("plate", 4))
     model = trials.model_error.value if trials.model_error else 0.0
     chosen, message = None, ""
@@ -122,8 +122,10 @@ def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> 
         candidate = left.pop(0)
         if found is not None and trials.predicted_seconds(candidate) > 1.3 * found.seconds:
             return found
-        trial = trials.row(candidate)
-        if _adequate(trials, trial, tolerance) and (found is None or trial.seconds < found.seconds):
+        trial = trials.tried(candidate)
+        if trial is None or not _adequate(trials, trial, tolerance):
+            continue
+        if found is None or trial.seconds < found.seconds:
             found = trial
     return found
 
@@ -146,9 +148,10 @@ def _most_accurate(trials: TrialSolves, candidates: list[Spec], budget: float) -
     for candidate in candidates:
         if trials.predicted_seconds(candidate) > 1.5 * budget:
             continue
-        trial = trials.row(candidate)
-        better = found is None or trials.error(trial) < trials.error(found)
-        if trial.stable and trial.seconds <= budget and better:
+        trial = trials.tried(candidate)
+        if trial is None or not trial.stable or trial.seconds > budget:
+            continue
+        if found is None or trials.error(trial) < trials.error(found):
             found = trial
     return found
 
@@ -200,7 +203,10 @@ def _advice(
         calibration=_calibration(trials, chosen),
         limit=_limit(trials, chosen),
         model=trials.model_error,
-        warnings=tuple(load.warnings([row.load_average for row in rows], [row.samples for row in rows])),
+        warnings=(
+            *load.warnings([row.load_average for row in rows], [row.samples for row in rows]),
+            *(f"{one.model} {one.size} left out: {reason}" for one, reason in trials.refused.items()),
+        ),
     )
 
 

@@ -64,6 +64,7 @@ class TrialSolves:
         self.planes = planes(scene)
         self.scales = scales(scene)
         self.rows: dict[Spec, SolvedHere] = {}
+        self.refused: dict[Spec, str] = {}  # and why
         self.meshes: list[int] = []
         self.seconds = 0.0  # of all solves
         require_room(scene, self.elements("shell", MESHES[FIRST - 1]), instead="advise has no coarser one")
@@ -113,6 +114,14 @@ class TrialSolves:
                 self.rows[candidate] = here(resolve(self.scene, candidate), repeats=repeats)
             self.seconds += perf_counter() - began
         return self.rows[candidate]
+
+    def tried(self, candidate: Spec) -> SolvedHere | None:
+        """Return the candidate's row, None where it is refused: a grid without a mass at a point."""
+        try:
+            return self.row(candidate)
+        except BadInput as reason:
+            self.refused[candidate] = str(reason)
+            return None
 
     def refine(self) -> bool:
         """Solve the reference on its next mesh; return whether there was one with room, and it converged."""

@@ -22,7 +22,7 @@ from comparisons.tradeoff.advisor import advise
 from fem_reference.pulled_strip import pulled
 from fem_reference.verification.strain_laws import stress
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
+from sheetbench.scenes import Clamped, Gravity, Material, Point, Scene, Sheet
 
 SECONDS = 1e-5  # an unknown and factorisation
 answer = once(solvers.solve)  # one for all tests: what is looked at is what the advisor makes of it
@@ -272,3 +272,19 @@ def test_models_may_be_named():
     hopeless = advise("two-edges-clamped", 1.05 * lattice.model.value, models=["lumped"])
     assert not hopeless.succeeded and hopeless.choice.model == "lumped"
     assert "no model here is within" in hopeless.reason
+
+
+def test_grids_without_a_mass_at_a_held_point_are_left_out_and_named():
+    """Four lines along a side cannot pass through three points within it."""
+    points = (0.0, 0.02), (0.0, 0.06), (0.03, 0.04)
+    scene = Scene(
+        name="on-points",
+        sheet=Sheet(length_x=0.12, length_y=0.08, thickness=0.003),
+        material=Material(young=1e6, poisson=0.3, density=1e3),
+        gravity=Gravity(acceleration=(0.0, 0.0, -0.1)),
+        supports=tuple(Point(at=at) for at in points),
+        probes={"tip": [0.12, 0.04]},
+    )
+    advice = advise(scene, 0.2)
+    assert advice.succeeded
+    assert any("lumped 4×3×2 left out: support 1.at" in warning for warning in advice.warnings)

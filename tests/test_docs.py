@@ -17,7 +17,14 @@ BUILT = ("scene.md", "versions.md")  # by `make docs`, as the folders below
 GENERATED = ("verbs/", "tables/", "examples/", *BUILT)
 PLACES = (ROOT / "docs", ROOT / "docs" / "development")
 PAGES = sorted(page for place in PLACES for page in place.glob("*.md") if page.name not in BUILT)
-GIVEN_BY_THE_READER = {"uniaxial.csv", "ANSWERS.csv", "FILE", "SCENE"}
+GIVEN_BY_THE_READER = {
+    "uniaxial.csv",
+    "ANSWERS.csv",
+    "FILE",
+    "SCENE",
+    "machine.csv",
+    "mujoco=.venv-mujoco/bin/python",
+}
 SERVERS = {"live"}
 
 

@@ -34,7 +34,7 @@ ROWS = {
     f"calibrate {TWO} --calibration central --for newton": "--calibration: no effect with --for newton",
     f"calibrate {TWO} --grid 3 --for bullet": "bullet|newton, mujoco, pybullet, genesis, sofa",
     f"calibrate {TWO} --grid 3 --for sofa --calibration consistent": "--calibration central",
-    f"calibrate {TWO} --grid 3 --for mujoco --calibration central": "--calibration: no effect with --for mujoco",
+    f"calibrate {TWO} --grid 3 --for mujoco --calibration central": "--calibration: no effect with",
     f"calibrate {TWO} --for arcsim": "--for = 'arcsim': unknown",
     f"calibrate {TWO} --export a --for sofa": "--export: no effect with --for",
     f"calibrate {TWO} --cell bricks --grid 3": "--grid: no effect with --cell",

@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -112,7 +113,7 @@ def _answer(
 
     best, starts = nearest(fit, enough)
     step = bound = np.full(len(unknowns), np.nan)
-    grids = [fit.model.settings.get("grid")]
+    grids: list[Any] = [fit.model.settings.get("grid")]
     if refine and isinstance(spec, Lattice):
         own = isinstance(scene.springs, SpringTable) and scene.springs.grid
         fit, best, step, grids = refined(scene, spec, fit, best, free=spec.grid is None and not own)

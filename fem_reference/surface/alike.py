@@ -25,7 +25,7 @@ TURNS = [flip @ swap for swap in (np.eye(2), np.eye(2)[::-1]) for flip in FLIPS]
 DIAGONALS = np.sqrt(0.5) * np.array([[1.0, -1.0], [1.0, 1.0]])  # normals of mirrors, towards what is meshed
 
 
-class Cells(NamedTuple):
+class PlanCells(NamedTuple):
     """Quadrilaterals (q, 4) and triangles (t, 3) of points (n, 2), counter-clockwise; across: (t,) the number
     of the mirror that a triangle's first side lies on, where it is to be joined with its image; else −1."""
 
@@ -74,8 +74,8 @@ class CentredPlan(NamedTuple):
         return out
 
     def unfolded(
-        self, part: Cells, ends: np.ndarray, places: np.ndarray
-    ) -> tuple[Cells, np.ndarray, np.ndarray]:
+        self, part: PlanCells, ends: np.ndarray, places: np.ndarray
+    ) -> tuple[PlanCells, np.ndarray, np.ndarray]:
         """The cells of the part with their images; ends (k, 2), places (k, 3, 2): of sides on borders, and of
         their quarters. A triangle that lies on a diagonal is one quadrilateral with its image."""
         at, quads, triangles, across = part
@@ -93,7 +93,7 @@ class CentredPlan(NamedTuple):
             ends = np.concatenate([ends, image[ends[beyond]]])
             places = np.concatenate([places, places[beyond] @ reflection(normal)])
             at = np.concatenate([at, at[~on] @ reflection(normal)])
-        return Cells(at, quads, triangles, across), ends, places
+        return PlanCells(at, quads, triangles, across), ends, places
 
     def back(self, mesh: MeshQuad, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
         """A mesh, and places (k, 2), where the plan was; what lies on its bounds to rounding, on them."""

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference.surface.alike import Cells, CentredPlan, placed, reflection
+from fem_reference.surface.alike import CentredPlan, PlanCells, placed, reflection
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from fem_reference.surface.mesh_points import (
     NEAR,
@@ -142,7 +142,7 @@ def _keys(ends: np.ndarray, count: int) -> np.ndarray:
 
 def _joined(
     points: np.ndarray, triangles: np.ndarray, sides: Sides, mirror: np.ndarray, plan: CentredPlan
-) -> Cells:
+) -> PlanCells:
     """The quadrilaterals of two triangles each, the best first, and the triangles left over; mirror: (k,) the
     number of the diagonal that a side lies on, across which a triangle is joined with its image; −1 else."""
     edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
@@ -169,7 +169,7 @@ def _joined(
             chosen.append(pair)
     alone = across[chosen] < 0
     kites, left = quads[chosen][~alone][:, [0, 2, 3]], triangles[free]
-    return Cells(
+    return PlanCells(
         points,
         quads[chosen][alone],
         np.concatenate([left, kites]),
@@ -190,7 +190,7 @@ def _angles(corners: np.ndarray) -> np.ndarray:
     return np.asarray(np.arctan2(turn, np.sum(onwards * back, axis=-1)) % (2.0 * np.pi))
 
 
-def _cut(part: Cells, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
+def _cut(part: PlanCells, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
     """The mesh of every cell's corners with its centre, and the vertices (k,) in the middles of sides between
     ends (k, 2), at places (k, 2)."""
     points, cells = part.points, (part.quads, part.triangles)

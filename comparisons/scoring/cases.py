@@ -4,7 +4,7 @@ statics  displacement at the probes
 motion   displacement at the probes over time, from rest, weight and loads on at t = 0
 modes    the lowest natural frequencies about the flat, stress-free sheet
 curves   as statics: strips whose answer depends on one number alone (`comparisons.scoring.curves`)
-natural  as statics: sheets that are not flat at rest (`comparisons.scoring.natural`)
+natural  as statics: sheets that are not flat at rest
 contact  as statics: sheets that touch something (`comparisons.scoring.contact`)
 """
 
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from math import pi, sin
 from typing import Any
 
-from comparisons.scoring import contact, curves, natural
+from comparisons.scoring import contact, curves
 from sheetbench.scenes import (
     Chain,
     Clamped,
@@ -27,12 +27,15 @@ from sheetbench.scenes import (
     Hinged,
     Load,
     Material,
+    Patch,
     PointLoad,
     Pressure,
     Scene,
     Sheet,
     load,
 )
+from sheetbench.scenes.objects.natural import Natural
+from sheetbench.scenes.objects.shapes import Rectangle, Shape
 from sheetbench.scenes.objects.supports import AnySupport, Motion
 
 AT_REST = ("statics", "curves", "natural", "contact")  # displacements without time
@@ -254,7 +257,27 @@ def _curve(scene: Scene, why: str) -> Case:
 
 
 def _natural() -> Iterator[Case]:
-    for scene, why in natural.scenes():
+    strip = (
+        Sheet(length_x=0.18, length_y=0.06, thickness=0.003),
+        Material(young=20e6, poisson=0.48, density=1100.0),
+    )
+    band = Shape(rectangle=Rectangle(x=(0.06, 0.12), y=(0.0, 0.06)))
+    curls = Patch(shape=band, natural=Natural(curvature=(20.0, 0.0, 0.0)))
+    turns = Natural(curvature=(0.5 * pi / strip[0].length_x, 0.0, 0.0))
+    muscle, arc = _scene("muscle-band", ONE, *strip), _scene("quarter-turn", ONE, *strip, weight=False)
+    whys: list[tuple[Scene, str]] = [
+        (load("bimetal-strip"), "two layers, one of which expands: large rotations by temperature"),
+        (
+            muscle.replace(patches=(curls,)),
+            "a band across a strip curls up and lifts its end against the weight",
+        ),
+        (load("heated-plate"), "heated to three times where it buckles; its weight says which way"),
+        (
+            arc.replace(natural=turns),
+            "natural curvature alone turns a strip by a quarter: an arc, in closed form",
+        ),
+    ]
+    for scene, why in whys:
         yield Case(scene.name, "natural", scene, why)
 
 

@@ -254,5 +254,5 @@ class SpringCells(Family):
 
     def damped(self, time: float) -> SpringCells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""
-        still = {"law": AREA_AND_STRAINS, "others": None, "natural": None}
-        return replace(self, stiffness=time * self.stiffness, **still)
+        springs = replace(self, stiffness=time * self.stiffness, natural=None)
+        return replace(springs, law=AREA_AND_STRAINS, others=None)

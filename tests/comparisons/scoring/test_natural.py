@@ -7,10 +7,8 @@ from comparisons.scoring.reference import references
 
 
 def arc(points, curvature):
-    """Displacements (n, 3) [m] of plan points (n, 2) [m] of a strip bent to an arc [1/m]: at s along it
-    x = sin(k s)/k and z = (1 - cos(k s))/k, a state of zero energy."""
-    along = points[:, 0]
-    angle = curvature * along
+    """Displacements (n, 3) [m] of plan points (n, 2) [m] of a strip bent to an arc [1/m] of zero energy."""
+    along, angle = points[:, 0], curvature * points[:, 0]
     return np.column_stack(
         [np.sin(angle) / curvature - along, 0.0 * along, (1.0 - np.cos(angle)) / curvature]
     )
@@ -18,9 +16,12 @@ def arc(points, curvature):
 
 def test_quarter_turn_is_an_arc():
     known = references("natural")["quarter-turn"]
-    length = known.scene.sheet.length_x
-    off = np.abs(known.values - arc(known.scene.probe_points(), 0.5 * np.pi / length))
+    length, turn = known.scene.sheet.length_x, known.scene.natural.curvature[0]
+    assert turn * length == pytest.approx(np.pi / 2.0)
+    off = np.abs(known.values - arc(known.scene.probe_points(), turn))
     assert (off <= known.bars).all()
+    end = arc(np.array([[length, 0.0]]), turn)[0]
+    assert end[0] + length == pytest.approx(end[2]) == pytest.approx(1.0 / turn)
 
 
 def test_bimetal_strip_has_timoshenkos_curvature():
@@ -43,6 +44,7 @@ def test_band_lifts_its_end_against_the_weight():
     known = references("natural")["muscle-band"]
     middle, end = known.values[0, 2], known.values[2, 2]
     assert middle < 0.0 < end
+    assert known.scene.material.young == 20e6
 
 
 def test_heated_plate_has_buckled():

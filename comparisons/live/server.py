@@ -69,7 +69,7 @@ def served(panel: Panel, port: int = 0) -> Iterator[Server]:
         yield server
     finally:
         server.server_close()
-        server.shells.abandon()
+        server.shells.shutdown(wait=False, cancel_futures=True)
 
 
 class Server(ThreadingHTTPServer):

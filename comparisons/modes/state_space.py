@@ -129,7 +129,11 @@ class Linearisation(Answer):
     def tables(self) -> tuple[Table, ...]:
         """Return the poles, and what every input moves the probes by at rest."""
         inputs = zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True)
-        columns = ("input", "unit", *(MILLIMETRES("z.4g", name) for name in self.matrices.outputs))
+        columns = [
+            "input",
+            "unit",
+            *(MILLIMETRES("z.4g", name) for name in self.matrices.outputs),
+        ]
         rows = ((name, unit_of(name), *moved) for name, moved in inputs)
         return self._poles(), Table.listed("Static displacement per unit of input", columns, rows, "jacobian")
 
@@ -148,7 +152,11 @@ class Linearisation(Answer):
     def _heights(self) -> Table:
         """Along z alone, of loads, commands and moved edges, these per millimetre; rounding as 0."""
         up = [i for i, name in enumerate(self.matrices.outputs) if name.endswith(" uz")]
-        columns = ("input", "unit", *(MILLIMETRES("z.3g", self.matrices.outputs[i]) for i in up))
+        columns = [
+            "input",
+            "unit",
+            *(MILLIMETRES("z.3g", self.matrices.outputs[i]) for i in up),
+        ]
         rows = []
         for name, column in zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True):
             unit = unit_of(name)

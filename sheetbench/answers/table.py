@@ -199,10 +199,10 @@ class Table:
 
     @classmethod
     def listed(
-        cls, caption: str, columns: Iterable[Column | str], rows: Iterable[Iterable[Any]], name: str = "",
+        cls, caption: str, columns: Iterable[Any], rows: Iterable[Iterable[Any]], name: str = "",
         *, grouped: bool = False, text: str = "",
     ) -> Table:  # fmt: skip
-        """Return the table of rows of as many values as there are columns; a text is a column of words."""
+        """Return the table of rows of as many values as there are columns, or names of those of words."""
         own = tuple(Column(one) if isinstance(one, str) else one for one in columns)
         cells = (tuple(c.of(value) for c, value in zip(own, row, strict=True)) for row in rows)
         return cls(caption, own, tuple(cells), name, grouped, text)

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.codes.cell import Cell
-from comparisons.codes.cell_meshes import mesh as cell_of_triangles
+from comparisons.codes.cell_meshes import cell_of
 from comparisons.codes.coefficients import best_hinge, limit_error, nearest
 from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem, files
 from comparisons.codes.homogenise import moduli_of
@@ -242,7 +242,7 @@ def setup(
         cell = triangular_cell(name, spacing)
         found = hinged_springs(cell, scene.material, scene.sheet.thickness)
     else:
-        cell = cell_of_triangles(name, spacing, scene.sheet.thickness, row.hinge)
+        cell = cell_of(name, spacing, hinge=row.hinge)
         found = nearest(cell, scene.material, scene.sheet.thickness)
     best = best and at_rest and not coefficients
     found |= coefficients or {}

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from comparisons.codes.cell import Cell, Place
-from comparisons.codes.cell_meshes import mesh
+from comparisons.codes.cell_meshes import cell_of
 from comparisons.codes.coefficients import TURNED, least_error, nearest
 from comparisons.codes.homogenise import Moduli, moduli_of
 from fem_reference.surface.materials import section_of
@@ -58,7 +58,7 @@ def _place(i: int, j: int, layer: int) -> Place:
 
 def triangular_cell(name: str, spacing: float) -> Cell:
     """A mesh of triangles without a membrane of its own: springs "k" along its sides, hinges by angle."""
-    cell = mesh(name, spacing, 0.0, "angle")
+    cell = cell_of(name, spacing, hinge="angle")
     sides: dict[tuple[Place, Place], None] = {}
     for triangle in cell.triangles:
         for a, b in combinations(triangle, 2):

@@ -24,7 +24,7 @@ from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem, fil
 from comparisons.codes.homogenise import moduli_of
 from comparisons.codes.parameters import Parameter, parameters_of, undamped
 from comparisons.codes.sheet_mesh import SheetMesh, refusal, sheet_mesh, with_layers
-from comparisons.codes.springs import hinged_springs, layered_springs, tetrahedral_cell, triangular_cell
+from comparisons.codes.springs import layered_springs, tetrahedral_cell, triangular_cell
 from comparisons.codes.table import CODES, Code
 from comparisons.models.grids import GridLike
 from sheetbench.answers.answer import Answer
@@ -240,7 +240,8 @@ def setup(
         cell = tetrahedral_cell(spacing, found["layers"])
     elif row.elements == "springs":
         cell = triangular_cell(name, spacing)
-        found = hinged_springs(cell, scene.material, scene.sheet.thickness)
+        own = {"lambda_h": 0.0, "mu_h": 0.0}  # it has no membrane but its springs
+        found = nearest(cell, scene.material, scene.sheet.thickness, own)
     else:
         cell = cell_of(name, spacing, hinge=row.hinge)
         found = nearest(cell, scene.material, scene.sheet.thickness)

@@ -54,7 +54,7 @@ REACH = 0.375  # of the grading
 
 
 @dataclass(frozen=True, repr=False)
-class Modes(NaturalModes):
+class ReferenceModes(NaturalModes):
     """The lowest modes, rigid motions left out; rigid_modes is the number of those.
 
     frequencies: (count,) [Hz], rising; shapes: (count, k, 3), displacements of all nodes, of φᵀ M φ = 1.
@@ -90,7 +90,7 @@ def modes(
     count: int = 10,
     about: About = "flat",
     **options: Any,
-) -> Modes:
+) -> ReferenceModes:
     """The `count` lowest elastic modes; a scene without supports is a free sheet.
 
     about: the flat, stress-free sheet, or its equilibrium under the scene's loads (the shell only; no
@@ -135,7 +135,7 @@ def modes(
             raise BadInput(f"count = {count}: 1 to {sheet.unknowns - rigid - 1} on this mesh")
         values, vectors = lowest_modes(stiffness, mass, count + rigid, -(_slow(scene) ** 2), dense=0)
         done = now()
-    return Modes(
+    return ReferenceModes(
         model=model,
         label=f"{model} {along_x} × {along_y}",
         settings={"elements": [along_x, along_y], **options},

@@ -13,7 +13,7 @@ import numpy as np
 from comparisons.pictures.array_files import write_mat, write_npz
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture, Write
-from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, Unit
+from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, TableUnit
 from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
@@ -34,8 +34,8 @@ class PoleRow:
 
     frequency: Annotated[float, HERTZ(".5g")]
     damping_ratio: Annotated[float, PERCENT("z.3g")]
-    real: Annotated[float, Unit("1/s", "1/s")("z.5g")]
-    imaginary: Annotated[float, Unit("rad/s", "rad/s")(".5g")]
+    real: Annotated[float, TableUnit("1/s", "1/s")("z.5g")]
+    imaginary: Annotated[float, TableUnit("rad/s", "rad/s")(".5g")]
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.discrete.items import Item, Tangent
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.items import SheetItem, Tangent
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface.biquadratic import AT_GAUSS, areas
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan
@@ -35,7 +35,7 @@ CORE = 0.5  # of the radius: where no step may lead
 SOFTER, ROUNDED = 0.01, 0.3  # in motion: of k, and over which part of the thickness the law is rounded
 
 
-class Touching(Item):
+class Touching(SheetItem):
     """Contact with one obstacle. share: of its stiffness, as `soften` has it; faces: ζ of the points of a
     node [m]."""
 
@@ -74,7 +74,7 @@ class Touching(Item):
         middle, director = vectors[self.elements, self.place], vectors[self.elements, 9 + self.place]
         return np.stack([middle + lever[:, None] * director for lever in self.levers])
 
-    def _relative(self, shape: Shape) -> np.ndarray:
+    def _relative(self, shape: SheetShape) -> np.ndarray:
         """Return w (faces, n, 3) [m]."""
         return self._across_from(shape.vectors, shape.at)
 
@@ -83,7 +83,7 @@ class Touching(Item):
         w: np.ndarray = (self.points(vectors) - origin) @ self._across
         return w
 
-    def _sunk(self, shape: Shape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _sunk(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return depth (faces, n) [m], < 0 where a point is clear, n (faces, n, 3) and 1/|w|."""
         w = self._relative(shape)
         offset = self.offset + TOUCH * self.thickness
@@ -103,15 +103,15 @@ class Touching(Item):
         energy = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over)
         return scale * energy, scale * force, scale * curved / over
 
-    def _pulled(self, shape: Shape) -> np.ndarray:
+    def _pulled(self, shape: SheetShape) -> np.ndarray:
         """Return forces at points (faces, n, 3) [N]."""
         depth, normal, _ = self._sunk(shape)
         return self._pressures(depth)[1][..., None] * normal + self._rubbed(shape, depth, normal)
 
-    def force(self, shape: Shape) -> np.ndarray:
+    def force(self, shape: SheetShape) -> np.ndarray:
         return self._onto(shape, self._pulled(shape))
 
-    def mean_force(self, start: Shape, end: Shape, middle: Shape) -> np.ndarray:
+    def mean_force(self, start: SheetShape, end: SheetShape, middle: SheetShape) -> np.ndarray:
         """Return the force whose work in a step is the energy stored: of the mean pressure Δψ/Δdepth along
         (w₀ + w₁)/(|w₀| + |w₁|), whose product with Δw is −Δdepth exactly."""
         (before, normal, _), (after, *_) = (self._sunk(shape) for shape in (start, end))
@@ -125,14 +125,14 @@ class Touching(Item):
         depth, across, _ = self._sunk(middle)
         return self._onto(middle, load[..., None] * normal + self._rubbed(middle, depth, across))
 
-    def _onto(self, shape: Shape, pull: np.ndarray) -> np.ndarray:
+    def _onto(self, shape: SheetShape, pull: np.ndarray) -> np.ndarray:
         """Return forces on the coordinates (N,) of those at points (faces, n, 3)."""
         out = np.zeros_like(shape.vectors)
         out[self.elements, self.place] = pull.sum(axis=0)
         out[self.elements, 9 + self.place] = (self.levers[..., None] * pull).sum(axis=0)
         return shape.sheet.of_surface(np.arange(len(out)), out)
 
-    def tangent(self, shape: Shape) -> Tangent | None:
+    def tangent(self, shape: SheetShape) -> Tangent | None:
         depth, normal, bend = self._sunk(shape)
         _, load, slope = self._pressures(depth)
         outer = normal[..., :, None] * normal[..., None, :]
@@ -156,7 +156,7 @@ class Touching(Item):
                     out[rows, row + at, :, column + at, :] += both  # no two of a place are the same
         return on, out
 
-    def _speeds(self, shape: Shape, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _speeds(self, shape: SheetShape, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return how fast points sink (faces, n) and slide (faces, n, 3) [m/s]."""
         speed = self.points(shape.rates)
         if self.obstacle.motion is not None:
@@ -164,7 +164,7 @@ class Touching(Item):
         sinking = -(speed * normal).sum(axis=2)
         return sinking, speed + sinking[..., None] * normal
 
-    def _rubbed(self, shape: Shape, depth: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    def _rubbed(self, shape: SheetShape, depth: np.ndarray, normal: np.ndarray) -> np.ndarray:
         """Return the forces (faces, n, 3) of the dashpot and of friction, in motion."""
         obstacle = self.obstacle
         if not self.resists:
@@ -176,7 +176,7 @@ class Touching(Item):
         rubbed = (obstacle.friction * load / slip)[..., None] * sliding
         return np.asarray(pressed[..., None] * normal - rubbed)
 
-    def damping(self, shape: Shape) -> Tangent | None:
+    def damping(self, shape: SheetShape) -> Tangent | None:
         obstacle = self.obstacle
         if not self.resists:
             return None
@@ -191,13 +191,13 @@ class Touching(Item):
         rubbed = (obstacle.friction * load / slip)[..., None, None] * along
         return self._between(-(tau * load)[..., None, None] * outer - rubbed, depth)
 
-    def potential(self, shape: Shape) -> float:
+    def potential(self, shape: SheetShape) -> float:
         return float(self._pressures(self._sunk(shape)[0])[0].sum())
 
-    def stored(self, shape: Shape) -> float:
+    def stored(self, shape: SheetShape) -> float:
         return self.potential(shape)
 
-    def exchanged(self, shape: Shape, step: np.ndarray) -> tuple[float, float]:
+    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
         depth, normal, _ = self._sunk(shape)
         taken = -self._onto(shape, self._rubbed(shape, depth, normal)) @ step
         work = 0.0
@@ -208,10 +208,10 @@ class Touching(Item):
             taken += h * float(self._rubbed(shape, depth, normal).sum(axis=(0, 1)) @ velocity)
         return float(taken), work
 
-    def holds(self, shape: Shape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         return {self.name: (self.points(shape.vectors), self._pulled(shape))}
 
-    def exerted(self, shape: Shape) -> np.ndarray:
+    def exerted(self, shape: SheetShape) -> np.ndarray:
         """Return its force (3,) [N] on the sheet."""
         total: np.ndarray = self._pulled(shape).sum(axis=(0, 1))
         return total
@@ -226,7 +226,7 @@ class Touching(Item):
         nearest = np.clip(-(x * way).sum(axis=2) / np.maximum((way * way).sum(axis=2), 1e-300), 0.0, 1.0)
         return bool((np.linalg.norm(x + nearest[..., None] * way, axis=2) < CORE * self.radius).any())
 
-    def report(self, shape: Shape) -> ContactState:
+    def report(self, shape: SheetShape) -> ContactState:
         """Return what there is to say of it."""
         depth = self._sunk(shape)[0].max(axis=0)
         over = depth / self.thickness - TOUCH
@@ -239,7 +239,7 @@ class Touching(Item):
             undecided=int((np.abs(over) <= near).sum()),
         )
 
-    def pressure(self, shape: Shape) -> np.ndarray:
+    def pressure(self, shape: SheetShape) -> np.ndarray:
         """Return the pressure (n,) [Pa] at the nodes of the plan."""
         pressures: np.ndarray = self._pressures(self._sunk(shape)[0])[1].sum(axis=0) / self.area
         return pressures

@@ -10,7 +10,7 @@ import numpy as np
 from sheetbench.scenes.objects.relaxation import BranchStep
 
 
-class Shape:
+class SheetShape:
     """Coordinates q and rates v (N,), 0 where None, of a sheet (`discrete.sheet`), at a load factor or time
     [s] `at`; branches: the step of its Maxwell branches that ends there."""
 

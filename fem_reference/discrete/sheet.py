@@ -26,11 +26,11 @@ from scipy.sparse import csc_matrix, csr_matrix
 from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.course import Factor, commands_of, factor_at, loads_of
 from fem_reference.discrete.drag import Drag
-from fem_reference.discrete.items import Dead, Following, Item
+from fem_reference.discrete.items import Dead, Following, SheetItem
 from fem_reference.discrete.output import Output
 from fem_reference.discrete.relaxation import Strained
 from fem_reference.discrete.rods import Rods
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface import loads
 from fem_reference.surface.actuator_forces import OnEdge, exerted
 from fem_reference.surface.bound_rods import BoundRods
@@ -78,7 +78,7 @@ class Discrete(Output):
             )
         self.branches = material.branches if moving else Branches((), ())
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
-        self.items: list[Item] = []
+        self.items: list[SheetItem] = []
         self.contacts: list[Touching] = []
         self._weights: list[tuple[np.ndarray, Factor]] = []
 
@@ -203,7 +203,7 @@ class Discrete(Output):
     # forces
 
     @abstractmethod
-    def elements_internal(self, shape: Shape) -> np.ndarray:
+    def elements_internal(self, shape: SheetShape) -> np.ndarray:
         """Elastic and viscous forces (N,) of the sheet."""
 
     @abstractmethod
@@ -212,15 +212,15 @@ class Discrete(Output):
 
     def shape(
         self, q: np.ndarray, at: float, v: np.ndarray | None = None, branches: BranchStep | None = None
-    ) -> Shape:
+    ) -> SheetShape:
         """The sheet at coordinates and rates (N,), at the end of a step of its branches."""
-        return Shape(self, q, at, v, branches)
+        return SheetShape(self, q, at, v, branches)
 
-    def external(self, shape: Shape) -> np.ndarray:
+    def external(self, shape: SheetShape) -> np.ndarray:
         """Forces (N,) of all items."""
         return sum((item.force(shape) for item in self.items), np.zeros(self.size))
 
-    def internal(self, shape: Shape) -> np.ndarray:
+    def internal(self, shape: SheetShape) -> np.ndarray:
         """Forces (N,) of the sheet's elements and of its rods."""
         out = self.elements_internal(shape)
         for body in self.bodies:
@@ -228,7 +228,7 @@ class Discrete(Output):
         return out
 
     def wrenches(
-        self, shape: Shape, residual: np.ndarray, a: np.ndarray | None = None
+        self, shape: SheetShape, residual: np.ndarray, a: np.ndarray | None = None
     ) -> tuple[list[OnEdge], dict[str, np.ndarray], np.ndarray]:
         """What the rods exert on their edges; the force and moment (segments, 6) [N, N·m] of every actuator's
         segments on the sheet; the line force (n, 3) [N/m]. residual: M ü + g (N,); a: ü (N,), 0 unless given.
@@ -242,7 +242,7 @@ class Discrete(Output):
         held = self.exerted(shape.q, residual)
         return edges, *exerted(self.scene, edges, self.supports.moved, held)
 
-    def forces(self, shape: Shape) -> np.ndarray:
+    def forces(self, shape: SheetShape) -> np.ndarray:
         """g (N,): internal and viscous less external forces."""
         return self._damped(self.internal(shape) - self.external(shape), shape.v)
 
@@ -263,7 +263,7 @@ class Discrete(Output):
         return forces + self.alpha * (self.sheet_mass @ v) if damped else forces
 
     @abstractmethod
-    def tangent(self, shape: Shape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
+    def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         """Zᵀ (by_a M + by_v C + K) Z, and what the constraints add under a residual (N,)."""
 
     @abstractmethod

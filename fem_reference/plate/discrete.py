@@ -17,7 +17,7 @@ from scipy.sparse import csc_matrix, csr_matrix, identity
 from skfem import MeshQuad
 
 from fem_reference.discrete.relaxation import Strained, gain, with_branches
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import TILT_X, PlateElements, W
 from fem_reference.plate.natural import OwnStrains, own_strains
@@ -152,19 +152,19 @@ class DiscretePlate(Discrete):
 
     # forces
 
-    def elements_internal(self, shape: Shape) -> np.ndarray:
+    def elements_internal(self, shape: SheetShape) -> np.ndarray:
         self.grow(shape.at)
         out = with_branches(self.stiffness @ shape.q, shape.branches)
         viscous = 0.0 if shape.v is None else self.tau * (self.stiffness @ shape.v)
         return np.asarray(out + viscous - self.at_rest.force)
 
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
-        return self.elements_internal(Shape(self, 0.5 * (start + end), 0.0, (end - start) / h))
+        return self.elements_internal(SheetShape(self, 0.5 * (start + end), 0.0, (end - start) / h))
 
-    def tangent(self, shape: Shape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
+    def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         return self.whole_tangent(shape, by_a, by_v)[self.free][:, self.free]
 
-    def whole_tangent(self, shape: Shape, by_a: float = 0.0, by_v: float = 0.0) -> csr_matrix:
+    def whole_tangent(self, shape: SheetShape, by_a: float = 0.0, by_v: float = 0.0) -> csr_matrix:
         """by_a M + by_v C + K of all coordinates."""
         whole = (1.0 + self.tau * by_v + gain(shape.branches)) * self.stiffness
         if by_a or by_v:

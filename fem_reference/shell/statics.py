@@ -16,7 +16,7 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.discrete.answer import answered, judge
-from fem_reference.discrete.static import Forces, State
+from fem_reference.discrete.static import Forces, StaticState
 from fem_reference.discrete.tracing import trace
 from fem_reference.shell import coarse_start
 from fem_reference.shell.coarse_start import Shape
@@ -103,7 +103,7 @@ class _Run(NamedTuple):
     """A traced path on a mesh, with the seconds that setting up and solving took."""
 
     sheet: DiscreteShell
-    path: Path[State, Forces]
+    path: Path[StaticState, Forces]
     setup_seconds: float
     solve_seconds: float
 
@@ -143,7 +143,7 @@ def _run(
     begin = now()
     sheet = discretise(mesh, scene, section, law)
     ready = now()
-    begin_at: Start[State] | None = None
+    begin_at: Start[StaticState] | None = None
     if callable(near):
         begin_at = coarse_start.shaped(near, sheet)
     elif near is not None:

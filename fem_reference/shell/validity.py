@@ -21,7 +21,7 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference.discrete.answer import sheet_of
-from fem_reference.discrete.static import Forces, State
+from fem_reference.discrete.static import Forces, StaticState
 from fem_reference.shell.element import BENDING, MEMBRANE, Element
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
 from sheetbench.answers.solution import Status
@@ -33,10 +33,10 @@ STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much 
 FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as turned inside out
 
 
-def inspector(graded: bool) -> Inspect[State, Forces]:
+def inspector(graded: bool) -> Inspect[StaticState, Forces]:
     """What `trace_path` is to look at; graded: elements are stretched, and may be without harm."""
 
-    def inspect(path: Path[State, Forces]) -> Fault | None:
+    def inspect(path: Path[StaticState, Forces]) -> Fault | None:
         sheet, q = sheet_of(path), path.state.q
         if found := sheet.inside_out(q):
             return Fault(Status.INVERTED, found)

@@ -21,7 +21,7 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.discrete.answer import answered, judge, sheet_of
-from fem_reference.discrete.static import Forces, State
+from fem_reference.discrete.static import Forces, StaticState
 from fem_reference.discrete.tracing import trace
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.materials import LAWS
@@ -111,7 +111,7 @@ def trace_on(sheet: DiscreteSolid) -> tuple[np.ndarray, Status, list[str]]:
     return path.state.q, *judge(sheet, path)
 
 
-def inspected(path: Path[State, Forces]) -> Fault | None:
+def inspected(path: Path[StaticState, Forces]) -> Fault | None:
     """Return why a step of the path is given up: a brick that has turned inside out."""
     found = sheet_of(path).inside_out(path.state.q)
     return Fault(Status.INVERTED, found) if found else None

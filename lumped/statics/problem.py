@@ -14,7 +14,7 @@ from numba import njit
 
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
-from lumped.items import Item
+from lumped.items import LatticeItem
 from lumped.loads import Loads
 from lumped.springs.all_families import Stresses
 from lumped.supports import Constraints
@@ -56,7 +56,7 @@ class Problem:
     constraints: Constraints
     loads: Loads
     size: float
-    items: tuple[Item, ...] = ()
+    items: tuple[LatticeItem, ...] = ()
 
     def __post_init__(self) -> None:
         self.conservative = self.assembly.conservative and self.loads.conservative

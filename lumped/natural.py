@@ -28,28 +28,29 @@ from lumped.springs.laws import of_stiffness
 from sheetbench.errors import BadInput
 from sheetbench.scenes.meaning.natural_state import NaturalState
 
-Setter = Callable[[np.ndarray, np.ndarray], None]  # of strains and curvatures of cells (rows, columns, 2, 2)
+Maker = Callable[[np.ndarray, np.ndarray], Family]  # of strains and curvatures of cells (rows, columns, 2, 2)
 
 
-def with_natural(lattice: Lattice, families: Sequence[Family], state: NaturalState) -> list[Family]:
-    """Return the families of a sheet that is not flat at rest, whose arrays its cells' state sets. Raises
-    BadInput for springs of a per-direction law."""
-    found, setters = list(families), list[Setter]()
-    for number, family in enumerate(families):
+def with_natural(
+    lattice: Lattice, families: Sequence[Family], state: NaturalState
+) -> Callable[[np.ndarray, np.ndarray], list[Family]]:
+    """Return what makes the families of a sheet that is not flat at rest, of its cells' strain and curvature.
+    Raises BadInput for springs of a per-direction law."""
+
+    def maker(family: Family) -> Maker:
         if isinstance(family, DirectionalLinks):
             raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
         if isinstance(family, Links):
-            found[number], setter = _links(lattice, family)
-        elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
-            found[number], setter = _cells(lattice, family, state)
-        else:
-            continue
-        setters.append(setter)
-    state.made(lambda *forms: [setter(*forms) for setter in setters])
-    return found
+            return _links(lattice, family)
+        if isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
+            return _cells(lattice, family, state)
+        return lambda strain, curvature: family
+
+    makers = [maker(family) for family in families]
+    return lambda *forms: [make(*forms) for make in makers]
 
 
-def _links(lattice: Lattice, links: Links) -> tuple[Links, Setter]:
+def _links(lattice: Lattice, links: Links) -> Maker:
     cells, shares = (  # that each lies in or between (m, 4), and of their means
         np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1]))) for part in parts])
         for parts in zip(*((f.cells, f.shares) for f in lattice.links), strict=True)
@@ -59,18 +60,19 @@ def _links(lattice: Lattice, links: Links) -> tuple[Links, Setter]:
     place = order[np.searchsorted(every[order], own)]
     cells, shares = cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)
     along, rest = links.offset[:, None, :2], (links.offset**2).sum(axis=1)
-    heights, natural = lattice.positions[links.nodes, 2], np.zeros((2, len(links)))
+    heights = lattice.positions[links.nodes, 2]
 
-    def set_lengths(strain: np.ndarray, curvature: np.ndarray) -> None:
+    def make(strain: np.ndarray, curvature: np.ndarray) -> Family:
         e, k = (form.reshape(-1, 2, 2)[cells] for form in (strain, curvature))
         moved = [np.einsum("mqij,mkj->mqi", e - z[:, None, None, None] * k, along) for z in heights.T]
-        natural[1] = (shares * _change(along, along, *moved)).sum(axis=1)
-        natural[0] = np.sqrt(rest + natural[1])
+        change = (shares * _change(along, along, *moved)).sum(axis=1)
+        natural = np.stack([np.sqrt(rest + change), change])
+        return replace(links, rest_length=natural[0], natural=natural)
 
-    return replace(links, rest_length=natural[0], natural=natural), set_lengths
+    return make
 
 
-def _cells(lattice: Lattice, cells: SpringCells, state: NaturalState) -> tuple[SpringCells, Setter]:
+def _cells(lattice: Lattice, cells: SpringCells, state: NaturalState) -> Maker:
     """Of the layers or of the mid-surface."""
     kept = np.arange(lattice.cell_areas.size)[lattice.kept]
     plan = np.tile(kept, len(cells) // len(kept))
@@ -81,19 +83,20 @@ def _cells(lattice: Lattice, cells: SpringCells, state: NaturalState) -> tuple[S
         e, k = (form.reshape(-1, 2, 2)[plan] for form in (strain, curvature))
         return np.asarray(flat @ (e - at * k))
 
-    strain, curvature = state.now
+    strain, curvature = state.at()
     sides = flat + changes(strain, curvature, np.zeros((1, 1, 1)))
     area = np.abs(np.linalg.det(sides))
     springs = of_stiffness(cells.stiffness, np.pad(sides, ((0, 0), (0, 0), (0, 1))), area)
-    natural = np.column_stack([springs, np.zeros((len(cells), 4))])
 
-    def set_cells(strain: np.ndarray, curvature: np.ndarray) -> None:
-        moved = changes(strain, curvature, heights)
+    def make(strain: np.ndarray, curvature: np.ndarray) -> Family:
+        moved, natural = changes(strain, curvature, heights), np.empty((len(cells), 11))
+        natural[:, :7] = springs
         for column, (s, t) in enumerate(((0, 0), (1, 1), (0, 1)), start=7):
             natural[:, column] = _change(flat[:, s], flat[:, t], moved[:, s], moved[:, t])
         natural[:, 10] = np.abs(np.linalg.det(flat + moved))
+        return replace(cells, law=NATURAL, natural=natural)
 
-    return replace(cells, law=NATURAL, natural=natural), set_cells
+    return make
 
 
 def _change(a: np.ndarray, b: np.ndarray, moved_a: np.ndarray, moved_b: np.ndarray) -> np.ndarray:

@@ -34,8 +34,7 @@ def sheet_of(path: Path[StaticState, Forces]) -> DiscreteElements:
 
 def judge(sheet: Discrete, path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
     """Return status and notes of a path that has ended, strains beyond the law among them."""
-    sheet.grow(path.load_factor)
-    outside = sheet.beyond(sheet.stretch(path.state.q))
+    outside = sheet.beyond(sheet.stretch(path.state.q, path.load_factor))
     if not outside or path.status is Status.NON_FINITE:
         return path.status, path.notes
     return Status.STRAIN_OUTSIDE_MODEL, [outside, *path.notes]
@@ -65,11 +64,10 @@ def answer(
 ) -> Solution:
     """Return the answer at q (N,), with a residual (N,), under a share of the load. size, allowed: of the
     balance (`scenes.Balance`), which there is only where `balanced`."""
-    sheet.grow(share)
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
     shape = sheet.shape(q, share)
     edges, wrenches, line = sheet.wrenches(shape, residual)
-    reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(q)
+    reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(q, share)
     held = sheet.holding(q, residual, share)
     for item in sheet.items:
         for name, (places, forces) in item.holds(shape).items():

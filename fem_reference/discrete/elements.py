@@ -81,9 +81,9 @@ class DiscreteElements(Discrete):
     def elements_internal(self, shape: SheetShape) -> np.ndarray:
         return self.scatter(self.element.forces(shape.operator, self.stress(shape)))
 
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
+    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
         before, after, element = self.gather(start), self.gather(end), self.element
-        first, last = element.strain(before), element.strain(after)
+        first, last = (element.strain(change, self.own_strain(time)) for change in (before, after))
         stress = element.stress(0.5 * (first + last))
         if self.tau:
             rate = (last - first) / h
@@ -154,15 +154,19 @@ class DiscreteElements(Discrete):
         slow.bodies = [body.dragged(shape, drag) for body in self.bodies]
         return slow
 
+    def strain(self, q: np.ndarray, at: float = 1.0) -> np.ndarray:
+        """Return the elements' strains (m, k) less the natural ones."""
+        return self.element.strain(self.gather(q), self.own_strain(at))
+
     def strains(self, q: np.ndarray) -> Strained:
-        strain = self.element.strain(self.gather(q))
+        strain = self.strain(q)
         return strain, self.element.stress(strain)
 
-    def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
-        return self.element.energies(self.element.strain(self.gather(q)))
+    def energies_by_part(self, q: np.ndarray, at: float = 1.0) -> dict[str, float]:
+        return self.element.energies(self.strain(q, at))
 
-    def elastic(self, q: np.ndarray) -> float:
-        return sum(self.energies_by_part(q).values())
+    def elastic(self, q: np.ndarray, at: float = 1.0) -> float:
+        return sum(self.energies_by_part(q, at).values())
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         shape, element = self.shape(q, 0.0), self.element

@@ -54,8 +54,7 @@ class SheetShape:
     @cached_property
     def strain(self) -> Any:
         """(m, k), from the sheet's natural state."""
-        self.sheet.grow(self.at)
-        return self.sheet.element.strain(self.change)
+        return self.sheet.element.strain(self.change, self.sheet.own_strain(self.at))
 
     @cached_property
     def elastic(self) -> Any:

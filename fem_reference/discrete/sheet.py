@@ -158,10 +158,10 @@ class Discrete(Output):
         """Times [s] at which something prescribed bends its course."""
         return np.array(kinks(self.scene))
 
-    def grow(self, at: float) -> None:
-        """Set the sheet's natural state to that at a load factor or time [s], where it has one."""
-        if self.natural is not None:
-            self.natural.grow(*self.instant(at))
+    def own_strain(self, at: float) -> Any:
+        """What the model makes of the sheet's natural state at a load factor or time [s]; None where it has
+        none."""
+        return None if self.natural is None else self.natural.at(*self.instant(at))
 
     def jumps(self, time: float) -> bool:
         """Whether what is prescribed changes its velocity at once."""
@@ -207,8 +207,8 @@ class Discrete(Output):
         """Elastic and viscous forces (N,) of the sheet."""
 
     @abstractmethod
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
-        """Those (N,) of the mean strains of a step and their mean rate."""
+    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
+        """Those (N,) of the mean strains of a step and their mean rate, natural ones as at a time [s]."""
 
     def shape(
         self, q: np.ndarray, at: float, v: np.ndarray | None = None, branches: BranchStep | None = None
@@ -249,8 +249,7 @@ class Discrete(Output):
     def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
         """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
         q, v = 0.5 * (start + end), (end - start) / h
-        self.grow(time)
-        out = self.elements_mean_internal(start, end, h)
+        out = self.elements_mean_internal(start, end, h, time)
         for body in self.bodies:
             out = out + body.scatter(body.pull(q, body.mean_stress(start, end, h, time)))
         shapes = self.shape(start, time - 0.5 * h), self.shape(end, time + 0.5 * h), self.shape(q, time, v)
@@ -293,11 +292,11 @@ class Discrete(Output):
         """Strains, and the elastic stresses that go with them, as `relaxation` takes them."""
 
     @abstractmethod
-    def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
+    def energies_by_part(self, q: np.ndarray, at: float = 1.0) -> dict[str, float]:
         """Strain energy [J] of the sheet by part."""
 
     @abstractmethod
-    def elastic(self, q: np.ndarray) -> float:
+    def elastic(self, q: np.ndarray, at: float = 1.0) -> float:
         """Strain energy [J] of the sheet."""
 
     @abstractmethod
@@ -311,7 +310,7 @@ class Discrete(Output):
         return ""
 
     @abstractmethod
-    def stretch(self, q: np.ndarray) -> float:
+    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
         """How far the sheet is strained, as `beyond` takes it."""
 
     def beyond(self, stretch: float) -> str:

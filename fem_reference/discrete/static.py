@@ -78,9 +78,9 @@ class Static(Creeping[StaticState, Forces]):
 
     def potential(self, state: StaticState, load_factor: float) -> tuple[float, float]:
         sheet = self.sheet
-        sheet.grow(load_factor)
         shape = sheet.shape(state.q, load_factor)
-        stored = sheet.elastic(state.q) + sum(body.energy(state.q, load_factor) for body in sheet.bodies)
+        stored = sheet.elastic(state.q, load_factor)
+        stored += sum(body.energy(state.q, load_factor) for body in sheet.bodies)
         of_items = sum(item.potential(shape) for item in sheet.items)
         return stored + of_items, stored + abs(of_items)
 
@@ -94,7 +94,7 @@ class Static(Creeping[StaticState, Forces]):
         residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
         size = sheet.measured(external, sheet.scale) + sheet.measured(sheet.of_held_positions(residual))
         if sheet.natural is not None:  # often all that loads it
-            pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.natural.now))
+            pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.own_strain(load_factor)))
             size += sheet.measured(sheet.scatter(pull), sheet.scale)
         residual -= external
         on_rods = tuple(body.stress(shape) for body in sheet.bodies)

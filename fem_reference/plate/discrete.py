@@ -88,10 +88,9 @@ class DiscretePlate(Discrete):
         if (state := natural_at(scene, AT_GAUSS[0] @ plan.corners)) is not None:
             self.natural = state.made(partial(own_strains, self.elements, self.section, self.size))
 
-    @property
-    def at_rest(self) -> OwnStrains:
-        """What it has at rest."""
-        return OwnStrains() if self.natural is None else self.natural.now
+    def at_rest(self, at: float) -> OwnStrains:
+        """What it has without stress at a load factor or time [s]."""
+        return self.own_strain(at) or OwnStrains()
 
     @cached_property
     def stiffness(self) -> csr_matrix:
@@ -153,13 +152,12 @@ class DiscretePlate(Discrete):
     # forces
 
     def elements_internal(self, shape: SheetShape) -> np.ndarray:
-        self.grow(shape.at)
         out = with_branches(self.stiffness @ shape.q, shape.branches)
         viscous = 0.0 if shape.v is None else self.tau * (self.stiffness @ shape.v)
-        return np.asarray(out + viscous - self.at_rest.force)
+        return np.asarray(out + viscous - self.at_rest(shape.at).force)
 
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
-        return self.elements_internal(SheetShape(self, 0.5 * (start + end), 0.0, (end - start) / h))
+    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
+        return self.elements_internal(SheetShape(self, 0.5 * (start + end), time, (end - start) / h))
 
     def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         return self.whole_tangent(shape, by_a, by_v)[self.free][:, self.free]
@@ -212,8 +210,8 @@ class DiscretePlate(Discrete):
     def strains(self, q: np.ndarray) -> Strained:
         return q, self.stiffness @ q
 
-    def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
-        own = dict(zip(PARTS, self.at_rest.strains, strict=False))
+    def energies_by_part(self, q: np.ndarray, at: float = 1.0) -> dict[str, float]:
+        own = dict(zip(PARTS, self.at_rest(at).strains, strict=False))
         nodal, out = q[self.elements.unknowns], {}
         for name, operator, section in zip(PARTS, self._strains, self.section, strict=True):
             strain = (operator @ nodal[:, None, :, None])[..., 0] - own.get(name, 0.0)
@@ -221,8 +219,8 @@ class DiscretePlate(Discrete):
             out[name] = 0.5 * float(np.einsum("mq,mqi,mqi", self.elements.areas, strain, force))
         return out
 
-    def elastic(self, q: np.ndarray) -> float:
-        own = self.at_rest
+    def elastic(self, q: np.ndarray, at: float = 1.0) -> float:
+        own = self.at_rest(at)
         return 0.5 * self.stiffness_of(q, q, q) - float(np.sum(own.force * q)) + own.stored
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
@@ -230,7 +228,7 @@ class DiscretePlate(Discrete):
 
     # what is shown
 
-    def stretch(self, q: np.ndarray) -> float:
+    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
         return strained(self.elements, q)
 
     def beyond(self, stretch: float) -> str:

@@ -184,7 +184,7 @@ def _solution(
         snaps=tuple(run.path.snaps),
         fallback=fallback,
         remarks=(*notes, *limit_notes(settings.get("law"), scene.material, status)),
-        stretch=run.sheet.stretch(run.path.state.q),
+        stretch=run.sheet.stretch(run.path.state.q, run.path.load_factor),
     )
 
 

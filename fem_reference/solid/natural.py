@@ -40,7 +40,7 @@ def at_rest(plain: Bricks, scene: Scene) -> Bricks:
     grown = natural_at(scene, points)
     assert grown is not None
     stretch = np.tile(np.eye(3), (*points.shape[:2], 1, 1))
-    stretch[..., :2, :2] += grown.now[0]
+    stretch[..., :2, :2] += grown.at()[0]
     on = pulled_back(np.linalg.inv(stretch), PAIRS) @ plain.to_strain
     volumes = np.linalg.det(stretch) * plain.volumes
     return replace(plain, to_strain=on, volumes=volumes, natural=state.made(sample))

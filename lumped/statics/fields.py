@@ -53,7 +53,7 @@ def field_mesh(
     for small displacements, of which the springs have a small part; contact: the pressure of obstacles (n,)
     [Pa] as "contact_pressure", where there are any."""
     part = SMALL if linear else 1.0
-    assembly.grow(part * share)
+    assembly = assembly.at(part * share)
     small, links, lattice = part * u, assembly.links, assembly.lattice
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
     quads, masses = len(layer_cells), lattice.mass_count

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from inspect import signature
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -30,7 +29,7 @@ from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE, STRAIN_LAW, listed
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.runs.record import Recipe, record
+from sheetbench.runs.record import Recipe, parted, record
 from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, require_error, sample_count
 from sheetbench.scenes import AnyScene, Scene, require_no_branches, scene_of
 from sheetbench.scenes.meaning.distances import require_no_obstacles
@@ -54,9 +53,6 @@ def simulate(
     step: float | None = None,
     error: float = ERROR,
     every: float | None = None,
-    frames: int = 0,
-    store: Path | None = None,
-    progress: Callable[[float], None] | None = None,
     **options: Any,
 ) -> History:
     """Motion of a scene's sheet over `duration` [s] as a reference has it.
@@ -64,11 +60,8 @@ def simulate(
     integrator: "generalised-alpha", or "energy-momentum", which keeps energy and momenta to rounding in fixed
     steps, 1/200 of the lowest period unless given. step [s]: fixed; without it steps keep to an `error` each,
     of the displacement relative to the largest so far. every [s]: distance of samples, 1/100 of the lowest
-    period unless given. frames: whole displacements to keep, evenly over the run, in `extra`: "frames"
-    (f, n, 3), "frame_times" (f,), the "mesh" they belong to and "sample", which takes one and plan points
-    (p, 2) to displacements (p, 3). store: a folder to stream to, as of `lumped.simulate`: a run that was
-    stopped goes on from there. progress: called with the time reached. options: the model's own, `elements`
-    among them.
+    period unless given. options: the model's own, `elements` among them, and `store`, `frames` and `progress`
+    (`sheetbench.runs.record`).
 
     Raises NoEquilibrium where the shape to start from is no stable equilibrium, BadInput for a model that
     does not move, what a model cannot move, an error not below 0.1, and for a folder that holds
@@ -80,6 +73,7 @@ def simulate(
     >>> history.status, float(history.time[-1])
     (<Status.CONVERGED: 'converged'>, 0.01)
     """
+    keeping, options = parted(options)
     require_moving(scene_of(scene), model)
     for name, value in {"duration": duration, "step": step, "every": every}.items():
         require_positive(name, value, "s")
@@ -122,7 +116,7 @@ def simulate(
         rows=len(flat),
         notes=tuple(friction_notes(requested)),
     )
-    history = record(recipe, frames, store, progress, began)
+    history = record(recipe, keeping, began)
     of_model = {"mesh": moving.mesh(flat), "sample": moving.sample, "unknowns": moving.unknowns}
     history.extra.update(of_model | {"axes": {}})
     return history

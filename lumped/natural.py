@@ -22,18 +22,19 @@ from dataclasses import replace
 import numpy as np
 
 from lumped.lattice import Lattice
-from lumped.springs.cell_laws import AREA_AND_STRAINS, NATURAL
+from lumped.springs.cell_laws import AREA_AND_STRAINS
 from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.laws import of_stiffness
 from sheetbench.errors import BadInput
 from sheetbench.scenes.meaning.natural_state import NaturalState
 
-Maker = Callable[[np.ndarray, np.ndarray], Family]  # of strains and curvatures of cells (rows, columns, 2, 2)
+Array = np.ndarray
+Maker = Callable[[Array, Array], Family]  # of strains and curvatures of cells (rows, columns, 2, 2)
 
 
 def with_natural(
     lattice: Lattice, families: Sequence[Family], state: NaturalState
-) -> Callable[[np.ndarray, np.ndarray], list[Family]]:
+) -> Callable[[Array, Array], list[Family]]:
     """Return what makes the families of a sheet that is not flat at rest, of its cells' strain and curvature.
     Raises BadInput for springs of a per-direction law."""
 
@@ -41,64 +42,58 @@ def with_natural(
         if isinstance(family, DirectionalLinks):
             raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
         if isinstance(family, Links):
-            return _links(lattice, family)
-        if isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
-            return _cells(lattice, family, state)
-        return lambda strain, curvature: family
+            sides, stiffness = np.stack(2 * [family.offset[:, None]]), family.stiffness
+            cells, shares = _cells_of(lattice, family)
+        elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
+            sides = family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1)
+            cells = np.arange(lattice.cell_areas.size)[lattice.kept]
+            cells = np.tile(cells, len(family) // len(cells))[:, None]
+            shares = np.ones(cells.shape)
+            stiffness = _of_natural_sides(family, state.at()[0].reshape(-1, 2, 2)[cells[:, 0]])
+        else:
+            return lambda strain, curvature: family
+        ends = lattice.positions[family.nodes[:, :2], 2].reshape(len(family), 2, -1).mean(axis=2)
+
+        def make(*forms: Array) -> Family:
+            natural = _natural(sides, ends, cells, shares, *forms)
+            if isinstance(family, Links):
+                return replace(family, rest_length=natural[0], natural=natural)
+            return replace(family, stiffness=stiffness, natural=natural)
+
+        return make
 
     makers = [maker(family) for family in families]
     return lambda *forms: [make(*forms) for make in makers]
 
 
-def _links(lattice: Lattice, links: Links) -> Maker:
-    cells, shares = (  # that each lies in or between (m, 4), and of their means
+def _cells_of(lattice: Lattice, links: Links) -> tuple[np.ndarray, np.ndarray]:
+    """The cells (m, 4) that each link lies in or between, and their shares in it."""
+    cells, shares = (
         np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1]))) for part in parts])
         for parts in zip(*((f.cells, f.shares) for f in lattice.links), strict=True)
     )
     every, own = (n[:, 0] * lattice.mass_count + n[:, 1] for n in (lattice.joined[0], links.nodes))
     order = np.argsort(every)
     place = order[np.searchsorted(every[order], own)]
-    cells, shares = cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)
-    along, rest = links.offset[:, None, :2], (links.offset**2).sum(axis=1)
-    heights = lattice.positions[links.nodes, 2]
-
-    def make(strain: np.ndarray, curvature: np.ndarray) -> Family:
-        e, k = (form.reshape(-1, 2, 2)[cells] for form in (strain, curvature))
-        moved = [np.einsum("mqij,mkj->mqi", e - z[:, None, None, None] * k, along) for z in heights.T]
-        change = (shares * _change(along, along, *moved)).sum(axis=1)
-        natural = np.stack([np.sqrt(rest + change), change])
-        return replace(links, rest_length=natural[0], natural=natural)
-
-    return make
+    return cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)
 
 
-def _cells(lattice: Lattice, cells: SpringCells, state: NaturalState) -> Maker:
-    """Of the layers or of the mid-surface."""
-    kept = np.arange(lattice.cell_areas.size)[lattice.kept]
-    plan = np.tile(kept, len(cells) // len(kept))
-    heights = lattice.positions[cells.nodes, 2].mean(axis=(1, 2))[:, None, None]
-    flat = cells.sides[:, :, :2]
-
-    def changes(strain: np.ndarray, curvature: np.ndarray, at: np.ndarray) -> np.ndarray:
-        e, k = (form.reshape(-1, 2, 2)[plan] for form in (strain, curvature))
-        return np.asarray(flat @ (e - at * k))
-
-    strain, curvature = state.at()
-    sides = flat + changes(strain, curvature, np.zeros((1, 1, 1)))
-    area = np.abs(np.linalg.det(sides))
-    springs = of_stiffness(cells.stiffness, np.pad(sides, ((0, 0), (0, 0), (0, 1))), area)
-
-    def make(strain: np.ndarray, curvature: np.ndarray) -> Family:
-        moved, natural = changes(strain, curvature, heights), np.empty((len(cells), 11))
-        natural[:, :7] = springs
-        for column, (s, t) in enumerate(((0, 0), (1, 1), (0, 1)), start=7):
-            natural[:, column] = _change(flat[:, s], flat[:, t], moved[:, s], moved[:, t])
-        natural[:, 10] = np.abs(np.linalg.det(flat + moved))
-        return replace(cells, law=NATURAL, natural=natural)
-
-    return make
+def _of_natural_sides(cells: SpringCells, strain: np.ndarray) -> np.ndarray:
+    """Stiffness (c, 4 or 7) [N/m] for drawn sides that is that of the springs for sides grown by a strain."""
+    grown = cells.sides.copy()
+    grown[:, :, :2] += cells.sides[:, :, :2] @ strain
+    natural = of_stiffness(cells.stiffness, grown, np.abs(np.linalg.det(grown[:, :, :2])))
+    drawn = of_stiffness(np.ones_like(cells.stiffness), cells.sides, cells.area)
+    return (natural / drawn)[:, : cells.stiffness.shape[1]]
 
 
-def _change(a: np.ndarray, b: np.ndarray, moved_a: np.ndarray, moved_b: np.ndarray) -> np.ndarray:
-    """Change of a · b of sides that have moved by so much."""
-    return np.asarray((a * moved_b + b * moved_a + moved_a * moved_b).sum(axis=-1))
+def _natural(sides: Array, ends: Array, cells: Array, shares: Array, *forms: Array) -> Array:
+    """Return √g₀ of a link or √det g₀ of a cell, then δg₀ of products of sides (2, m, p, 3) at heights (m, 2)
+    [m], (1 + p, m), by strains and curvatures of cells (rows, columns, 2, 2)."""
+    e, k = (form.reshape(-1, 2, 2)[cells] for form in forms)
+    (a, b), plan = sides[:, :, None], sides[:, :, None, :, :2]
+    moved = [side @ (e - z[:, None, None, None] * k) for side, z in zip(plan, ends.T, strict=True)]
+    change = (plan * moved[::-1]).sum(axis=0) + moved[0] * moved[1]
+    by = np.einsum("mq,mqpi->pm", shares, change)
+    g = (a * b).sum(axis=-1)[:, 0].T + by
+    return np.stack([np.sqrt(g[0] if len(g) == 1 else g[0] * g[1] - g[2] ** 2), *by])

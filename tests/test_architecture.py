@@ -289,3 +289,15 @@ def test_a_class_name_means_one_thing_in_the_core():
                     files.setdefault(node.name, []).append(path.relative_to(ROOT).as_posix())
     twice = {name: where for name, where in files.items() if len(where) > 1}
     assert not twice
+
+
+def test_functions_of_the_core_take_nine_parameters_at_most():
+    """But compiled ones, which take no objects."""
+    for package in ("lumped", "fem_reference", "sheetbench"):
+        for path in sorted((ROOT / package).rglob("*.py")):
+            for node in nodes_of(path):
+                if not isinstance(node, ast.FunctionDef):
+                    continue
+                if "jit" not in "".join(map(ast.unparse, node.decorator_list)):
+                    names = [a.arg for a in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs)]
+                    assert len({*names} - {"self", "cls"}) <= 9, f"{path.relative_to(ROOT)}: {node.name}"

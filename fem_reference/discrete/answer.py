@@ -67,7 +67,7 @@ def answer(
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
     shape = sheet.shape(q, share)
     edges, wrenches, line = sheet.wrenches(shape, residual)
-    reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(q, share)
+    reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(shape)
     held = sheet.holding(q, residual, share)
     for item in sheet.items:
         for name, (places, forces) in item.holds(shape).items():

@@ -162,11 +162,11 @@ class DiscreteElements(Discrete):
         strain = self.strain(q)
         return strain, self.element.stress(strain)
 
-    def energies_by_part(self, q: np.ndarray, at: float = 1.0) -> dict[str, float]:
-        return self.element.energies(self.strain(q, at))
+    def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
+        return self.element.energies(shape.strain)
 
-    def elastic(self, q: np.ndarray, at: float = 1.0) -> float:
-        return sum(self.energies_by_part(q, at).values())
+    def elastic(self, shape: SheetShape) -> float:
+        return sum(self.energies_by_part(shape).values())
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         shape, element = self.shape(q, 0.0), self.element

@@ -292,11 +292,11 @@ class Discrete(Output):
         """Strains, and the elastic stresses that go with them, as `relaxation` takes them."""
 
     @abstractmethod
-    def energies_by_part(self, q: np.ndarray, at: float = 1.0) -> dict[str, float]:
+    def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
         """Strain energy [J] of the sheet by part."""
 
     @abstractmethod
-    def elastic(self, q: np.ndarray, at: float = 1.0) -> float:
+    def elastic(self, shape: SheetShape) -> float:
         """Strain energy [J] of the sheet."""
 
     @abstractmethod

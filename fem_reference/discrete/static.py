@@ -79,8 +79,7 @@ class Static(Creeping[StaticState, Forces]):
     def potential(self, state: StaticState, load_factor: float) -> tuple[float, float]:
         sheet = self.sheet
         shape = sheet.shape(state.q, load_factor)
-        stored = sheet.elastic(state.q, load_factor)
-        stored += sum(body.energy(state.q, load_factor) for body in sheet.bodies)
+        stored = sheet.elastic(shape) + sum(body.energy(state.q, load_factor) for body in sheet.bodies)
         of_items = sum(item.potential(shape) for item in sheet.items)
         return stored + of_items, stored + abs(of_items)
 

@@ -210,17 +210,17 @@ class DiscretePlate(Discrete):
     def strains(self, q: np.ndarray) -> Strained:
         return q, self.stiffness @ q
 
-    def energies_by_part(self, q: np.ndarray, at: float = 1.0) -> dict[str, float]:
-        own = dict(zip(PARTS, self.at_rest(at).strains, strict=False))
-        nodal, out = q[self.elements.unknowns], {}
+    def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
+        own = dict(zip(PARTS, self.at_rest(shape.at).strains, strict=False))
+        nodal, out = shape.q[self.elements.unknowns], {}
         for name, operator, section in zip(PARTS, self._strains, self.section, strict=True):
             strain = (operator @ nodal[:, None, :, None])[..., 0] - own.get(name, 0.0)
             force = (section @ strain[..., None])[..., 0]
             out[name] = 0.5 * float(np.einsum("mq,mqi,mqi", self.elements.areas, strain, force))
         return out
 
-    def elastic(self, q: np.ndarray, at: float = 1.0) -> float:
-        own = self.at_rest(at)
+    def elastic(self, shape: SheetShape) -> float:
+        q, own = shape.q, self.at_rest(shape.at)
         return 0.5 * self.stiffness_of(q, q, q) - float(np.sum(own.force * q)) + own.stored
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:

@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference.discrete.energies import energies
+from fem_reference.discrete.sheet import Discrete
 from fem_reference.motion.generalised_alpha import Sampled
-from fem_reference.motion.moving import MovingSheet
 from sheetbench.answers.history import ENERGIES
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
@@ -20,7 +20,7 @@ class ReferenceObserver:
 
     least_energy = 0.0
 
-    def __init__(self, model: MovingSheet, scene: Scene):
+    def __init__(self, model: Discrete, scene: Scene):
         self._model, self._points = model, scene.probe_points()
         nothing = np.zeros(model.size)
         self._reactions = list(model.reactions(nothing))

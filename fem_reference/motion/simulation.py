@@ -8,7 +8,6 @@ their error allows; samples lie within them, cubic in time between their ends.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from inspect import signature
 from typing import Any
 
@@ -18,11 +17,8 @@ from fem_reference.defaults import with_defaults
 from fem_reference.discrete.energies import SheetMotion
 from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
-from fem_reference.motion.moving import MovingSheet
 from fem_reference.motion.observer import ReferenceObserver
-from fem_reference.motion.plate import MovingPlate
-from fem_reference.motion.shell import MovingShell
-from fem_reference.motion.solid import MovingSolid
+from fem_reference.sheets import SHEETS
 from fem_reference.vibration import modes
 from sheetbench.answers.contact import friction_notes
 from sheetbench.answers.history import History
@@ -35,11 +31,6 @@ from sheetbench.scenes import AnyScene, Scene, require_no_branches, scene_of
 from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.objects.quantities import require_positive
 
-MODELS: dict[str, Callable[..., MovingSheet]] = {
-    "plate": MovingPlate,
-    "shell": MovingShell,
-    "solid": MovingSolid,
-}
 INTEGRATORS = {"generalised-alpha": ConstrainedAlpha, "energy-momentum": EnergyMomentum}
 STEPS_PER_PERIOD = 200
 
@@ -83,8 +74,8 @@ def simulate(
     if model == "plate":
         require_no_obstacles(requested, "the plate, which is linear,")
     require_choice("integrator", integrator, INTEGRATORS)
-    options = with_defaults(requested, signature(MODELS[model]).parameters, options)
-    moving = MODELS[model](requested, **options)
+    options = with_defaults(requested, signature(SHEETS[model]).parameters, options)
+    moving = SHEETS[model](requested, **options, moving=True)
     spacing = every or _lowest_period(requested) / SAMPLES_PER_PERIOD
     count = sample_count(duration, spacing, whole=every is not None)
     schedule = Schedule(count, duration / count, count)
@@ -124,8 +115,8 @@ def simulate(
 
 def require_moving(scene: Scene, model: str) -> None:
     """Raise BadInput for a model that does not move, or a scene with what no reference moves."""
-    if model not in MODELS:
-        raise BadInput(f"reference = '{model}': {listed(MODELS)} can move")
+    if model not in SHEETS:
+        raise BadInput(f"reference = '{model}': {listed(SHEETS)} can move")
 
 
 def _lowest_period(scene: Scene) -> float:

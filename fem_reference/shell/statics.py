@@ -189,14 +189,18 @@ def _solution(
 
 
 def discretise(
-    mesh: MeshQuad, scene: Scene, section: Section | None = None, law: str = STRAIN_LAW
+    mesh: MeshQuad,
+    scene: Scene,
+    section: Section | None = None,
+    law: str = STRAIN_LAW,
+    moving: bool = False,
 ) -> DiscreteShell:
-    """The discrete shell of a scene at rest, on a mesh."""
+    """The discrete shell of a scene, at rest unless it is moving, on a mesh."""
     plan = plan_of(mesh)
-    return DiscreteShell(plan, scene, elements_of(plan, scene, section, law), law == STRAIN_LAW)
+    return DiscreteShell(plan, scene, _elements_of(plan, scene, section, law), law == STRAIN_LAW, moving)
 
 
-def elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:
+def _elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:
     """The elements of a scene's shell on a plan, of a law of strain and, unless that is another than the
     default, of a section."""
     nodes = plan.corners

@@ -184,17 +184,19 @@ def discretise(
     layers: int = 1,
     law: str = STRAIN_LAW,
     clamp: str = "shell-like",
+    moving: bool = False,
 ) -> DiscreteSolid:
-    """The discrete solid of a scene at rest, on a plan mesh of straight-sided quadrilaterals.
+    """The discrete solid of a scene, at rest unless it is moving, on a plan mesh of straight-sided
+    quadrilaterals.
 
     Supports and loads act on the mesh's boundaries of their edges' names; of the scene's sheet only the
     thickness is used. Raises BadInput for an unknown law or clamp, no layers or a folded element.
     """
-    columns, material = columns_of(mesh, scene, layers, law)
-    return DiscreteSolid(columns, scene, law, material, clamp)
+    columns, material = _columns_of(mesh, scene, layers, law)
+    return DiscreteSolid(columns, scene, law, material, clamp, moving)
 
 
-def columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Columns, Material | Constants]:
+def _columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Columns, Material | Constants]:
     """The columns of a scene's solid over a mesh, and what its bricks are made of."""
     require_upright(mesh)
     require_law(law, LAWS, scene.material)

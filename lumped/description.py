@@ -229,10 +229,10 @@ def _without_stress(cells: SpringCells) -> tuple[np.ndarray, np.ndarray, np.ndar
     flat = np.stack([(x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))], axis=1)
     if cells.natural is None:
         return cells.stiffness, flat, cells.area
-    natural, area = flat + cells.natural[:, 7:10], cells.natural[:, 10].copy()
+    natural, area = flat + cells.natural[1:].T, cells.natural[0].copy()
     one, other, turn = 2.0 * natural[:, 0], 2.0 * natural[:, 1], area
     units = area**2, one**2, other**2, turn**2, one * other, one * turn, other * turn
-    return cells.natural[:, :7] * np.stack(units, axis=1) / area[:, None], natural, area
+    return cells.constants * np.stack(units, axis=1) / area[:, None], natural, area
 
 
 def _holds(problem: Problem) -> tuple[Hold, ...]:

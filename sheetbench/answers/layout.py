@@ -161,7 +161,8 @@ def _block(strips: list[_Strip], width: int | None, starts: list[bool]) -> Block
         )  # fmt: skip
     for row, start in zip(zip(*(strip.cells for strip in strips), strict=True), starts, strict=True):
         layout.add_row(*map(Text, row), end_section=start)
-    console = Console(file=StringIO(), width=width or UNBOUNDED, color_system=None, legacy_windows=False)
+    plain = dict(color_system=None, legacy_windows=False, force_jupyter=False)
+    console = Console(file=StringIO(), width=width or UNBOUNDED, **plain)  # type: ignore[arg-type]
     console.print(layout)
     lines = [line.rstrip() for line in console.file.getvalue().splitlines()]  # type: ignore[attr-defined]
     rule = next(i for i, line in enumerate(lines) if set(line) == {RULE})

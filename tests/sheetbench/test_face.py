@@ -50,10 +50,6 @@ def test_every_name_is_there():
         sb.weigh  # noqa: B018
 
 
-def test_it_is_a_command_too():
-    assert python("-m", "sheetbench", "--version") == "sheetbench 0.1.0"
-
-
 def test_a_users_own_modules_do_not_shadow_ours(tmp_path):
     for taken in ("scenes.py", "report.py", "models.py", "catalogue.py"):
         (tmp_path / taken).write_text("raise SystemExit('mine')\n")

@@ -33,29 +33,6 @@ def test_a_held_strain_relaxes_as_its_prony_series(model):
     assert np.abs(found)[held] == pytest.approx(at_rest * series[held], rel=1e-6)
 
 
-def decay(scene, model, duration):
-    """Frequency [Hz] and damping ratio of the swing about the sheet's rest, by its peaks."""
-    run = fem_reference.simulate(scene, model, duration, elements=2, every=duration / 2000, error=1e-4)
-    u = run.probes["P4"][:, 2]
-    rest = fem_reference.solve(scene, model=model, elements=2).displacement(scene.probe_points())[3, 2]
-    off = u - rest
-    tops = np.flatnonzero((off[1:-1] > off[:-2]) & (off[1:-1] > off[2:])) + 1
-    tops = tops[off[tops] > 0.02 * np.abs(off).max()]
-    falls = np.log(off[tops[0]] / off[tops[-1]]) / (len(tops) - 1)
-    return (len(tops) - 1) / (run.time[tops[-1]] - run.time[tops[0]]), falls / np.hypot(2.0 * np.pi, falls)
-
-
-def test_a_swing_decays_as_its_pole_has_it():
-    """The lowest mode of the linear plate let go under its weight; what is allowed is of the other modes."""
-    scene = scenes.load("one-edge-clamped").replace(loss_factor=0.12, band=(0.5, 20.0))
-    lowest = float(fem_reference.modes(scene, "plate", elements=2, count=1).frequencies[0])
-    pole = scene.material.branches.pole(2.0 * np.pi * lowest)
-    frequency, ratio = decay(scene, "plate", 6.0 / lowest)
-    assert frequency == pytest.approx(pole.imag / (2.0 * np.pi), rel=0.02)
-    assert ratio == pytest.approx(-pole.real / abs(pole), rel=0.05)
-    assert ratio == pytest.approx(0.06, rel=0.12)
-
-
 @pytest.mark.parametrize("model", ["plate", "shell"])
 def test_energy_is_kept_in_books_with_branches(model):
     """Within the step's error, as without branches; branches dissipate."""

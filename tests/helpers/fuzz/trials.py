@@ -19,6 +19,7 @@ from comparisons.models.spec import Lattice
 from fuzz.judge import BAD_INPUT, NOT_CONVERGED, document, files, held, in_balance, outcome
 from sheetbench import scenes
 
+PYDANTIC = {"Input", "tuple", "instance", "dictionary", "constrained", "union"}  # words of its own messages
 WORDS = {0: "done", BAD_INPUT: "refused", NOT_CONVERGED: "not converged"}
 
 
@@ -34,6 +35,7 @@ def reads(folder: Path, text: bytes) -> str:
         said = str(refused)
         assert said.startswith(str(path)) and "\n" not in said and len(said) < 3000
         assert not any(c < " " or "\x7f" <= c < "\xa0" for c in said), repr(said)
+        assert not PYDANTIC & {word.strip("':;,.") for word in said.replace("support", "").split()}, said
         return "refused"
     assert scenes.Scene.model_validate(scene.document()) == scene
     return "done"

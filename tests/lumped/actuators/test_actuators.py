@@ -5,8 +5,6 @@ import pytest
 from dynamic_cases import make_scene, springs
 from lattice_cases import derivative
 from numpy.testing import assert_allclose
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 import lumped
 from lumped.actuators import Drive
@@ -15,7 +13,6 @@ from lumped.actuators.corners import SharedEnd
 from lumped.lattice import build
 from lumped.statics.solver import build_problem, solve_path
 from sheetbench import scenes
-from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Chain as ChainData
 from sheetbench.scenes import Sheet
 
@@ -86,67 +83,6 @@ def test_average_force_gives_back_the_joints_energy(plane):
     stored = chain.force(end, drive)[0] - chain.force(start, drive)[0]
     moved = np.sum((force * (end - start))[: chain.frames.coordinates])
     assert moved == pytest.approx(stored, rel=1e-11)
-
-
-def elastica(load, count=200):
-    """Tip place (x, y) of a cantilever of unit length and stiffness under a dead force `load` across it.
-
-    θ'' = −load cos θ, θ(0) = 0, θ'(1) = 0, found by shooting on θ'(0).
-    """
-
-    def shoot(slope):
-        def rate(s, y):
-            return [y[1], -load * np.cos(y[0]), np.cos(y[0]), np.sin(y[0])]
-
-        return solve_ivp(rate, (0.0, 1.0), [0.0, slope, 0.0, 0.0], rtol=1e-10, atol=1e-12).y[:, -1]
-
-    slope = brentq(lambda k: shoot(k)[1], 0.0, load + 5.0)
-    return shoot(slope)[2:]
-
-
-def equilibrium(chain, force, drive, steps=4):
-    """Rows of a chain alone under dead forces (rows, 3), by Newton in load steps."""
-    y, free = np.zeros((chain.rows, 3)), chain.free.ravel()
-    for share in np.linspace(1.0 / steps, 1.0, steps):
-        command = Drive(share * drive.load_factor)
-        for _ in range(30):
-            residual = (share * force - chain.force(y, command)[1]).ravel()
-            tangent = chain.tangent(y, command).reshape(y.size, y.size)
-            move = np.zeros(y.size)
-            move[free] = np.linalg.solve(tangent[np.ix_(free, free)], residual[free])
-            y = y + move.reshape(y.shape)
-            if np.abs(move).max() < 1e-12:
-                break
-        else:
-            raise AssertionError("no equilibrium")
-    return y
-
-
-@pytest.mark.parametrize("plane, axis", [("normal", 2), ("inplane", 0), ("spatial", 2)])
-def test_chain_under_an_end_load_reproduces_the_elastica(plane, axis):
-    stiffness, length, errors = 0.02, 0.3, []
-    for segments in (16, 32):
-        chain = chain_of(plane=plane, base="start", segments=segments, bending_stiffness=stiffness)
-        force = np.zeros((chain.rows, 3))
-        force[segments, axis] = 5.0 * stiffness / length**2
-        with one_blas_thread():
-            tip = equilibrium(chain, force, Drive())[segments]
-        x, y = elastica(5.0)
-        expected = length * np.array([x - 1.0, y])
-        errors.append(np.abs(tip[[1, axis]] - expected).max() / np.abs(expected).max())
-    assert errors[1] < 5e-3
-    assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.15)
-
-
-@pytest.mark.parametrize("plane, axis", [("normal", 2), ("inplane", 0), ("spatial", 2)])
-def test_commanded_curvature_bends_a_free_chain_into_a_polygon_of_the_arc(plane, axis):
-    chain = chain_of(plane=plane, base="middle", segments=6, curvature=5.0)
-    y = equilibrium(chain, np.zeros((chain.rows, 3)), Drive())
-    turn, length = 5.0 * 0.05, 0.05
-    angles = turn * (np.arange(3) + 0.5)
-    assert y[6, axis] == pytest.approx(length * np.sin(angles).sum())
-    assert y[6, 1] == pytest.approx(length * (np.cos(angles) - 1.0).sum())
-    assert_allclose(y[0, [0, 2]], y[6, [0, 2]], atol=1e-12)
 
 
 def stiff_against_curved(segments):
@@ -301,16 +237,3 @@ def test_a_held_base_carries_sheet_and_chain_in_statics_and_at_the_end_of_a_run(
     assert_allclose(solution.reactions["x0 base"], [0.0, 0.0, weight], atol=1e-8 * weight)
     history = lumped.simulate(scene, springs(scene, 3), 0.8, step=1e-2, every=0.1, radius=0.5)
     assert history.reactions["x0 base"][-1] == pytest.approx([0.0, 0.0, weight], abs=0.01 * weight)
-
-
-def test_one_stiff_segment_held_at_its_middle_is_a_clamp():
-    only = [{"edge": "x1", "segments": 1, "base": "middle", "line_density": 0.02, "bending_stiffness": 1e5}]
-    held = make_scene("one-edge-clamped", only)
-    both = make_scene("one-edge-clamped", supports=[{"edge": e, "kind": "clamped"} for e in ("x0", "x1")])
-    chain, clamp = (lumped.solve(scene, springs(held)) for scene in (held, both))
-    points = held.probe_points()
-    assert_allclose(chain.displacement(points), clamp.displacement(points), atol=1e-8)
-    own = [0.0, 0.0, 9.81 * 0.02 * 0.188]
-    assert_allclose(chain.reactions["x1 base"], clamp.reactions["x1"] + own, atol=1e-5)
-    history = lumped.simulate(held, springs(held), 0.02, step=1e-3)
-    assert history.status is scenes.Status.CONVERGED

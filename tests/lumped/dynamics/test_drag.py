@@ -1,11 +1,9 @@
 """Drag of the air on the lattice: closed forms, energy, tangent (of references: test_moving_drag.py)."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-from drag_cases import FALL, PER_AREA, SHEET, fallen, falling
-from dynamic_cases import run, springs, system
+from drag_cases import FALL, SHEET, fallen, falling
+from dynamic_cases import springs, system
 from lattice_cases import derivative
 
 import lumped
@@ -27,25 +25,6 @@ def test_a_sheet_falls_flat_as_in_closed_form(name):
     assert misses[-1] < 1e-5 and np.ptp(history.balance) < 2e-5 * np.ptp(history.energies["potential"])
     assert history.energies["dissipated"][-1] > 0.25 * np.ptp(history.energies["potential"])
     assert name == "esdirk" or np.log2(misses[0] / misses[1]) == pytest.approx(2.0, abs=0.15)
-
-
-def test_a_swing_shrinks_as_quadratic_drag_has_it():
-    """1/a grows by (4/3π) ω B/M ½ ρ c_d a second, here 2 % of 1/a a period; to the square of that."""
-    still = SHEET.replace(gravity=None)
-    modes = lumped.modes(still, springs(still), 1, "gregory")
-    shape, frequency = modes.shapes[0], modes.frequencies[0]
-    mass, amplitude = system(still)[0].lattice_mass[:, None], 1e-5
-    areas = mass[:, 0] / PER_AREA
-    modal, resisting = np.sum(mass * shape**2), np.sum(areas * np.abs(shape[:, 2]) ** 3)
-    coefficient = 0.02 * 3.0 / 8.0 * modal / resisting / amplitude
-    equations, rest = system(still.replace(air=Air(drag=2.0 * coefficient, density=1.0)))
-    start = replace(rest, u=amplitude * shape)
-    start = replace(start, a=equations.accelerate(equations.unbalanced(start.u, rest.v, 0.0)))
-    step = 1.0 / (40.0 * frequency)
-    states, taken = run(INTEGRATORS["esdirk"](equations, step), start, step, 400)
-    swing = np.array([[np.sum(mass * shape * x) / modal for x in (s.u, s.v)] for s in states[::40]])
-    inverse = amplitude / np.hypot(swing[:, 0], swing[:, 1] / (2.0 * np.pi * frequency))
-    assert np.diff(inverse) == pytest.approx(0.02, rel=2e-3) and taken.min() >= 0.0
 
 
 def test_drag_is_normal_to_the_current_surface_and_its_tangent_a_derivative():

@@ -178,17 +178,6 @@ def test_without_damping_no_damper_is_assembled():
     assert not equations.damping.present
 
 
-@pytest.mark.parametrize("name", ["verlet", "generalised-alpha", "esdirk", "midpoint"])
-def test_moving_support_carries_the_sheet_along(name):
-    motion = {"time": [0.0, 0.05, 0.1], "displacement": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.004], [0.0, 0.0, 0.0]]}
-    supports = [{"edge": "x0", "kind": "clamped", "motion": motion}]
-    scene = make_scene(gravity=False, supports=supports, damping_time=1e-3)
-    history = lumped.simulate(scene, springs(scene, 4), 0.08, integrator=name, every=0.002)
-    assert history.status is Status.CONVERGED
-    assert 0.001 < largest(history.probes["P4"]) < 0.05
-    assert largest(history.balance - history.balance[0]) < 0.03 * largest(history.energies["work"])
-
-
 def test_unknown_choices_are_refused():
     scene = make_scene()
     for options, said in (

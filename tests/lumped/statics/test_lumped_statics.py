@@ -208,13 +208,6 @@ def test_per_direction_stiffness_is_the_seeds_law_and_said():
     assert np.array_equal(equal.displacement([[0.188, 0.1]]), plain.displacement([[0.188, 0.1]]))
 
 
-def test_the_scenes_own_springs_are_used():
-    scene = SEED["one-edge-clamped"]
-    solution = lumped.solve(with_springs(scene))
-    assert solution.settings["calibration"] == "scene"
-    assert vertical(scene, solution) == pytest.approx(vertical(scene, solve(scene)), rel=1e-12)
-
-
 # ---- ends that are not a plain stable equilibrium --------------------------------------------------
 
 

@@ -39,6 +39,12 @@ def test_every_figure_and_status_is_whole_at_any_width(width):
     assert width is None or max(map(cell_len, lines)) <= width
 
 
+def test_a_notebook_prints_the_same_text(monkeypatch):
+    on_a_terminal = text_of(WIDE, 100)
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    assert text_of(WIDE, 100) == on_a_terminal
+
+
 def test_a_narrow_table_is_stacked_in_blocks_that_name_their_rows():
     narrow = blocks(WIDE, 50)
     assert len(narrow) > 1 and len(blocks(WIDE, 160)) == len(blocks(WIDE, None)) == 1

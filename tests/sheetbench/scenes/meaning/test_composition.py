@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sheetbench.scenes import Patch, Scene, SceneError, Sheet, load
+from sheetbench.scenes import Scene, SceneError, Sheet
 from sheetbench.scenes.meaning.composition import constants_at, mass_of, parts_between, sides_of
 
 GRAVITY = {"acceleration": (0.0, 0.0, -9.81)}
@@ -69,9 +69,3 @@ def test_what_is_no_patch_is_refused(patch, said):
 def test_a_taper_beside_the_thickness_is_refused():
     with pytest.raises(SceneError, match=r"taper_x = \[0.002, 0.001\] m: thickness = 0.003 m is not between"):
         Sheet(0.2, 0.1, 0.003, taper_x=(0.002, 0.001))
-
-
-def test_a_file_says_what_an_object_does(tmp_path):
-    scene = scene_of(Patch(ROOT, young=5e7), {"shape": WEDGE, "density": 1.0}, taper_y=(0.003, 0.002))
-    scene.save(tmp_path / "drawn.toml")
-    assert load(tmp_path / "drawn.toml") == scene and not scene.uniform

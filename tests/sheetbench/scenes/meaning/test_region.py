@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sheetbench.answers.balance import dead_force
-from sheetbench.scenes import BadInput, Clamped, Scene, SceneError, Sheet, free_rigid_motions, load
+from sheetbench.scenes import BadInput, Clamped, Scene, SceneError, Sheet, free_rigid_motions
 from sheetbench.scenes.meaning.composition import mass_of, shares_of
 from sheetbench.scenes.meaning.region import edge_length
 from sheetbench.scenes.meaning.words import in_words
@@ -81,12 +81,6 @@ def test_what_a_shape_holds_stops_motions():
         "translation along y",
         "rotation about z",
     ]
-
-
-def test_a_file_says_what_an_object_does(tmp_path):
-    scene = fin(load=[{"kind": "area", "force_per_area": (0.0, 0.0, 1.0), "where": DISC}])
-    scene.save(tmp_path / "fin.toml")
-    assert load(tmp_path / "fin.toml") == scene == Scene.model_validate(scene.document())
 
 
 @pytest.mark.parametrize(

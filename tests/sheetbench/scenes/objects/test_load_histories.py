@@ -1,7 +1,5 @@
 """Loads over time: what is refused, statics at the last factor, motion against solve_ivp, energy, orders."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 from dynamic_cases import make_scene, springs, system
@@ -12,7 +10,6 @@ import fem_reference
 import lumped
 from comparisons.models.scales import scales
 from comparisons.models.symmetry import half, planes
-from lumped.dynamics import INTEGRATORS
 from lumped.loads import Loads
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
@@ -219,18 +216,6 @@ def test_a_ramped_force_moves_the_cantilever_as_solve_ivp_says(reference, name, 
     assert largest(history.probes["P3"] - truth) < 1e-3 * largest(truth)  # measured below 1e-4
 
 
-def test_the_sheet_follows_slow_ramps_through_the_static_solutions():
-    pressure = {"kind": "pressure", "value": 6.0, "history": {"time": [0.0, 4.0], "factor": [0.0, 1.0]}}
-    scene = make_scene("one-edge-clamped", gravity=False, loads=[pressure], damping_time=1e-2)
-    history = lumped.simulate(scene, springs(scene, 4), 4.0, step=0.02, every=1.0)
-    assert history.status is Status.CONVERGED
-    for i, factor in enumerate(history.time[1:] / 4.0, start=1):
-        there = scene.model_copy(update={"loads": (Pressure(value=6.0 * factor),)})
-        static = lumped.solve(there, springs(scene, 4)).displacement(scene.probe_points())
-        found = np.array([history.probes[name][i] for name in scene.probes])
-        assert largest(found - static) < 0.01 * largest(history.probes["P4"])
-
-
 def shaken(damping_time=0.0):
     """Constant weight, a swinging force, a pulse of pressure and an edge moment."""
     time = np.linspace(0.0, 0.2, 401)
@@ -270,25 +255,3 @@ def test_weight_with_a_history_does_work_and_has_no_potential():
     weight = 9.81 * 1678.0 * 0.188**2 * 0.003
     static = lumped.solve(scene, springs(scene, 4))
     assert static.reactions["x0"][2] == pytest.approx(weight)
-
-
-ORDER_STEPS = {"verlet": 4e-5, "generalised-alpha": 4e-5, "midpoint": 4e-5}
-
-
-@pytest.mark.parametrize("name", ORDER_STEPS)  # a table's corners hide the error of a fifth order
-def test_orders_are_as_declared_under_a_smooth_load(name):
-    time = np.linspace(0.0, 0.002, 2001)
-    history = {"time": time.tolist(), "factor": np.sin(400.0 * time).tolist()}
-    loads = [
-        tip_force(history, force=[0.0, 0.0, 0.5]),
-        {"kind": "pressure", "value": 100.0, "history": history},
-    ]
-    scene = make_scene("one-edge-clamped", gravity=False, loads=loads)
-    ends = []
-    for halvings in (1, 2, 3):
-        step = ORDER_STEPS[name] / 2**halvings
-        found = lumped.simulate(scene, springs(scene, 3), 0.002, integrator=name, step=step, every=0.002)
-        ends.append(found.probes["P4"][-1])
-    changes = [largest(a - b) for a, b in pairwise(ends)]
-    assert np.log2(changes[0] / changes[1]) == pytest.approx(INTEGRATORS[name].order, abs=0.15)
-    assert changes[1] < 2e-3 * largest(ends[-1])

@@ -97,11 +97,3 @@ def test_constants_that_make_no_rubber_are_refused_with_file_key_and_value(said,
     with pytest.raises(sb.SceneError) as refused:
         sb.load(path)
     assert str(refused.value).startswith(f"{path}: ") and said in str(refused.value)
-
-
-def test_references_take_the_law_of_the_material():
-    import fem_reference
-
-    scene = sb.load("two-edges-clamped").replace(material=rubber("neo-hookean"))
-    assert fem_reference.solve(scene, elements=2).settings["law"] == "neo-hookean"
-    assert fem_reference.solve(scene, elements=2, law="biot").settings["law"] == "biot"

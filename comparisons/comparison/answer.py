@@ -8,21 +8,39 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from comparisons.comparison.errors import Compared
 from comparisons.comparison.notes import notes
-from comparisons.comparison.rows import CostRow, ProbeRow, ReactionRow
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.pictures.plan import plan_mesh
 from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.solution import Solution, Status
-from sheetbench.answers.table import Table
+from sheetbench.answers.table import (
+    MILLIMETRES,
+    MILLISECONDS,
+    NEWTONS,
+    NUMBER,
+    PERCENT,
+    SECONDS,
+    Column,
+    Table,
+)
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.supports import named
+
+MOVED = (
+    *("probe", MILLIMETRES(".4g", "x", detail=True), MILLIMETRES(".4g", "y", detail=True), "model"),
+    *(MILLIMETRES("z.3f", f"u{axis}") for axis in "xyz"),
+    *(PERCENT("z.2f", "difference"), PERCENT(".2g", "±")),
+)
+COSTS = (
+    *("model", Column("what it is", prose=True, detail=True), NUMBER("d", "unknowns")),
+    *(NUMBER("d", "factorisations"), SECONDS("z.2f", "set-up"), MILLISECONDS(".1f", "solve")),
+    *(PERCENT("z.2f", "error"), PERCENT("z.2f", "est."), Column("status", prose=True)),
+)
+FORCES = ("edge", "model", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
 
 
 @dataclass(frozen=True, repr=False)
@@ -104,21 +122,21 @@ class Comparison(Compared, Answer):
         ordered = sorted(self.solutions, key=lambda solution: solution is not self.reference)
         models = [(s.model, self.probes(s), self.relative_bars(s)) for s in ordered]
         rows = (
-            ProbeRow(probe, x, y, model, _named("u", moved[probe]), off.get((probe, model)), bars.get(probe))
+            (probe, x, y, model, *moved[probe], off.get((probe, model)), bars.get(probe))
             for probe, (x, y) in self.scene.probes.items()
             for model, moved, bars in models
         )
-        return Table.of(ProbeRow, rows, "Displacement of the mid-surface", "table", grouped=True)
+        return Table.listed("Displacement of the mid-surface", MOVED, rows, "table", grouped=True)
 
     def _costs(self) -> Table:
         rows = (
-            CostRow(
-                s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds, self.error(s),
-                self._expected(s), s.status_text,
+            (
+                *(s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds),
+                *(self.error(s), self._expected(s), s.status_text),
             )
             for s in self.solutions
-        )  # fmt: skip
-        return Table.of(CostRow, rows, "Cost and error of each model", "models", text="; ".join(self.busy))
+        )
+        return Table.listed("Cost and error of each model", COSTS, rows, "models", text="; ".join(self.busy))
 
     def _expected(self, solution: Solution) -> float | None:
         """Return the grid error expected of the chosen lattice; where there is none a note says why."""
@@ -128,14 +146,13 @@ class Comparison(Compared, Answer):
 
     def _reactions(self, of: Collection[str] | None = None) -> Table:
         """Of all supports, or of those named."""
-        found = sorted(
-            (edge, s.model, force)
+        rows = sorted(
+            (edge, s.model, *force)
             for s in self.solutions
             for edge, force in s.reactions.items()
             if of is None or edge in of
         )
-        rows = (ReactionRow(edge, model, _named("F", force)) for edge, model, force in found)
-        return Table.of(ReactionRow, rows, "Force of each support on the sheet", "reactions")
+        return Table.listed("Force of each support on the sheet", FORCES, rows, "reactions")
 
     def figures(self) -> tuple[Picture, ...]:
         """Return the deformed sheets, and what every model is off by at the probes."""
@@ -187,8 +204,3 @@ class Comparison(Compared, Answer):
         """Return what to know of the errors first, then the models and what was chosen for them, and what the
         percentages mean."""
         return notes(self)
-
-
-def _named(letter: str, vector: np.ndarray) -> dict[str, float]:
-    """Return the components of a vector (3,) by name."""
-    return {f"{letter}{axis}": float(part) for axis, part in zip("xyz", vector, strict=True)}

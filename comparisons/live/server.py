@@ -81,7 +81,7 @@ class Server(ThreadingHTTPServer):
     def server_close(self) -> None:
         """Answer no more."""
         super().server_close()
-        self.shells.abandon()
+        self.shells.shutdown(wait=False, cancel_futures=True)
 
     def verify_request(self, request: Any, client_address: Any) -> bool:
         """Return whether few enough connections are open for one more."""

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any, overload
+from typing import Any, overload
 
 import numpy as np
 
@@ -57,29 +57,11 @@ class Spectrum:
         }
 
 
-@dataclass(frozen=True)
-class ModeRow:
-    """A mode of the lattice: its kind and frequency, the mode of the same shape of every reference, and how
-    far the lattice is from the first of them."""
-
-    mode: Annotated[int, NUMBER("d")]
-    kind: str | None
-    frequencies: Mapping[Column, float | None]
-    relative: Annotated[float | None, PERCENT("+.2f", "difference")] = None
-    mac: Annotated[float | None, NUMBER(".3f", "MAC")] = None
-    expected: Annotated[float | None, PERCENT("+.2f")] = None
-
-
-@dataclass(frozen=True)
-class BucklingRow:
-    """A buckling mode of the lattice and that of the same shape of a reference."""
-
-    mode: Annotated[int, NUMBER("d")]
-    load_factor: Annotated[float, NUMBER(".5g", "load factor")]
-    against: Annotated[int | None, NUMBER("d", "reference's mode")] = None
-    reference: Annotated[float | None, NUMBER(".5g")] = None
-    relative: Annotated[float | None, PERCENT("+.2f", "difference")] = None
-    mac: Annotated[float | None, NUMBER(".3f", "MAC")] = None
+BUCKLED = (NUMBER("d", "mode"), NUMBER(".5g", "load factor"))
+AGAINST = (
+    *(NUMBER("d", "reference's mode"), NUMBER(".5g", "reference"), PERCENT("+.2f", "difference")),
+    NUMBER(".3f", "MAC"),
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -184,38 +166,40 @@ class Spectra(Answer, Sequence[Spectrum]):
         for first in self.buckling[:1]:
             factors, others = first.load_factors.tolist(), self.buckling[1:]
             if not others:
-                alone = [BucklingRow(i, factor) for i, factor in enumerate(factors, 1)]
-                without = ("against", "reference", "relative", "mac")
-                yield Table.of(BucklingRow, alone, "Buckling: times the loads", "buckling", without=without)
+                yield Table.listed("Buckling: times the loads", BUCKLED, enumerate(factors, 1), "buckling")
             for one in others:
                 rows = []
                 for pair in self.buckling_pairs:
                     if pair.against == one.model:
                         theirs = pair.is_ and float(one.load_factors[pair.is_ - 1])
                         ours = (pair.number, factors[pair.number - 1])
-                        rows.append(BucklingRow(*ours, pair.is_, theirs, pair.relative, pair.mac))
+                        rows.append((*ours, pair.is_, theirs, pair.relative, pair.mac))
                 caption = f"Buckling: times the loads, lattice and {one.model}"
-                yield Table.of(BucklingRow, rows, caption, f"buckling-{one.model}")
+                yield Table.listed(caption, (*BUCKLED, *AGAINST), rows, f"buckling-{one.model}")
 
     def tables(self) -> tuple[Table, ...]:
-        references, rows = [(spectrum, self.against(spectrum.model)) for spectrum in self[1:]], []
-        for i, kind in enumerate(self.kinds):
-            hertz: dict[Column, float | None] = {HERTZ(".4g", self[0].model): self.frequencies[i]}
-            for spectrum, pairs in references:
-                match = pairs[i].is_
-                hertz[NUMBER("d", f"{spectrum.model}'s mode")] = match
-                hertz[HERTZ(".4g", spectrum.model)] = match and spectrum.frequencies[match - 1]
-            first = references[0][1][i] if references else None
-            off = (first.relative, first.mac) if first else (None, None)
-            rows.append(ModeRow(i + 1, kind, hertz, *off, *self[0].expected[i : i + 1]))
-        empty = {"kind": not self.kinds[0], "expected": not self[0].expected}
-        empty |= dict.fromkeys(("relative", "mac"), not references)
-        without = [field for field, left_out in empty.items() if left_out]
+        references = [(spectrum, self.against(spectrum.model)) for spectrum in self[1:]]
+        count = len(self.frequencies)
+        columns: list[tuple[Column, Sequence[Any]]] = [(NUMBER("d", "mode"), range(1, count + 1))]
+        if any(self.kinds):
+            columns.append((Column("kind"), self.kinds))
+        columns.append((HERTZ(".4g", self[0].model), self.frequencies.tolist()))
+        for spectrum, pairs in references:
+            found = [pair.is_ for pair in pairs]
+            theirs = [is_ and spectrum.frequencies[is_ - 1] for is_ in found]
+            columns.append((NUMBER("d", f"{spectrum.model}'s mode"), found))
+            columns.append((HERTZ(".4g", spectrum.model), theirs))
+        for _, pairs in references[:1]:
+            columns.append((PERCENT("+.2f", "difference"), [pair.relative for pair in pairs]))
+            columns.append((NUMBER(".3f", "MAC"), [pair.mac for pair in pairs]))
+        if self[0].expected:
+            columns.append((PERCENT("+.2f", "expected"), self[0].expected))
+        heads, values = zip(*columns, strict=True)
         caption = f"Natural frequencies about the {self.about} sheet"
-        found = Table.of(ModeRow, rows, caption, "modes", without=without)
+        listed = Table.listed(caption, heads, zip(*values, strict=True), "modes")
         fields = ("number", "frequency_hz", "asked", "got", "miss")
         return (
-            found,
+            listed,
             *self._buckling_tables(),
             *(
                 Table.of(

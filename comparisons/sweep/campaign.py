@@ -181,7 +181,7 @@ class _Session:
                     return [*broken, *under_way.values()]
                 if cancelled:  # the connection was lost, which is nobody's fault: they go again on the next
                     waiting.extendleft([*under_way.values(), *cancelled])
-                    _leave(executor)
+                    executor.shutdown(wait=False, cancel_futures=True)
                     break
         return []
 
@@ -204,16 +204,9 @@ def _ended(executor: Executor) -> Iterator[Executor]:
     try:
         yield executor
     except BaseException:
-        _leave(executor)
+        executor.shutdown(wait=False, cancel_futures=True)
         raise
     executor.shutdown()
-
-
-def _leave(executor: Executor) -> None:
-    if isinstance(executor, Watched):
-        executor.abandon()
-    else:
-        executor.shutdown(wait=False, cancel_futures=True)
 
 
 def _submit(executor: Executor, run: Run) -> Future[Finished]:

@@ -206,13 +206,6 @@ def test_the_numpy_reader_takes_as_many_load_steps_as_a_large_rotation_needs():
     assert np.abs(u - truth).max() < AGREED * np.abs(truth).max()
 
 
-def test_the_numpy_reader_says_how_it_is_called():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("sys.argv", ["read_lattice.py"])
-        with pytest.raises(SystemExit, match="usage: python read_lattice"):
-            runpy.run_path(str(READERS / "read_lattice.py"), run_name="__main__")
-
-
 @pytest.fixture(scope="module")
 def rubbers(tmp_path_factory):
     """A folder of each law."""

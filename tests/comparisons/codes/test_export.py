@@ -137,8 +137,8 @@ def test_matlab_and_numpy_files_hold_the_same(folder):
 @pytest.mark.parametrize(
     ("scene", "settings"),
     [
-        (scenes.load("curved-edge"), {"grading": 0.5}),
         (HINGED, {"method": "moduli"}),
+        (scenes.load("curved-edge"), {"grading": 0.5}),
         (HALF, {"method": "consistent"}),
         (scenes.load("one-edge-clamped"), {"method": "uniform"}),
         *((HALF.replace(material=material), {"method": "hyperelastic"}) for material in RUBBERS),
@@ -146,7 +146,7 @@ def test_matlab_and_numpy_files_hold_the_same(folder):
         (WOVEN, {"grid": (5, 3)}),
         (SKEW, {"grid": (5, 3)}),
     ],
-    ids=["graded", "hinged and held", "half, point and edge loads", "uniform", *LAWS, "cut", "woven", "skew"],
+    ids=["hinged and held", "graded", "half, point and edge loads", "uniform", *LAWS, "cut", "woven", "skew"],
 )
 def test_numpy_alone_finds_our_displacements(scene, settings):
     lattice = arrays(lumped.describe(scene, spring_set(scene, **{"grid": 3, **settings})))

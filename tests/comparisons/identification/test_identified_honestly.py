@@ -272,7 +272,7 @@ def test_a_strip_that_swings_far():
 def test_unknowns_are_identified_on_springs_with_a_layer_distance():
     """The slopes are those of springs with that distance, or the search would not end where it began."""
     scene = scenes.load("two-edges-clamped")
-    own = {"calibration": "consistent", "layer_distance": 0.004}
+    own = {"calibration": "uniform", "layer_distance": 0.004}
     points = np.array([(x, y) for x in (0.1, 0.188) for y in (0.1, 0.188)])
     truth = solve(with_material(scene, young=50e6), "lumped", grid=3, **own)
     data = Displacements(points, truth.displacement(points))

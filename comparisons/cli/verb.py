@@ -139,15 +139,12 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
         plain = {} if draws else {"no_pictures": values.pop("no_pictures")}
         grouped = declared.grouped(values, verb=name, **plain)
         try:
-            if not quiet and not verbose:
-                command(**grouped)
-                return
-            from comparisons.cli import console  # with rich: help must not wait for it
+            if quiet or verbose:
+                from comparisons.cli import console  # with rich: help must not wait for it
 
-            with (
-                console.quietly() if quiet else nullcontext(),
-                console.verbosely() if verbose else nullcontext(),
-            ):
+                with console.speaking(quiet, verbose):
+                    command(**grouped)
+            else:
                 command(**grouped)
         except ValueError as error:
             from sheetbench.errors import Impossible, SceneError

@@ -55,7 +55,6 @@ class Comparison(Compared, Answer):
         return all(solution.status is Status.CONVERGED for solution in self.solutions[:2])
 
     def document(self) -> dict[str, Any]:
-        """Return the JSON document of `sheetbench compare`: metres, newtons, seconds."""
         return {
             "scene": self.scene.document(),
             "solutions": [self._solution_document(solution) for solution in self.solutions],
@@ -91,7 +90,6 @@ class Comparison(Compared, Answer):
         }
 
     def result(self) -> str:
-        """Return how far each model is from the reference, or how it ended."""
         return "; ".join(map(self._result, (one for one in self.solutions if one is not self.reference)))
 
     def _result(self, solution: Solution) -> str:
@@ -104,7 +102,6 @@ class Comparison(Compared, Answer):
         return f"{solution.label}: {few(100 * off)} % off {self.reference.label}{bar}{own}"
 
     def heading(self) -> tuple[str, str, str]:
-        """Return the scene, and its sheet."""
         return self.scene.name, self.scene.title, sheet_in_words(self.scene.sheet, self.scene.material)
 
     def tables(self) -> tuple[Table, ...]:
@@ -155,7 +152,6 @@ class Comparison(Compared, Answer):
         return Table.listed("Force of each support on the sheet", FORCES, rows, "reactions")
 
     def figures(self) -> tuple[Picture, ...]:
-        """Return the deformed sheets, and what every model is off by at the probes."""
         lattice, reference = self.solutions[:2]
         off = self.error(lattice)
         error_text = "" if off is None else f": error at the probes {100 * off:.2f} %"
@@ -188,7 +184,6 @@ class Comparison(Compared, Answer):
         write_mesh(path, plan)
 
     def choices(self) -> dict[str, Any]:
-        """Return the settings of every model."""
         return {solution.model: solution.settings for solution in self.solutions}
 
     def complaints(self) -> list[str]:
@@ -201,6 +196,4 @@ class Comparison(Compared, Answer):
         ]
 
     def notes(self) -> list[str]:
-        """Return what to know of the errors first, then the models and what was chosen for them, and what the
-        percentages mean."""
         return notes(self)

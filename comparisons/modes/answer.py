@@ -239,7 +239,6 @@ class Spectra(Answer):
         ]
 
     def result(self) -> str:
-        """Return every model's lowest frequency."""
         return "; ".join(
             f"{one.label}: {number(float(one.frequencies[0]), '.4g')} Hz"
             for one in self.found

@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 import typer
@@ -93,12 +92,9 @@ class Output:
         from comparisons.sweep.store import FILE
 
         with ExitStack() as stack:
-            if self._folder is None:
-                path = Path(stack.enter_context(TemporaryDirectory()))
-            else:
-                path, self._store_files = self._folder.path, [FILE]
+            self._store_files = [FILE]
             yield {
-                "store": stack.enter_context(campaign(path)),
+                "store": stack.enter_context(campaign(self._folder and self._folder.path)),
                 "pool": stack.enter_context(pool_of(options.scheduler, options.wait, console.warn)),
                 "progress": self.progress,
                 "workers": options.workers or os.cpu_count() or 1,

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.comparison.errors import Compared
-from comparisons.comparison.notes import notes
 from comparisons.models.expected_error import ExpectedError, NoEstimate
+from comparisons.models.grading import choice_notes
 from comparisons.pictures.plan import plan_mesh
 from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
@@ -30,6 +30,10 @@ from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.supports import named
 
+BUCKLED = (
+    "branch buckled: a model whose equilibrium under the whole load is unstable leaves it along its lowest "
+    "mode; what is shown is the stable equilibrium that it comes to, one of several."
+)
 MOVED = (
     *("probe", MILLIMETRES(".4g", "x", detail=True), MILLIMETRES(".4g", "y", detail=True), "model"),
     *(MILLIMETRES("z.3f", f"u{axis}") for axis in "xyz"),
@@ -196,4 +200,37 @@ class Comparison(Compared, Answer):
         ]
 
     def notes(self) -> list[str]:
-        return notes(self)
+        ref, first = f"u_{self.reference.model}", self.solutions[0].model
+        return [
+            *([BUCKLED] if self.reference.settings.get("branch") == "buckled" else []),
+            *([f"{first}: {self.expected}"] if self.expected else []),
+            *self._bar_notes(),
+            *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
+            " · ".join(solution.label for solution in self.solutions),
+            f"difference: |u − {ref}| / |{ref}| at the probe. "
+            f"error: largest component of u − {ref} over the probes / largest component of {ref}."
+            + " ±: mesh or grid error of the model at the probe."
+            * bool(self.bars),
+        ]
+
+    def _bar_notes(self) -> list[str]:
+        """Return the reference's error bar in words, the models that differ from it by less, what is due to
+        laws of strain."""
+        found, model = [self.laws] if self.laws else [], self.reference.model
+        for solution in self.solutions:
+            if solution.bar is not None:
+                own = few(100.0 * (self.bar_of(solution) or 0.0))
+                found.append(f"{solution.model}: grid error ± {own} %, from its two grids.")
+        if self.bar is None:
+            return found
+        found.append(self.bar.note(model))
+        found += [f"{model}: {left_out}."] if (left_out := str(self.model_error or "")) else []
+        for solution in self.solutions:
+            close = [
+                d.probe for d in self.differences if d.of == solution.model and d.distinguishable is False
+            ]
+            if self.distinguishable(solution) is False:
+                found.append(f"{solution.model}: not distinguishable from {model}.")
+            elif close:
+                found.append(f"{solution.model}: not distinguishable from {model} at {', '.join(close)}.")
+        return found

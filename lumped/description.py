@@ -15,7 +15,7 @@ from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.check_states import CheckState, check_states
 from lumped.contact import contacts
-from lumped.contact.table import ContactTable, contact_table
+from lumped.contact.table import contact_table
 from lumped.loads import Loads
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
@@ -84,8 +84,8 @@ class Couple:
 class Description:
     """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
     (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
-    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles; notes: what of the scene is
-    not in here. Masses of no cell, which an outline or cutouts leave, are left out."""
+    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles (`lumped.contact.table`); notes: what of
+    the scene is not in here. Masses of no cell, which an outline or cutouts leave, are left out."""
 
     index: np.ndarray
     positions: np.ndarray
@@ -98,7 +98,7 @@ class Description:
     pressure: np.ndarray
     pressed: np.ndarray
     couples: tuple[Couple, ...]
-    contact: ContactTable
+    contact: dict[str, np.ndarray]
     states: tuple[CheckState, ...]
     notes: tuple[str, ...] = ()
 
@@ -163,7 +163,7 @@ def _without(found: Description, absent: np.ndarray) -> Description:
         cells=tuple(replace(table, corners=new[table.corners]) for table in found.cells),
         holds=tuple(replace(h, masses=several(h.masses)) for h in found.holds if there[h.masses[0]]),
         pressed=new[found.pressed],
-        contact=replace(found.contact, corners=new[found.contact.corners]),
+        contact=found.contact | {"contact_corners": new[found.contact["contact_corners"]]},
         couples=tuple(
             replace(
                 c,
@@ -229,10 +229,10 @@ def _without_stress(cells: SpringCells) -> tuple[np.ndarray, np.ndarray, np.ndar
     flat = np.stack([(x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))], axis=1)
     if cells.natural is None:
         return cells.stiffness, flat, cells.area
-    natural, area = flat + cells.natural[:, 7:10], cells.natural[:, 10].copy()
+    natural, area = flat + cells.natural[1:].T, cells.natural[0].copy()
     one, other, turn = 2.0 * natural[:, 0], 2.0 * natural[:, 1], area
     units = area**2, one**2, other**2, turn**2, one * other, one * turn, other * turn
-    return cells.natural[:, :7] * np.stack(units, axis=1) / area[:, None], natural, area
+    return cells.constants * np.stack(units, axis=1) / area[:, None], natural, area
 
 
 def _holds(problem: Problem) -> tuple[Hold, ...]:

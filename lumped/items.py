@@ -67,6 +67,8 @@ class Item(Protocol):
         """Return its forces on the masses (n, 3) [N], at a velocity (n, 3) [m/s] in motion."""
         force = np.zeros_like(u)
         self.add_force(u, drive, force)
+        if v is not None:
+            self.add_resistance(u, v, drive, force)
         return -force
 
     def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:

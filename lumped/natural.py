@@ -16,86 +16,79 @@ resist strains of their natural sides. Derived here.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from lumped.lattice import Lattice
-from lumped.springs.cell_laws import AREA_AND_STRAINS, NATURAL
+from lumped.springs.cell_laws import AREA_AND_STRAINS
 from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.laws import of_stiffness
 from sheetbench.errors import BadInput
 from sheetbench.scenes.meaning.natural_state import NaturalState
 
-Setter = Callable[[np.ndarray, np.ndarray], None]  # of strains and curvatures of cells (rows, columns, 2, 2)
+Array = np.ndarray
 
 
 def with_natural(lattice: Lattice, families: Sequence[Family], state: NaturalState) -> list[Family]:
     """Return the families of a sheet that is not flat at rest, whose arrays its cells' state sets. Raises
     BadInput for springs of a per-direction law."""
-    found, setters = list(families), list[Setter]()
+    found, setters = list(families), []
     for number, family in enumerate(families):
         if isinstance(family, DirectionalLinks):
             raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
         if isinstance(family, Links):
-            found[number], setter = _links(lattice, family)
+            natural, sides = np.empty((2, len(family))), np.stack(2 * [family.offset[:, None]])
+            cells, shares = _cells_of(lattice, family)
+            found[number] = replace(family, rest_length=natural[0], natural=natural)
         elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
-            found[number], setter = _cells(lattice, family, state)
+            natural, sides = (
+                np.empty((4, len(family))),
+                family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1),
+            )
+            cells = np.arange(lattice.cell_areas.size)[lattice.kept]
+            cells = np.tile(cells, len(family) // len(cells))[:, None]
+            shares = np.ones(cells.shape)
+            stiffness = _of_natural_sides(family, state.now[0].reshape(-1, 2, 2)[cells[:, 0]])
+            found[number] = replace(family, stiffness=stiffness, natural=natural)
         else:
             continue
-        setters.append(setter)
+        ends = lattice.positions[family.nodes[:, :2], 2].reshape(len(family), 2, -1).mean(axis=2)
+        setters.append(partial(_set, natural, sides, ends, cells, shares))
     state.made(lambda *forms: [setter(*forms) for setter in setters])
     return found
 
 
-def _links(lattice: Lattice, links: Links) -> tuple[Links, Setter]:
-    cells, shares = (  # that each lies in or between (m, 4), and of their means
+def _cells_of(lattice: Lattice, links: Links) -> tuple[np.ndarray, np.ndarray]:
+    """The cells (m, 4) that each link lies in or between, and their shares in it."""
+    cells, shares = (
         np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1]))) for part in parts])
         for parts in zip(*((f.cells, f.shares) for f in lattice.links), strict=True)
     )
     every, own = (n[:, 0] * lattice.mass_count + n[:, 1] for n in (lattice.joined[0], links.nodes))
     order = np.argsort(every)
     place = order[np.searchsorted(every[order], own)]
-    cells, shares = cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)
-    along, rest = links.offset[:, None, :2], (links.offset**2).sum(axis=1)
-    heights, natural = lattice.positions[links.nodes, 2], np.zeros((2, len(links)))
-
-    def set_lengths(strain: np.ndarray, curvature: np.ndarray) -> None:
-        e, k = (form.reshape(-1, 2, 2)[cells] for form in (strain, curvature))
-        moved = [np.einsum("mqij,mkj->mqi", e - z[:, None, None, None] * k, along) for z in heights.T]
-        natural[1] = (shares * _change(along, along, *moved)).sum(axis=1)
-        natural[0] = np.sqrt(rest + natural[1])
-
-    return replace(links, rest_length=natural[0], natural=natural), set_lengths
+    return cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)
 
 
-def _cells(lattice: Lattice, cells: SpringCells, state: NaturalState) -> tuple[SpringCells, Setter]:
-    """Of the layers or of the mid-surface."""
-    kept = np.arange(lattice.cell_areas.size)[lattice.kept]
-    plan = np.tile(kept, len(cells) // len(kept))
-    heights = lattice.positions[cells.nodes, 2].mean(axis=(1, 2))[:, None, None]
-    flat = cells.sides[:, :, :2]
-
-    def changes(strain: np.ndarray, curvature: np.ndarray, at: np.ndarray) -> np.ndarray:
-        e, k = (form.reshape(-1, 2, 2)[plan] for form in (strain, curvature))
-        return np.asarray(flat @ (e - at * k))
-
-    strain, curvature = state.now
-    sides = flat + changes(strain, curvature, np.zeros((1, 1, 1)))
-    area = np.abs(np.linalg.det(sides))
-    springs = of_stiffness(cells.stiffness, np.pad(sides, ((0, 0), (0, 0), (0, 1))), area)
-    natural = np.column_stack([springs, np.zeros((len(cells), 4))])
-
-    def set_cells(strain: np.ndarray, curvature: np.ndarray) -> None:
-        moved = changes(strain, curvature, heights)
-        for column, (s, t) in enumerate(((0, 0), (1, 1), (0, 1)), start=7):
-            natural[:, column] = _change(flat[:, s], flat[:, t], moved[:, s], moved[:, t])
-        natural[:, 10] = np.abs(np.linalg.det(flat + moved))
-
-    return replace(cells, law=NATURAL, natural=natural), set_cells
+def _of_natural_sides(cells: SpringCells, strain: np.ndarray) -> np.ndarray:
+    """Stiffness (c, 4 or 7) [N/m] for drawn sides that is that of the springs for sides grown by a strain."""
+    grown = cells.sides.copy()
+    grown[:, :, :2] += cells.sides[:, :, :2] @ strain
+    natural = of_stiffness(cells.stiffness, grown, np.abs(np.linalg.det(grown[:, :, :2])))
+    drawn = of_stiffness(np.ones_like(cells.stiffness), cells.sides, cells.area)
+    return (natural / drawn)[:, : cells.stiffness.shape[1]]
 
 
-def _change(a: np.ndarray, b: np.ndarray, moved_a: np.ndarray, moved_b: np.ndarray) -> np.ndarray:
-    """Change of a · b of sides that have moved by so much."""
-    return np.asarray((a * moved_b + b * moved_a + moved_a * moved_b).sum(axis=-1))
+def _set(natural: Array, sides: Array, ends: Array, cells: Array, shares: Array, *forms: Array) -> None:
+    """Fill in √g₀ of a link or √det g₀ of a cell, and δg₀ (p, m) of products of sides (2, m, p, 3) at heights
+    (m, 2) [m], by strains and curvatures of cells (rows, columns, 2, 2)."""
+    e, k = (form.reshape(-1, 2, 2)[cells] for form in forms)
+    (a, b), plan = sides[:, :, None], sides[:, :, None, :, :2]
+    moved = [side @ (e - z[:, None, None, None] * k) for side, z in zip(plan, ends.T, strict=True)]
+    change = (plan * moved[::-1]).sum(axis=0) + moved[0] * moved[1]
+    natural[1:] = np.einsum("mq,mqpi->pm", shares, change)
+    g = (a * b).sum(axis=-1)[:, 0].T + natural[1:]
+    natural[0] = np.sqrt(g[0] if len(g) == 1 else g[0] * g[1] - g[2] ** 2)

@@ -78,6 +78,7 @@ VALUES = {  # of options that all verbs with them take alike, then of verbs
     "--tensile": "tensile-softer.csv",
     "--up-to": "2",
     "--area": "18mm2",
+    "--gauge": "40mm",
     "--loss-factor": "0.2 --at 5",
     "--damping-ratio": "0.1 --at 5",
     "--log-decrement": "0.3 --at 5",
@@ -124,6 +125,7 @@ OTHER_BASE = {  # where an option has an effect on something else alone
     ("identify", "--tensile"): TENSILE,
     ("identify", "--up-to"): TENSILE,
     ("identify", "--area"): TENSILE,
+    ("identify", "--gauge"): "--tensile machine.csv --area 20mm2 --gauge 50mm",
     ("tradeoff", "--duration"): MOVING,
     ("tradeoff", "--integrator"): MOVING,
     ("tradeoff", "--grading"): f"{ONE} --lumped 3,4 --plate= --shell 2 --solid= --elements 3 --repeats 1"
@@ -199,13 +201,20 @@ def write_inputs(folder):
     )
     rows = [(1.0 + 0.1 * n, 0.9 * (1.0 + 0.1 * n - (1.0 + 0.1 * n) ** -2)) for n in range(16)]
     tensile = "stretch,force\n" + "".join(f"{stretch},{pull}\n" for stretch, pull in rows)
+    machine = "extension,force\n" + "".join(f"{0.05 * (stretch - 1.0)},{pull}\n" for stretch, pull in rows)
     softer = "stretch,force\n" + "".join(f"{stretch},{0.8 * pull}\n" for stretch, pull in rows)
     at = [0.1 * 2**n for n in range(10)]
     prony = "frequency,storage,loss\n" + "".join(f"{f},{1e6 * (1 + 0.2 * f / (1 + f))},{1e5}\n" for f in at)
     motion = "time,probe,ux,uy,uz\n0.002,P4,,,-1e-5\n0.01,P4,,,-0.001\n"
     on_edge = load(ONE).replace(gravity={"acceleration": (0.0, -9.81, 0.0)})
     (folder / "edge.toml").write_text(to_toml(on_edge), encoding="utf-8")
-    texts = {"other": displaced, "cloud": cloud, "tensile": tensile, "tensile-softer": softer}
+    texts = {
+        "other": displaced,
+        "cloud": cloud,
+        "tensile": tensile,
+        "tensile-softer": softer,
+        "machine": machine,
+    }
     for name, text in {**texts, "prony": prony, "motion": motion}.items():
         (folder / f"{name}.csv").write_text(text, encoding="utf-8")
 

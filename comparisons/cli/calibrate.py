@@ -33,8 +33,8 @@ def command(
         str | None,
         option(
             "Numbers for another code, with --out its files too. mujoco, newton, pybullet, genesis: its own "
-            "sheet of triangles; sofa, and mujoco with --calibration: the lattice's springs; numpy, cpp, "
-            "matlab: the lattice and a program that reads it.",
+            "sheet of triangles; sofa: the lattice's springs; numpy, cpp, matlab: the lattice and a program "
+            "that reads it.",
             "CODE",
         ),
     ] = None,
@@ -131,7 +131,7 @@ def command(
             return out.show(homogenise(of, cell, spacing=spacing, hinge=hinge, coefficients=known))
     if for_ is not None:
         require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *CODES])))
-    if for_ is not None and for_ in WRITERS and not (for_ in CODES and wanted.calibration):
+    if for_ is not None and for_ in WRITERS:
         springs_only = {name: value for name, value in wanted.settings.items() if name != "grid"}
         require_effect(
             f"with --for {for_}",

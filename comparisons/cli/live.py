@@ -28,12 +28,13 @@ def command(
     The page is served on localhost only, at a secret URL. Ctrl-C ends it.
     """
     import webbrowser
-    from tempfile import TemporaryDirectory
+    from html import escape
+    from pathlib import Path
+    from tempfile import NamedTemporaryFile
 
     from comparisons.cli.console import note
     from comparisons.comparison.comparison import load_static
     from comparisons.live import server
-    from comparisons.live.guard import redirection
     from comparisons.live.panel import Panel
     from comparisons.models.resolve import resolve
     from sheetbench.errors import BadInput
@@ -44,11 +45,14 @@ def command(
     meant = resolve(loaded, lattice.spec).spec
     panel = Panel(loaded, elements, meant.but(grid=lattice.grid))
 
-    with TemporaryDirectory(prefix="sheetbench-live-") as folder:  # of mode 700
+    # a browser's command line can be read by every user of the machine: it gets a file that only this one can
+    with NamedTemporaryFile("w", prefix="sheetbench-live-", suffix=".html") as file:
 
         def opened(address: str) -> None:
             note(f"{address}\nCtrl-C ends it.")
             if browser:
-                webbrowser.open(redirection(folder, address))
+                file.write(server.REDIRECTION.format(address=escape(address)))
+                file.flush()
+                webbrowser.open(Path(file.name).as_uri())
 
         server.run(panel, port, opened)

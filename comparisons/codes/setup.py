@@ -20,7 +20,7 @@ import numpy as np
 from comparisons.codes.cell import Cell
 from comparisons.codes.cell_meshes import mesh as cell_of_triangles
 from comparisons.codes.coefficients import best_hinge, limit_error, nearest
-from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem
+from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem, files
 from comparisons.codes.homogenise import moduli_of
 from comparisons.codes.parameters import Parameter, parameters_of, undamped
 from comparisons.codes.sheet_mesh import SheetMesh, refusal, sheet_mesh, with_layers
@@ -201,7 +201,7 @@ class CodeSetup(Answer):
     def files(self) -> dict[str, Write]:
         if self._refused():
             return {}
-        texts = WRITERS[self.code.name](self.problem)
+        texts = files(self.code.name, self.problem)
         return {name: partial(write_text, text=text) for name, text in texts.items()}
 
 

@@ -8,21 +8,43 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from comparisons.comparison.errors import Compared
-from comparisons.comparison.notes import notes
-from comparisons.comparison.rows import CostRow, ProbeRow, ReactionRow
 from comparisons.models.expected_error import ExpectedError, NoEstimate
+from comparisons.models.grading import choice_notes
 from comparisons.pictures.plan import plan_mesh
 from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.solution import Solution, Status
-from sheetbench.answers.table import Table
+from sheetbench.answers.table import (
+    MILLIMETRES,
+    MILLISECONDS,
+    NEWTONS,
+    NUMBER,
+    PERCENT,
+    SECONDS,
+    Column,
+    Table,
+)
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.supports import named
+
+BUCKLED = (
+    "branch buckled: a model whose equilibrium under the whole load is unstable leaves it along its lowest "
+    "mode; what is shown is the stable equilibrium that it comes to, one of several."
+)
+MOVED = (
+    *("probe", MILLIMETRES(".4g", "x", detail=True), MILLIMETRES(".4g", "y", detail=True), "model"),
+    *(MILLIMETRES("z.3f", f"u{axis}") for axis in "xyz"),
+    *(PERCENT("z.2f", "difference"), PERCENT(".2g", "±")),
+)
+COSTS = (
+    *("model", Column("what it is", prose=True, detail=True), NUMBER("d", "unknowns")),
+    *(NUMBER("d", "factorisations"), SECONDS("z.2f", "set-up"), MILLISECONDS(".1f", "solve")),
+    *(PERCENT("z.2f", "error"), PERCENT("z.2f", "est."), Column("status", prose=True)),
+)
+FORCES = ("edge", "model", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
 
 
 @dataclass(frozen=True, repr=False)
@@ -37,7 +59,6 @@ class Comparison(Compared, Answer):
         return all(solution.status is Status.CONVERGED for solution in self.solutions[:2])
 
     def document(self) -> dict[str, Any]:
-        """Return the JSON document of `sheetbench compare`: metres, newtons, seconds."""
         return {
             "scene": self.scene.document(),
             "solutions": [self._solution_document(solution) for solution in self.solutions],
@@ -73,7 +94,6 @@ class Comparison(Compared, Answer):
         }
 
     def result(self) -> str:
-        """Return how far each model is from the reference, or how it ended."""
         return "; ".join(map(self._result, (one for one in self.solutions if one is not self.reference)))
 
     def _result(self, solution: Solution) -> str:
@@ -86,7 +106,6 @@ class Comparison(Compared, Answer):
         return f"{solution.label}: {few(100 * off)} % off {self.reference.label}{bar}{own}"
 
     def heading(self) -> tuple[str, str, str]:
-        """Return the scene, and its sheet."""
         return self.scene.name, self.scene.title, sheet_in_words(self.scene.sheet, self.scene.material)
 
     def tables(self) -> tuple[Table, ...]:
@@ -104,21 +123,21 @@ class Comparison(Compared, Answer):
         ordered = sorted(self.solutions, key=lambda solution: solution is not self.reference)
         models = [(s.model, self.probes(s), self.relative_bars(s)) for s in ordered]
         rows = (
-            ProbeRow(probe, x, y, model, _named("u", moved[probe]), off.get((probe, model)), bars.get(probe))
+            (probe, x, y, model, *moved[probe], off.get((probe, model)), bars.get(probe))
             for probe, (x, y) in self.scene.probes.items()
             for model, moved, bars in models
         )
-        return Table.of(ProbeRow, rows, "Displacement of the mid-surface", "table", grouped=True)
+        return Table.listed("Displacement of the mid-surface", MOVED, rows, "table", grouped=True)
 
     def _costs(self) -> Table:
         rows = (
-            CostRow(
-                s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds, self.error(s),
-                self._expected(s), s.status_text,
+            (
+                *(s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds),
+                *(self.error(s), self._expected(s), s.status_text),
             )
             for s in self.solutions
-        )  # fmt: skip
-        return Table.of(CostRow, rows, "Cost and error of each model", "models", text="; ".join(self.busy))
+        )
+        return Table.listed("Cost and error of each model", COSTS, rows, "models", text="; ".join(self.busy))
 
     def _expected(self, solution: Solution) -> float | None:
         """Return the grid error expected of the chosen lattice; where there is none a note says why."""
@@ -128,17 +147,15 @@ class Comparison(Compared, Answer):
 
     def _reactions(self, of: Collection[str] | None = None) -> Table:
         """Of all supports, or of those named."""
-        found = sorted(
-            (edge, s.model, force)
+        rows = sorted(
+            (edge, s.model, *force)
             for s in self.solutions
             for edge, force in s.reactions.items()
             if of is None or edge in of
         )
-        rows = (ReactionRow(edge, model, _named("F", force)) for edge, model, force in found)
-        return Table.of(ReactionRow, rows, "Force of each support on the sheet", "reactions")
+        return Table.listed("Force of each support on the sheet", FORCES, rows, "reactions")
 
     def figures(self) -> tuple[Picture, ...]:
-        """Return the deformed sheets, and what every model is off by at the probes."""
         lattice, reference = self.solutions[:2]
         off = self.error(lattice)
         error_text = "" if off is None else f": error at the probes {100 * off:.2f} %"
@@ -171,7 +188,6 @@ class Comparison(Compared, Answer):
         write_mesh(path, plan)
 
     def choices(self) -> dict[str, Any]:
-        """Return the settings of every model."""
         return {solution.model: solution.settings for solution in self.solutions}
 
     def complaints(self) -> list[str]:
@@ -184,11 +200,37 @@ class Comparison(Compared, Answer):
         ]
 
     def notes(self) -> list[str]:
-        """Return what to know of the errors first, then the models and what was chosen for them, and what the
-        percentages mean."""
-        return notes(self)
+        ref, first = f"u_{self.reference.model}", self.solutions[0].model
+        return [
+            *([BUCKLED] if self.reference.settings.get("branch") == "buckled" else []),
+            *([f"{first}: {self.expected}"] if self.expected else []),
+            *self._bar_notes(),
+            *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
+            " · ".join(solution.label for solution in self.solutions),
+            f"difference: |u − {ref}| / |{ref}| at the probe. "
+            f"error: largest component of u − {ref} over the probes / largest component of {ref}."
+            + " ±: mesh or grid error of the model at the probe."
+            * bool(self.bars),
+        ]
 
-
-def _named(letter: str, vector: np.ndarray) -> dict[str, float]:
-    """Return the components of a vector (3,) by name."""
-    return {f"{letter}{axis}": float(part) for axis, part in zip("xyz", vector, strict=True)}
+    def _bar_notes(self) -> list[str]:
+        """Return the reference's error bar in words, the models that differ from it by less, what is due to
+        laws of strain."""
+        found, model = [self.laws] if self.laws else [], self.reference.model
+        for solution in self.solutions:
+            if solution.bar is not None:
+                own = few(100.0 * (self.bar_of(solution) or 0.0))
+                found.append(f"{solution.model}: grid error ± {own} %, from its two grids.")
+        if self.bar is None:
+            return found
+        found.append(self.bar.note(model))
+        found += [f"{model}: {left_out}."] if (left_out := str(self.model_error or "")) else []
+        for solution in self.solutions:
+            close = [
+                d.probe for d in self.differences if d.of == solution.model and d.distinguishable is False
+            ]
+            if self.distinguishable(solution) is False:
+                found.append(f"{solution.model}: not distinguishable from {model}.")
+            elif close:
+                found.append(f"{solution.model}: not distinguishable from {model} at {', '.join(close)}.")
+        return found

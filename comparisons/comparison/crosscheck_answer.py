@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
@@ -27,39 +27,15 @@ EXPLANATION = (
 )
 
 
-@dataclass(frozen=True)
-class LimitRow:
-    """A model's limit where the sheet moves most, how far off it is, and from whom it differs."""
-
-    scene: str
-    model: str
-    elements: str | None
-    at: str | None = None
-    u: Annotated[float | None, MILLIMETRES("z.4f")] = None
-    bar: Annotated[float | None, MILLIMETRES(".2g", "± u")] = None
-    off: Annotated[float | None, PERCENT("z.2f")] = None
-    bars: Annotated[float | None, PERCENT(".2g", "± off")] = None
-    differs_from: Annotated[str, Column("differs from", prose=True)] = "none"
-
-
-@dataclass(frozen=True)
-class DisplacementRow:
-    """The extrapolated displacement of a probe with its bar."""
-
-    scene: str
-    probe: str
-    model: str
-    displacement: Annotated[Mapping[str, float], MILLIMETRES("z.4f")]
-    bar: Annotated[Mapping[str, float], MILLIMETRES(".1g")]
-
-
-@dataclass(frozen=True)
-class CodeRow:
-    """An external code: its version, or what it needs to be here."""
-
-    code: str
-    called: Annotated[str, Column("what it is", prose=True)]
-    version: Annotated[str, Column(prose=True)]
+LIMITS = (
+    *("model", "elements", "at", MILLIMETRES("z.4f", "u"), MILLIMETRES(".2g", "± u")),
+    *(PERCENT("z.2f", "off"), PERCENT(".2g", "± off"), Column("differs from", prose=True)),
+)
+MOVED = (
+    *("probe", "model", *(MILLIMETRES("z.4f", f"u{axis}") for axis in "xyz")),
+    *(MILLIMETRES(".1g", f"± u{axis}") for axis in "xyz"),
+)
+CODES = ("code", Column("what it is", prose=True), Column("version", prose=True))
 
 
 @dataclass(frozen=True, repr=False)
@@ -82,18 +58,13 @@ class Crosscheck(Answer):
         return [pair for limits in self.limits.values() for pair in pairs(limits)]
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench crosscheck`: metres, seconds, fractions."""
         names = {"distinguishable_at": "apart"}
         return {
             "solutions": [_document(one) for one in self._each()],
             "pairs": [{names.get(key, key): v for key, v in asdict(pair).items()} for pair in self.pairs],
             "judges": [
-                {
-                    "name": one.code.name,
-                    "version": one.version,
-                    "status": "absent" if one.version is None else "found",
-                    "needs": one.code.needs,
-                }
+                {"name": one.code.name, "version": one.version, "needs": one.code.needs}
+                | {"status": "absent" if one.version is None else "found"}
                 for one in self.codes
             ],
             "failed": self.failures,
@@ -113,13 +84,11 @@ class Crosscheck(Answer):
         return len(self.scenes) == 1
 
     def heading(self) -> tuple[str, str, str]:
-        """The scene, or how many there are."""
         if self._single:
             return self.scenes[0].name, self.scenes[0].title, ""
         return "crosscheck", f"{len(self.scenes)} scenes, every model on meshes of its own", ""
 
     def tables(self) -> tuple[Table, ...]:
-        """Limits, displacements, every two models, external codes."""
         limits, moved, *codes = self._shown()
         return (limits, moved, Table.of(Pair, self.pairs, "Every two models", "pairs"), *codes)
 
@@ -129,68 +98,52 @@ class Crosscheck(Answer):
         return (limits, moved, *codes) if self._single else (limits, *codes)
 
     def _shown(self) -> list[Table]:
-        scene = ("scene",) if self._single else ()
-        limits = Table.of(
-            LimitRow,
-            map(self._limit, self._each()),
-            "Extrapolated answers",
-            "crosscheck",
-            details=scene,
-            grouped=not self._single,
-        )
+        scene, single = Column("scene", detail=self._single), self._single
+        limits = [(one.scene.name, one.name, *self._limit(one)) for one in self._each()]
         moved = [
-            DisplacementRow(
-                scene.name,
-                probe,
-                one.name,
-                dict(zip(("ux", "uy", "uz"), bar.extrapolated[i], strict=True)),
-                dict(zip(("± ux", "± uy", "± uz"), bar.bar[i], strict=True)),
-            )
-            for scene in self.scenes
-            for i, probe in enumerate(scene.probes)
-            for one in self.limits[scene.name]
+            (one.scene.name, probe, one.name, *bar.extrapolated[i], *bar.bar[i])
+            for of in self.scenes
+            for i, probe in enumerate(of.probes)
+            for one in self.limits[of.name]
             if (bar := one.uncertainty) is not None
         ]
-        codes = [
-            CodeRow(one.code.name, one.code.called, one.version or f"absent: needs {one.code.needs}")
-            for one in self.codes
-        ]
+        needs = "absent: needs {}".format
+        codes = [(one.code.name, one.code.called, one.version or needs(one.code.needs)) for one in self.codes]
         return [
-            limits,
-            Table.of(DisplacementRow, moved, "Extrapolated displacements", "displacements", details=scene),
-            *([Table.of(CodeRow, codes, "External codes", "judges")] if codes else []),
+            Table.listed("Extrapolated answers", (scene, *LIMITS), limits, "crosscheck", grouped=not single),
+            Table.listed("Extrapolated displacements", (scene, *MOVED), moved, "displacements"),
+            *([Table.listed("External codes", CODES, codes, "judges")] if codes else []),
         ]
 
-    def _limit(self, one: Limit) -> LimitRow:
-        scene, bar = one.scene, one.uncertainty
-        truth = self.against(scene.name)
+    def _limit(self, one: Limit) -> tuple[Any, ...]:
+        """Return a model's limit where the sheet moves most, how far off it is, and from whom it differs."""
+        truth, bar, scene = self.against(one.scene.name), one.uncertainty, one.scene
         if truth is None or truth.uncertainty is None or bar is None:
-            status = str(Status.REFUSED) if one.refused else "no answer"
-            return LimitRow(scene.name, one.name, one.meshes or None, differs_from=status)
+            status = Status.REFUSED if one.refused else "no answer"
+            return (one.meshes or None, *[None] * 5, str(status))
         u = truth.uncertainty.extrapolated
         probe, axis = np.unravel_index(np.argmax(np.abs(u)), u.shape)
         own = [p for p in self.pairs if p.scene == scene.name and one.name in (p.a, p.b)]
-        between = next((p for p in own if {p.a, p.b} == {truth.name, one.name}), None)
         differing = [p.b if p.a == one.name else p.a for p in own if p.distinguishable_at]
-        return LimitRow(
-            scene.name,
-            one.name,
-            one.meshes,
-            f"{list(scene.probes)[int(probe)]} u{'xyz'[int(axis)]}",
-            float(bar.extrapolated[probe, axis]),
-            float(bar.bar[probe, axis]),
-            None if between is None else between.difference,
-            None if between is None else between.bars,
-            ", ".join(differing) or "none",
-        )
+        at = f"{list(scene.probes)[int(probe)]} u{'xyz'[int(axis)]}"
+        off = self._off(one)
+        apart = (None, None) if off is None else (off.difference, off.bars)
+        own_u = (float(bar.extrapolated[probe, axis]), float(bar.bar[probe, axis]))
+        return (one.meshes, at, *own_u, *apart, ", ".join(differing) or "none")
+
+    def _off(self, one: Limit) -> Pair | None:
+        """Return how far a model is from the one that others are compared with, None of that one itself."""
+        truth = self.against(one.scene.name)
+        names = {one.name, truth.name if truth else ""}
+        return next((p for p in self.pairs if p.scene == one.scene.name and {p.a, p.b} == names), None)
 
     def result(self) -> str:
         """Return how far the models are from the one that they are compared with, scene by scene."""
         return "; ".join(filter(None, map(self._difference, self.scenes)))
 
     def _difference(self, scene: Scene) -> str:
-        rows = map(self._limit, self.limits[scene.name])
-        off = [f"{r.model} {few(100 * r.off)} %" for r in rows if r.off is not None]
+        both = [(one.name, self._off(one)) for one in self.limits[scene.name]]
+        off = [f"{name} {few(100 * pair.difference)} %" for name, pair in both if pair is not None]
         truth = self.against(scene.name)
         return f"{scene.name}: {', '.join(off)} from {truth.name}" if off and truth is not None else ""
 
@@ -209,7 +162,6 @@ class Crosscheck(Answer):
         return [*self.failures, *unsound]
 
     def choices(self) -> dict[str, Any]:
-        """The scenes and the external codes."""
         codes = {one.code.name: one.version for one in self.codes}
         return {"scenes": [scene.name for scene in self.scenes], "judges": codes}
 

@@ -18,7 +18,6 @@ import numpy as np
 
 from comparisons.comparison import branches
 from comparisons.comparison.error_bar import ErrorBar
-from comparisons.comparison.rows import Difference
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.sweep.differences import error, relative
 from comparisons.sweep.model_error import ModelError, model_error
@@ -26,6 +25,20 @@ from sheetbench.answers.solution import Solution, Status
 from sheetbench.scenes import Scene
 
 ROUND_OFF = 1e-9  # of the largest displacement at a probe
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How far one model is from another at one probe, as a fraction of the other's displacement there.
+
+    distinguishable: whether that is more than the other's own error bar; None where there is no bar.
+    """
+
+    probe: str
+    of: str
+    against: str
+    relative: float | None
+    distinguishable: bool | None = None
 
 
 @dataclass(frozen=True, repr=False)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
@@ -25,37 +25,16 @@ from sheetbench.scenes.meaning.motion import kinks
 
 DOUBTFUL, SHARE = 0.1, 1.0 / 3.0  # a reference's bar beyond which it is doubtful: of itself, of a difference
 DOUBLED = {"mesh": "with elements twice as large", "step": "with steps twice as long"}
-WHOLE = ("of", "largest", "rms", "peak", "period", "phase", "decay")  # of two motions' difference
-
-
-@dataclass(frozen=True)
-class DifferenceRow:
-    """How far a motion is from the reference's at a probe, or at all and in its measures; bar: the
-    reference's own, and whether the difference is within it."""
-
-    of: Annotated[str, Column("model")]
-    probe: str
-    largest: Annotated[float, PERCENT("z.2f")]
-    rms: Annotated[float, PERCENT("z.2f")]
-    peak: Annotated[float | None, PERCENT("z.2f")] = None
-    period: Annotated[float | None, PERCENT("z.2f")] = None
-    phase: Annotated[float | None, PERCENT("z.2f")] = None
-    decay: Annotated[float | None, NUMBER("z.4f")] = None
-    bar: Annotated[float | None, PERCENT(".2g", "±")] = None
-    within: Annotated[bool | None, Column("within ±")] = None
-
-
-@dataclass(frozen=True)
-class RunRow:
-    """What a run took; the model's name stands at the start of the label."""
-
-    model: Annotated[str, Column(detail=True)]
-    label: str
-    integrator: str
-    status: str
-    steps: Annotated[int, NUMBER("d")]
-    setup_seconds: Annotated[float, SECONDS(".2f", "set-up")]
-    solve_seconds: Annotated[float, SECONDS(".2f", "time")]
+WHOLE = ("largest", "rms", "peak", "period", "phase", "decay")  # of two motions' difference
+OF_A_RUN = ("label", "integrator", "settings", "status", "message", "steps", "setup_seconds", "solve_seconds")
+DIFFERENCES = (
+    *("model", "probe", *(PERCENT("z.2f", name) for name in WHOLE[:-1]), NUMBER("z.4f", "decay")),
+    *(PERCENT(".2g", "±"), Column("within ±")),
+)
+RUNS = (
+    *(Column("model", detail=True), "label", "integrator", "status", NUMBER("d", "steps")),
+    *(SECONDS(".2f", "set-up"), SECONDS(".2f", "time")),
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -81,7 +60,6 @@ class MotionComparison(Answer):
 
     @property
     def succeeded(self) -> bool:
-        """Whether all runs reached their end."""
         return all(history.succeeded for history in self.histories.values())
 
     @property
@@ -96,7 +74,12 @@ class MotionComparison(Answer):
         parts = [*self.uncertainty.values()]
         return sum(part or 0.0 for part in parts) if parts and None not in parts else None
 
-    @property
+    @cached_property
+    def measures(self) -> tuple[Measures, ...]:
+        """Of every model, of the extrema that all have."""
+        return measured_alike(*self.histories.values())
+
+    @cached_property
     def differences(self) -> list[dict[str, Any]]:
         """Of every other model from the reference; distinguishable: whether it is above the reference's own
         bar, None where that is not known."""
@@ -120,7 +103,6 @@ class MotionComparison(Answer):
         )
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench compare --duration`: metres, newtons, seconds, joules."""
         truth = self.histories[self.reference]
         return {
             "scene": self.scene.document(),
@@ -129,29 +111,14 @@ class MotionComparison(Answer):
                 "probes": {name: history.probes for name, history in self.histories.items()},
                 "energies": {name: history.accounts for name, history in self.histories.items()},
                 "reactions": {name: history.reactions for name, history in self.histories.items()},
-                "measures": {
-                    name: one.as_dict()
-                    for name, one in zip(
-                        self.histories, measured_alike(*self.histories.values()), strict=True
-                    )
-                },
+                "measures": dict(zip(self.histories, (one.as_dict() for one in self.measures), strict=True)),
                 "differences": self.differences,
                 "uncertainty": self.uncertainty,
                 "bar": self.bar,
                 "left_out": self.left_out,
             },
             "solutions": [
-                {
-                    "model": name,
-                    "label": history.label,
-                    "integrator": history.integrator,
-                    "settings": history.settings,
-                    "status": str(history.status),
-                    "message": history.message,
-                    "steps": history.steps,
-                    "setup_seconds": history.setup_seconds,
-                    "solve_seconds": history.solve_seconds,
-                }
+                {"model": name, **{key: getattr(history, key) for key in OF_A_RUN}}
                 for name, history in self.histories.items()
             ],
         }
@@ -162,7 +129,7 @@ class MotionComparison(Answer):
         return self.scene.name, self.scene.title, f"{self.doubt}\n{lead}" if self.doubt else lead
 
     def tables(self) -> tuple[Table, ...]:
-        return _measures(self), _differences(self), _runs(self)
+        return self._measured(), self._different(), self._runs()
 
     def figures(self) -> tuple[Picture, ...]:
         drawn = Picture("motion", "comparisons.comparison.motion_figure:compose", (self,))
@@ -171,7 +138,6 @@ class MotionComparison(Answer):
         return (drawn, film) if self.animate else (drawn,)
 
     def result(self) -> str:
-        """Return how far every model is from the reference."""
         bar = "" if self.bar is None else f" ± {few(100 * self.bar)} %"
         return "; ".join(
             f"{one['of']}: up to {few(100 * one['largest'])} % off the {self.reference}{bar}"
@@ -185,8 +151,8 @@ class MotionComparison(Answer):
                 models.setdefault(note, []).append(name)
         left_out = (f"{name} is left out: {why}" for name, why in self.left_out.items())
         return [
-            *_driven(self),
-            *_bars(self),
+            *self._driven(),
+            *self._bars(),
             *left_out,
             *(f"{', '.join(names)}: {note}" for note, names in models.items()),
         ]
@@ -216,73 +182,62 @@ class MotionComparison(Answer):
     def choices(self) -> dict[str, Any]:
         return {name: history.settings for name, history in self.histories.items()}
 
+    def _measured(self) -> Table:
+        probe, component = leading(self.histories[self.reference])
+        rows = [replace(one, model=name) for name, one in zip(self.histories, self.measures, strict=True)]
+        farthest = f"{COMPONENTS[component]} of {probe}, which moves farthest"
+        fields = ("model", "peak", "peak_time", "period", "decay", "damping")
+        caption = f"{farthest}: its peak, period and log decrement"
+        return Table.of(Measures, rows, caption, "measures", fields=fields)
 
-def _measures(found: MotionComparison) -> Table:
-    truth = found.histories[found.reference]
-    probe, component = leading(truth)
-    alike = measured_alike(*found.histories.values())
-    rows = [replace(one, model=name) for name, one in zip(found.histories, alike, strict=True)]
-    caption = f"{COMPONENTS[component]} of {probe}, which moves farthest: its peak, period and log decrement"
-    fields = ("model", "peak", "peak_time", "period", "decay", "damping")
-    return Table.of(Measures, rows, caption, "measures", fields=fields)
+    def _different(self) -> Table:
+        """A row a probe, then all together with what the measures differ by."""
+        truth, rows, bar = self.histories[self.reference], list[tuple[Any, ...]](), self.bar
+        scale = max(float(np.abs(u).max()) for u in truth.probes.values()) or np.nan
+        for d in self.differences:
+            history = self.histories[d["of"]]
+            count = min(len(history.time), len(truth.time))
+            for probe, u in history.probes.items():
+                off = (u[:count] - truth.probes[probe][:count]) / scale
+                rms = float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
+                rows.append((d["of"], probe, float(np.abs(off).max()), rms, *[None] * 6))
+            within = None if bar is None else not d["distinguishable"]
+            rows.append((d["of"], "all", *(d[name] for name in WHOLE), bar, within))
+        caption = (
+            f"Difference from the {self.reference}: largest and rms over its largest displacement, phase "
+            "over its period; decay: difference of the log decrements"
+        )
+        text = f"±: how far the {self.reference} itself may be off, by mesh and steps"
+        if self.uncertainty:
+            return Table.listed(caption, DIFFERENCES, rows, "differences", text=text)
+        of_files = [replace(one, detail=True) for one in DIFFERENCES[-2:] if isinstance(one, Column)]
+        return Table.listed(caption, [*DIFFERENCES[:-2], *of_files], rows, "differences")
 
+    def _runs(self) -> Table:
+        shown = [key for key in OF_A_RUN if key not in ("settings", "message")]
+        rows = ((name, *(getattr(one, key) for key in shown)) for name, one in self.histories.items())
+        return Table.listed("Steps and time of each model", RUNS, rows, "runs")
 
-def _differences(found: MotionComparison) -> Table:
-    """A row a probe, then all together with what the measures differ by."""
-    truth, rows = found.histories[found.reference], []
-    scale = max(float(np.abs(u).max()) for u in truth.probes.values()) or np.nan
-    for d in found.differences:
-        history = found.histories[d["of"]]
-        count = min(len(history.time), len(truth.time))
-        for probe, u in history.probes.items():
-            off = u[:count] - truth.probes[probe][:count]
-            rms = float(np.sqrt(np.mean(np.sum(off**2, axis=1)))) / scale
-            rows.append(DifferenceRow(d["of"], probe, float(np.abs(off).max()) / scale, rms))
-        whole = {k: v for k, v in d.items() if k in WHOLE}
-        within = None if found.bar is None else not d["distinguishable"]
-        rows.append(DifferenceRow(probe="all", bar=found.bar, within=within, **whole))
-    caption = (
-        f"Difference from the {found.reference}: largest and rms over its largest displacement, phase over "
-        "its period; decay: difference of the log decrements"
-    )
-    details = () if found.uncertainty else ("bar", "within")
-    text = f"±: how far the {found.reference} itself may be off, by mesh and steps" if not details else ""
-    return Table.of(DifferenceRow, rows, caption, "differences", details=details, text=text)
+    def _driven(self) -> list[str]:
+        """What a decrement means while the sheet is driven, in a sentence."""
+        start, first = self.histories[self.reference].time[0], self.measures[-1]
+        until = max(kinks(self.scene), default=0.0)
+        if first.decay is None or first.peak_time is None or until <= start + first.peak_time:
+            return []
+        return [
+            f"The scene drives the sheet until {until:g} s: log decrement and damping ratio are those of the "
+            "driven motion, not of the material's dampers (sheetbench modes lists these)."
+        ]
 
-
-def _runs(found: MotionComparison) -> Table:
-    rows = (
-        RunRow(name, h.label, h.integrator, str(h.status), h.steps, h.setup_seconds, h.solve_seconds)
-        for name, h in found.histories.items()
-    )
-    return Table.of(RunRow, rows, "Steps and time of each model", "runs")
-
-
-def _driven(found: MotionComparison) -> list[str]:
-    """What a decrement means while the sheet is driven, in a sentence."""
-    truth = found.histories[found.reference]
-    until = max(kinks(found.scene), default=0.0)
-    first = measured_alike(*found.histories.values())[-1]
-    if first.decay is None or first.peak_time is None or until <= truth.time[0] + first.peak_time:
-        return []
-    return [
-        f"The scene drives the sheet until {until:g} s: log decrement and damping ratio are those of the "
-        "driven motion, not of the material's dampers (sheetbench modes lists these)."
-    ]
-
-
-def _bars(found: MotionComparison) -> list[str]:
-    """What the reference's mesh and steps leave uncertain, in a sentence."""
-    known = {name: bar for name, bar in found.uncertainty.items() if bar is not None}
-    if not known:
-        return []
-    parts = (f"{number(100 * bar, '.2g')} % {DOUBLED[name]}" for name, bar in known.items())
-    changes = " and ".join(parts)
-    notes = [f"{found.reference}: its own motion changes by up to {changes}"]
-    within = [one["of"] for one in found.differences if one["distinguishable"] is False]
-    if within:
-        notes.append(f"{', '.join(within)}: within the {found.reference}'s own error.")
-    return notes
+    def _bars(self) -> list[str]:
+        """What the reference's mesh and steps leave uncertain, in a sentence."""
+        known = {name: bar for name, bar in self.uncertainty.items() if bar is not None}
+        if not known:
+            return []
+        changes = " and ".join(f"{number(100 * bar, '.2g')} % {DOUBLED[name]}" for name, bar in known.items())
+        within = ", ".join(one["of"] for one in self.differences if one["distinguishable"] is False)
+        notes = [f"{self.reference}: its own motion changes by up to {changes}"]
+        return [*notes, f"{within}: within the {self.reference}'s own error."] if within else notes
 
 
 def _write_samples(path: Path, history: History) -> None:

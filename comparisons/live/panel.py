@@ -9,14 +9,17 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from math import isfinite, pi
-from typing import Any, NoReturn
+from math import pi
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError
 
 from comparisons.models.grids import scene_grid
 from comparisons.models.spec import Lattice
 from comparisons.pages.sheets import eye, outline
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Chain, Curved, Scene, Sheet
 from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.objects.grid import MASSES, near_square
@@ -25,7 +28,8 @@ from sheetbench.scenes.objects.loads import Pressure
 MASSES_CAP, ELEMENTS_CAP = 33, 16  # along the side of a square sheet, and as many in all on any other
 ELEMENTS = 8  # unless given: a shell of 8 × 8 elements answers in a tenth of a second
 OWN = "scene"  # the calibration's name where the scene brings its own [springs]
-FORCES = ("force", "force_per_length", "force_per_area", "acceleration")
+FORCES = ("force", "force_per_length", "force_per_area", "acceleration", "moment_per_length", "value")
+SHOWN = 80  # characters of a foreign name
 SETTINGS = ("grid", "grading", "elements", "k")  # sliders of the models, not of the scene
 
 
@@ -43,18 +47,23 @@ class Slider:
     whole: bool = False
     logarithmic: bool = False
 
+    def require(self, value: float) -> None:
+        """Raise BadInput for a value that this page does not take."""
+        if not self.low <= value <= self.high:
+            raise BadInput(f"{self.name} = {value:g}: from {self.low:g} to {self.high:g} on this page")
+        if self.whole and value != int(value):
+            raise BadInput(f"{self.name} = {value:g}: a whole number is needed")
 
-@dataclass(frozen=True)
-class Question:
-    """One setting of all sliders; number: of the question; copy: the text that it asks for; rest: whether the
-    sliders rest, so that the equilibrium is sought from flat."""
 
-    number: int
+class Question(BaseModel):
+    """One setting of all sliders, as the page sends it; number: of the question; copied: the text to copy."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+    number: Annotated[int, Field(ge=0, lt=2**53)]
     values: dict[str, float]
     calibration: str
-    copy: str = ""
-    rest: bool = True
-    layer_distance: float | None = None
+    copied: Literal["", "springs", "scene"] = Field("", alias="copy")
+    _layer_distance: float | None = PrivateAttr(None)
 
     @property
     def lattice(self) -> Lattice:
@@ -63,13 +72,8 @@ class Question:
             return Lattice()
         takes, grading = CALIBRATIONS[self.calibration].takes, self.values["grading"] or None
         k = self.values.get("k") if "k" in takes else None
-        distance = self.layer_distance if "layer_distance" in takes else None
+        distance = self._layer_distance if "layer_distance" in takes else None
         return Lattice(int(self.values["grid"]), self.calibration, k, distance, grading)
-
-    @property
-    def elements(self) -> int:
-        """Along the shorter side."""
-        return int(self.values["elements"])
 
 
 class Panel:
@@ -84,14 +88,13 @@ class Panel:
         self.calibrations = _calibrations(scene)
         self.start = self._lattice.calibration or next(iter(self.calibrations))
         for slider in self.sliders.values():
-            self._within(slider, slider.value)
-        if self.start not in self.calibrations:
-            _refuse(f"calibration = '{self.start}': choose from {', '.join(self.calibrations)}")
+            slider.require(slider.value)
+        require_choice("calibration", self.start, self.calibrations)
 
     def first(self) -> Question:
         """Return the question that the page starts with."""
-        values = {name: float(s.value) for name, s in self.sliders.items()}
-        return Question(0, values, self.start, layer_distance=self._lattice.layer_distance)
+        values = {name: slider.value for name, slider in self.sliders.items()}
+        return self.read(json.dumps({"number": 0, "values": values, "calibration": self.start}))
 
     def document(self) -> dict[str, Any]:
         """Return the panel as the page builds it."""
@@ -110,30 +113,19 @@ class Panel:
     def read(self, text: str | bytes) -> Question:
         """Return the question of a message. Raises BadInput, in a line."""
         try:
-            found = json.loads(text, parse_constant=lambda name: _refuse(f"{name}: not a finite number"))
-        except (ValueError, RecursionError) as error:
-            if isinstance(error, BadInput):
-                raise
-            raise BadInput("not a question: no JSON") from None
-        keys = {"number", "values", "calibration", "copy", "rest"}
-        if not isinstance(found, dict) or not isinstance(found.get("values"), dict) or set(found) - keys:
-            _refuse(f"not a question: it has {', '.join(sorted(keys))}")
-        number, values = found.get("number"), found["values"]
-        if type(number) is not int or not 0 <= number < 2**53:
-            _refuse("number: a whole number from 0")
-        if unlike := set(values) ^ set(self.sliders):
-            _refuse(
-                f"values: {', '.join(sorted(map(str, unlike)))[:80]}: {', '.join(self.sliders)} are needed"
-            )
-        read = {name: self._within(slider, values[name]) for name, slider in self.sliders.items()}
-        if found.get("calibration") not in [*self.calibrations]:  # by value: a list has no hash
-            _refuse(f"calibration: choose from {', '.join(self.calibrations)}")
-        copy, rest = found.get("copy", ""), found.get("rest", True)
-        if copy not in ("", "springs", "scene"):
-            _refuse("copy: springs or scene")
-        if not isinstance(rest, bool):
-            _refuse("rest: true or false")
-        return Question(number, read, found["calibration"], copy, rest, self._lattice.layer_distance)
+            question = Question.model_validate_json(text)
+        except ValidationError as error:
+            fault = error.errors(include_url=False)[0]
+            place = ["no question", ".".join(map(str, fault["loc"]))[:SHOWN], fault["msg"]]
+            raise BadInput(": ".join(filter(None, place))) from None
+        if unlike := question.values.keys() ^ self.sliders.keys():
+            names = ", ".join(sorted(unlike))[:SHOWN]
+            raise BadInput(f"values: {names}: {', '.join(self.sliders)} are needed")
+        for name, slider in self.sliders.items():
+            slider.require(question.values[name])
+        require_choice("calibration", question.calibration, self.calibrations)
+        question._layer_distance = self._lattice.layer_distance
+        return question
 
     def scene_of(self, question: Question) -> Scene:
         """Return the scene of a question. Raises SceneError where the values contradict each other."""
@@ -151,20 +143,6 @@ class Panel:
                 scene = put(scene, name, value)
         return scene
 
-    def _within(self, slider: Slider, value: Any) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > 1e300:
-            _refuse(f"{slider.name}: a finite number is needed")
-        if not isfinite(value) or not slider.low <= value <= slider.high:
-            bounds = f"{slider.low:g} to {slider.high:g}"
-            _refuse(f"{slider.name} = {value:g}: from {bounds} on this page")
-        if slider.whole and value != int(value):
-            _refuse(f"{slider.name} = {value:g}: a whole number is needed")
-        return float(value)
-
-
-def _refuse(message: str) -> NoReturn:
-    raise BadInput(message)
-
 
 def _of_scene(scene: Scene) -> Iterator[Slider]:
     material, thickness = scene.material, scene.sheet.thickness
@@ -178,9 +156,8 @@ def _of_scene(scene: Scene) -> Iterator[Slider]:
     for number, patch in enumerate(scene.patches, start=1):
         if "young" in patch.own:
             yield _modulus(scene, f"patch{number}.young", f"E of patch {number}")
-    thickest = min(4 * thickness, 0.5 * min(scene.sheet.lengths))
-    thin = (thickness / 4, max(thickest, thickness))
-    yield Slider("thickness", "Thickness h", "mm", 1e3, *thin, thickness, logarithmic=True)
+    thick = max(thickness, min(4 * thickness, 0.5 * min(scene.sheet.lengths)))
+    yield Slider("thickness", "Thickness h", "mm", 1e3, thickness / 4, thick, thickness, logarithmic=True)
     if scene.gravity is not None:
         yield Slider("gravity", "Gravity", "× the scene's", 1.0, 0.0, 3.0, 1.0)
     if len(scene.loads) == 1 and isinstance(pressure := scene.loads[0], Pressure) and pressure.value:
@@ -188,16 +165,14 @@ def _of_scene(scene: Scene) -> Iterator[Slider]:
         yield Slider("pressure", "Pressure", "Pa", 1.0, -most, most, pressure.value)
     elif scene.loads:
         yield Slider("loads", "Loads", "× the scene's", 1.0, -3.0, 3.0, 1.0)
-    edges = dict.fromkeys(
-        h.edge for h in (*scene.supports, *scene.actuators) if isinstance(h, Curved | Chain)
-    )
-    for edge in edges:
+    bent = (h for h in (*scene.supports, *scene.actuators) if isinstance(h, Curved | Chain))
+    for edge in dict.fromkeys(h.edge for h in bent):
         try:
-            bent = parameter(scene, f"curvature_{edge}")
+            found = parameter(scene, f"curvature_{edge}")
         except BadInput:  # a chain's list of curvatures, or one over time, is no single number
             continue
-        most = max(2 * abs(bent.value), 1.5 / min(scene.sheet.lengths))
-        yield Slider(bent.name, f"Curvature of edge {edge}", "1/m", 1.0, -most, most, bent.value)
+        most = max(2 * abs(found.value), 1.5 / min(scene.sheet.lengths))
+        yield Slider(found.name, f"Curvature of edge {edge}", "1/m", 1.0, -most, most, found.value)
 
 
 def _modulus(scene: Scene, name: str, label: str) -> Slider:
@@ -211,17 +186,16 @@ def _of_models(scene: Scene, elements: int, lattice: Lattice) -> Iterator[Slider
     if lattice.grid is not None:
         grid = min((counts := scene_grid(scene, lattice.grid))[:2])
         if counts != scene_grid(scene, grid):
-            _refuse(
+            raise BadInput(
                 f"grid = {'x'.join(map(str, counts))}: cells are near-square on this page; give one number"
             )
     yield Slider("grid", "Masses along the shorter side", "", 1.0, 3, masses, grid, whole=True)
     if not isinstance(lattice.grading, float | int | None):
-        _refuse(f"grading = {lattice.grading}: this page grades towards all edges; give a number")
+        raise BadInput(f"grading = {lattice.grading}: this page grades towards all edges; give a number")
     yield Slider("grading", "Grading towards the edges", "", 1.0, 0.0, 1.0, lattice.grading or 0.0)
     if (k := lattice.k) is not None:
-        yield Slider(
-            "k", "Stiffness k of every spring (uniform)", "N/m", 1.0, k / 30, k * 30, k, logarithmic=True
-        )
+        label = "Stiffness k of every spring (uniform)"
+        yield Slider("k", label, "N/m", 1.0, k / 30, k * 30, k, logarithmic=True)
     yield Slider("elements", "Shell elements along it", "", 1.0, 2, fine, min(elements, fine), whole=True)
 
 
@@ -234,25 +208,16 @@ def most(sheet: Sheet, cap: int) -> int:
 
 def _calibrations(scene: Scene) -> dict[str, dict[str, Any]]:
     """Those that take no fit, the usual one first; whether they can be graded, and whether they take k."""
-    closed = {
-        name: method
-        for name, method in CALIBRATIONS.items()
+    own = {OWN: {"said": "the scene's own [springs], on their grid", "graded": False, "k": False}}
+    return ({} if scene.springs is None else own) | {
+        name: {"said": method.summary, "graded": "grading" in method.takes, "k": "k" in method.takes}
+        for name in (CALIBRATION, *CALIBRATIONS)
+        for method in [CALIBRATIONS[name]]
         if not method.fitted and ("cells" in method.takes or scene.uniform)
     }
-    found = {
-        name: {"said": m.summary, "graded": "grading" in m.takes, "k": "k" in m.takes}
-        for name, m in closed.items()
-    }
-    usual = {CALIBRATION: found.pop(CALIBRATION), **found}
-    if scene.springs is None:
-        return usual
-    return {OWN: {"said": "the scene's own [springs], on their grid", "graded": False, "k": False}, **usual}
 
 
 def _times(load: Any, factor: float) -> Any:
     """Return a load, or gravity, with all its forces, moments or pressures times a factor."""
-    given = {name: getattr(load, name) for name in FORCES if hasattr(load, name)}
-    vectors = {name: tuple(factor * f for f in force) for name, force in given.items()}
-    numbers = ("moment_per_length", "value")
-    scalars = {name: factor * getattr(load, name) for name in numbers if hasattr(load, name)}
-    return load.replace(**vectors, **scalars)
+    given = {name: np.multiply(factor, getattr(load, name)) for name in FORCES if hasattr(load, name)}
+    return load.replace(**{name: value.tolist() for name, value in given.items()})

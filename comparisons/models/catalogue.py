@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
-from typing import Annotated, Any
+from typing import Any
 
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import to_json, write_text
@@ -15,31 +14,24 @@ from sheetbench.scenes.language.schema import for_editors
 from sheetbench.scenes.reference import markdown
 
 
-@dataclass(frozen=True)
-class Entry:
-    """A scene of the catalogue."""
-
-    name: str
-    title: Annotated[str, Column("what it is", prose=True)]
-    file: str
-
-
 class Catalogue(Answer):
     """The list that `sheetbench check` shows; the scenes' own files go along into a folder."""
 
     file_name = "scenes"
 
     def __init__(self) -> None:
-        self.entries = [Entry(name, load(name).title, str(path)) for name, path in catalogue().items()]
+        self.titles = {name: load(name).title for name in catalogue()}
 
     def heading(self) -> tuple[str, str, str]:
         return "Catalogue", "", ""
 
     def document(self) -> dict[str, Any]:
-        return {"scenes": [vars(entry) for entry in self.entries]}
+        files = catalogue()
+        return {"scenes": [{"name": n, "title": t, "file": str(files[n])} for n, t in self.titles.items()]}
 
     def tables(self) -> tuple[Table, ...]:
-        return (Table.of(Entry, self.entries, "Scenes that come with sheetbench", without=("file",)),)
+        columns = ("name", Column("what it is", prose=True))
+        return (Table.listed("Scenes that come with sheetbench", columns, self.titles.items()),)
 
     def notes(self) -> tuple[str, ...]:
         return ("Run one with:  sheetbench compare NAME",)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import shlex
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any
+from typing import Any
 from warnings import catch_warnings, simplefilter
 
 from comparisons.models.catalogue import scene_file
@@ -26,14 +26,6 @@ from sheetbench.scenes.meaning.words import in_words
 from sheetbench.scenes.objects.grid import elements_of
 
 
-@dataclass(frozen=True)
-class Part:
-    """A part of a scene, or of the models that solve it by default, in words."""
-
-    part: str
-    what: Annotated[str, Column(prose=True)]
-
-
 @dataclass(frozen=True, repr=False)
 class Check(Answer):
     """A scene in words; called: the catalogue name or path that commands shall have."""
@@ -44,10 +36,9 @@ class Check(Answer):
     file_name = "check"
 
     @cached_property
-    def parts(self) -> list[Part]:
-        """The scene's parts, the default lattice and the default shell."""
-        models = ("lattice", _lattice(self.scene)), ("shell", _shell(self.scene))
-        return [Part(*part) for part in (*in_words(self.scene), *models)]
+    def parts(self) -> list[tuple[str, str]]:
+        """The scene's parts, the default lattice and the default shell, and what each is in words."""
+        return [*in_words(self.scene), ("lattice", _lattice(self.scene)), ("shell", _shell(self.scene))]
 
     @cached_property
     def warnings(self) -> list[str]:
@@ -62,13 +53,13 @@ class Check(Answer):
     def document(self) -> dict[str, Any]:
         return {
             "scene": self.scene.document(),
-            "parts": [vars(part) for part in self.parts],
+            "parts": [{"part": part, "what": what} for part, what in self.parts],
             "free_rigid_motions": self.free,
             "warnings": self.warnings,
         }
 
     def tables(self) -> tuple[Table, ...]:
-        return (Table.of(Part, self.parts, "What will be solved"),)
+        return (Table.listed("What will be solved", ("part", Column("what", prose=True)), self.parts),)
 
     def figures(self) -> tuple[Picture, ...]:
         return (Picture("plan", "comparisons.models.check_figure:compose", (self.scene,)),)

@@ -141,32 +141,24 @@ def expected_error(
     ratio = prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
     stretch = largest_stretch(scene, fine, finer)
     value = grid_error(solution.displacement(points), fine.displacement(points), ratio, stretch)
-    if value is None:
-        reason = _without(solution.displacement(points), fine.displacement(points), ratio)
-        return NoEstimate(f"displacements on {masses} masses {reason}")
+    if isinstance(value, str):
+        return NoEstimate(f"displacements on {masses} masses {value}")
     return ExpectedError(value, finer, fine.solve_seconds)
 
 
-def _without(coarse: np.ndarray, fine: np.ndarray, ratio: float) -> str:
-    """Return why no error follows from displacements (n, 3) on two grids, as the end of a sentence."""
+def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float) -> float | str:
+    """Return e of displacements (n, 3) on grids with `ratio` times as many cells in plan on the finer; or why
+    there is none, as the end of a sentence: they are alike but for rounding, too far apart, or `stretch`
+    makes the laws of strain weigh more."""
     size, difference = float(np.max(np.abs(fine))), float(np.max(np.abs(coarse - fine)))
     if not difference > ROUNDING * size:
         return "are the same but for rounding"
-    differ = f"differ by {few(100.0 * difference / size)} %"
-    if difference >= FAR * (1.0 - 1.0 / ratio) * size:
-        return f"{differ}, too much to extrapolate from"
-    return f"{differ}, less than the law of strain may change them at this stretch"
-
-
-def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float) -> float | None:
-    """e of displacements (n, 3) on grids with `ratio` times as many cells in plan on the finer; None where
-    they are alike but for rounding, too far apart, or `stretch` makes the laws of strain weigh more."""
-    size = float(np.max(np.abs(fine)))
-    difference = float(np.max(np.abs(coarse - fine)))
-    if not difference > ROUNDING * size:
-        return None
     value = difference / (1.0 - 1.0 / ratio) / size
-    return value if LAW * stretch < value < FAR else None
+    if LAW * stretch < value < FAR:
+        return value
+    too_far = "too much to extrapolate from"
+    why = too_far if value >= FAR else "less than the law of strain may change them at this stretch"
+    return f"differ by {few(100.0 * difference / size)} %, {why}"
 
 
 def largest_stretch(scene: Scene, solution: Solution, grid: Grid) -> float:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any, overload
+from typing import Any
 
 import numpy as np
 
@@ -57,33 +57,15 @@ class Spectrum:
         }
 
 
-@dataclass(frozen=True)
-class ModeRow:
-    """A mode of the lattice: its kind and frequency, the mode of the same shape of every reference, and how
-    far the lattice is from the first of them."""
-
-    mode: Annotated[int, NUMBER("d")]
-    kind: str | None
-    frequencies: Mapping[Column, float | None]
-    relative: Annotated[float | None, PERCENT("+.2f", "difference")] = None
-    mac: Annotated[float | None, NUMBER(".3f", "MAC")] = None
-    expected: Annotated[float | None, PERCENT("+.2f")] = None
-
-
-@dataclass(frozen=True)
-class BucklingRow:
-    """A buckling mode of the lattice and that of the same shape of a reference."""
-
-    mode: Annotated[int, NUMBER("d")]
-    load_factor: Annotated[float, NUMBER(".5g", "load factor")]
-    against: Annotated[int | None, NUMBER("d", "reference's mode")] = None
-    reference: Annotated[float | None, NUMBER(".5g")] = None
-    relative: Annotated[float | None, PERCENT("+.2f", "difference")] = None
-    mac: Annotated[float | None, NUMBER(".3f", "MAC")] = None
+BUCKLED = (NUMBER("d", "mode"), NUMBER(".5g", "load factor"))
+AGAINST = (
+    *(NUMBER("d", "reference's mode"), NUMBER(".5g", "reference"), PERCENT("+.2f", "difference")),
+    NUMBER(".3f", "MAC"),
+)
 
 
 @dataclass(frozen=True, repr=False)
-class Spectra(Answer, Sequence[Spectrum]):
+class Spectra(Answer):
     """The spectra of a scene, the lattice's first, then that of each reference.
 
     about: "flat" or "deformed"; sag [m]: the largest displacement that the lattice's flat tangent gives under
@@ -98,13 +80,7 @@ class Spectra(Answer, Sequence[Spectrum]):
     sag: float | None = None
     buckling: tuple[Buckling, ...] = ()
 
-    @overload
-    def __getitem__(self, index: int) -> Spectrum: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[Spectrum]: ...
-
-    def __getitem__(self, index: int | slice) -> Spectrum | Sequence[Spectrum]:
+    def __getitem__(self, index: int) -> Spectrum:
         return self.found[index]
 
     def __len__(self) -> int:
@@ -118,7 +94,7 @@ class Spectra(Answer, Sequence[Spectrum]):
     @cached_property
     def _sampled(self) -> tuple[np.ndarray, ...]:
         """Shapes (count, n, 3) of every model on equal plan cells."""
-        return tuple(on_cells(self.scene, spectrum.shapes) for spectrum in self)
+        return tuple(on_cells(self.scene, spectrum.shapes) for spectrum in self.found)
 
     @cached_property
     def kinds(self) -> tuple[str | None, ...]:
@@ -130,7 +106,7 @@ class Spectra(Answer, Sequence[Spectrum]):
     @cached_property
     def pairs(self) -> tuple[Pair, ...]:
         """Every mode of the lattice with the mode of the same shape of each reference."""
-        models = zip(self, self._sampled, strict=True)
+        models = zip(self.found, self._sampled, strict=True)
         first, *others = (Shaped(one.model, one.frequencies, shapes) for one, shapes in models)
         return pairs_of(first, others, self.kinds)
 
@@ -153,7 +129,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         damps = material.dashpot_time or material.damping_rate or material.branches.times
         if self.about == "deformed" or self.scene.dampers is not None or not damps:
             return ()
-        return tuple(mode_damping(material, spectrum.frequencies) for spectrum in self)
+        return tuple(mode_damping(material, spectrum.frequencies) for spectrum in self.found)
 
     def against(self, model: str) -> tuple[Pair, ...]:
         """Return the pairs with one reference, in the order of the lattice's modes."""
@@ -162,13 +138,13 @@ class Spectra(Answer, Sequence[Spectrum]):
     def document(self) -> dict[str, Any]:
         damping = {
             spectrum.model: [asdict(mode) for mode in modes]
-            for spectrum, modes in zip(self, self.damping, strict=False)
+            for spectrum, modes in zip(self.found, self.damping, strict=False)
         }
         return {
             "scene": self.scene.document(),
             "about": self.about,
             "sag": self.sag,
-            "solutions": [spectrum.as_dict() for spectrum in self],
+            "solutions": [spectrum.as_dict() for spectrum in self.found],
             "pairs": [pair.as_dict() for pair in self.pairs],
             **({"damping": damping} if damping else {}),
             **({"buckling": self._buckling()} if self.buckling else {}),
@@ -184,38 +160,40 @@ class Spectra(Answer, Sequence[Spectrum]):
         for first in self.buckling[:1]:
             factors, others = first.load_factors.tolist(), self.buckling[1:]
             if not others:
-                alone = [BucklingRow(i, factor) for i, factor in enumerate(factors, 1)]
-                without = ("against", "reference", "relative", "mac")
-                yield Table.of(BucklingRow, alone, "Buckling: times the loads", "buckling", without=without)
+                yield Table.listed("Buckling: times the loads", BUCKLED, enumerate(factors, 1), "buckling")
             for one in others:
                 rows = []
                 for pair in self.buckling_pairs:
                     if pair.against == one.model:
                         theirs = pair.is_ and float(one.load_factors[pair.is_ - 1])
                         ours = (pair.number, factors[pair.number - 1])
-                        rows.append(BucklingRow(*ours, pair.is_, theirs, pair.relative, pair.mac))
+                        rows.append((*ours, pair.is_, theirs, pair.relative, pair.mac))
                 caption = f"Buckling: times the loads, lattice and {one.model}"
-                yield Table.of(BucklingRow, rows, caption, f"buckling-{one.model}")
+                yield Table.listed(caption, (*BUCKLED, *AGAINST), rows, f"buckling-{one.model}")
 
     def tables(self) -> tuple[Table, ...]:
-        references, rows = [(spectrum, self.against(spectrum.model)) for spectrum in self[1:]], []
-        for i, kind in enumerate(self.kinds):
-            hertz: dict[Column, float | None] = {HERTZ(".4g", self[0].model): self.frequencies[i]}
-            for spectrum, pairs in references:
-                match = pairs[i].is_
-                hertz[NUMBER("d", f"{spectrum.model}'s mode")] = match
-                hertz[HERTZ(".4g", spectrum.model)] = match and spectrum.frequencies[match - 1]
-            first = references[0][1][i] if references else None
-            off = (first.relative, first.mac) if first else (None, None)
-            rows.append(ModeRow(i + 1, kind, hertz, *off, *self[0].expected[i : i + 1]))
-        empty = {"kind": not self.kinds[0], "expected": not self[0].expected}
-        empty |= dict.fromkeys(("relative", "mac"), not references)
-        without = [field for field, left_out in empty.items() if left_out]
+        references = [(spectrum, self.against(spectrum.model)) for spectrum in self.found[1:]]
+        count = len(self.frequencies)
+        columns: list[tuple[Column, Sequence[Any]]] = [(NUMBER("d", "mode"), range(1, count + 1))]
+        if any(self.kinds):
+            columns.append((Column("kind"), self.kinds))
+        columns.append((HERTZ(".4g", self[0].model), self.frequencies.tolist()))
+        for spectrum, pairs in references:
+            found = [pair.is_ for pair in pairs]
+            theirs = [is_ and spectrum.frequencies[is_ - 1] for is_ in found]
+            columns.append((NUMBER("d", f"{spectrum.model}'s mode"), found))
+            columns.append((HERTZ(".4g", spectrum.model), theirs))
+        for _, pairs in references[:1]:
+            columns.append((PERCENT("+.2f", "difference"), [pair.relative for pair in pairs]))
+            columns.append((NUMBER(".3f", "MAC"), [pair.mac for pair in pairs]))
+        if self[0].expected:
+            columns.append((PERCENT("+.2f", "expected"), self[0].expected))
+        heads, values = zip(*columns, strict=True)
         caption = f"Natural frequencies about the {self.about} sheet"
-        found = Table.of(ModeRow, rows, caption, "modes", without=without)
+        listed = Table.listed(caption, heads, zip(*values, strict=True), "modes")
         fields = ("number", "frequency_hz", "asked", "got", "miss")
         return (
-            found,
+            listed,
             *self._buckling_tables(),
             *(
                 Table.of(
@@ -225,7 +203,7 @@ class Spectra(Answer, Sequence[Spectrum]):
                     f"damping-{spectrum.model}",
                     fields=fields,
                 )
-                for spectrum, modes in zip(self, self.damping, strict=False)
+                for spectrum, modes in zip(self.found, self.damping, strict=False)
             ),
         )
 
@@ -240,7 +218,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         tenth of the longer side; `displacement` is the first model's first mode."""
         plan = plan_mesh(self.scene)
         largest = 0.1 * max(self.scene.sheet.lengths)
-        for spectrum in self:
+        for spectrum in self.found:
             for mode, shape in enumerate(spectrum.shapes(plan.points[:, :2]), 1):
                 shape = largest / (abs(shape).max() or 1.0) * shape
                 plan.point_data.setdefault("displacement", shape)
@@ -248,7 +226,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         write_mesh(path, plan)
 
     def choices(self) -> dict[str, Any]:
-        return {spectrum.model: spectrum.settings for spectrum in self}
+        return {spectrum.model: spectrum.settings for spectrum in self.found}
 
     def complaints(self) -> list[str]:
         """A complaint where the modes are the flat sheet's and its loads take it far from flat."""
@@ -261,16 +239,15 @@ class Spectra(Answer, Sequence[Spectrum]):
         ]
 
     def result(self) -> str:
-        """Return every model's lowest frequency."""
         return "; ".join(
             f"{one.label}: {number(float(one.frequencies[0]), '.4g')} Hz"
-            for one in self
+            for one in self.found
             if len(one.frequencies)
         )
 
     def notes(self) -> list[str]:
         """Return what the table does not say: labels, rigid motions left out, actuators left out."""
-        notes = [" · ".join(spectrum.label for spectrum in self), *choice_notes(self[0].settings)]
+        notes = [" · ".join(spectrum.label for spectrum in self.found), *choice_notes(self[0].settings)]
         known = [100.0 * error for error in self[0].expected if error is not None]
         if known:
             of, low, high = self[0].model, number(min(known), "+.2g"), number(max(known), "+.2g")
@@ -278,7 +255,7 @@ class Spectra(Answer, Sequence[Spectrum]):
                 f"{of}: expected grid error of the frequencies {low} to {high} %, from a second solve "
                 "on a finer grid"
             )
-        for spectrum in self[1:]:
+        for spectrum in self.found[1:]:
             notes += _pairing_notes(self.against(spectrum.model))
         if len(self) > 1:
             notes.append("MAC: modal assurance criterion of both models' shapes, 1 where they are the same")

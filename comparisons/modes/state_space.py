@@ -3,10 +3,9 @@ important states, their files: the answer of `sheetbench modes --state-space`.""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -28,23 +27,10 @@ EXPLANATION = (
 )
 
 
-@dataclass(frozen=True)
-class PoleRow:
-    """A pair of poles."""
-
-    frequency: Annotated[float, HERTZ(".5g")]
-    damping_ratio: Annotated[float, PERCENT("z.3g")]
-    real: Annotated[float, Unit("1/s", "1/s")("z.5g")]
-    imaginary: Annotated[float, Unit("rad/s", "rad/s")(".5g")]
-
-
-@dataclass(frozen=True)
-class InputRow:
-    """What an input moves the probes by at rest, by output or by its column."""
-
-    input: str
-    unit: str
-    moved: Annotated[Mapping[Any, float], MILLIMETRES("z.4g")]
+POLES = (
+    *(HERTZ(".5g", "frequency"), PERCENT("z.3g", "damping ratio"), Unit("1/s", "1/s")("z.5g", "real")),
+    Unit("rad/s", "rad/s")(".5g", "imaginary"),
+)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -131,7 +117,6 @@ class Linearisation(Answer):
         }
 
     def heading(self) -> tuple[str, str, str]:
-        """Return the scene, and how large the system is."""
         about = "flat sheet" if self.about == "flat" else "equilibrium"
         inputs, outputs = len(self.matrices.inputs), len(self.matrices.outputs)
         lead = (
@@ -141,36 +126,42 @@ class Linearisation(Answer):
         return self.scene.name, self.scene.title, lead
 
     def tables(self) -> tuple[Table, ...]:
-        """Return the poles, and what every input moves the probes by at rest."""
         inputs = zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True)
-        rows = (InputRow(n, unit_of(n), dict(zip(self.matrices.outputs, u, strict=True))) for n, u in inputs)
-        return self._poles(), Table.of(InputRow, rows, "Static displacement per unit of input", "jacobian")
+        columns = [
+            "input",
+            "unit",
+            *(MILLIMETRES("z.4g", name) for name in self.matrices.outputs),
+        ]
+        rows = ((name, unit_of(name), *moved) for name, moved in inputs)
+        return self._poles(), Table.listed("Static displacement per unit of input", columns, rows, "jacobian")
 
     def printed(self) -> tuple[Table, ...]:
-        """Return the poles, and heights alone."""
         return self._poles(), self._heights()
 
     def _poles(self) -> Table:
         """Return a row per pair of poles: the slowest first."""
         pairs = zip(self.upper, self.damping_ratios, strict=True)
-        rows = [PoleRow(abs(p) / (2.0 * np.pi), ratio, p.real, p.imag) for p, ratio in pairs]
+        rows = [(abs(p) / (2.0 * np.pi), ratio, p.real, p.imag) for p, ratio in pairs]
         undamped = not any(self.damping_ratios)
-        caption = "Poles (undamped)" if undamped else "Poles"
-        details = ("damping_ratio", "real") if undamped else ()
-        return Table.of(PoleRow, rows, caption, "poles", details=details)
+        columns = [replace(one, detail=undamped and one.name in ("damping ratio", "real")) for one in POLES]
+        return Table.listed("Poles (undamped)" if undamped else "Poles", columns, rows, "poles")
 
     def _heights(self) -> Table:
         """Along z alone, of loads, commands and moved edges, these per millimetre; rounding as 0."""
+        up = [i for i, name in enumerate(self.matrices.outputs) if name.endswith(" uz")]
+        columns = [
+            "input",
+            "unit",
+            *(MILLIMETRES("z.3g", self.matrices.outputs[i]) for i in up),
+        ]
         rows = []
         for name, column in zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True):
             unit = unit_of(name)
             scale, shown = (1e-3, "mm") if unit == "m" else (1.0, unit)
             values = scale * np.where(np.abs(column) > ROUNDING * np.abs(column).max(), column, 0.0)
             if unit != "N":
-                moved = zip(self.matrices.outputs, values, strict=True)
-                heights = {MILLIMETRES("z.3g", at): u for at, u in moved if at.endswith(" uz")}
-                rows.append(InputRow(name, shown, heights))
-        return Table.of(InputRow, rows, "Static uz per unit of input")
+                rows.append((name, shown, *values[up]))
+        return Table.listed("Static uz per unit of input", columns, rows)
 
     def figures(self) -> tuple[Picture, ...]:
         return (Picture("responses", "comparisons.modes.state_figure:compose", (self,)),)
@@ -187,13 +178,11 @@ class Linearisation(Answer):
         return {"label": self.label, "about": self.about, "states": len(self.space.a)}
 
     def result(self) -> str:
-        """Return the lowest pole."""
         lowest = int(np.argmin(np.abs(self.upper)))
         frequency, ratio = abs(self.upper[lowest]) / (2.0 * np.pi), 100.0 * self.damping_ratios[lowest]
         return f"lowest of {len(self.space.a)} states: {frequency:.4g} Hz, damping ratio {ratio:.3g} %"
 
     def notes(self) -> tuple[str, ...]:
-        """Return what a balanced truncation promises, and what the numbers mean."""
         if self.balanced is None:
             return EXPLANATION
         return (

@@ -2,79 +2,69 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
+from matplotlib.text import Annotation
+from matplotlib.transforms import Bbox, BboxBase
 
 from sheetbench.answers.style import DARK, MOST, plain
 
 SIZE, LONGEST = 6.5, 14  # points; characters of a name
-# Where a name may stand, in points from its point, in the order of preference: offset, alignment.
-PLACES = (
-    ((3.5, 3.5), "left"),
-    ((-3.5, 3.5), "right"),
-    ((3.5, -8.5), "left"),
-    ((-3.5, -8.5), "right"),
-    ((0.0, 6.0), "center"),
-    ((0.0, -11.5), "center"),
-    ((6.0, -2.0), "left"),
-    ((-6.0, -2.0), "right"),
-)
-
-
-Box = tuple[float, float, float, float]  # left, bottom, right, top, in points
-Place = tuple[tuple[float, float], str]
+STEPS = (3.5, 9.0, 15.0)  # points from a point to its name
+CORNERS = ((1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1), (1, 0), (-1, 0))  # where names stand, in turn
+ACROSS, UP = ("center", "left", "right"), ("center", "bottom", "top")
 
 
 def place_labels(axis: Axes, pixels: np.ndarray, names: list[str]) -> None:
     """Mark the pixels (n, 2) of an image and name the first of them, at most MOST."""
-    per_point = abs(np.diff(axis.get_xlim())[0]) / (72.0 * axis.get_position().width * _width(axis))
-    shown = [plain(name, longest=LONGEST) for name in names[:MOST]]
-    flipped = np.array([1.0, -1.0]) / per_point  # y runs down in an image
-    (left, right), (bottom, top) = axis.get_xlim(), sorted(axis.get_ylim())
-    frame = (left / per_point, -top / per_point, right / per_point, -bottom / per_point)
-    chosen = spread(pixels * flipped, shown, frame)
+    labels = []
     for x, y in pixels:
         axis.plot(x, y, "o", markersize=3, markerfacecolor="white", markeredgecolor=DARK, markeredgewidth=0.7)
-    for point, name, (offset, side) in zip(pixels, shown, chosen, strict=False):
-        label = axis.annotate(name, point, offset, textcoords="offset points", ha=side, fontsize=SIZE)
-        label.set_path_effects([withStroke(linewidth=1.8, foreground="white")])
+    for point, name in zip(pixels, names[:MOST], strict=False):
+        shown = plain(name, longest=LONGEST)
+        labels.append(axis.annotate(shown, point, (0, 0), textcoords="offset points", fontsize=SIZE))
+        labels[-1].set_path_effects([withStroke(linewidth=1.8, foreground="white")])
+    axis.apply_aspect()
+    spread(labels, marks(axis, pixels), frame=axis.get_window_extent())
 
 
-def spread(points: np.ndarray, names: list[str], frame: Box, size: float = SIZE) -> list[Place]:
-    """Where the names of the first of the points (n, 2) stand, all in points, y upwards, within a frame."""
-    taken = [(x - 2, y - 2, x + 2, y + 2) for x, y in points]
-    chosen = []
-    for number, ((x, y), name) in enumerate(zip(points, names, strict=False)):
-        boxes = [_box(x, y, place, len(name), size) for place in PLACES]
-        others = [box for i, box in enumerate(taken) if i != number]
-        best = int(np.argmin([_cost(box, others, frame) for box in boxes]))
-        taken.append(boxes[best])
-        chosen.append(PLACES[best])
-    return chosen
+def marks(axis: Axes, points: np.ndarray) -> list[Bbox]:
+    """Return what the marks of points (n, 2) cover, in pixels."""
+    size, at = axis.figure.dpi / 36.0, axis.transData.transform(points.reshape(-1, 2))
+    return [Bbox.from_bounds(x - 0.5 * size, y - 0.5 * size, size, size) for x, y in at]
 
 
-def _width(axis: Axes) -> float:
-    figure = axis.get_figure()
-    assert figure is not None
-    return float(figure.get_figwidth())  # type: ignore[union-attr]
+def spread(
+    labels: Iterable[Annotation],
+    taken: Sequence[BboxBase],
+    corners: Sequence[tuple[int, int]] = CORNERS,
+    frame: BboxBase | None = None,
+) -> None:
+    """Move labels to the first place about their points where they hide least of what is taken, and least of
+    them lies outside a frame; corners: in which direction, the preferred one first."""
+    hidden = list(taken)
+    for label in labels:
+        places = [(step, x, y) for step in STEPS for x, y in corners]
+        costs = [_cost(_moved(label, *place), hidden, frame) for place in places]
+        hidden.append(_moved(label, *places[int(np.argmin(costs))]))
 
 
-def _box(x: float, y: float, place: Place, letters: int, size: float) -> Box:
-    """Return what a name covers."""
-    (right, up), side = place
-    width = 0.62 * size * letters
-    left = x + right - {"left": 0.0, "right": width, "center": 0.5 * width}[side]
-    return (left, y + up, left + width, y + up + size)
+def _moved(label: Annotation, step: float, x: int, y: int) -> Bbox:
+    """Move a label off its point; what it covers, in pixels."""
+    label.xyann = (step * x, step * y)
+    label.set(ha=ACROSS[x], va=UP[y])
+    return label.get_window_extent()
 
 
-def _cost(box: Box, others: list[Box], frame: Box) -> float:
-    """Return the area that a name would share with others or have outside the frame."""
-    inside = _common(box, frame)
-    return (box[2] - box[0]) * (box[3] - box[1]) - inside + sum(_common(box, other) for other in others)
+def _cost(box: BboxBase, taken: Sequence[BboxBase], frame: BboxBase | None) -> float:
+    """Return the area that a label shares with others or has outside the frame."""
+    outside = 0.0 if frame is None else box.width * box.height - _common(box, frame)
+    return float(round(outside + sum(_common(box, other) for other in taken), 6))
 
 
-def _common(first: Box, second: Box) -> float:
-    across = min(first[2], second[2]) - max(first[0], second[0])
-    along = min(first[3], second[3]) - max(first[1], second[1])
-    return max(across, 0.0) * max(along, 0.0)
+def _common(first: BboxBase, second: BboxBase) -> float:
+    both = Bbox.intersection(first, second)
+    return 0.0 if both is None else float(both.width * both.height)

@@ -20,8 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.identification.columns import Row, read_columns
-from comparisons.scoring.cases import AT_REST
-from comparisons.scoring.reference import Reference, reference, references
+from comparisons.scoring.reference import AT_REST, Reference, reference, references
 from sheetbench.errors import BadInput
 
 HEADERS = {

@@ -1,4 +1,14 @@
-"""The reference set as it is kept: converged values with error bars, under a version and a licence."""
+"""The reference set as it is kept: scenes, converged values, error bars, version and licence.
+
+statics  displacement at the probes
+motion   displacement at the probes over time, from rest, weight and loads on at t = 0
+modes    the lowest natural frequencies about the flat, stress-free sheet
+curves   as statics: strips whose answer depends on one number alone
+natural  as statics: sheets that are not flat at rest
+contact  as statics: sheets that touch something
+
+`sheetbench study reference-set` computes the values of the scenes in the file.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +27,7 @@ from sheetbench.scenes import Scene
 FILE = Path(__file__).parent / "data" / "suite.json"
 VERSION = "2.2"
 LICENCE = "CC-BY-4.0"
+AT_REST = ("statics", "curves", "natural", "contact")  # displacements without time
 
 
 @dataclass(frozen=True, eq=False)

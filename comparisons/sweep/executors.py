@@ -40,9 +40,6 @@ class Watched(Protocol):
     def watch(self) -> None:
         """Raise BadInput where nobody is left to carry anything out."""
 
-    def abandon(self) -> None:
-        """End at once, whatever is under way."""
-
 
 class Processes(ProcessPoolExecutor):
     """Single-threaded processes of this machine, which do not hear Ctrl-C: it is for who started them."""
@@ -57,13 +54,11 @@ class Processes(ProcessPoolExecutor):
         with _interrupt_held_back():
             return super().submit(*arguments, **keywords)
 
-    def watch(self) -> None:
-        """A process that dies breaks the pool, which says so by itself."""
-
-    def abandon(self) -> None:
-        """End the processes, whatever they are at."""
-        self._ours.close()
-        self.shutdown(cancel_futures=True)
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Wait for the processes; without `wait` end them, whatever they are at."""
+        if not wait:
+            self._ours.close()
+        super().shutdown(cancel_futures=cancel_futures)
 
 
 def processes(workers: int) -> Executor:
@@ -161,14 +156,11 @@ class Cluster(Executor):
         return self._dask.submit(task, *arguments, **named)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Wait for what is under way; the connection stays."""
-        self._dask.shutdown(wait=wait)
-
-    def abandon(self) -> None:
-        """Cancel what is under way, without waiting for a scheduler that may not be there."""
-        cancelling = threading.Thread(target=self._dask.shutdown, kwargs={"wait": False}, daemon=True)
-        cancelling.start()
-        cancelling.join(FAREWELL)
+        """Wait for what is under way, or cancel it, without waiting for a scheduler that may not be there;
+        the connection stays."""
+        ending = threading.Thread(target=self._dask.shutdown, kwargs={"wait": wait}, daemon=True)
+        ending.start()
+        ending.join(None if wait else FAREWELL)
 
     def watch(self) -> None:
         """See who is there. Raises BadInput, or says that it waits, where nobody has been for long."""

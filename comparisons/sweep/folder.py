@@ -151,10 +151,7 @@ def _runs(path: Path, option: str) -> dict[str, Any]:
     ours."""
     try:
         manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
-        runs = manifest.get("runs") or {
-            manifest["command"][1]: {key: manifest[key] for key in ABOUT if key in manifest}
-        }
-        return {verb: {"files": [], **run} for verb, run in runs.items()}
+        return {verb: {"files": [], **run} for verb, run in manifest["runs"].items()}
     except FileNotFoundError:
         return {}
     except (OSError, ValueError, AttributeError, TypeError, LookupError):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import isfinite
 from shlex import join
-from typing import Annotated, Any
+from typing import Any
 
 from comparisons.models.grading import parse_grading
 from comparisons.models.scales import Scales
@@ -17,6 +17,11 @@ from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
 
+TRIED = (
+    *(Column("model", prose=True), "size", MILLISECONDS(".2f", "solve"), PERCENT(".3g", "error")),
+    *(PERCENT(".3g", "in all"), Column("choice", words=("yes", ""))),
+)
+
 
 @dataclass(frozen=True)
 class TrialRow:
@@ -24,21 +29,11 @@ class TrialRow:
     the finest one's bar and model error, what a tolerance is held against."""
 
     spec: Spec
-    status: Annotated[str, Column(prose=True)]
-    error: Annotated[float | None, PERCENT(".3g")]
-    total: Annotated[float | None, PERCENT(".3g", "in all")]
-    solve_seconds: Annotated[float, MILLISECONDS(".2f", "solve")]
-    choice: Annotated[bool, Column(words=("yes", ""))] = False
-
-    @property
-    def model(self) -> Annotated[str, Column(prose=True)]:
-        """The model without its size."""
-        return self.spec.series
-
-    @property
-    def size(self) -> str:
-        """The numbers of masses or elements."""
-        return self.spec.size
+    status: str
+    error: float | None
+    total: float | None
+    solve_seconds: float
+    choice: bool = False
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -127,18 +122,19 @@ class Advice(Answer):
     def tables(self) -> tuple[Table, ...]:
         """Return a row per probing solve, the quickest first; the choice is marked. Statuses that are all
         "converged" are for the files alone."""
-        rows = sorted(self.tried, key=lambda one: one.solve_seconds)
+        rows = [
+            (one.spec.series, one.spec.size, one.solve_seconds, one.error, one.total, one.choice, one.status)
+            for one in sorted(self.tried, key=lambda one: one.solve_seconds)
+        ]
         caption = "Quick solves; error: from the finest; in all: plus the finest's mesh and model errors"
-        fields = ("model", "size", "solve_seconds", "error", "total", "choice", "status")
-        details = () if any(one.status != "converged" for one in rows) else ("status",)
+        status = Column("status", prose=True, detail=all(row[-1] == "converged" for row in rows))
         text = ""
         if self.tolerance is not None and isfinite(self.bar):
             model = self.model.value if self.model else None
             text = share_of_tolerance(self.tolerance, model, self.bar, "shell")
-        return (Table.of(TrialRow, rows, caption, "tried", fields=fields, details=details, text=text),)
+        return (Table.listed(caption, (*TRIED, status), rows, "tried", text=text),)
 
     def notes(self) -> list[str]:
-        """Return the advice and its reasons, a sentence a line, and the command that solves the choice."""
         scales, command = self.scales, self.command
         return [
             f"{self.reason} ({few(self.probing_seconds)} s of trial solves)",

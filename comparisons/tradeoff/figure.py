@@ -2,36 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import cycle
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.text import Annotation, Text
+from matplotlib.text import Annotation
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from comparisons.pictures.labels import spread
 from comparisons.sweep.front import grouped
 from comparisons.tradeoff.answer import Priced, Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import GREY, SERIES, plain
 
-# Heights [inches]: of a panel, of its label and title, of a row of names, of the title over all.
-PANEL, LABEL, TITLE, NAMES, OVER = 2.5, 0.49, 0.3, 0.195, 0.25
+PANEL, NAMES, TITLE = 3.1, 0.2, 0.25  # inches: of a panel, a row of names, the title over all
 MARKERS = {"lumped": "o", "lumped-pair": "*", "plate": "v", "shell": "s", "solid": "D"}
-PLACES = tuple(  # of a label beside its point [points]: at the lower left, upper right, ... and farther off
-    ((step * x, step * y), "right" if x < 0 else "left", "top" if y < 0 else "bottom")
-    for step in (3, 9, 15)
-    for x, y in ((-1, -1), (1, 1), (-1, 1), (1, -1))
-)
+BESIDE = ((-1, -1), (1, 1), (-1, 1), (1, -1))  # where the size of a row on the front is written, in turn
+SIZE = "size of a row"
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
 
 
 def compose(tradeoff: Tradeoff, style: FigureStyle = PLAIN) -> Figure:
     """The figure: error against time at the left, against the size of a cell at the right."""
-    figure = Figure()
+    figure = Figure(layout="constrained")
     ratios = None if style.narrow else (1.35, 1.0)
     left, right = figure.subplots(*style.panels(2), sharey=True, width_ratios=ratios)
     families = grouped([row.series for row in tradeoff.rows])
@@ -67,52 +63,17 @@ def compose(tradeoff: Tradeoff, style: FigureStyle = PLAIN) -> Figure:
     right.set_title("Observed convergence", fontsize=8, fontweight="bold", loc="left")
     handles, labels = left.get_legend_handles_labels()
     names = 2 if style.narrow else 4
-    figure.legend(
-        handles,
-        labels,
-        loc="lower center",
-        ncols=names,
-        frameon=False,
-        fontsize=7,
-        handlelength=1.9 if style.narrow else 2.6,
-        columnspacing=0.8 if style.narrow else 1.4,
-    )
-    title = plain(tradeoff.scene.title or tradeoff.scene.name, longest=110) if style.titled else ""
-    _set(figure, style, rows_of_names=-(-len(labels) // names), title=title)
-    _spread(figure, left.texts)
-    return figure
-
-
-def _set(figure: Figure, style: FigureStyle, rows_of_names: int, title: str) -> None:
-    """The page's size and margins, and the title over all if there is one."""
-    above, _ = style.panels(2)
-    head, foot = TITLE + (OVER if title else 0.0), LABEL + NAMES * rows_of_names
-    height = head + above * PANEL + (above - 1) * (LABEL + TITLE) + foot
+    below: dict[str, Any] = {"handlelength": 1.9, "columnspacing": 0.8, "frameon": False, "fontsize": 7}
+    figure.legend(handles, labels, loc="outside lower center", ncols=names, **below)
+    if style.titled:
+        title = plain(tradeoff.scene.title or tradeoff.scene.name, longest=110)
+        figure.suptitle(title, x=0.01, ha="left", fontsize=8.5)
+    height = style.panels(2)[0] * PANEL + NAMES * -(-len(labels) // names) + TITLE * style.titled
     figure.set_size_inches(style.width, height)
-    edge = 0.61 / style.width
-    figure.subplots_adjust(
-        left=edge,
-        right=0.955 if style.narrow else 0.985,
-        bottom=foot / height,
-        top=1.0 - head / height,
-        wspace=0.06,
-        hspace=(LABEL + TITLE) / PANEL,
-    )
-    figure.text(edge, 1.0 - 0.1 / height, title, va="top", fontsize=8.5)
-
-
-def _spread(figure: Figure, texts: Sequence[Text]) -> None:
-    """Move labels that lie on an earlier one to the first free place about their points."""
     figure.draw_without_rendering()
-    sizes = [one for one in texts if isinstance(one, Annotation) and one.get_horizontalalignment() == "right"]
-    taken = [one.get_window_extent() for one in texts if one not in sizes]
-    for size in sizes:
-        for at, across, up in PLACES:
-            size.xyann = at
-            size.set(ha=across, va=up)
-            if not any(size.get_window_extent().overlaps(box) for box in taken):
-                break
-        taken.append(size.get_window_extent())
+    sizes = [text for text in left.texts if isinstance(text, Annotation) and text.get_gid() == SIZE]
+    spread(sizes, [text.get_window_extent() for text in left.texts if text not in sizes], BESIDE)
+    return figure
 
 
 def _against_time(
@@ -128,8 +89,8 @@ def _against_time(
         if kept:
             axis.plot([t], [e], color=line["color"], marker=line["marker"], ms=4.6, zorder=4)
             axis.annotate(
-                _size(row), (t, e), (-3, -3), textcoords="offset points", ha="right", va="top", fontsize=6,
-                color=line["color"],
+                _size(row), (t, e), (0, 0), textcoords="offset points", fontsize=6, color=line["color"],
+                gid=SIZE,
             )  # fmt: skip
 
 

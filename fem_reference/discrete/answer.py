@@ -65,11 +65,10 @@ def answer(
 ) -> Solution:
     """Return the answer at q (N,), with a residual (N,), under a share of the load. size, allowed: of the
     balance (`scenes.Balance`), which there is only where `balanced`."""
-    sheet.grow(share)
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
     shape = sheet.shape(q, share)
     edges, wrenches, line = sheet.wrenches(shape, residual)
-    reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(q)
+    reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(shape)
     held = sheet.holding(q, residual, share)
     for item in sheet.items:
         for name, (places, forces) in item.holds(shape).items():

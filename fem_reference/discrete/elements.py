@@ -81,7 +81,8 @@ class DiscreteElements(Discrete):
     def elements_internal(self, shape: Shape) -> np.ndarray:
         return self.scatter(self.element.forces(shape.operator, self.stress(shape)))
 
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
+    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
+        self.grow(time)
         before, after, element = self.gather(start), self.gather(end), self.element
         first, last = element.strain(before), element.strain(after)
         stress = element.stress(0.5 * (first + last))
@@ -158,11 +159,11 @@ class DiscreteElements(Discrete):
         strain = self.element.strain(self.gather(q))
         return strain, self.element.stress(strain)
 
-    def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
-        return self.element.energies(self.element.strain(self.gather(q)))
+    def energies_by_part(self, shape: Shape) -> dict[str, float]:
+        return self.element.energies(shape.strain)
 
-    def elastic(self, q: np.ndarray) -> float:
-        return sum(self.energies_by_part(q).values())
+    def elastic(self, shape: Shape) -> float:
+        return sum(self.energies_by_part(shape).values())
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         shape, element = self.shape(q, 0.0), self.element

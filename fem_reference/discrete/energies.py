@@ -35,10 +35,9 @@ class Energies(NamedTuple):
 def energies(sheet: Discrete, motion: SheetMotion) -> Energies:
     """Return the energies of a motion."""
     q, v, time = motion.q, motion.v, motion.time
-    sheet.grow(time)
     shape = sheet.shape(q, time, v)
     potential = sum(item.stored(shape) for item in sheet.items)
-    elastic = sheet.elastic(q) + sum(body.energy(q, time) for body in sheet.bodies)
+    elastic = sheet.elastic(shape) + sum(body.energy(q, time) for body in sheet.bodies)
     stored = sheet.branches.stored(motion.memory) if sheet.branches.times else 0.0
     return Energies(0.5 * float(v @ (sheet.mass @ v)), elastic + stored, potential)
 
@@ -58,8 +57,7 @@ def spent(sheet: Discrete, start: SheetMotion, end: SheetMotion, late: float) ->
         for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
             work += 0.5 * (body.energy(q, end.time) - body.energy(q, start.time))
     for sign, time in ((1.0, end.time), (-1.0, start.time)) if sheet.natural is not None else ():
-        sheet.grow(time)
-        work += 0.5 * sign * (sheet.elastic(start.q) + sheet.elastic(end.q))
+        work += 0.5 * sign * sum(sheet.elastic(sheet.shape(q, time)) for q in (start.q, end.q))
     shape = sheet.shape(middle, half_way, step / h)
     for item in sheet.items:
         taken, done = item.exchanged(shape, step)

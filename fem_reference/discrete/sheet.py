@@ -207,8 +207,8 @@ class Discrete(Output):
         """Elastic and viscous forces (N,) of the sheet."""
 
     @abstractmethod
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
-        """Those (N,) of the mean strains of a step and their mean rate."""
+    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
+        """Those (N,) of the mean strains of a step, whose middle is at a time [s], and their mean rate."""
 
     def shape(
         self, q: np.ndarray, at: float, v: np.ndarray | None = None, branches: BranchStep | None = None
@@ -249,8 +249,7 @@ class Discrete(Output):
     def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
         """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
         q, v = 0.5 * (start + end), (end - start) / h
-        self.grow(time)
-        out = self.elements_mean_internal(start, end, h)
+        out = self.elements_mean_internal(start, end, h, time)
         for body in self.bodies:
             out = out + body.scatter(body.pull(q, body.mean_stress(start, end, h, time)))
         shapes = self.shape(start, time - 0.5 * h), self.shape(end, time + 0.5 * h), self.shape(q, time, v)
@@ -293,11 +292,11 @@ class Discrete(Output):
         """Strains, and the elastic stresses that go with them, as `relaxation` takes them."""
 
     @abstractmethod
-    def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
+    def energies_by_part(self, shape: Shape) -> dict[str, float]:
         """Strain energy [J] of the sheet by part."""
 
     @abstractmethod
-    def elastic(self, q: np.ndarray) -> float:
+    def elastic(self, shape: Shape) -> float:
         """Strain energy [J] of the sheet."""
 
     @abstractmethod

@@ -78,9 +78,8 @@ class Static(Creeping[State, Forces]):
 
     def potential(self, state: State, load_factor: float) -> tuple[float, float]:
         sheet = self.sheet
-        sheet.grow(load_factor)
         shape = sheet.shape(state.q, load_factor)
-        stored = sheet.elastic(state.q) + sum(body.energy(state.q, load_factor) for body in sheet.bodies)
+        stored = sheet.elastic(shape) + sum(body.energy(state.q, load_factor) for body in sheet.bodies)
         of_items = sum(item.potential(shape) for item in sheet.items)
         return stored + of_items, stored + abs(of_items)
 

@@ -27,7 +27,7 @@ def penalties(structure: Static) -> Penalties[State]:
     moved = np.abs(sheet.on_surface(sheet.placed(flat_q, 1.0)) - sheet.on_surface(flat_q)).max(axis=(0, 2))
 
     def passes(start: State, since: float, end: State, load_factor: float) -> bool:
-        ways = sheet.on_surface(start.q), since, sheet.on_surface(end.q), load_factor
+        ways = (sheet.on_surface(start.q), since), (sheet.on_surface(end.q), load_factor)
         return any(one.leads_through(*ways) for one in sheet.contacts)
 
     def restart(state: State) -> Start[State]:

@@ -88,9 +88,9 @@ class DiscretePlate(Discrete):
         if (state := natural_at(scene, AT_GAUSS[0] @ plan.corners)) is not None:
             self.natural = state.made(partial(own_strains, self.elements, self.section, self.size))
 
-    @property
-    def at_rest(self) -> OwnStrains:
-        """What it has at rest."""
+    def at_rest(self, at: float) -> OwnStrains:
+        """What it has at rest, at a load factor or time [s]."""
+        self.grow(at)
         return OwnStrains() if self.natural is None else self.natural.now
 
     @cached_property
@@ -153,13 +153,12 @@ class DiscretePlate(Discrete):
     # forces
 
     def elements_internal(self, shape: Shape) -> np.ndarray:
-        self.grow(shape.at)
         out = with_branches(self.stiffness @ shape.q, shape.branches)
         viscous = 0.0 if shape.v is None else self.tau * (self.stiffness @ shape.v)
-        return np.asarray(out + viscous - self.at_rest.force)
+        return np.asarray(out + viscous - self.at_rest(shape.at).force)
 
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
-        return self.elements_internal(Shape(self, 0.5 * (start + end), 0.0, (end - start) / h))
+    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
+        return self.elements_internal(Shape(self, 0.5 * (start + end), time, (end - start) / h))
 
     def tangent(self, shape: Shape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         return self.whole_tangent(shape, by_a, by_v)[self.free][:, self.free]
@@ -212,17 +211,17 @@ class DiscretePlate(Discrete):
     def strains(self, q: np.ndarray) -> Strained:
         return q, self.stiffness @ q
 
-    def energies_by_part(self, q: np.ndarray) -> dict[str, float]:
-        own = dict(zip(PARTS, self.at_rest.strains, strict=False))
-        nodal, out = q[self.elements.unknowns], {}
+    def energies_by_part(self, shape: Shape) -> dict[str, float]:
+        own = dict(zip(PARTS, self.at_rest(shape.at).strains, strict=False))
+        nodal, out = shape.q[self.elements.unknowns], {}
         for name, operator, section in zip(PARTS, self._strains, self.section, strict=True):
             strain = (operator @ nodal[:, None, :, None])[..., 0] - own.get(name, 0.0)
             force = (section @ strain[..., None])[..., 0]
             out[name] = 0.5 * float(np.einsum("mq,mqi,mqi", self.elements.areas, strain, force))
         return out
 
-    def elastic(self, q: np.ndarray) -> float:
-        own = self.at_rest
+    def elastic(self, shape: Shape) -> float:
+        q, own = shape.q, self.at_rest(shape.at)
         return 0.5 * self.stiffness_of(q, q, q) - float(np.sum(own.force * q)) + own.stored
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:

@@ -124,7 +124,6 @@ def equilibrium(sheet: DiscretePlate) -> tuple[np.ndarray, Status, tuple[str, ..
             q = solve_free(matrix, applied(sheet), q, sheet.free)
         except SingularMatrixError as error:
             return q, Status.SINGULAR, (str(error),)
-    sheet.grow(1.0)
     return q, *judge(
-        sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, sheet.at_rest.strains[0]
+        sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, sheet.at_rest(1.0).strains[0]
     )

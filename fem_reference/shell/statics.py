@@ -24,12 +24,11 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.natural import natural_strains
+from fem_reference.shell.natural import grown, natural_strains
 from fem_reference.shell.validity import STRETCHED, inspector
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.materials import Section, section_at
 from fem_reference.surface.mesh import Elements, Plan, divisions, has_lines, mesh_of, plan_of
-from fem_reference.surface.natural import grown
 from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.choices import BRANCHES, STRAIN_LAW

@@ -1,8 +1,8 @@
 """Plans brought into one place however they are mirrored, turned or large, so that their meshes are alike.
 
 Of the eight ways to lay a plan along the axes the last is taken, its sides in order compared number by number
-after rounding. A plan that is its own mirror image across x or y is meshed on one side of that line
-alone: its mesh is its own image too. Lengths are in sizes of the largest triangles.
+after rounding. A plan that is its own mirror image across x, y or a diagonal is meshed on one side of that
+line alone: its mesh is its own image too. Lengths are in sizes of the largest triangles.
 """
 
 from __future__ import annotations
@@ -22,28 +22,39 @@ if TYPE_CHECKING:
 DIGITS = 9  # of rounding, of `mesh_points.GRID`
 FLIPS = [np.diag([x, y]) for x in (1.0, -1.0) for y in (1.0, -1.0)]
 TURNS = [flip @ swap for swap in (np.eye(2), np.eye(2)[::-1]) for flip in FLIPS]
+DIAGONALS = np.sqrt(0.5) * np.array([[1.0, -1.0], [1.0, 1.0]])  # normals of mirrors, towards what is meshed
+
+
+class PlanCells(NamedTuple):
+    """Quadrilaterals (q, 4) and triangles (t, 3) of points (n, 2), counter-clockwise; across: (t,) the number
+    of the mirror that a triangle's first side lies on, where it is to be joined with its image; else −1."""
+
+    points: np.ndarray
+    quads: np.ndarray
+    triangles: np.ndarray
+    across: np.ndarray
 
 
 class CentredPlan(NamedTuple):
-    """A plan about the origin, and what leads back from there: x = p turn + centre; mirrors: the axes across
-    which it is its own image."""
+    """A plan about the origin, and what leads back from there: x = p turn + centre; mirrors: normals of lines
+    through the origin across which it is its own image, in the order of unfolding."""
 
     region: BaseGeometry
     inner: BaseGeometry
     centre: np.ndarray
     turn: np.ndarray
-    mirrors: tuple[int, ...]
+    mirrors: tuple[np.ndarray, ...]
 
     @property
     def part(self) -> tuple[BaseGeometry, BaseGeometry]:
         """Region and inner borders on the far side of all mirrors."""
         import shapely
 
-        beyond = 1.0 + np.ptp(self.region.bounds)
-        low, high = np.full(2, -beyond), np.full(2, beyond)
-        low[list(self.mirrors)] = 0.0
-        side = shapely.box(*low, *high)
-        region, inner = (shapely.intersection(part, side) for part in (self.region, self.inner))
+        beyond, (region, inner) = 4.0 * (1.0 + np.ptp(self.region.bounds)), (self.region, self.inner)
+        for normal in self.mirrors:
+            along = np.array([-normal[1], normal[0]])
+            side = shapely.Polygon(beyond * np.array([along, normal, -along]))
+            region, inner = (shapely.intersection(part, side) for part in (region, inner))
         return _rounded(region), _rounded(inner)
 
     def cut(self, borders: Sequence[LineString]) -> np.ndarray:
@@ -54,23 +65,35 @@ class CentredPlan(NamedTuple):
         middle = shapely.line_interpolate_point(list(borders), 0.5, normalized=True)
         return np.asarray(shapely.distance(own, middle) > NEAR)
 
+    def diagonal(self, at: np.ndarray) -> np.ndarray:
+        """On which mirror that is a diagonal points (n, 2) lie, its number; −1 for those on none."""
+        out = np.full(len(at), -1)
+        for number, normal in enumerate(self.mirrors):
+            if np.all(normal):
+                out[np.abs(at @ normal) < NEAR] = number
+        return out
+
     def unfolded(
-        self, mesh: MeshQuad, ends: np.ndarray, places: np.ndarray
-    ) -> tuple[MeshQuad, np.ndarray, np.ndarray]:
-        """The mesh of the part with its images; ends (k, 2), places (k, 2): of sides on borders and of their
-        middles."""
-        at, elements = mesh.p.T.copy(), mesh.t.T
-        for axis in self.mirrors:
-            on = np.abs(at[:, axis]) < NEAR
-            at[on, axis] = 0.0
+        self, part: PlanCells, ends: np.ndarray, places: np.ndarray
+    ) -> tuple[PlanCells, np.ndarray, np.ndarray]:
+        """The cells of the part with their images; ends (k, 2), places (k, 3, 2): of sides on borders, and of
+        their quarters. A triangle that lies on a diagonal is one quadrilateral with its image."""
+        at, quads, triangles, across = part
+        for number, normal in enumerate(self.mirrors):
+            away = at @ normal
+            on = np.abs(away) < NEAR
+            at = np.where(on[:, None], at - away[:, None] * normal, at)
             image = np.where(on, np.arange(len(at)), len(at) + np.cumsum(~on) - 1)
             beyond = ~on[ends].all(axis=1)
-            other = np.where(np.arange(2) == axis, -1.0, 1.0)
-            elements = np.concatenate([elements, image[elements][:, ::-1]])
+            kites, others = triangles[across == number], triangles[across != number]
+            whole = np.column_stack([kites[:, 0], image[kites[:, 2]], kites[:, 1], kites[:, 2]])
+            quads = np.concatenate([quads, image[quads][:, ::-1], whole])
+            triangles = np.concatenate([others, image[others][:, [1, 0, 2]]])
+            across = np.tile(across[across != number], 2)
             ends = np.concatenate([ends, image[ends[beyond]]])
-            places = np.concatenate([places, other * places[beyond]])
-            at = np.concatenate([at, other * at[~on]])
-        return _mesh(at, elements), ends, places
+            places = np.concatenate([places, places[beyond] @ reflection(normal)])
+            at = np.concatenate([at, at[~on] @ reflection(normal)])
+        return PlanCells(at, quads, triangles, across), ends, places
 
     def back(self, mesh: MeshQuad, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
         """A mesh, and places (k, 2), where the plan was; what lies on its bounds to rounding, on them."""
@@ -97,17 +120,25 @@ def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
     keys = [(*_key(rims, turn), *_key(lines, turn)) for turn in TURNS]
     turn = TURNS[max(range(len(TURNS)), key=keys.__getitem__)]
     last = max(keys)
-    mirrors = tuple(
-        axis
-        for axis, flip in enumerate((FLIPS[2], FLIPS[1]))
-        if (*_key(rims, flip @ turn), *_key(lines, flip @ turn)) == last
-    )
+
+    def mirrors(normals: np.ndarray) -> list[np.ndarray]:
+        turned = [reflection(normal) @ turn for normal in normals]
+        keys = [(*_key(rims, other), *_key(lines, other)) for other in turned]
+        return [normal for normal, key in zip(normals, keys, strict=True) if key == last]
+
+    axes, diagonals = mirrors(np.eye(2)), mirrors(DIAGONALS)
+    cuts = (*diagonals[: 1 if axes else 2], *axes)  # of both axes and diagonals one half of a quarter is left
 
     def there(at: np.ndarray) -> np.ndarray:
         return np.round(at - centre, DIGITS) @ turn.T + 0.0
 
     borders = shapely.multilinestrings(_ordered(lines, turn))
-    return CentredPlan(shapely.normalize(shapely.transform(region, there)), borders, centre, turn, mirrors)
+    return CentredPlan(shapely.normalize(shapely.transform(region, there)), borders, centre, turn, cuts)
+
+
+def reflection(normal: np.ndarray) -> np.ndarray:
+    """Return the map to the mirror image across x, y or a diagonal, to the last digit."""
+    return np.asarray(np.round(np.eye(2) - 2.0 * np.outer(normal, normal)) + 0.0)
 
 
 def _sides(lines: BaseGeometry) -> np.ndarray:

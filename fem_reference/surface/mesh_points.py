@@ -123,17 +123,22 @@ def _radii(border: LineString) -> tuple[np.ndarray, np.ndarray]:
         return np.cumsum(lengths)[:-1], 0.5 * (lengths[1:] + lengths[:-1]) / turns
 
 
-def divided(borders: Sequence[LineString], size: SizeField) -> tuple[np.ndarray, Sides]:
-    """Points (n, 2) along the borders, one where several meet, and the sides between them."""
+def divided(borders: Sequence[LineString], size: SizeField, diagonal: np.ndarray) -> tuple[np.ndarray, Sides]:
+    """Points (n, 2) along the borders, one where several meet, and the sides between them; diagonal: which
+    borders are the squares' diagonals."""
     import shapely
 
     places, ends, on, spans = [], [], [], []
     for number, border in enumerate(borders):
         fine = np.linspace(0.0, border.length, 2 + int(8 * SAMPLES * border.length))
         sizes = size.at(shapely.get_coordinates(shapely.line_interpolate_point(border, fine)))
+        if diagonal[number]:
+            sizes[sizes == 1.0] *= np.sqrt(2.0)
         steps = np.concatenate([[0.0], np.cumsum(np.diff(fine) * 2.0 / (sizes[1:] + sizes[:-1]))])
         least = 3 if border.is_closed else min(2, len(border.coords) - 1)
         count = max(least, int(np.ceil(steps[-1] - 1e-6)))
+        if diagonal[number]:  # as `_quadtree` has them
+            count = max(least, int(np.rint(steps[-1])))
         along = PiecewiseLinear(steps.tolist(), fine.tolist()).at(np.linspace(0.0, steps[-1], count + 1))
         places.append(shapely.get_coordinates(shapely.line_interpolate_point(border, along)))
         first = sum(len(at) for at in places[:-1])
@@ -151,21 +156,29 @@ def on_borders(borders: Sequence[LineString], number: np.ndarray, along: np.ndar
     return shapely.get_coordinates(shapely.line_interpolate_point(np.array(borders)[number], along))
 
 
-def filling(region: BaseGeometry, borders: Sequence[LineString], sides: Sides, size: SizeField) -> np.ndarray:
-    """Inner points (n, 2): a row along borders, then corners of a quadtree's cells."""
+def filling(
+    region: BaseGeometry,
+    borders: Sequence[LineString],
+    sides: Sides,
+    size: SizeField,
+    diagonal: np.ndarray,
+) -> np.ndarray:
+    """Inner points (n, 2): a row along borders, beside a diagonal those of squares across it, then corners of
+    a quadtree's cells."""
     import shapely
 
     closed = np.array([border.is_closed for border in borders])
-    inner = np.flatnonzero((sides.span[:, 0] > 0.0) | closed[sides.border])
-    on, along = sides.border[inner], sides.span[inner, 0]
+    across = diagonal[sides.border] & (size.at(on_borders(borders, sides.border, sides.middle)) == 1.0)
+    inner = np.flatnonzero((sides.span[:, 0] > 0.0) | closed[sides.border] | across)
+    on, across = sides.border[inner], across[inner]
+    along = np.where(across, sides.middle[inner], sides.span[inner, 0])
     step = 1e-3 * np.ptp(sides.span[inner], axis=1)
     at, tangent = (
         on_borders(borders, on, along),
         on_borders(borders, on, along + step) - on_borders(borders, on, along - step),
     )
-    normal = (
-        size.at(at)[:, None] * (tangent / np.linalg.norm(tangent, axis=1, keepdims=True))[:, ::-1] * [-1, 1]
-    )
+    depth = np.where(across, 500.0 * step, size.at(at))
+    normal = depth[:, None] * (tangent / np.linalg.norm(tangent, axis=1, keepdims=True))[:, ::-1] * [-1, 1]
     points = np.concatenate([at + normal, at - normal, _quadtree(region.bounds, size)])
     shapely.prepare(region)
     points = points[shapely.contains_xy(region, points)]

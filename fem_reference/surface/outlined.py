@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference.surface.alike import placed
+from fem_reference.surface.alike import CentredPlan, PlanCells, placed, reflection
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from fem_reference.surface.mesh_points import (
     NEAR,
@@ -60,6 +60,7 @@ def quadrilaterals(
     inner: lines that sides of elements within the region shall lie on; graded: the row along the rim is cut
     into thinner ones. Raises BadInput where borders lie too close to each other to be meshed.
     """
+    import shapely
     from shapely import affinity
 
     unit = 2.0 * np.array(spacing)
@@ -68,21 +69,26 @@ def quadrilaterals(
     borders = borders_between_corners(region, inner)
     across = np.min(np.ptp(np.reshape(plan.region.bounds, (2, 2)), axis=0))
     size = SizeField.of(region, borders, min(1.0, USUAL / across))
-    points, sides = divided(borders, size)
+    cut = plan.cut(borders)
+    middles = shapely.get_coordinates(shapely.line_interpolate_point(borders, 0.5, normalized=True))
+    mirror = np.where(cut, plan.diagonal(middles), -1)  # the diagonal on which a border lies that is none
+    points, sides = divided(borders, size, mirror >= 0)
     points, triangles, sides = _triangles(
-        region, borders, sides, points, filling(region, borders, sides, size)
+        region, borders, sides, points, filling(region, borders, sides, size, mirror >= 0)
     )
-    mesh, middles = _cut(points, _joined(points, triangles, sides), borders, sides)
-    own = ~plan.cut(borders)[sides.border]
-    halves = [
-        (
-            np.column_stack([sides.ends[own, end], middles[own]]),
-            on_borders(borders, sides.border[own], sides.span[own] @ share),
-        )
-        for end, share in enumerate([[0.75, 0.25], [0.25, 0.75]])
+    own = ~cut[sides.border]
+    quarters = [
+        on_borders(borders, sides.border[own], sides.span[own] @ [1.0 - share, share])
+        for share in (0.25, 0.5, 0.75)
     ]
-    ends, places = (np.concatenate(parts) for parts in zip(*halves, strict=True))
-    mesh, ends, places = plan.unfolded(mesh, ends, places)
+    cells, ends, places = plan.unfolded(
+        _joined(points, triangles, sides, mirror[sides.border], plan),
+        sides.ends[own],
+        np.stack(quarters, axis=1),
+    )
+    mesh, middles = _cut(cells, ends, places[:, 1])
+    ends = np.concatenate([np.column_stack([ends[:, end], middles]) for end in (0, 1)])
+    places = np.concatenate([places[:, 0], places[:, 2]])
     mesh = _smoothed(mesh, np.unique(ends))
     if graded:
         mesh, ends, places = _layered(mesh, ends, places)
@@ -134,25 +140,47 @@ def _keys(ends: np.ndarray, count: int) -> np.ndarray:
     return np.asarray(low * np.int64(count) + high)
 
 
-def _joined(points: np.ndarray, triangles: np.ndarray, sides: Sides) -> tuple[np.ndarray, np.ndarray]:
-    """Quadrilaterals (q, 4) of two triangles each, and the triangles (t, 3) left over."""
+def _joined(
+    points: np.ndarray, triangles: np.ndarray, sides: Sides, mirror: np.ndarray, plan: CentredPlan
+) -> PlanCells:
+    """The quadrilaterals of two triangles each, the best first, and the triangles left over; mirror: (k,) the
+    number of the diagonal that a side lies on, across which a triangle is joined with its image; −1 else."""
     edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    keys = _keys(edges, len(points))
+    keys, borders = _keys(edges, len(points)), _keys(sides.ends, len(points))
     order = np.argsort(keys, kind="stable")
     twin = np.flatnonzero(keys[order][1:] == keys[order][:-1])
     one, two = order[twin], order[twin + 1]
-    inner = ~np.isin(keys[one], _keys(sides.ends, len(points)))
-    one, two = one[inner], two[inner]
+    inner = ~np.isin(keys[one], borders)
+    folded = np.flatnonzero(np.isin(keys, borders[mirror >= 0]))
+    one, two = np.concatenate([one[inner], folded]), np.concatenate([two[inner], folded])
     apex = triangles[:, [2, 0, 1]].ravel()
     quads = np.column_stack([edges[one, 0], apex[two], edges[one, 1], apex[one]])
-    skew = np.abs(_angles(points[quads]) - 0.5 * np.pi).max(axis=1)
+    corners, across = points[quads], np.full(len(one), -1)
+    across[len(one) - len(folded) :] = mirror[mirror >= 0][_places(keys[folded], borders[mirror >= 0])]
+    for number, normal in enumerate(plan.mirrors):
+        kites = across == number
+        corners[kites, 1] = corners[kites, 1] @ reflection(normal)
+    skew = np.abs(_angles(corners) - 0.5 * np.pi).max(axis=1)
     free, chosen = np.ones(len(triangles), bool), []
     for pair in np.argsort(skew, kind="stable"):
         a, b = one[pair] // 3, two[pair] // 3
         if skew[pair] < SKEW and free[a] and free[b]:
             free[[a, b]] = False
             chosen.append(pair)
-    return quads[chosen], triangles[free]
+    alone = across[chosen] < 0
+    kites, left = quads[chosen][~alone][:, [0, 2, 3]], triangles[free]
+    return PlanCells(
+        points,
+        quads[chosen][alone],
+        np.concatenate([left, kites]),
+        np.concatenate([np.full(len(left), -1), across[chosen][~alone]]),
+    )
+
+
+def _places(keys: np.ndarray, of: np.ndarray) -> np.ndarray:
+    """Where keys stand among others that have them all."""
+    order = np.argsort(of)
+    return np.asarray(order[np.searchsorted(of, keys, sorter=order)])
 
 
 def _angles(corners: np.ndarray) -> np.ndarray:
@@ -162,15 +190,15 @@ def _angles(corners: np.ndarray) -> np.ndarray:
     return np.asarray(np.arctan2(turn, np.sum(onwards * back, axis=-1)) % (2.0 * np.pi))
 
 
-def _cut(
-    points: np.ndarray, cells: tuple[np.ndarray, np.ndarray], borders: Sequence[LineString], sides: Sides
-) -> tuple[MeshQuad, np.ndarray]:
-    """The mesh of every polygon's corners with its centre, and the vertices (k,) in the middles of sides."""
+def _cut(part: PlanCells, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
+    """The mesh of every cell's corners with its centre, and the vertices (k,) in the middles of sides between
+    ends (k, 2), at places (k, 2)."""
+    points, cells = part.points, (part.quads, part.triangles)
     edges = [np.stack([cell, np.roll(cell, -1, axis=1)], axis=-1).reshape(-1, 2) for cell in cells]
     keys, which = np.unique(_keys(np.concatenate(edges), len(points)), return_inverse=True)
     middle = 0.5 * (points[keys // len(points)] + points[keys % len(points)])
-    of_sides = np.searchsorted(keys, _keys(sides.ends, len(points)))
-    middle[of_sides] = on_borders(borders, sides.border, sides.middle)
+    of_sides = np.searchsorted(keys, _keys(ends, len(points)))
+    middle[of_sides] = places
     centres = [points[cell].mean(axis=1) for cell in cells]
     every, elements, first = np.concatenate([points, middle, *centres]), [], 0
     centre = len(points) + len(middle)
@@ -219,8 +247,7 @@ def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[Mesh
     """The mesh with further rows along its rim, whose vertices give way; ends (k, 2), places (k, 2): of sides
     on borders and of their middles."""
     keys, rim = _keys(ends, mesh.nvertices), mesh.boundary_facets()
-    order = np.argsort(keys)
-    on_rim = order[np.searchsorted(keys[order], _keys(mesh.facets[:, rim].T, mesh.nvertices))]
+    on_rim = _places(_keys(mesh.facets[:, rim].T, mesh.nvertices), keys)
     inner = np.setdiff1d(np.arange(len(ends)), on_rim)
     at, element = mesh.p.T, mesh.f2t[0, rim]
     inwards = at[mesh.t[:, element]].mean(axis=0) - places[on_rim]
@@ -279,8 +306,7 @@ def _biquadratic(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray, unit: np.
         curved.dofs.element_dofs.T,
     )
     straight = at.copy()
-    order = np.argsort(keys)
-    facets = order[np.searchsorted(keys[order], _keys(ends, mesh.nvertices))]
+    facets = _places(_keys(ends, mesh.nvertices), keys)
     middles = curved.dofs.facet_dofs[0, facets]
     bent = np.abs(places - straight[middles]).max(axis=1) > NEAR  # not by rounding of the vertices alone
     at[middles[bent]] = places[bent]

@@ -87,6 +87,6 @@ def _gain(system: System, state: NaturalState, u: np.ndarray, *factors: np.ndarr
     """Return how much more energy [J] the springs have at the second factors of their state."""
     energies = []
     for each in factors:
-        state.set(each)
+        state.grow(factors=each)
         energies.append(system.assembly.force(u)[0])
     return float(energies[1] - energies[0])

@@ -16,7 +16,7 @@ from numba import njit
 from numba.extending import overload, register_jitable
 
 from lumped.springs import laws
-from lumped.springs.laws import Constants, Four, Memory, Six, Three, times_six
+from lumped.springs.laws import Constants, Four, Six, Three, times_six
 from sheetbench.numerics.memory import load_each
 
 
@@ -38,40 +38,7 @@ class Face(NamedTuple):
     constants: np.ndarray
 
 
-class StressFreeCells(NamedTuple):
-    """constants: (c, 11) of every cell's `area_and_strains`, then δg₀ [m²] and the area [m²] at which it is
-    free of stress."""
-
-    constants: np.ndarray
-
-
-Tag = AreaAndStrains | Rubber | Face | StressFreeCells
-
-
-@njit(cache=True, error_model="numpy")
-def natural_strains(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory, Four]:
-    """Return `area_and_strains` since g₀ = g + δg₀, that of the cell without stress (`lumped.natural`)."""
-    rest = g[0] + k[7], g[1] + k[8], g[2] + k[9]
-    return laws.area_and_strains(half, (d[0] - k[7], d[1] - k[8], d[2] - k[9], d[3]), rest, k[10], k)
-
-
-@njit(cache=True, error_model="numpy")
-def extrapolated_natural_strains(
-    d: Four, g: Three, area: float, memory: Memory, stress: Four, k: Constants, rate: Four
-) -> Four:
-    """Return `extrapolated_area_and_strains` since g₀."""
-    since, rest = (d[0] - k[7], d[1] - k[8], d[2] - k[9], d[3]), (g[0] + k[7], g[1] + k[8], g[2] + k[9])
-    return laws.extrapolated_area_and_strains(since, rest, k[10], memory, stress, k, rate)
-
-
-@njit(cache=True, error_model="numpy")
-def mean_natural_strains(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
-    """Return `mean_area_and_strains` since g₀."""
-    since, to = (
-        (d0[0] - k[7], d0[1] - k[8], d0[2] - k[9], d0[3]),
-        (d1[0] - k[7], d1[1] - k[8], d1[2] - k[9], d1[3]),
-    )
-    return laws.mean_area_and_strains(since, to, (g[0] + k[7], g[1] + k[8], g[2] + k[9]), k[10], k)
+Tag = AreaAndStrains | Rubber | Face
 
 
 @njit(cache=True, error_model="numpy")
@@ -216,18 +183,7 @@ FACE = CellLaw(
     lambda _stiffness, others, area: {"face": others * area[:, None]},
     ((0.0, 0.0, 0.0, 25.0, 25.0),),
 )
-NATURAL = CellLaw(  # whose stiffness takes g as it is now
-    StressFreeCells,
-    natural_strains,
-    laws.stiffness_of_area_and_strains,
-    mean_natural_strains,
-    extrapolated_natural_strains,
-    laws.area_and_strains_of_extrapolated,
-    3,
-    AREA_AND_STRAINS.parts,
-    ((*AREA_AND_STRAINS.examples[0], 0.1, -0.05, 0.02, (1.1 * 0.95 - 0.02**2) ** 0.5),),
-)
-LAWS = (AREA_AND_STRAINS, RUBBER, FACE, NATURAL)
+LAWS = (AREA_AND_STRAINS, RUBBER, FACE)
 _OF = {law.tag: law for law in LAWS}
 
 

@@ -53,8 +53,9 @@ NO_CHANGE = (0.0, 0.0, 0.0, 0.0)
 
 
 class CellArrays(NamedTuple):
-    """nodes (c, 4, p); sides (c, 2, 3) [m] and area (c,) [m²] at rest; law: the tag with the constants of the
-    springs' law or, times a second, of the dampers'; slots (c, 4p, 4p) block numbers, corner-major."""
+    """nodes (c, 4, p); sides (c, 2, 3) [m] and area (c,) [m²] at rest, or (4, c), natural area and δg₀; law:
+    the tag with the constants of the springs' law or, times a second, of the dampers'; slots (c, 4p, 4p)
+    block numbers, corner-major."""
 
     nodes: np.ndarray
     sides: np.ndarray
@@ -103,15 +104,27 @@ def products(a: Vector, b: Vector) -> Three:
     return dot(a, a), dot(b, b), dot(a, b)
 
 
+@njit(cache=True, error_model="numpy")
+def natural(change: Four, rest: Three, area: np.ndarray, c: int) -> tuple[Four, Three, float]:
+    """δg, g and A from where cell c is free of stress (`lumped.natural`); numba compiles one of both ways."""
+    if area.ndim == 1:
+        return change, rest, area[c]
+    d1, d2, d3 = area[1, c], area[2, c], area[3, c]
+    since = change[0] - d1, change[1] - d2, change[2] - d3, change[3]
+    return since, (rest[0] + d1, rest[1] + d2, rest[2] + d3), area[0, c]
+
+
 @njit(cache=True, error_model="numpy", forceinline=True)
-def measure(u: np.ndarray, cells: CellArrays, c: int) -> tuple[Four, Three, tuple[Vector, Vector, Vector]]:
-    """δg and s; g at rest; a, b and q now, of cell c."""
+def measure(
+    u: np.ndarray, cells: CellArrays, c: int
+) -> tuple[Four, Three, float, tuple[Vector, Vector, Vector]]:
+    """δg and s; g and A at rest; a, b and q now, of cell c."""
     a, b = at_rest(cells.sides, c)
     da, db, q = changes(u, cells.nodes, c)
     rest = products(a, b)
     now_a, now_b = plus(a, da), plus(b, db)
     change = dot(plus(a, now_a), da), dot(plus(b, now_b), db), dot(da, b) + dot(now_a, db), dot(q, q)
-    return change, rest, (now_a, now_b, q)
+    return *natural(change, rest, cells.area, c), (now_a, now_b, q)
 
 
 @njit(cache=True, error_model="numpy")
@@ -152,8 +165,8 @@ def add_forces(u: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
     """Add the internal force to `force` (n, 3) [N]; return the energy [J]."""
     energy = 0.0
     for c in range(len(cells.nodes)):
-        d, g, shape = measure(u, cells, c)
-        stored, _, stress = respond(cells.law, HALF, d, g, cells.area[c], constants_of(cells.law, c))
+        d, g, area, shape = measure(u, cells, c)
+        stored, _, stress = respond(cells.law, HALF, d, g, area, constants_of(cells.law, c))
         energy += stored
         pull(cells, c, stress, shape, force)
     return energy
@@ -173,8 +186,8 @@ def add_remembering_forces(
     and the change of the measure (c, 4)."""
     energy = 0.0
     for c in range(len(cells.nodes)):
-        d, g, shape = measure(u, cells, c)
-        stored, _, s = respond(cells.law, HALF, d, g, cells.area[c], constants_of(cells.law, c))
+        d, g, area, shape = measure(u, cells, c)
+        stored, _, s = respond(cells.law, HALF, d, g, area, constants_of(cells.law, c))
         energy += stored
         k = constant[c]
         for e in range(4):
@@ -189,9 +202,9 @@ def energies(u: np.ndarray, cells: CellArrays, part: Tag) -> np.ndarray:
     """Energy of every cell by a part of its law's constants, and by all others, (c, 2) [J]."""
     out = np.empty((len(cells.nodes), 2))
     for c in range(len(cells.nodes)):
-        d, g, _ = measure(u, cells, c)
-        out[c, 0] = respond(part, HALF, d, g, cells.area[c], constants_of(part, c))[0]
-        out[c, 1] = respond(cells.law, HALF, d, g, cells.area[c], constants_of(cells.law, c))[0] - out[c, 0]
+        d, g, area, _ = measure(u, cells, c)
+        out[c, 0] = respond(part, HALF, d, g, area, constants_of(part, c))[0]
+        out[c, 1] = respond(cells.law, HALF, d, g, area, constants_of(cells.law, c))[0] - out[c, 0]
     return out
 
 
@@ -200,8 +213,7 @@ def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarr
     """Return what the linearisation at u predicts after a step (n, 3) [m], (c, 4), as the law has it."""
     out = np.empty((len(cells.nodes), 4))
     for c in range(len(cells.nodes)):
-        d, g, (a, b, q) = measure(u, cells, c)
-        k, area = constants_of(cells.law, c), cells.area[c]
+        (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)
         _, memory, s = respond(cells.law, HALF, d, g, area, k)
         va, vb, vq = changes(step, cells.nodes, c)
         r1, r2, r3 = rate(a, b, va, vb)
@@ -215,9 +227,9 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
     of the mean stress on the mean sides."""
     for c in range(len(cells.nodes)):
-        d0, g, (a0, b0, q0) = measure(start, cells, c)
-        d1, _, (a1, b1, q1) = measure(end, cells, c)
-        s = mean_stress(cells.law, d0, d1, g, cells.area[c], constants_of(cells.law, c))
+        d0, g, area, (a0, b0, q0) = measure(start, cells, c)
+        d1, _, _, (a1, b1, q1) = measure(end, cells, c)
+        s = mean_stress(cells.law, d0, d1, g, area, constants_of(cells.law, c))
         pull(
             cells, c, s, (times(0.5, plus(a0, a1)), times(0.5, plus(b0, b1)), times(0.5, plus(q0, q1))), force
         )
@@ -246,8 +258,7 @@ def add_tangent(
     in_diagonals, of_warp = np.empty((4, 9)), np.empty((3, 9))
     own = len(stress) == 0
     for c in range(len(cells.nodes)):
-        d, g, (a, b, q) = measure(u, cells, c)
-        k, area = constants_of(cells.law, c), cells.area[c]
+        (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)
         _, memory, s = respond(cells.law, HALF, d, g, area, k)
         if own:
             s = share * s[0], share * s[1], share * s[2], share * s[3]
@@ -279,7 +290,7 @@ def add_damping_tangent(u: np.ndarray, v: np.ndarray, cells: CellArrays, blocks:
     """
     in_diagonals = np.empty((4, 9))
     for c in range(len(cells.nodes)):
-        _, _, (a, b, _) = measure(u, cells, c)
+        _, _, _, (a, b, _) = measure(u, cells, c)
         now = products(a, b)
         va, vb, _ = changes(v, cells.nodes, c)
         moving = rate(a, b, va, vb)

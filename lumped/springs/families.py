@@ -200,7 +200,7 @@ class SpringCells(Family):
     (c, 4) of small strains, against the change of area and the Green strains ε1, ε2, γ of the mean sides, or
     (c, 7) with what couples these, which dampers in proportion resist; at rest sides (c, 2, 3) [m] and area
     (c,) [m²]; the names of area springs and of all others; their law, and what constants it has beside
-    (c, n); natural: all constants of a sheet that is not flat at rest."""
+    (c, n); natural: area and δg₀ (4, c) of a sheet that is not flat at rest."""
 
     sides: np.ndarray
     area: np.ndarray
@@ -216,15 +216,14 @@ class SpringCells(Family):
     @cached_property
     def constants(self) -> np.ndarray:
         """Return the law's constants, those of small strains first [N/m³]: (c, 7), or (c, 4 + n)."""
-        if self.natural is not None:
-            return self.natural
         springs = laws.of_stiffness(self.stiffness, self.sides, self.area)
         return springs if self.others is None else np.column_stack([springs[:, :4], self.others])
 
     @cached_property
     def arrays(self) -> CellArrays:
         """Return what the loops take."""
-        return CellArrays(self.nodes, self.sides, self.area, self.law.tag(self.constants), self.slots)
+        area = self.area if self.natural is None else self.natural
+        return CellArrays(self.nodes, self.sides, area, self.law.tag(self.constants), self.slots)
 
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
         """Return the positive semidefinite part of the stresses as matrices ((S₁, S₃/2), (S₃/2, S₂)), and
@@ -243,7 +242,7 @@ class SpringCells(Family):
         """Return the energy of the area spring and of all else of every cell; of rubber that of the membrane
         less that of the links along its sides."""
         areas = self.constants.copy()
-        areas[:, 1 : 7 if self.natural is not None else None] = 0.0
+        areas[:, 1:] = 0.0
         stored: np.ndarray = cells.energies(u, self.arrays, self.law.tag(areas))
         return stored
 
@@ -255,5 +254,5 @@ class SpringCells(Family):
 
     def damped(self, time: float) -> SpringCells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""
-        own = None if self.natural is None else time * self.natural[:, :7]
-        return replace(self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None, natural=own)
+        springs = replace(self, stiffness=time * self.stiffness, natural=None)
+        return replace(springs, law=AREA_AND_STRAINS, others=None)

@@ -158,7 +158,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
             float(np.abs(problem.external(np.zeros_like(problem.loads.dead), 1.0)).sum()),
             max(float(np.abs(placed).max()), problem.size * turn),
             problem.size,
-            any(one.radius < one.cell for one in contacts),
+            any(one.thin for one in contacts),
             passes,
             lambda state: Start(LatticeState(state.u, 1.0), 1.0, 1.0, 0.0),
         )

@@ -197,6 +197,16 @@ class Table:
                 row += [column.of(part) for column, part in zip(own, parts, strict=True)]
         return cls(caption, tuple(columns), tuple(map(tuple, cells)), name, grouped, text)
 
+    @classmethod
+    def listed(
+        cls, caption: str, columns: Iterable[Any], rows: Iterable[Iterable[Any]], name: str = "",
+        *, grouped: bool = False, text: str = "",
+    ) -> Table:  # fmt: skip
+        """Return the table of rows of as many values as there are columns, or names of those of words."""
+        own = tuple(Column(one) if isinstance(one, str) else one for one in columns)
+        cells = (tuple(c.of(value) for c, value in zip(own, row, strict=True)) for row in rows)
+        return cls(caption, own, tuple(cells), name, grouped, text)
+
     def to_csv(self) -> str:
         """Return all digits in SI units; an empty cell where there is no value."""
         text = io.StringIO()

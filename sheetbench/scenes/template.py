@@ -12,7 +12,6 @@ from typing import Any
 
 from sheetbench.scenes.language.schema import branches, json_schema, kind
 from sheetbench.scenes.language.toml import keys, line
-from sheetbench.scenes.objects.loads import Pressure
 from sheetbench.scenes.objects.material import Material
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.objects.supports import Clamped
@@ -29,16 +28,14 @@ def template(
     sheet: Sheet,
     material: Material,
     clamped: Sequence[str] = ("x0",),
-    loads: Sequence[Pressure] = (),
 ) -> str:
-    """A sheet under its own weight and loads, clamped at the named edges, as commented TOML."""
+    """A sheet under its own weight, clamped at the named edges, as commented TOML."""
     scene = Scene(
         name=name,
         sheet=sheet,
         material=material,
         gravity=EARTH,
         supports=tuple(Clamped.model_validate({"edge": edge}) for edge in clamped),
-        loads=tuple(loads),
     )
     given = keys(scene)
     parts = [
@@ -55,7 +52,7 @@ def template(
         '# Optional parts: delete the "# " at the start of a block\'s lines to use it.\n'
         "# All keys: sheetbench check --schema --out DIR, in scene.md\n",
     ]
-    shown = {"[[support]]", *(["[[load]]"] if loads else [])}
+    shown = {"[[support]]"}
     for heading, table in _offered(sheet, _free_edge(clamped)):
         parts.append(_commented(_block(heading, table, about=heading not in shown)))
         shown.add(heading)

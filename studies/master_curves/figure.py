@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.scoring.curves import way
 from comparisons.scoring.reference import references
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, GREY, SERIES
+from studies.master_curves.curves import way
 
 if TYPE_CHECKING:
     from studies.master_curves.study import MasterCurves

@@ -1,4 +1,4 @@
-"""Three problems whose answer depends on one number alone (`comparisons.scoring.curves`), by lattices and
+"""Three problems whose answer depends on one number alone (`studies.master_curves.curves`), by lattices and
 shells, and by the codes of `studies.codes`.
 
 **Cantilever**: drop over reach H/W against Γ. Exact: the heavy elastica θ'' = −Γ (1 − s) cos θ,
@@ -24,7 +24,14 @@ from scipy.integrate import solve_bvp
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import spec_of
-from comparisons.scoring.curves import (
+from comparisons.scoring.reference import references
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture
+from sheetbench.answers.solution import Solution
+from sheetbench.answers.table import Column, Table
+from sheetbench.scenes import Scene
+from studies.codes.results import OURS, every_result
+from studies.master_curves.curves import (
     LENGTH,
     POISSON,
     SLENDER,
@@ -35,14 +42,7 @@ from comparisons.scoring.curves import (
     on_edge,
     way,
 )
-from comparisons.scoring.curves import NARROW as NARROW_WIDTH
-from comparisons.scoring.reference import references
-from sheetbench.answers.answer import Answer
-from sheetbench.answers.report import Picture
-from sheetbench.answers.solution import Solution
-from sheetbench.answers.table import Column, Table
-from sheetbench.scenes import Scene
-from studies.codes.results import OURS, every_result
+from studies.master_curves.curves import NARROW as NARROW_WIDTH
 from studies.master_curves.twist import tip
 
 LOADS = (0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0)

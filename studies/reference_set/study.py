@@ -8,12 +8,15 @@ modes     the shell as in statics, and the solid
 curves    the shell as in statics
 natural   the shell as in statics, and the lattice beside it; so contact
 
+The scenes are those of the file: a new case is a row of name, suite, why and scene, of a motion duration.
+
 Where models stand on it is another study (`studies.codes.models`); those rows stay as they are.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
@@ -24,8 +27,7 @@ import lumped
 from comparisons.comparison.measures import largest
 from comparisons.comparison.motion import LONGER
 from comparisons.models.spec import Lattice
-from comparisons.scoring.cases import AT_REST, FREQUENCIES, Case, cases
-from comparisons.scoring.reference import LICENCE, VERSION, document
+from comparisons.scoring.reference import AT_REST, LICENCE, VERSION, document
 from comparisons.sweep import task
 from comparisons.sweep.differences import error
 from comparisons.sweep.manifest import machine
@@ -59,6 +61,26 @@ SHELLS: dict[str, Elements] = {  # of strips that bend along x alone, and of a p
     "pressed": (160, 2),
 }
 GRID = 17  # masses of the lattice along the shorter side
+FREQUENCIES = 6
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene of a suite; why: it is in the set; duration: of a motion [s]."""
+
+    name: str
+    suite: str
+    why: str
+    scene: Scene
+    duration: float | None = None
+
+
+def cases() -> list[Case]:
+    """Return the cases of the file, whether they have values or not."""
+    return [
+        Case(one["name"], one["suite"], one["why"], Scene.model_validate(one["scene"]), one.get("duration"))
+        for one in document()["cases"]
+    ]
 
 
 def regenerate(say: Callable[[str], None] = print, suite: str | None = None) -> dict[str, Any]:

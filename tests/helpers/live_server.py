@@ -9,17 +9,17 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from comparisons.live.panel import Panel
-from comparisons.live.server import served
+from comparisons.live.server import Server
 
 
 @contextmanager
 def serving(panel: Panel) -> Iterator[str]:
     """The address of the panel's page."""
-    with served(panel) as server:
+    with Server(panel) as server:
         thread = threading.Thread(target=server.serve_forever)
         thread.start()
         try:
-            yield server.guard.address
+            yield server.address
         finally:
             server.shutdown()
             thread.join(600)

@@ -9,13 +9,13 @@ import lumped
 from comparisons.comparison.comparison import error
 from comparisons.models.grading import ONE_SIDED, grading_of, parse_grading
 from comparisons.models.spec import Lattice
-from comparisons.scoring.curves import cantilever
 from lumped.grid_lines import grid_lines
 from lumped.spring_constants import of_edge_cells
 from sheetbench.answers.solution import Status
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, load
 from sheetbench.scenes.objects.grading import Grading, as_settings, of_settings, towards
+from studies.master_curves.curves import cantilever
 from studies.transfer.scenes import transfer_scenes
 from studies.transfer.tasks import points
 

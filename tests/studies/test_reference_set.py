@@ -5,7 +5,6 @@ from zipfile import ZipFile
 
 import pytest
 
-from comparisons.scoring.cases import cases
 from comparisons.scoring.reference import document, references
 from studies.codes import models as leaderboard
 from studies.reference_set import study as regenerate
@@ -14,9 +13,8 @@ from studies.reference_set.archive import archive
 
 def test_one_command_makes_it(monkeypatch):
     """On coarse meshes and one case of each suite, with the keys and cases of the file."""
-    chosen = [
-        case for case in cases() if case.name in ("thick", "corner-struck", "modes-one-edge", "quarter-turn")
-    ]
+    names = ("thick", "corner-struck", "modes-one-edge", "quarter-turn")
+    chosen = [case for case in regenerate.cases() if case.name in names]
     monkeypatch.setattr(regenerate, "cases", lambda: chosen)
     for name, value in (("ELEMENTS", 4), ("SOLID", 2), ("OTHERS", {}), ("MOVING", (2, 1e-4)), ("GRID", 3)):
         monkeypatch.setattr(regenerate, name, value)
@@ -29,7 +27,7 @@ def test_one_command_makes_it(monkeypatch):
 
 
 def test_a_suite_made_anew_leaves_the_others_values(monkeypatch):
-    chosen = [case for case in cases() if case.name in ("thick", "cantilever-1")]
+    chosen = [case for case in regenerate.cases() if case.name in ("thick", "cantilever-1")]
     monkeypatch.setattr(regenerate, "cases", lambda: chosen)
     monkeypatch.setattr(regenerate, "CURVES", 3)
     thick, curve = regenerate.regenerate(lambda text: None, "curves")["cases"]

@@ -14,8 +14,7 @@
   const given = {}; // its sheet, as the viewer takes it
   const begun = new Map(); // when the question of a number was requested, by the event's own clock
   const latencies = []; // ms from the event to the lattice drawn
-  const REST = 300; // ms without a new question: the sliders rest
-  let panel, calibration, viewer, resting;
+  let panel, calibration, viewer;
   let number = 0;
 
   window.live = { latencies, shown, asked: () => number };
@@ -130,7 +129,6 @@
 
   function build(message) {
     panel = message;
-    number = panel.number;
     at("name").textContent = panel.name;
     at("title").textContent = panel.title;
     document.title = `${panel.name} · sheetbench live`;
@@ -180,15 +178,12 @@
     return { number, values, calibration: calibration.value, ...more };
   }
 
-  // The lattice answers while one drags, from its last equilibrium; once the sliders rest, from flat as well.
-  function ask(since, rest = false) {
+  function ask(since) {
     number += 1;
     begun.set(number, since);
     at("refused").textContent = "";
     mark();
-    clearTimeout(resting);
-    if (!rest) resting = setTimeout(() => lattices.ask(question({ rest: true })), REST);
-    lattices.ask(question({ rest }));
+    lattices.ask(question());
   }
 
   // ---- what is answered
@@ -288,7 +283,6 @@
       at("stage").prepend(at("state"));
       return null;
     }
-    if (answer.status === 204) return null;
     const message = await answer.json();
     if (answer.ok) return message;
     if (question.number === number) refuse(message.said);
@@ -351,7 +345,7 @@
   at("panel").addEventListener("submit", (event) => event.preventDefault());
   fetch("panel").then((answer) => answer.json()).then((message) => {
     build(message);
-    ask(performance.now(), true);
+    ask(performance.now());
     begun.clear(); // the first answer is of no drag
   });
 })();

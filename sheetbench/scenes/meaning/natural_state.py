@@ -22,15 +22,15 @@ TENSOR = np.array([1.0, 1.0, 0.5])  # components over (xx, yy, 2xy)
 
 
 class Source(NamedTuple):
-    """strain, curvature: (3,), xx, yy, xy [-], [1/m]; where: the part of the plan that has them, `beyond` the
-    part that has not, None for all of it and none."""
+    """strain, curvature: (3,), xx, yy, xy [-], [1/m]; where: the part of the plan that has them or, if not
+    `within`, has not; None for all of it."""
 
     name: str
     of: Natural | Temperature
     strain: np.ndarray
     curvature: np.ndarray
     where: Polygon | None = None
-    beyond: Polygon | None = None
+    within: bool = True
 
 
 class NaturalState:
@@ -45,9 +45,7 @@ class NaturalState:
         self._weights = np.ones((len(sources), *shape))
         for weight, source in zip(self._weights, sources, strict=True):
             if source.where is not None:
-                weight[...] = share(source.where)
-            if source.beyond is not None:
-                weight -= share(source.beyond)
+                weight[...] = share(source.where) if source.within else 1.0 - share(source.where)
         self.made(lambda *both: both)
 
     def made(self, make: Callable[[np.ndarray, np.ndarray], Any]) -> Self:
@@ -64,12 +62,9 @@ class NaturalState:
         """Return their derivatives [1/s] from a time on, or until then."""
         return np.array([course.slope(time, before) for course in self._courses])
 
-    def grow(self, share: float = 1.0, time: float | None = None) -> None:
-        """Set a share of the natural state at a time [s], without one the last."""
-        self.set(share * self.factors(time))
-
-    def set(self, factors: np.ndarray) -> None:
-        """Set so many times what each source has."""
+    def grow(self, share: float = 1.0, time: float | None = None, factors: np.ndarray | None = None) -> None:
+        """Set a share of the natural state at a time [s], without one the last, or with these factors."""
+        factors = share * (self.factors(time) if factors is None else factors)
         if not np.array_equal(factors, self._factors):
             both = np.einsum("s,s...,skij->k...ij", factors, self._weights, self._forms)
             self._factors, self.now = factors, self._make(*both)
@@ -100,10 +95,10 @@ def sources_of(scene: SceneFields) -> Iterator[Source]:
     for n, patch in reversed([*enumerate(scene.patches, start=1)]):
         if patch.natural is not None:
             area = patch.shape.area if taken is None else patch.shape.area.difference(taken)
-            yield Source(f"patch {n}", patch.natural, *_own(scene, patch.natural), where=area)
+            yield Source(f"patch {n}", patch.natural, *_own(scene, patch.natural), area)
             taken = area if taken is None else taken.union(area)
     if scene.natural is not None:
-        yield Source("natural", scene.natural, *_own(scene, scene.natural), beyond=taken)
+        yield Source("natural", scene.natural, *_own(scene, scene.natural), taken, within=False)
     if scene.temperature is not None:
         yield Source("temperature", scene.temperature, *thermal(scene, scene.temperature))
 

@@ -17,13 +17,17 @@ from sheetbench.scenes.objects.sheet import Sheet
 Grid = tuple[int, int, int]
 LAYERS = 2
 MESH = 16  # the usual number of elements (`sheetbench.choices`), which stands for a sheet's own mesh
+DIGITS = 9  # of a number of cells, before it is made whole
 MASSES = 9  # along the shorter side, unless something else is requested
 
 
 def near_square(sheet: Sheet, cells: int) -> tuple[int, int]:
     """Cells along x and y: `cells` along the shorter side, and cells as square as that allows."""
     shorter = min(sheet.lengths)
-    along_x, along_y = (max(cells, round(cells * length / shorter)) for length in sheet.lengths)
+    # a half as of 5 cells on a side of 1.5 is not to be decided by the last bit
+    along_x, along_y = (
+        max(cells, round(round(cells * length / shorter, DIGITS))) for length in sheet.lengths
+    )
     return along_x, along_y
 
 

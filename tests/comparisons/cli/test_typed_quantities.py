@@ -1,13 +1,10 @@
-"""Quantities with units where a person types them: options, the questions of `new`; and -V, help VERB."""
+"""Quantities with units where a person types them: options; and -V, help VERB."""
 
 import json
 
 import pytest
-import typer
 from commands import run
 
-import sheetbench as sb
-from comparisons.cli import new
 from comparisons.models.quantities import sides
 
 
@@ -37,51 +34,6 @@ def test_options_take_units(capsys):
 )
 def test_a_unit_at_the_end_is_that_of_both_sides(text, lengths):
     assert tuple(sides(text).values()) == pytest.approx(lengths, rel=1e-12)
-
-
-@pytest.fixture
-def typed(monkeypatch):
-    """The answers typed to the questions, in their order; "" takes what is offered."""
-    answers: list[str] = []
-
-    def prompt(question, default):
-        return answers.pop(0) or default
-
-    monkeypatch.setattr(typer, "prompt", prompt)
-    monkeypatch.setattr(typer, "confirm", lambda question, default: answers.pop(0) == "y")
-    monkeypatch.setattr(new, "_at_a_terminal", lambda: True)
-    return answers
-
-
-def test_new_asks_again_and_converts(tmp_path, typed, capsys):
-    typed += [
-        "120 mm",
-        "4 cm",
-        "2 MPa",
-        "2 mm",
-        "0.6 MPa",
-        "0.45",
-        "1,1 g/cm3",
-        "1.1 g/cm3",
-        "z0",
-        "x0,x1",
-        "3 Pa",
-    ]
-    assert run("new", str(tmp_path / "strip.toml")) == 0
-    scene = sb.load(tmp_path / "strip.toml")
-    assert scene.sheet == sb.Sheet(0.12, 0.04, 0.002)
-    assert scene.material == sb.Material(0.6e6, 0.45, 1100.0)
-    assert [support.edge for support in scene.supports] == ["x0", "x1"]
-    assert scene.loads == (sb.Pressure(3.0),) and not typed
-    said = capsys.readouterr().err
-    assert "needed is a length" in said and "decimal point" in said and "z0" in said
-
-
-def test_new_warns_before_it_writes(tmp_path, typed, capsys):
-    typed += ["120", "40", "2", "", "", "", "", "", "n"]
-    assert run("new", str(tmp_path / "mm.toml")) == 0
-    assert "lengths are in metres" in capsys.readouterr().err
-    assert not (tmp_path / "mm.toml").exists()
 
 
 def test_the_version_and_the_help_of_a_verb_have_short_ways(capsys):

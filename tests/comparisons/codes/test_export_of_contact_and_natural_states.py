@@ -91,7 +91,7 @@ def test_tables_hold_obstacles_and_their_points(tmp_path):
     assert {p["weight_1"] for p in points} == {"1.0"} and points[0]["corner_1"] == "0+1"
     page = (tmp_path / "README.md").read_text(encoding="utf-8")
     assert "`contacts.csv`" in page and "natural.csv" not in page
-    for code in ("cpp", "matlab", "mujoco"):
+    for code in ("cpp", "matlab", "sofa"):
         with pytest.raises(BadInput, match="obstacle"):
             lattice_files(scene, spring_set(scene, 3), code)
 

@@ -5,7 +5,6 @@ import json
 import socket
 import stat
 import webbrowser
-from dataclasses import replace
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -18,7 +17,7 @@ from terminals import COMMAND, Terminal
 import sheetbench as sb
 from comparisons.live import answers, server
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
-from comparisons.live.server import CONNECTIONS, KEPT, MESSAGE
+from comparisons.live.server import CONNECTIONS, MESSAGE
 from comparisons.models.spec import Lattice
 from sheetbench.errors import BadInput
 
@@ -98,20 +97,20 @@ def test_a_given_k_has_a_slider_and_goes_with_the_calibrations_that_take_it():
     ({"grid": MASSES_CAP + 1}, "grid = 34: from 3 to 33"),
     ({"grid": 4.5}, "grid = 4.5: a whole number"),
     ({"elements": ELEMENTS_CAP + 1}, "elements = 17"),
-    ({"young": float("nan")}, "NaN: not a finite number"),
-    ({"young": float("inf")}, "Infinity: not a finite number"),
-    ({"young": "5e7"}, "young: a finite number is needed"),
-    ({"young": True}, "young: a finite number is needed"),
-    ({"young": 10**400}, "young: a finite number is needed"),
+    ({"young": float("nan")}, "values.young: Input should be a finite number"),
+    ({"young": float("inf")}, "values.young: Input should be a finite number"),
+    ({"young": "5e7"}, "values.young: Input should be a valid number"),
+    ({"young": True}, "values.young: Input should be a valid number"),
+    ({"young": 10**400}, "values.young: Input should be a finite number"),
     ({"young": -1.0}, "young = -1: from"),
     ({"young": 1234.5}, "young"),
     ({"weight": 1.0}, "values: weight"),
-    ({"calibration": "magic"}, "calibration: choose from consistent"),
-    ({"calibration": []}, "calibration: choose from consistent"),
-    ({"calibration": {}}, "calibration: choose from consistent"),
-    ("[" * 4000, "no JSON"),
-    ("1e999", "not a question"),
-    (b"\xff", "no JSON"),
+    ({"calibration": "magic"}, "calibration = 'magic': unknown, choose one of consistent"),
+    ({"calibration": []}, "calibration: Input should be a valid string"),
+    ({"calibration": {}}, "calibration: Input should be a valid string"),
+    ("[" * 4000, "Invalid JSON"),
+    ("1e999", "no question"),
+    (b"\xff", "Invalid JSON"),
 ], ids=str)  # fmt: skip
 def test_a_question_beyond_the_bounds_is_refused_in_a_line(panel, message, said):
     text = query_of(panel, **message) if isinstance(message, dict) else message
@@ -161,7 +160,8 @@ def test_springs_and_scene_can_be_had_as_text(address, panel):
 
 
 def test_what_does_not_go_together_is_refused_and_the_page_goes_on(address, panel):
-    assert posted(address, "lattice", "{") == (400, {"said": "not a question: no JSON"})
+    status, document = posted(address, "lattice", "{")
+    assert status == 400 and document["said"].startswith("no question: Invalid JSON")
     assert posted(address, "solid", query_of(panel))[0] == 404
     status, document = posted(address, "lattice", query_of(panel, 2, calibration="uniform", grading=0.3))
     assert status == 400 and "cells of one size" in document["said"]
@@ -175,34 +175,6 @@ def test_a_fault_of_the_program_is_told_and_the_page_goes_on(address, panel, mon
     assert "ZeroDivisionError" in capsys.readouterr().err
     monkeypatch.undo()
     assert posted(address, "lattice", query_of(panel, 4))[0] == 200
-
-
-def test_at_rest_the_equilibrium_is_found_from_flat_and_told_where_it_is_another(address, panel, monkeypatch):
-    found, solve = [], answers.lattice
-
-    def watched(scene, question, near=None):
-        found.append(near)
-        return solve(scene, question, near)
-
-    monkeypatch.setattr(answers, "lattice", watched)
-    dragged = json.loads(query_of(panel, 50)) | {"rest": False}
-    assert posted(address, "lattice", json.dumps(dragged))[0] == 200
-    assert posted(address, "lattice", json.dumps(dragged | {"number": 51}))[0] == 200
-    assert posted(address, "lattice", json.dumps(dragged | {"number": 51, "rest": True})) == (204, None)
-    assert found[1].question.number == 50 and found[2] is None
-
-
-def test_the_shell_answers_what_the_lattice_has_answered(address, panel):
-    assert posted(address, "shell", query_of(panel, 900)) == (204, None)
-    for number in range(901, 902 + KEPT):
-        posted(address, "lattice", query_of(panel, number))
-    assert posted(address, "shell", query_of(panel, 901)) == (204, None)
-    assert posted(address, "shell", query_of(panel, 902))[1]["number"] == 902
-
-
-def test_pages_number_their_questions_apart(address):
-    first, second = (json.loads(got(address, urlsplit(address).path + "panel").read()) for _ in range(2))
-    assert second["number"] >= first["number"] + 10**6
 
 
 LENGTHS = {"long": str(MESSAGE + 1), "minus": "-1", "float": "1e3", "arab": "٣", "huge": "9" * 30}
@@ -231,15 +203,14 @@ def test_no_command_line_has_the_secret_address(capsys, monkeypatch):
 
     def browse(given):
         file = Path(unquote(urlsplit(given).path))
-        seen.update(given=given, text=file.read_text(), modes=[p.stat().st_mode for p in (file, file.parent)])
+        seen.update(given=given, text=file.read_text(), mode=stat.S_IMODE(file.stat().st_mode))
 
     monkeypatch.setattr(webbrowser, "open", browse)
     monkeypatch.setattr(server, "run", lambda panel, port, opened: opened("http://127.0.0.1:1/secret/"))
     assert run("live", "two-edges-clamped") == 0
     assert seen["given"].startswith("file:///") and "secret" not in seen["given"]
     assert 'content="0;url=http://127.0.0.1:1/secret/"' in seen["text"]
-    assert [stat.S_IMODE(mode) for mode in seen["modes"]] == [0o600, 0o700]
-    assert not Path(urlsplit(seen["given"]).path).parent.exists()
+    assert seen["mode"] == 0o600 and not Path(urlsplit(seen["given"]).path).exists()
     assert "http://127.0.0.1:1/secret/" in capsys.readouterr().out  # for who has no browser here
 
 
@@ -269,7 +240,7 @@ def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is
     assert {"young_1", "young_2", "angle", "patch1.young", "loads"} <= set(panel.sliders)
     assert "uniform" not in panel.calibrations
     question = panel.first()
-    moved = panel.scene_of(replace(question, values={**question.values, "angle": 0.5, "loads": 2.0}))
+    turned = {**question.values, "angle": 0.5, "loads": 2.0}
+    moved = panel.scene_of(question.model_copy(update={"values": turned}))
     assert moved.material.angle == 0.5 and moved.loads[0].force_per_area[2] == 2.0
-    found = answers.lattice(moved, question)
-    assert answers.shell(moved, question, *found.places())["error"] < 0.2
+    assert answers.shell(moved, question)["error"] < 0.2

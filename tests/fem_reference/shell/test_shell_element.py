@@ -72,7 +72,7 @@ def test_the_internal_force_is_the_derivative_of_the_energy():
     q = random_state(sheet).q
     step = np.random.default_rng(3).uniform(-1, 1, q.shape)
     t = 1e-6
-    energy = [sheet.elastic(q + s * t * step) for s in (1, -1)]
+    energy = [sheet.elastic(sheet.shape(q + s * t * step, 1.0)) for s in (1, -1)]
     force = Static(sheet).forces(State(q), 0.0).residual
     assert (energy[0] - energy[1]) / (2 * t) == pytest.approx(force @ step, rel=1e-7)
 
@@ -186,7 +186,7 @@ def test_patch_of_constant_bending():
     moved, turned = np.zeros((2, sheet.nodes, 3))
     moved[:, 2] = -0.5 * kappa * nodes[:, 0] ** 2
     turned[:, 0] = kappa * nodes[:, 0]
-    energies = sheet.energies_by_part(sheet.of_vectors(moved, turned))
+    energies = sheet.energies_by_part(sheet.shape(sheet.of_vectors(moved, turned), 1.0))
     rigidity = RUBBER.young * SHEET.thickness**3 / 12 / (1 - 0.48**2)
     assert energies["bending"] == pytest.approx(0.5 * rigidity * kappa**2 * 0.188**2, rel=1e-9)
     assert energies["shear"] < 1e-12 * energies["bending"]

@@ -13,13 +13,14 @@ from fem_reference.surface.mesh import mesh_of, nodes_of
 from fem_reference.surface.outlined import quadrilaterals
 from sheetbench.scenes import load
 
+SEGMENTS = 64  # of a quarter of a circle
 AT_NODES = shape(*(2.0 * ElementQuad2.doflocs.T - 1.0))
 NONE = shapely.MultiLineString()
 PLATE, FIN = shapely.box(0.0, 0.0, 0.2, 0.2), shapely.Polygon([(0, 0), (0.2, 0.06), (0.2, 0.14), (0, 0.2)])
 
 
 def disc(x, y, radius):
-    return shapely.Point(x, y).buffer(radius, quad_segs=64)
+    return shapely.Point(x, y).buffer(radius, quad_segs=SEGMENTS)
 
 
 HOLES = shapely.union_all([disc(x, y, 0.02) for x in (0.05, 0.15) for y in (0.05, 0.14)])
@@ -53,7 +54,9 @@ def test_elements_fill_the_plan_and_stand_upright(plan, count, graded):
     assert area.min() > 0.0
     at_nodes = np.linalg.det(jacobians(nodes[elements], AT_NODES[1]))
     assert np.all(at_nodes.min(axis=1) > 0.05 * at_nodes.max(axis=1))  # squeezed ones had 1e-4
-    assert Basis(mesh, ElementQuad2()).dx.sum() == pytest.approx(region.area, rel=1e-3 / count)
+    # sides through three corners of a circle's polygon are the circle, which has 1e-4 more area
+    polygon = (2.0 * np.pi / (4 * SEGMENTS)) ** 2 / 6.0
+    assert Basis(mesh, ElementQuad2()).dx.sum() == pytest.approx(region.area, rel=1e-3 / count + polygon)
     rim = np.unique(mesh.facets[:, mesh.boundary_facets()])
     assert shapely.distance(region.boundary, shapely.points(nodes[rim])).max() < 1e-9
     on_inner = shapely.distance(inner, shapely.points(nodes)) < 1e-9  # as much of it as lies in the region

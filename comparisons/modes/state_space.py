@@ -117,7 +117,6 @@ class Linearisation(Answer):
         }
 
     def heading(self) -> tuple[str, str, str]:
-        """Return the scene, and how large the system is."""
         about = "flat sheet" if self.about == "flat" else "equilibrium"
         inputs, outputs = len(self.matrices.inputs), len(self.matrices.outputs)
         lead = (
@@ -127,7 +126,6 @@ class Linearisation(Answer):
         return self.scene.name, self.scene.title, lead
 
     def tables(self) -> tuple[Table, ...]:
-        """Return the poles, and what every input moves the probes by at rest."""
         inputs = zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True)
         columns = [
             "input",
@@ -138,7 +136,6 @@ class Linearisation(Answer):
         return self._poles(), Table.listed("Static displacement per unit of input", columns, rows, "jacobian")
 
     def printed(self) -> tuple[Table, ...]:
-        """Return the poles, and heights alone."""
         return self._poles(), self._heights()
 
     def _poles(self) -> Table:
@@ -181,13 +178,11 @@ class Linearisation(Answer):
         return {"label": self.label, "about": self.about, "states": len(self.space.a)}
 
     def result(self) -> str:
-        """Return the lowest pole."""
         lowest = int(np.argmin(np.abs(self.upper)))
         frequency, ratio = abs(self.upper[lowest]) / (2.0 * np.pi), 100.0 * self.damping_ratios[lowest]
         return f"lowest of {len(self.space.a)} states: {frequency:.4g} Hz, damping ratio {ratio:.3g} %"
 
     def notes(self) -> tuple[str, ...]:
-        """Return what a balanced truncation promises, and what the numbers mean."""
         if self.balanced is None:
             return EXPLANATION
         return (

@@ -48,7 +48,6 @@ class Stability(Answer):
     rows: tuple[Row, ...]
 
     def document(self) -> dict[str, Any]:
-        """Return the JSON document: SI units, errors as fractions."""
         return {
             "scene": self.scene.document(),
             "reference": self.reference,

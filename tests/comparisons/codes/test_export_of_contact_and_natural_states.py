@@ -38,8 +38,8 @@ def table(path):
     [
         ("bimetal-strip", (7, 3), True),
         ("muscle-bands", (7, 3), True),
-        ("strip-on-table", (9, 3), True),
-        ("finger-on-cylinder", (7, 3), True),
+        ("strip-on-table", (5, 3), True),
+        pytest.param("finger-on-cylinder", (7, 3), True, marks=pytest.mark.nightly),
         ("napkin-on-ball", (4, 4), False),
     ],
 )

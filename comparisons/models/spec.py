@@ -232,7 +232,7 @@ def spec_of(model: str, settings: Mapping[str, Any]) -> Spec:
     kind = next((one for one in (Lattice, LatticePair) if model == one.NAME), None)
     if kind is None and model not in REFERENCES:
         return External(model, settings)
-    own = {key: _tuple(value) for key, value in settings.items()}
+    own = {key: tuple(value) if isinstance(value, list) else value for key, value in settings.items()}
     names = [one.name for one in fields(kind or Elements)]
     if kind is not None:
         if unknown := [key for key in own if key not in names]:
@@ -337,7 +337,3 @@ def _data(value: Any) -> Any:
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
     return list(value) if isinstance(value, tuple) else value
-
-
-def _tuple(value: Any) -> Any:
-    return tuple(value) if isinstance(value, list) else value

@@ -70,7 +70,6 @@ class Priced(Answer):
         return [replace(row, number=i, front=i in front) for i, row in enumerate(self.rows)]
 
     def figures(self) -> tuple[Picture, ...]:
-        """The picture, where a row has an error."""
         drawn = Picture(self.file_name, self.DRAWN, (self,))
         return (drawn,) if any(row.error for row in self.rows) else ()
 
@@ -132,7 +131,6 @@ class Tradeoff(Priced):
         )
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench tradeoff`."""
         return {
             "warnings": self.warnings,
             "scene": self.scene.document(),
@@ -154,7 +152,6 @@ class Tradeoff(Priced):
         return rows, Table.of(Orders, self.orders, orders, "orders")
 
     def notes(self) -> list[str]:
-        """What the errors are measured against."""
         explained = (
             f"errors against {self.reference.label} ({self.reference.unknowns} unknowns), whose own "
             f"uncertainty is {self.known}: the grid convergence index of n, ¾ n and ½ n elements. error: at "
@@ -220,7 +217,6 @@ class DynamicTradeoff(Priced):
         return found
 
     def document(self) -> dict[str, Any]:
-        """For JSON."""
         return {
             "scene": self.scene.document(),
             "duration": self.duration,
@@ -235,7 +231,6 @@ class DynamicTradeoff(Priced):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        """A row per run."""
         caption = (
             f"Motion over {self.duration:g} s. cost: time per simulated second; step error: the part by "
             "the lattice's steps; period: its error; damping: damping ratio"
@@ -272,9 +267,9 @@ def folded(rows: Sequence[MotionRow]) -> tuple[str, ...]:
         if row.status != Status.CONVERGED:
             why = re.sub(r"^(at [\d.e+-]+ s:|from [\d.e+-]+ s on) ", "", row.message)
             ends.setdefault((row.run, row.status, why), []).append(row)
-    return tuple(f"{name}{_steps(alike)}: {status}: {why}" for (name, status, why), alike in ends.items())
-
-
-def _steps(rows: Sequence[MotionRow]) -> str:
-    fixed = [f"{1e3 * row.step:.3g}" for row in rows if row.step is not None]
-    return f", {'steps' if len(fixed) > 1 else 'step'} {', '.join(fixed)} ms" if fixed else ""
+    found = []
+    for (name, status, why), alike in ends.items():
+        fixed = [f"{1e3 * row.step:.3g}" for row in alike if row.step is not None]
+        steps = f", step{'s' * (len(fixed) > 1)} {', '.join(fixed)} ms" if fixed else ""
+        found.append(f"{name}{steps}: {status}: {why}")
+    return tuple(found)

@@ -101,7 +101,7 @@ def test_shell_over_a_cylinder():
 
 
 def test_shell_over_a_ball_folds_one_way():
-    u = fem_reference.solve(draped_quarter(), "shell", elements=8).displacement([[0.1, 0.0], [0.0, 0.1]])
+    u = fem_reference.solve(draped_quarter(), "shell", elements=6).displacement([[0.1, 0.0], [0.0, 0.1]])
     assert np.sort(u[:, 2]) == pytest.approx([-0.0652, 0.0002], abs=1e-3)
 
 

@@ -13,10 +13,10 @@ from comparisons.comparison.measures import difference, largest, measured_alike
 from comparisons.external.plugins import shown_name
 from comparisons.models.spec import counted
 from comparisons.sweep.solved import Solved
-from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Unit
+from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, TableUnit
 from sheetbench.scenes.language.summary import milliseconds
 
-MEMORY = Unit("B", "MB", 1e-6)
+MEMORY = TableUnit("B", "MB", 1e-6)
 FRONT = Column(words=("yes", ""))
 # in the JSON where they are known
 _OF_AN_ANSWER = ("load_factor", "model_error", "load_average", "probes", "machine", "versions", "traceback")
@@ -150,7 +150,7 @@ class MotionRow:
     message: str
     unknowns: Annotated[int | None, NUMBER("d", detail=True)] = None
     steps: Annotated[int | None, NUMBER("d", detail=True)] = None
-    seconds_per_second: Annotated[float | None, Unit("s/s", "s/s")(".3g", "cost")] = None
+    seconds_per_second: Annotated[float | None, TableUnit("s/s", "s/s")(".3g", "cost")] = None
     peak_memory_bytes: Annotated[float | None, MEMORY(".1f", "memory")] = None
     error: Annotated[float | None, PERCENT(".3g")] = None
     step_error: Annotated[float | None, PERCENT(".2g", "step error")] = None

@@ -5,13 +5,10 @@ import pytest
 
 import fem_reference
 import lumped
-from fem_reference.motion.plate import MovingPlate
-from fem_reference.motion.shell import MovingShell
-from fem_reference.motion.solid import MovingSolid
+from fem_reference.sheets import SHEETS
 from sheetbench.scenes import load
 from sheetbench.scenes.objects.actuators import CurvatureTable
 
-MODELS = {"plate": MovingPlate, "shell": MovingShell, "solid": MovingSolid}
 RAMP = CurvatureTable(time=(0.0, 0.3), value=(0.0, 3.0))
 
 
@@ -22,12 +19,12 @@ def driven(**chain):
     return scene.replace(actuators=(own.replace(**chain),))
 
 
-@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("model", SHEETS)
 def test_a_chain_thrown_has_its_own_mass(model):
     scene = driven(face="top")
     energies = []
     for case in (scene, scene.replace(actuators=())):
-        moving = MODELS[model](case, (2, 2))
+        moving = SHEETS[model](case, (2, 2), moving=True)
         v = np.zeros(moving.mass.shape[0])
         moving.displacement(v)[:] = 0.0, 0.0, 2.0
         energies.append(0.5 * v @ (moving.mass @ v))
@@ -41,7 +38,7 @@ def test_a_chain_that_spins_about_the_edge_has_its_rotary_inertia():
     (chain,) = scene.actuators
     energies = []
     for case in (scene, scene.replace(actuators=())):
-        moving = MovingShell(case, (2, 2))
+        moving = SHEETS["shell"](case, (2, 2), moving=True)
         v = np.zeros((moving.mass.shape[0] // 3, 3))
         v[moving.nodes : 2 * moving.nodes, 0], v[2 * moving.nodes :, 2] = omega, -omega
         energies.append(0.5 * v.ravel() @ (moving.mass @ v.ravel()))

@@ -118,7 +118,6 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         raise BadInput("air: an exported lattice has no drag; leave [air] out")
     problem = build_problem(scene, calibration)
     assembly, lattice = problem.assembly, problem.assembly.lattice
-    assembly.grow()
     if not assembly.conservative:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
     nx, ny, layers = lattice.grid

@@ -15,7 +15,7 @@ from lumped.actuators import Drive
 from sheetbench.answers.contact import ContactState
 
 
-class Item(Protocol):
+class LatticeItem(Protocol):
     """A physics of its own. name: of its part in an answer; moves: whether what it is fixed to does;
     resists: whether it takes energy. One that inherits this leaves out what has a default here."""
 

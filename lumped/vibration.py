@@ -94,8 +94,7 @@ def modes(
     inertia = mass_matrix(scene, problem.assembly.lattice, shared, calibration.cells)
     bodies = rotary_masses(scene, problem.assembly.lattice)
     mass = sp.csc_array(transform.T @ (sp.kron(inertia, sp.eye_array(3)) + bodies) @ transform)
-    problem.assembly.grow(float(about == "deformed"))
-    blocks = problem.assembly.tangent(at)
+    blocks = problem.assembly.at(float(about == "deformed")).tangent(at)
     for item in problem.items:
         item.add_tangent(at, Drive(), 1.0, blocks)
     stiffness = problem.system.matrix(blocks)

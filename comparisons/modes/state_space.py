@@ -12,13 +12,14 @@ import numpy as np
 from comparisons.pictures.array_files import write_mat, write_npz
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture, Write
-from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, Unit
+from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, TableUnit
 from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
     from lumped import Balanced, Linear, StateSpace
 
 UNITS = {"fx": "N", "fy": "N", "fz": "N", "curvature": "1/m", "x": "m", "y": "m", "z": "m"}
+UNITS |= dict.fromkeys(("kxx", "kyy", "kxy"), "1/m")
 ROUNDING = 1e-6  # of what an input moves most
 EXPLANATION = (
     "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
@@ -28,8 +29,8 @@ EXPLANATION = (
 
 
 POLES = (
-    *(HERTZ(".5g", "frequency"), PERCENT("z.3g", "damping ratio"), Unit("1/s", "1/s")("z.5g", "real")),
-    Unit("rad/s", "rad/s")(".5g", "imaginary"),
+    *(HERTZ(".5g", "frequency"), PERCENT("z.3g", "damping ratio"), TableUnit("1/s", "1/s")("z.5g", "real")),
+    TableUnit("rad/s", "rad/s")(".5g", "imaginary"),
 )
 
 
@@ -196,4 +197,4 @@ class Linearisation(Answer):
 def unit_of(name: str) -> str:
     """Return the unit of an input by the last word of its name; of a load and gravity "factor", of what the
     scene has."""
-    return UNITS.get(name.split()[-1], "factor")
+    return UNITS.get(name.replace(".", " ").split()[-1], "factor")

@@ -11,10 +11,10 @@ import numpy as np
 from comparisons.comparison.measures import difference, largest, measured_alike
 from comparisons.external.plugins import shown_name
 from comparisons.sweep.solved import Solved
-from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Unit
+from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, TableUnit
 from sheetbench.scenes.language.summary import milliseconds
 
-MEMORY = Unit("B", "MB", 1e-6)
+MEMORY = TableUnit("B", "MB", 1e-6)
 FRONT = Column("front", words=("yes", ""))
 OWN = ("label", "status", "message", "cell_size", "started", "finished", "error", "field_error")
 MEASURED = ("unknowns", "iterations", "setup_seconds", "peak_memory_bytes", "bar")
@@ -118,7 +118,7 @@ class MotionRow:
     message: str
     unknowns: Annotated[int | None, NUMBER("d", detail=True)] = None
     steps: Annotated[int | None, NUMBER("d", detail=True)] = None
-    seconds_per_second: Annotated[float | None, Unit("s/s", "s/s")(".3g", "cost")] = None
+    seconds_per_second: Annotated[float | None, TableUnit("s/s", "s/s")(".3g", "cost")] = None
     peak_memory_bytes: Annotated[float | None, MEMORY(".1f", "memory")] = None
     error: Annotated[float | None, PERCENT(".3g")] = None
     step_error: Annotated[float | None, PERCENT(".2g", "step error")] = None

@@ -16,8 +16,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.discrete.items import Item, Tangent
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.items import SheetItem, Tangent
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface.biquadratic import AT_GAUSS, areas
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan
@@ -29,7 +29,7 @@ from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
 SOFTER, ROUNDED = 0.01, 0.3  # in motion: of k, and over which part of the thickness the law is rounded
 
 
-class Touching(Item):
+class Touching(SheetItem):
     """Contact with one obstacle. share: of its stiffness; levers: ζ (faces, n) of a node's points [m]."""
 
     def __init__(self, scene: Scene, plan: Plan, name: str, obstacle: AnyObstacle, moving: bool, solid: bool):
@@ -68,7 +68,7 @@ class Touching(Item):
         depth: np.ndarray = self.offset + TOUCH * self.thickness - found.distance
         return depth
 
-    def _sunk(self, shape: Shape) -> tuple[np.ndarray, Near, np.ndarray, np.ndarray, np.ndarray]:
+    def _sunk(self, shape: SheetShape) -> tuple[np.ndarray, Near, np.ndarray, np.ndarray, np.ndarray]:
         """Return depths (faces, n) [m], where points are, A ψ [J], A p [N] and A p' [N/m] (faces, n)."""
         found = self._near(shape.vectors, shape.at)
         depth = self._depth(found)
@@ -82,15 +82,15 @@ class Touching(Item):
         energy = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over)
         return scale * energy, scale * force, scale * curved / over
 
-    def _pulled(self, shape: Shape) -> np.ndarray:
+    def _pulled(self, shape: SheetShape) -> np.ndarray:
         """Return forces at points (faces, n, 3) [N]."""
         _, found, _, load, _ = self._sunk(shape)
         return load[..., None] * found.normal + self._rubbed(shape)
 
-    def force(self, shape: Shape) -> np.ndarray:
+    def force(self, shape: SheetShape) -> np.ndarray:
         return self._onto(shape, self._pulled(shape))
 
-    def mean_force(self, start: Shape, end: Shape, middle: Shape) -> np.ndarray:
+    def mean_force(self, start: SheetShape, end: SheetShape, middle: SheetShape) -> np.ndarray:
         """Return the force whose work in a step is the energy stored: of the mean pressure Δψ/Δdepth along
         the mean normal, whose product with Δx is −Δdepth exactly."""
         (before, near0, had, *_), (after, near1, has, *_) = self._sunk(start), self._sunk(end)
@@ -100,14 +100,14 @@ class Touching(Item):
         pulled = load[..., None] * mean_normal(self.obstacle, near0, near1)
         return self._onto(middle, pulled + self._rubbed(middle))
 
-    def _onto(self, shape: Shape, pull: np.ndarray) -> np.ndarray:
+    def _onto(self, shape: SheetShape, pull: np.ndarray) -> np.ndarray:
         """Return forces on the coordinates (N,) of those at points (faces, n, 3)."""
         out = np.zeros_like(shape.vectors)
         out[self.elements, self.place] = pull.sum(axis=0)
         out[self.elements, 9 + self.place] = (self.levers[..., None] * pull).sum(axis=0)
         return shape.sheet.of_surface(np.arange(len(out)), out)
 
-    def tangent(self, shape: Shape) -> Tangent | None:
+    def tangent(self, shape: SheetShape) -> Tangent | None:
         _, found, _, load, slope = self._sunk(shape)
         blocks = load[..., None, None] * found.curvature - slope[..., None, None] * found.outer
         return self._between(blocks)
@@ -126,7 +126,7 @@ class Touching(Item):
                 out[rows, 9 * row + at, :, 9 * column + at, :] += of_nodes[row, column]
         return on, out
 
-    def _speeds(self, shape: Shape) -> tuple[Near, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    def _speeds(self, shape: SheetShape) -> tuple[Near, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Return where points are, A p [N], how fast they sink (faces, n) and slide (faces, n, 3) [m/s], and
         the root (faces, n) of the law of friction."""
         _, found, _, load, _ = self._sunk(shape)
@@ -135,7 +135,7 @@ class Touching(Item):
         sliding = speed + sinking[..., None] * found.normal
         return found, load, sinking, sliding, np.sqrt((sliding**2).sum(axis=2) + SLIP_SPEED**2)
 
-    def _rubbed(self, shape: Shape) -> np.ndarray:
+    def _rubbed(self, shape: SheetShape) -> np.ndarray:
         """Return the forces (faces, n, 3) of the dashpot and of friction, in motion."""
         if not self.resists:
             return np.zeros((*self.levers.shape, 3))
@@ -144,7 +144,7 @@ class Touching(Item):
         rubbed = self.obstacle.friction * load / slip
         return np.asarray(pressed[..., None] * found.normal - rubbed[..., None] * sliding)
 
-    def damping(self, shape: Shape) -> Tangent | None:
+    def damping(self, shape: SheetShape) -> Tangent | None:
         if not self.resists:
             return None
         found, load, sinking, sliding, slip = self._speeds(shape)
@@ -154,12 +154,12 @@ class Touching(Item):
         rubbed = (self.obstacle.friction * load / slip)[..., None, None] * along
         return self._between(-pressed[..., None, None] * found.outer - rubbed)
 
-    def potential(self, shape: Shape) -> float:
+    def potential(self, shape: SheetShape) -> float:
         return float(self._sunk(shape)[2].sum())
 
     stored = potential
 
-    def exchanged(self, shape: Shape, step: np.ndarray) -> tuple[float, float]:
+    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
         rubbed = self._rubbed(shape)
         taken, work = -self._onto(shape, rubbed) @ step, 0.0
         if self.obstacle.motion is not None and shape.v is not None and step.any():
@@ -168,10 +168,10 @@ class Touching(Item):
             taken += float(rubbed.sum(axis=(0, 1)) @ moved)
         return float(taken), work
 
-    def holds(self, shape: Shape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         return {self.name: (self._points(shape.vectors), self._pulled(shape))}
 
-    def exerted(self, shape: Shape) -> np.ndarray:
+    def exerted(self, shape: SheetShape) -> np.ndarray:
         """Return its force (3,) [N] on the sheet."""
         total: np.ndarray = self._pulled(shape).sum(axis=(0, 1))
         return total
@@ -181,11 +181,11 @@ class Touching(Item):
         start, end = (self._near(*each) for each in ends)
         return share_of_way(self.obstacle, start, end, self.offset) < 1.0
 
-    def report(self, shape: Shape) -> ContactState:
+    def report(self, shape: SheetShape) -> ContactState:
         """Return what there is to say of it."""
         return ContactState.of(self._sunk(shape)[0].max(axis=0) / self.thickness, self.area)
 
-    def pressure(self, shape: Shape) -> np.ndarray:
+    def pressure(self, shape: SheetShape) -> np.ndarray:
         """Return the pressure (n,) [Pa] at the nodes of the plan."""
         pressures: np.ndarray = self._sunk(shape)[3].sum(axis=0) / self.area
         return pressures

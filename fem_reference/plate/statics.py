@@ -124,6 +124,5 @@ def equilibrium(sheet: DiscretePlate) -> tuple[np.ndarray, Status, tuple[str, ..
             q = solve_free(matrix, applied(sheet), q, sheet.free)
         except SingularMatrixError as error:
             return q, Status.SINGULAR, (str(error),)
-    return q, *judge(
-        sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, sheet.at_rest(1.0).strains[0]
-    )
+    own = sheet.at_rest(1.0).strains[0]
+    return q, *judge(sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, own)

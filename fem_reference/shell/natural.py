@@ -35,7 +35,7 @@ def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:
     """Return the section per area and strain of the sheet as drawn, of one per natural area and strain;
     corners: the elements' nodes (m, 9, 2) [m]."""
     state = natural_at(scene, AT_GAUSS[0] @ corners)
-    if state is None or not (strain := state.now[0]).any():
+    if state is None or not (strain := state.at()[0]).any():
         return section
     stretch = np.eye(2) + strain
     inverse, area = np.linalg.inv(stretch), np.linalg.det(stretch)[..., None, None]

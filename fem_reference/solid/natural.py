@@ -34,7 +34,7 @@ def at_rest(plain: Bricks, scene: Scene) -> Bricks:
         return np.einsum("ekic,ekcd,eid->ek", sides, green(strain - height * curvature), plan, optimize=True)
 
     stretch = np.tile(np.eye(3), (*points.shape[:2], 1, 1))
-    stretch[..., :2, :2] += mid_surface.now[0]
+    stretch[..., :2, :2] += mid_surface.at()[0]
     on = pulled_back(np.linalg.inv(stretch), PAIRS) @ plain.to_strain
     volumes = np.linalg.det(stretch) * plain.volumes
     return replace(plain, to_strain=on, volumes=volumes, natural=state.made(sample))

@@ -35,7 +35,7 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.items import Item
+from lumped.items import LatticeItem
 from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Plane, Scene, free_rigid_motions
@@ -80,7 +80,7 @@ def side_rule(parts: int, ends: bool) -> tuple[np.ndarray, np.ndarray]:
     return np.stack([1.0 - at, at], axis=1), rule
 
 
-class Contact(Item):
+class Contact(LatticeItem):
     """Contact of a lattice with an obstacle. Points are in patches of the same masses, cells or columns:
     nodes (m, q), weights (p, q) of each of the p points of a patch. thin: whether the obstacle is thinner
     than a cell. Raises BadInput for one too thin."""

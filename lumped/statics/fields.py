@@ -52,7 +52,7 @@ def field_mesh(
     rows of actuators after those of the masses are left out. share: of a natural state; linear: of a solution
     for small displacements, of which the springs have a small part; more: fields of masses (n,)."""
     part = SMALL if linear else 1.0
-    assembly.grow(part * share)
+    assembly = assembly.at(part * share)
     small, links, lattice = part * u, assembly.links, assembly.lattice
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
     quads, masses = len(layer_cells), lattice.mass_count

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from lumped import Balanced, Linear, StateSpace
 
 UNITS = {"fx": "N", "fy": "N", "fz": "N", "curvature": "1/m", "x": "m", "y": "m", "z": "m"}
+UNITS |= dict.fromkeys(("kxx", "kyy", "kxy"), "1/m")
 ROUNDING = 1e-6  # of what an input moves most
 EXPLANATION = (
     "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
@@ -196,4 +197,4 @@ class Linearisation(Answer):
 def unit_of(name: str) -> str:
     """Return the unit of an input by the last word of its name; of a load and gravity "factor", of what the
     scene has."""
-    return UNITS.get(name.split()[-1], "factor")
+    return UNITS.get(name.replace(".", " ").split()[-1], "factor")

@@ -12,13 +12,14 @@ import numpy as np
 from comparisons.pictures.array_files import write_mat, write_npz
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture, Write
-from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, Unit
+from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, TableUnit
 from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
     from lumped import Balanced, Linear, StateSpace
 
 UNITS = {"fx": "N", "fy": "N", "fz": "N", "curvature": "1/m", "x": "m", "y": "m", "z": "m"}
+UNITS |= dict.fromkeys(("kxx", "kyy", "kxy"), "1/m")
 ROUNDING = 1e-6  # of what an input moves most
 EXPLANATION = (
     "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
@@ -28,8 +29,8 @@ EXPLANATION = (
 
 
 POLES = (
-    *(HERTZ(".5g", "frequency"), PERCENT("z.3g", "damping ratio"), Unit("1/s", "1/s")("z.5g", "real")),
-    Unit("rad/s", "rad/s")(".5g", "imaginary"),
+    *(HERTZ(".5g", "frequency"), PERCENT("z.3g", "damping ratio"), TableUnit("1/s", "1/s")("z.5g", "real")),
+    TableUnit("rad/s", "rad/s")(".5g", "imaginary"),
 )
 
 
@@ -117,7 +118,6 @@ class Linearisation(Answer):
         }
 
     def heading(self) -> tuple[str, str, str]:
-        """Return the scene, and how large the system is."""
         about = "flat sheet" if self.about == "flat" else "equilibrium"
         inputs, outputs = len(self.matrices.inputs), len(self.matrices.outputs)
         lead = (
@@ -127,7 +127,6 @@ class Linearisation(Answer):
         return self.scene.name, self.scene.title, lead
 
     def tables(self) -> tuple[Table, ...]:
-        """Return the poles, and what every input moves the probes by at rest."""
         inputs = zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True)
         columns = [
             "input",
@@ -138,7 +137,6 @@ class Linearisation(Answer):
         return self._poles(), Table.listed("Static displacement per unit of input", columns, rows, "jacobian")
 
     def printed(self) -> tuple[Table, ...]:
-        """Return the poles, and heights alone."""
         return self._poles(), self._heights()
 
     def _poles(self) -> Table:
@@ -181,13 +179,11 @@ class Linearisation(Answer):
         return {"label": self.label, "about": self.about, "states": len(self.space.a)}
 
     def result(self) -> str:
-        """Return the lowest pole."""
         lowest = int(np.argmin(np.abs(self.upper)))
         frequency, ratio = abs(self.upper[lowest]) / (2.0 * np.pi), 100.0 * self.damping_ratios[lowest]
         return f"lowest of {len(self.space.a)} states: {frequency:.4g} Hz, damping ratio {ratio:.3g} %"
 
     def notes(self) -> tuple[str, ...]:
-        """Return what a balanced truncation promises, and what the numbers mean."""
         if self.balanced is None:
             return EXPLANATION
         return (
@@ -201,4 +197,4 @@ class Linearisation(Answer):
 def unit_of(name: str) -> str:
     """Return the unit of an input by the last word of its name; of a load and gravity "factor", of what the
     scene has."""
-    return UNITS.get(name.split()[-1], "factor")
+    return UNITS.get(name.replace(".", " ").split()[-1], "factor")

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.discrete.static import State, Static
+from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell.discrete import UP
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
@@ -43,7 +43,7 @@ def shift(scene: Scene, answer: Solution) -> float | None:
         fields, element = answer.mesh.point_data, sheet.element
         if fields["displacement"].shape != (sheet.nodes, 3):
             return None
-        state = State(sheet.of_vectors(fields["displacement"], fields["director"] - UP))
+        state = StaticState(sheet.of_vectors(fields["displacement"], fields["director"] - UP))
         static = Static(sheet)
         forces = static.forces(state, 1.0)
         if not static.imbalance(state, forces) <= SAME * forces.size:

@@ -22,7 +22,7 @@ from comparisons.identification.tensile.laws import (
 )
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
-from sheetbench.answers.table import MEGAPASCALS, NUMBER, PERCENT, Column, Table, Unit, number, unit
+from sheetbench.answers.table import MEGAPASCALS, NUMBER, PERCENT, Column, Table, TableUnit, number, unit
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material
 
@@ -35,7 +35,7 @@ class ConstantRow:
 
     law: str
     constant: str
-    unit: Unit
+    unit: TableUnit
     value: Annotated[float, NUMBER(".4g")]
     low: Annotated[float, NUMBER(".4g", "from")]
     high: Annotated[float, NUMBER(".4g", "to")]

@@ -225,18 +225,6 @@ def test_options_without_effect_on_a_cell_are_refused(tmp_path, capsys, option, 
         sb.calibrate(SCENE, cell=sb.cell("equilateral", 0.01), hinge="angle")
 
 
-def test_a_folder_is_of_one_cell(tmp_path, capsys):
-    options = (SCENE.name, "--coefficient", "hinge=2", "--quiet", "--out", str(tmp_path / "out"))
-    assert run("calibrate", "--cell", "equilateral", *options) == 0
-    before = (tmp_path / "out" / "cell.json").read_text()
-    capsys.readouterr()
-    for other in ("one-diagonal", "equilateral --spacing 5mm", "equilateral --hinge angle"):
-        assert run("calibrate", "--cell", *other.split(), *options) == 2
-        assert "--overwrite" in one_line(capsys)
-    assert (tmp_path / "out" / "cell.json").read_text() == before
-    assert run("calibrate", "--cell", "one-diagonal", *options, "--overwrite") == 0
-
-
 @pytest.mark.parametrize(
     ("text", "reason"),
     [

@@ -5,13 +5,14 @@ The plate's strains are linear, and so its stiffness is the same under every loa
 
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.static import Static
-from fem_reference.shell import statics as shell
-from fem_reference.solid import statics as solid
-from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from fem_reference.sheets import SHEETS
+from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.modes import STILL, Buckling, require_flat_and_dead
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
@@ -32,15 +33,10 @@ def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, cou
     """
     require_static(scene := scene_of(scene))
     require_flat_and_dead(scene)
-    begin, counts = now(), divisions(scene.sheet, elements)
-    law = scene.material.law or STRAIN_LAW
-    sheet: DiscreteElements
-    if model == "shell":
-        sheet = shell.discretise(mesh_of(scene, counts, graded=True), scene, law=law)
-    elif model == "solid":
-        sheet = solid.discretise(solid.plan_mesh(scene, counts, "edges"), scene, law=law)
-    else:
+    if model not in ("shell", "solid"):
         raise BadInput(f"model = {model!r}: buckling is of shell and solid; the plate's strains are linear")
+    begin, counts = now(), divisions(scene.sheet, elements)
+    sheet = cast(DiscreteElements, SHEETS[model](scene, counts, law=scene.material.law or STRAIN_LAW))
     smallest = STILL * max(scene.sheet.lengths)
     found, states = buckling_modes(
         Static(sheet),

@@ -34,15 +34,12 @@ import numpy as np
 from fem_reference.defaults import with_defaults
 from fem_reference.discrete.items import Following
 from fem_reference.discrete.sheet import Discrete
-from fem_reference.plate.discrete import DiscretePlate
+from fem_reference.sheets import SHEETS
 from fem_reference.shell import statics as shell
 from fem_reference.shell.discrete import DiscreteShell
-from fem_reference.solid import statics as solid
-from fem_reference.surface.materials import Section
-from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
-from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.stability import require_stable
@@ -54,7 +51,7 @@ REACH = 0.375  # of the grading
 
 
 @dataclass(frozen=True, repr=False)
-class Modes(NaturalModes):
+class ReferenceModes(NaturalModes):
     """The lowest modes, rigid motions left out; rigid_modes is the number of those.
 
     frequencies: (count,) [Hz], rising; shapes: (count, k, 3), displacements of all nodes, of φᵀ M φ = 1.
@@ -90,7 +87,7 @@ def modes(
     count: int = 10,
     about: About = "flat",
     **options: Any,
-) -> Modes:
+) -> ReferenceModes:
     """The `count` lowest elastic modes; a scene without supports is a free sheet.
 
     about: the flat, stress-free sheet, or its equilibrium under the scene's loads (the shell only; no
@@ -120,7 +117,7 @@ def modes(
     options = with_defaults(scene, signature(SHEETS[model]).parameters, options)
     along_x, along_y = divisions(scene.sheet, elements)
     with one_blas_thread():
-        sheet = SHEETS[model](scene, (along_x, along_y), **options)
+        sheet = SHEETS[model](scene, (along_x, along_y), **options, reach=REACH)
         q, at, rigid = np.zeros(sheet.size), 0.0, 0
         if about == "deformed":
             q, at = _equilibrium(sheet), 1.0
@@ -135,7 +132,7 @@ def modes(
             raise BadInput(f"count = {count}: 1 to {sheet.unknowns - rigid - 1} on this mesh")
         values, vectors = lowest_modes(stiffness, mass, count + rigid, -(_slow(scene) ** 2), dense=0)
         done = now()
-    return Modes(
+    return ReferenceModes(
         model=model,
         label=f"{model} {along_x} × {along_y}",
         settings={"elements": [along_x, along_y], **options},
@@ -180,33 +177,3 @@ def _equilibrium(sheet: Discrete) -> np.ndarray:
     q, status, notes = shell.trace_on(sheet)
     require_stable("shell", status, notes)
     return q
-
-
-def _plate(
-    scene: Scene, elements: tuple[int, int], section: Section | None = None, graded: bool = True
-) -> Discrete:
-    return DiscretePlate(mesh_of(scene, elements, graded, REACH), scene, section)
-
-
-def _shell(
-    scene: Scene,
-    elements: tuple[int, int],
-    section: Section | None = None,
-    graded: bool = True,
-    law: str = STRAIN_LAW,
-) -> Discrete:
-    return shell.discretise(mesh_of(scene, elements, graded, REACH), scene, section, law)
-
-
-def _solid(
-    scene: Scene,
-    elements: tuple[int, int],
-    layers: int = 1,
-    clamp: str = "shell-like",
-    grading: str = "edges",
-    law: str = STRAIN_LAW,
-) -> Discrete:
-    return solid.discretise(solid.plan_mesh(scene, elements, grading), scene, layers, law, clamp)
-
-
-SHEETS: dict[str, Callable[..., Discrete]] = {"plate": _plate, "shell": _shell, "solid": _solid}

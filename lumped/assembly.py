@@ -6,9 +6,10 @@ in single precision, each link in it, cells in double within themselves; the tan
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from copy import copy
 from functools import cached_property
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from lumped.lattice import Lattice, Weights, build
 from lumped.natural import with_natural
 from lumped.pattern import MassPattern, neighbours, of_grid
 from lumped.springs.all_families import AllFamilies, springs_of
+from lumped.springs.families import Family
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.meaning.natural_state import NaturalState
@@ -33,7 +35,7 @@ class Assembly:
     move are shared out. couple: makes the actuators bound to the lattice; their rows follow those of the
     masses in every array. precision: of the internal force. twisting: edges along which nothing holds the
     director (`Scene.twisting_edges`). natural: the state of cells
-    between lines at x and at y.
+    between lines at x and at y, in full unless `at` a share of it.
     """
 
     def __init__(
@@ -68,18 +70,31 @@ class Assembly:
             rows, columns = (np.concatenate(part) for part in zip(pairs, own, strict=True))
             self.pattern = MassPattern(self.coupling.size, rows, columns)
             self.coupling_slots = self.pattern.slots(*own)
-        springs = springs_of(self.lattice, self.pattern, calibration.springs, precision == "single")
+        self.precision = precision
+        self._take(springs_of(self.lattice, self.pattern, calibration.springs, precision == "single"))
         self.natural = state = natural(*(line.at for line in self.lattice.lines))
-        self.all_families = springs
         if state is not None:
             if precision == "single":
                 raise BadInput("precision = 'single': of a sheet that is flat at rest; leave it out")
-            self.all_families = AllFamilies(with_natural(self.lattice, springs.families, state), self.pattern)
-        self.force, self.advance = self.all_families.force, self.all_families.advance
-        self.tangent, self.springs = self.all_families.tangent, self.all_families.families
-        self.links, self.conservative = self.all_families.links, self.all_families.conservative
-        self.any_strain = self.all_families.any_strain
-        self.precision = precision
+            make = with_natural(self.lattice, self.springs, state)
+            self._take(AllFamilies(make(*state.at()), self.pattern))
+            self.natural = state.made(lambda *forms: self._with(make(*forms)))
+
+    def _take(self, springs: AllFamilies) -> None:
+        self.all_families = springs
+        self.force, self.advance, self.tangent = springs.force, springs.advance, springs.tangent
+        self.springs, self.links = springs.families, springs.links
+        self.conservative, self.any_strain = springs.conservative, springs.any_strain
+
+    def _with(self, families: Sequence[Family]) -> Assembly:
+        other = copy(self)
+        other._take(AllFamilies(families, self.pattern))
+        return other
+
+    def at(self, share: float = 1.0, time: float | None = None) -> Assembly:
+        """Return the lattice with its springs at a share of the sheet's natural state, where it has one, at a
+        time [s], without one the last."""
+        return self if self.natural is None else cast(Assembly, self.natural.at(share, time))
 
     @cached_property
     def plan(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -90,11 +105,6 @@ class Assembly:
     def rounding(self) -> float:
         """Relative spacing of the numbers that the internal force is computed with."""
         return float(np.finfo(np.float32 if self.precision == "single" else float).eps)
-
-    def grow(self, share: float = 1.0, time: float | None = None) -> None:
-        """Set the springs to a share of the sheet's natural state at a time [s], if it has one."""
-        if self.natural is not None:
-            self.natural.grow(share, time)
 
     def require_energy(self) -> None:
         """Raise BadInput when the springs have no energy."""

@@ -11,7 +11,6 @@ from lumped.actuators import Drive
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.contact import Contact
-from lumped.contact.table import pressed
 from lumped.lattice import Lattice
 from lumped.statics.solver import solve
 from sheetbench.answers.solution import Status
@@ -41,13 +40,8 @@ def check_states(
         ("rolled", f"rolled about y by {TURN:g} rad, the layers along", _rolled(assembly.lattice)),
     ]
     if touching:
-        shapes.append(
-            (
-                "pressed",
-                "stretched and moved into obstacle 1",
-                pressed(shapes[0][2], assembly.lattice.positions, touching[0]),
-            )
-        )
+        into = shapes[0][2] + touching[0].clearance(shapes[0][2])
+        shapes.append(("pressed", "stretched and moved into obstacle 1", into))
     why: tuple[str, ...] = ()
     if free := free_rigid_motions(scene):
         why = (f"no equilibrium to check by: nothing stops {', '.join(free)}",)

@@ -15,7 +15,7 @@ from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.check_states import CheckState, check_states
 from lumped.contact import contacts
-from lumped.contact.table import ContactTable, contact_table
+from lumped.contact.table import contact_table
 from lumped.loads import Loads
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
@@ -84,8 +84,8 @@ class Couple:
 class Description:
     """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
     (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
-    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles; notes: what of the scene is
-    not in here. Masses of no cell, which an outline or cutouts leave, are left out."""
+    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles (`lumped.contact.table`); notes: what of
+    the scene is not in here. Masses of no cell, which an outline or cutouts leave, are left out."""
 
     index: np.ndarray
     positions: np.ndarray
@@ -98,7 +98,7 @@ class Description:
     pressure: np.ndarray
     pressed: np.ndarray
     couples: tuple[Couple, ...]
-    contact: ContactTable
+    contact: dict[str, np.ndarray]
     states: tuple[CheckState, ...]
     notes: tuple[str, ...] = ()
 
@@ -118,7 +118,6 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         raise BadInput("air: an exported lattice has no drag; leave [air] out")
     problem = build_problem(scene, calibration)
     assembly, lattice = problem.assembly, problem.assembly.lattice
-    assembly.grow()
     if not assembly.conservative:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
     nx, ny, layers = lattice.grid
@@ -163,7 +162,7 @@ def _without(found: Description, absent: np.ndarray) -> Description:
         cells=tuple(replace(table, corners=new[table.corners]) for table in found.cells),
         holds=tuple(replace(h, masses=several(h.masses)) for h in found.holds if there[h.masses[0]]),
         pressed=new[found.pressed],
-        contact=replace(found.contact, corners=new[found.contact.corners]),
+        contact=found.contact | {"contact_corners": new[found.contact["contact_corners"]]},
         couples=tuple(
             replace(
                 c,

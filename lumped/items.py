@@ -15,7 +15,7 @@ from lumped.actuators import Drive
 from sheetbench.answers.contact import ContactState
 
 
-class Item(Protocol):
+class LatticeItem(Protocol):
     """A physics of its own. name: of its part in an answer; moves: whether what it is fixed to does;
     resists: whether it takes energy. One that inherits this leaves out what has a default here."""
 
@@ -67,6 +67,8 @@ class Item(Protocol):
         """Return its forces on the masses (n, 3) [N], at a velocity (n, 3) [m/s] in motion."""
         force = np.zeros_like(u)
         self.add_force(u, drive, force)
+        if v is not None:
+            self.add_resistance(u, v, drive, force)
         return -force
 
     def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:

@@ -52,7 +52,7 @@ import scipy.sparse as sp
 from lumped.carried import point_masses
 from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
-from lumped.sections import Section
+from lumped.sections import CellSection
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.springs import Distribution
@@ -62,7 +62,7 @@ Inertia = Distribution | Literal["higher-order"]
 
 
 def masses(
-    scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: Section | None = None
+    scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: CellSection | None = None
 ) -> np.ndarray:
     """Mass of every lumped mass, (n,) [kg], with what it takes of the payloads (`lumped.carried`); see
     `sheet_masses`."""
@@ -70,7 +70,7 @@ def masses(
 
 
 def sheet_masses(
-    scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: Section | None = None
+    scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: CellSection | None = None
 ) -> np.ndarray:
     """The sheet's part of every lumped mass, (n,) [kg]; they add up to the sheet's. cells: what they are
     made of where they differ, of whose masses each corner has a quarter.
@@ -100,7 +100,7 @@ def sheet_masses(
 
 
 def mass_matrix(
-    scene: Scene, lattice: Lattice, distribution: Inertia, cells: Section | None = None
+    scene: Scene, lattice: Lattice, distribution: Inertia, cells: CellSection | None = None
 ) -> sp.coo_array:
     """The masses and what neighbours share, (n, n) [kg], alike for motions along x, y and z; its entries add
     up to the mass of the sheet and of its payloads. Raises BadInput as `masses`."""

@@ -28,7 +28,7 @@ from typing import Any
 import numpy as np
 
 from lumped.lattice import STEPS
-from lumped.sections import ROUNDING, Section
+from lumped.sections import ROUNDING, CellSection
 from lumped.spring_constants import Springs, of_faces, of_rubber
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 
@@ -162,7 +162,7 @@ def _form(own: np.ndarray, area: np.ndarray) -> np.ndarray:
     return form
 
 
-def of_section(section: Section, spacing: Any) -> Moduli:
+def of_section(section: CellSection, spacing: Any) -> Moduli:
     """Moduli of sections, with MacNeal's S* of the in-plane spacings (lx, ly) (…, 2) [m] as the shear
     stiffness."""
     own = np.diagonal(section.bending, axis1=-2, axis2=-1)[..., :2]
@@ -172,4 +172,4 @@ def of_section(section: Section, spacing: Any) -> Moduli:
 
 def of_sheet(sheet: Sheet, material: Material, spacing: tuple[float, float]) -> Moduli:
     """Moduli of the sheet, with MacNeal's S* as `of_section`."""
-    return of_section(Section.of(Constants.of(sheet, material)), spacing)
+    return of_section(CellSection.of(Constants.of(sheet, material)), spacing)

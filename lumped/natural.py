@@ -16,9 +16,8 @@ resist strains of their natural sides. Derived here.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -30,35 +29,41 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes.meaning.natural_state import NaturalState
 
 Array = np.ndarray
+Maker = Callable[[Array, Array], Family]  # of strains and curvatures of cells (rows, columns, 2, 2)
 
 
-def with_natural(lattice: Lattice, families: Sequence[Family], state: NaturalState) -> list[Family]:
-    """Return the families of a sheet that is not flat at rest, whose arrays its cells' state sets. Raises
-    BadInput for springs of a per-direction law."""
-    found, setters = list(families), []
-    for number, family in enumerate(families):
+def with_natural(
+    lattice: Lattice, families: Sequence[Family], state: NaturalState
+) -> Callable[[Array, Array], list[Family]]:
+    """Return what makes the families of a sheet that is not flat at rest, of its cells' strain and curvature.
+    Raises BadInput for springs of a per-direction law."""
+
+    def maker(family: Family) -> Maker:
         if isinstance(family, DirectionalLinks):
             raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
         if isinstance(family, Links):
-            natural, sides = np.empty((2, len(family))), np.stack(2 * [family.offset[:, None]])
+            sides, stiffness = np.stack(2 * [family.offset[:, None]]), family.stiffness
             cells, shares = _cells_of(lattice, family)
-            found[number] = replace(family, rest_length=natural[0], natural=natural)
         elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
-            natural, sides = (
-                np.empty((4, len(family))),
-                family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1),
-            )
+            sides = family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1)
             cells = np.arange(lattice.cell_areas.size)[lattice.kept]
             cells = np.tile(cells, len(family) // len(cells))[:, None]
             shares = np.ones(cells.shape)
-            stiffness = _of_natural_sides(family, state.now[0].reshape(-1, 2, 2)[cells[:, 0]])
-            found[number] = replace(family, stiffness=stiffness, natural=natural)
+            stiffness = _of_natural_sides(family, state.at()[0].reshape(-1, 2, 2)[cells[:, 0]])
         else:
-            continue
+            return lambda strain, curvature: family
         ends = lattice.positions[family.nodes[:, :2], 2].reshape(len(family), 2, -1).mean(axis=2)
-        setters.append(partial(_set, natural, sides, ends, cells, shares))
-    state.made(lambda *forms: [setter(*forms) for setter in setters])
-    return found
+
+        def make(*forms: Array) -> Family:
+            natural = _natural(sides, ends, cells, shares, *forms)
+            if isinstance(family, Links):
+                return replace(family, rest_length=natural[0], natural=natural)
+            return replace(family, stiffness=stiffness, natural=natural)
+
+        return make
+
+    makers = [maker(family) for family in families]
+    return lambda *forms: [make(*forms) for make in makers]
 
 
 def _cells_of(lattice: Lattice, links: Links) -> tuple[np.ndarray, np.ndarray]:
@@ -82,13 +87,13 @@ def _of_natural_sides(cells: SpringCells, strain: np.ndarray) -> np.ndarray:
     return (natural / drawn)[:, : cells.stiffness.shape[1]]
 
 
-def _set(natural: Array, sides: Array, ends: Array, cells: Array, shares: Array, *forms: Array) -> None:
-    """Fill in √g₀ of a link or √det g₀ of a cell, and δg₀ (p, m) of products of sides (2, m, p, 3) at heights
-    (m, 2) [m], by strains and curvatures of cells (rows, columns, 2, 2)."""
+def _natural(sides: Array, ends: Array, cells: Array, shares: Array, *forms: Array) -> Array:
+    """Return √g₀ of a link or √det g₀ of a cell, then δg₀ of products of sides (2, m, p, 3) at heights (m, 2)
+    [m], (1 + p, m), by strains and curvatures of cells (rows, columns, 2, 2)."""
     e, k = (form.reshape(-1, 2, 2)[cells] for form in forms)
     (a, b), plan = sides[:, :, None], sides[:, :, None, :, :2]
     moved = [side @ (e - z[:, None, None, None] * k) for side, z in zip(plan, ends.T, strict=True)]
     change = (plan * moved[::-1]).sum(axis=0) + moved[0] * moved[1]
-    natural[1:] = np.einsum("mq,mqpi->pm", shares, change)
-    g = (a * b).sum(axis=-1)[:, 0].T + natural[1:]
-    natural[0] = np.sqrt(g[0] if len(g) == 1 else g[0] * g[1] - g[2] ** 2)
+    by = np.einsum("mq,mqpi->pm", shares, change)
+    g = (a * b).sum(axis=-1)[:, 0].T + by
+    return np.stack([np.sqrt(g[0] if len(g) == 1 else g[0] * g[1] - g[2] ** 2), *by])

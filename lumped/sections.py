@@ -42,7 +42,7 @@ ROUNDING = 1e-12  # of moduli, for what is 0
 
 
 @dataclass(frozen=True, eq=False)
-class Section:
+class CellSection:
     """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m] along x and y,
     free_shear the same where no force shears the other way, per_area (…) [kg/m²]; of cells the dots are
     (rows, columns); rims: the oblique ones, where there are any; share: the sheet's of each cell, where some
@@ -82,8 +82,8 @@ class Section:
         parts: dict[str, Any] = {name: change(getattr(self, name)) for name in PARTS}
         return replace(self, **parts)
 
-    def __add__(self, other: Section) -> Section:
-        return Section(**{name: getattr(self, name) + getattr(other, name) for name in PARTS})
+    def __add__(self, other: CellSection) -> CellSection:
+        return CellSection(**{name: getattr(self, name) + getattr(other, name) for name in PARTS})
 
     @property
     def layer_width(self) -> np.ndarray:
@@ -117,11 +117,11 @@ def _over(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
     return np.divide(part, whole, out=np.zeros_like(part), where=whole > 0.0)
 
 
-def of_cells(cells: Cells, grid: Grid) -> Section:
+def of_cells(cells: Cells, grid: Grid) -> CellSection:
     """The sections of a table of cells. Raises BadInput for a table that is not one of the grid's."""
     cells.require_grid(grid)
     shape = grid[1] - 1, grid[0] - 1
-    return Section.of(cells.arrays(shape))
+    return CellSection.of(cells.arrays(shape))
 
 
 def require_alike(scene: Scene, who: str, instead: str) -> None:
@@ -131,7 +131,7 @@ def require_alike(scene: Scene, who: str, instead: str) -> None:
         require_rectangle(scene, who, instead)
 
 
-def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | None:
+def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> CellSection | None:
     """The sections of the cells of a scene's sheet; None of one that is the same all over and in all
     directions. A cell that the outline cuts has its share of what all of it would have."""
     lines = grid_lines(scene.sheet, grid, grading)
@@ -151,14 +151,14 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> Section | No
     return replace(_times(whole, share), rims=oblique_rims(scene, lines, share), share=share)
 
 
-def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> Section | None:
+def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> CellSection | None:
     """The sections of cells as if the sheet had no outline, None where they are alike in all directions."""
     if scene.uniform:
         return None
     if scene.homogeneous:
         return of_cells(Cells(**vars(of_sheet(scene))), grid)
     x, y = (_divided(side, at) for side, at in zip(lines, sides_of(scene), strict=True))
-    sections = [_times(Section.of(part.constants), part.share) for part in parts_between(scene, x, y)]
+    sections = [_times(CellSection.of(part.constants), part.share) for part in parts_between(scene, x, y)]
     total = sum(sections[1:], sections[0])
     (along_x, over_x), (along_y, over_y) = (
         _places(fine, side) for fine, side in zip((x, y), lines, strict=True)
@@ -183,11 +183,11 @@ def _places(fine: np.ndarray, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
     return begin, np.diff(fine) / np.repeat(lines.widths, counts)
 
 
-def _times(section: Section, factor: np.ndarray) -> Section:
+def _times(section: CellSection, factor: np.ndarray) -> CellSection:
     return section.each(lambda part: part * factor.reshape(*factor.shape, *(1,) * (part.ndim - factor.ndim)))
 
 
-def _in_series(section: Section, axis: int, begin: np.ndarray, share: np.ndarray) -> Section:
+def _in_series(section: CellSection, axis: int, begin: np.ndarray, share: np.ndarray) -> CellSection:
     """Divisions that follow each other along an axis of the plan (0 = x, 1 = y) as one, cell by cell."""
     along = 1 - axis  # of the arrays
 
@@ -208,4 +208,4 @@ def _in_series(section: Section, axis: int, begin: np.ndarray, share: np.ndarray
         return found
 
     shears = along_each(section.shear), along_each(section.free_shear)
-    return Section(form(section.membrane), form(section.bending), *shears, mean(section.per_area))
+    return CellSection(form(section.membrane), form(section.bending), *shears, mean(section.per_area))

@@ -20,7 +20,7 @@ from comparisons.pages import studies as runs
 from comparisons.pages.tables import tables
 from sheetbench.answers.files import plain, write_text
 from sheetbench.answers.report import Report
-from sheetbench.answers.table import Column, Table, Unit, unit
+from sheetbench.answers.table import Column, Table, TableUnit, unit
 from sheetbench.sources import version
 
 RESULTS = Path(__file__).with_name("results")
@@ -50,7 +50,7 @@ def _text(table: Table) -> str:
 
 
 def _plain(value: Any) -> Any:
-    return value.si if isinstance(value, Unit) else value
+    return value.si if isinstance(value, TableUnit) else value
 
 
 def kept(name: str) -> Report:

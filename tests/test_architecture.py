@@ -280,16 +280,6 @@ def test_tests_share_by_modules_of_their_own_and_stay_short():
         assert not shared, f"{path.relative_to(ROOT)} imports {', '.join(shared)}"
 
 
-TWICE = {  # class names that stand in several files of the core
-    "Item",  # what acts on a lattice, and on a reference
-    "Modes",  # each solver's answer, public
-    "State",  # of the lattice in motion, which is public, and of a reference at rest
-    "Shape",  # of a reference's sheet, and of a scene's region
-    "Section",  # of the lattice's cells, and of the shell's
-    "Unit",  # of a table's column, and of a scene's key
-}
-
-
 def test_a_class_name_means_one_thing_in_the_core():
     files = {}
     for package in ("lumped", "fem_reference", "sheetbench"):
@@ -298,5 +288,16 @@ def test_a_class_name_means_one_thing_in_the_core():
                 if isinstance(node, ast.ClassDef):
                     files.setdefault(node.name, []).append(path.relative_to(ROOT).as_posix())
     twice = {name: where for name, where in files.items() if len(where) > 1}
-    assert not {name: where for name, where in twice.items() if name not in TWICE}
-    assert twice.keys() == TWICE, "an exception that is no longer needed"
+    assert not twice
+
+
+def test_functions_of_the_core_take_nine_parameters_at_most():
+    """But compiled ones, which take no objects."""
+    for package in ("lumped", "fem_reference", "sheetbench"):
+        for path in sorted((ROOT / package).rglob("*.py")):
+            for node in nodes_of(path):
+                if not isinstance(node, ast.FunctionDef):
+                    continue
+                if "jit" not in "".join(map(ast.unparse, node.decorator_list)):
+                    names = [a.arg for a in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs)]
+                    assert len({*names} - {"self", "cls"}) <= 9, f"{path.relative_to(ROOT)}: {node.name}"

@@ -33,8 +33,8 @@ def command(
         str | None,
         option(
             "Numbers for another code, with --out its files too. mujoco, newton, pybullet, genesis: its own "
-            "sheet of triangles; sofa, and mujoco with --calibration: the lattice's springs; numpy, cpp, "
-            "matlab: the lattice and a program that reads it.",
+            "sheet of triangles; sofa: the lattice's springs; numpy, cpp, matlab: the lattice and a program "
+            "that reads it.",
             "CODE",
         ),
     ] = None,
@@ -103,12 +103,14 @@ def command(
     with two adjacent edges clamped. --export writes the lattice of the SCENE, or of the sheet with one edge
     clamped.
     """
+    from dataclasses import fields
+
     from comparisons.calibration import damping
     from comparisons.calibration.answer import SheetCalibration, to_toml
     from comparisons.calibration.calibrate import calibrate, expected, subject
     from comparisons.codes.cell_moduli import given_coefficients, homogenise
     from comparisons.codes.files import WRITERS
-    from comparisons.codes.lattice import CODES
+    from comparisons.codes.lattice import CODES, lattice_files
     from comparisons.codes.setup import require_damper, setup, squares_of
     from comparisons.models.sizes import require_room
     from sheetbench.errors import BadInput, require_choice, require_effect
@@ -131,7 +133,7 @@ def command(
             return out.show(homogenise(of, cell, spacing=spacing, hinge=hinge, coefficients=known))
     if for_ is not None:
         require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *CODES])))
-    if for_ is not None and for_ in WRITERS and not (for_ in CODES and wanted.calibration):
+    if for_ is not None and for_ in WRITERS:
         springs_only = {name: value for name, value in wanted.settings.items() if name != "grid"}
         require_effect(
             f"with --for {for_}",
@@ -156,5 +158,7 @@ def command(
         off = expected(of, springs) if foretold else None
         out.export(export, of, springs)
         modes = damping.ratios(of, springs)
-        answer = SheetCalibration.of(springs, of, expected=off, modes=modes, code=for_)
+        own = {one.name: getattr(springs, one.name) for one in fields(springs)}
+        files = ({}, []) if for_ is None else lattice_files(of, springs, for_)
+        answer = SheetCalibration(**own, found=springs, scene=of, expected=off, modes=modes, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

@@ -11,12 +11,9 @@ from rich.text import Text
 
 from comparisons.cli.characters import spelled, takes_everything
 from comparisons.cli.lines import Lines
-from comparisons.pictures.amounts import duration
 from sheetbench.answers.escape import terminal
 
 if TYPE_CHECKING:
-    from comparisons.pictures.work import Work
-    from comparisons.sweep.campaign import Progress
     from sheetbench.answers.table import Table
 
 out = Console(highlight=False)
@@ -26,25 +23,14 @@ verbose = False  # all notes
 
 
 @contextmanager
-def verbosely() -> Iterator[None]:
-    """Show all notes of an answer within a block."""
-    global verbose
-    verbose = True
+def speaking(quiet: bool = False, all_notes: bool = False) -> Iterator[None]:
+    """Hold back progress and notes on standard error, or show all notes of an answer, within a block."""
+    global _quiet, verbose
+    _quiet, verbose = quiet, all_notes
     try:
         yield
     finally:
-        verbose = False
-
-
-@contextmanager
-def quietly() -> Iterator[None]:
-    """Hold back progress and notes on standard error within a block."""
-    global _quiet
-    _quiet = True
-    try:
-        yield
-    finally:
-        _quiet = False
+        _quiet = verbose = False
 
 
 def printable(text: str, keep: str = "") -> str:
@@ -54,8 +40,9 @@ def printable(text: str, keep: str = "") -> str:
 
 
 @contextmanager
-def progress() -> Iterator[Callable[[Work | str], None]]:
-    """Yield a function that shows what is being done: a spinner on a terminal, else lines."""
+def progress() -> Iterator[Callable[[object], None]]:
+    """Yield a function that shows what is being done, a `Work`, a campaign's progress or a text: a spinner on
+    a terminal, else lines."""
     if _quiet:
         yield lambda what: None
         return
@@ -65,52 +52,6 @@ def progress() -> Iterator[Callable[[Work | str], None]]:
         return
     with err.status("", spinner="dots" if takes_everything(err.encoding) else "line") as spinner:
         yield lambda what: spinner.update(Text(spelled(terminal(str(what)), err.encoding)))
-
-
-@contextmanager
-def campaign_progress() -> Iterator[Callable[[Progress], None]]:
-    """Yield a function that shows a campaign's progress: a bar on a terminal, else lines."""
-    if _quiet:
-        yield lambda progress: None
-        return
-    if not err.is_terminal:
-        with Lines(tell) as lines:
-            yield lambda progress: _reported(progress, lines)
-        return
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn
-    from rich.progress import Progress as Bar
-
-    columns = (MofNCompleteColumn(), BarColumn(), TextColumn("{task.description}", markup=False))
-    with Bar(*columns, console=err, transient=True) as bar:
-        task = bar.add_task("starting …", total=None)
-
-        def show(progress: Progress) -> None:
-            left = "" if progress.seconds_left is None else f"{duration(progress.seconds_left)} left  "
-            bar.update(
-                task, completed=progress.done, total=progress.total, description=f"{left}{_going(progress)}"
-            )
-
-        yield show
-
-
-def _reported(progress: Progress, lines: Lines) -> None:
-    """Print a line of every run that is done, and of those that have gone on for a while."""
-    so_far = f"{progress.done}/{progress.total}"
-    from comparisons.sweep.campaign import GOING
-
-    if progress.status == GOING:
-        lines.say(f"{so_far} going on: {_going(progress)}")
-        return
-    left = "" if progress.seconds_left is None else f", {duration(progress.seconds_left)} left"
-    lines.print(f"{so_far} {progress.label}: {progress.status}{left}")
-
-
-def _going(progress: Progress) -> str:
-    """Return what goes on, else what is done."""
-    if not progress.going:
-        return progress.label
-    more = len(progress.going) - 1
-    return progress.going[0] + (f", and {more} more" if more else "")
 
 
 def tell(text: str) -> None:

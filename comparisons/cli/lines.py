@@ -6,10 +6,7 @@ import threading
 from collections.abc import Callable
 from time import monotonic
 from types import TracebackType
-from typing import TYPE_CHECKING, Self
-
-if TYPE_CHECKING:
-    from comparisons.pictures.work import Work
+from typing import Self
 
 QUIET = 2.0  # s, at first
 BETWEEN = 10.0  # s, from line to line
@@ -39,17 +36,12 @@ class Lines:
         self._over.set()
         self._looking.join()
 
-    def say(self, what: Work | str) -> None:
-        """Set what is being done from now on."""
+    def say(self, what: object) -> None:
+        """Set what is being done from now on; what says that it is to be printed at once is."""
         with self._lock:
             self._now = str(what)
-            if not isinstance(what, str) and what.long and what.share is None:
+            if getattr(what, "at_once", False):
                 self._print(self._now)
-
-    def print(self, text: str) -> None:
-        """Print a line at once."""
-        with self._lock:
-            self._print(text)
 
     def look(self) -> None:
         """Print what is being done, if it is time and it has not been printed."""

@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 import typer
@@ -21,7 +20,6 @@ from comparisons.cli.options import CampaignOptions, Group, Json, NoPictures, op
 from sheetbench import clock
 
 if TYPE_CHECKING:
-    from comparisons.pictures.work import Work
     from comparisons.sweep.folder import Folder
     from lumped import Calibration
     from sheetbench.answers.answer import Answer
@@ -53,9 +51,9 @@ class Output:
         self._store_files: list[str] = []
         self._notes: list[str] = []
         self._spinner = ExitStack()
-        self._progress: Callable[[Work | str], None] | None = None
+        self._progress: Callable[[object], None] | None = None
 
-    def progress(self, what: Work | str) -> None:
+    def progress(self, what: Any) -> None:
         """Show on standard error what is being done."""
         if not self._options.terminal:
             from comparisons.models.context import context
@@ -89,22 +87,16 @@ class Output:
     def campaign(self, options: CampaignOptions) -> Iterator[dict[str, Any]]:
         """Yield the keywords of a campaign: its store, in the folder or passing, workers, pool, progress."""
         from comparisons.cli import console
-        from comparisons.models.context import context
         from comparisons.sweep.campaign import campaign
         from comparisons.sweep.executors import pool_of
         from comparisons.sweep.store import FILE
 
         with ExitStack() as stack:
-            if self._folder is None:
-                path = Path(stack.enter_context(TemporaryDirectory()))
-            else:
-                path, self._store_files = self._folder.path, [FILE]
+            self._store_files = [FILE]
             yield {
-                "store": stack.enter_context(campaign(path)),
+                "store": stack.enter_context(campaign(None if self._folder is None else self._folder.path)),
                 "pool": stack.enter_context(pool_of(options.scheduler, options.wait, console.warn)),
-                "progress": stack.enter_context(console.campaign_progress())
-                if self._options.terminal
-                else context().progress,
+                "progress": self.progress,
                 "workers": options.workers or os.cpu_count() or 1,
                 "retry": options.retry,
             }

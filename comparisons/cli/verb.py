@@ -139,15 +139,12 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
         plain = {} if draws else {"no_pictures": values.pop("no_pictures")}
         grouped = declared.grouped(values, verb=name, **plain)
         try:
-            if not quiet and not verbose:
-                command(**grouped)
-                return
-            from comparisons.cli import console  # with rich: help must not wait for it
+            if quiet or verbose:
+                from comparisons.cli import console  # with rich: help must not wait for it
 
-            with (
-                console.quietly() if quiet else nullcontext(),
-                console.verbosely() if verbose else nullcontext(),
-            ):
+                with console.speaking(quiet, verbose):
+                    command(**grouped)
+            else:
                 command(**grouped)
         except ValueError as error:
             from sheetbench.errors import Impossible, SceneError
@@ -221,7 +218,7 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
         written = [one for one in found.values() if isinstance(one, Scene)]
         if name != "check":  # whose answer has them
             warn_of_slips(((f"scene '{one.name}'", one) for one in written), stacklevel=2)
-        found = {key: converted.get(key, _as_it_is)(value) for key, value in found.items()}
+        found = {key: converted[key](value) if key in converted else value for key, value in found.items()}
         held = {"progress": found.pop("progress", None), "large": found.get("large", False)}
         try:
             declared.require(found, lambda option: option)
@@ -237,10 +234,6 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
     run.__doc__ = "\n".join([cleandoc(command.__doc__ or ""), "", *_explained(declared)])
     run.__annotations__ = {one.name: one.annotation for one in own.parameters.values()}
     return run
-
-
-def _as_it_is(value: Any) -> Any:
-    return value
 
 
 def _in_python(option: re.Match[str]) -> str:

@@ -69,8 +69,6 @@ NAMES = {  # and what they are
     "state_force": "(q, n, 3) gradient of the energy of springs and contact [N]",
     "state_energy": "(q,) energy of springs and contact [J]",
 }
-OBSTACLE = ("kind", "position", "direction", "radius")
-POINT = ("obstacle", "corners", "weights", "area", "offset", "stiffness")
 
 
 def arrays(lattice: Description) -> dict[str, np.ndarray]:
@@ -92,8 +90,7 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
         "couple_before": _repeated([couple.before for couple in lattice.couples], layers),
         "couple_after": _repeated([couple.after for couple in lattice.couples], layers),
         "couple_moment": np.array([couple.moment for couple in lattice.couples]),
-        **{f"obstacle_{name}": getattr(lattice.contact, name) for name in OBSTACLE},
-        **{f"contact_{name}": getattr(lattice.contact, name) for name in POINT},
+        **lattice.contact,
         "state_name": np.array([state.name for state in lattice.states]),
         **{
             f"state_{name}": np.array([getattr(state, name) for state in lattice.states])

@@ -1,5 +1,9 @@
 """The files of a sheet of triangles, by code: sheet.json, a script that needs the code and NumPy alone, and
 what else the code reads. `Problem` is what every writer starts from.
+
+MuJoCo's sheet is a flex. Vertices slide along x, y and z; what is held has no joints there. Loads other than
+weight are motors, whose keyframe `loaded` says how much. Source: MuJoCo's XML reference, `deformable/flex`,
+`keyframe`.
 """
 
 from __future__ import annotations
@@ -12,11 +16,24 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.codes.mujoco import sheet_mjcf
 from comparisons.codes.sheet_mesh import SheetMesh
 
 Keys = Mapping[str, float]
-OBJ, JSON = "sheet.obj", "sheet.json"
+JSON = "sheet.json"
+FAR = 50.0  # radii: half the length of a cylinder that touches the sheet
+MJCF = """\
+<mujoco model="sheet">
+<option timestep="0.002" integrator="discrete" gravity="{gravity}"><flag contact="{contact}"/></option>
+<worldbody>
+{bodies}
+</worldbody>
+<deformable><flex name="sheet" dim="2" radius="{radius!r}" body="{names}" element="{element}">\
+<elasticity young="{young!r}" poisson="{poisson!r}" thickness="{thickness!r}" elastic2d="both"{damping}/>\
+<contact selfcollide="none" condim="1"/></flex></deformable>
+{loads}</mujoco>
+"""
+JOINT = '<joint name="{name}{axis}" type="slide" axis="{along}" damping="0.0"/>'
+SMALL = '<inertial pos="0 0 0" mass="{mass!r}" diaginertia="1e-09 1e-09 1e-09"/>'  # it does not turn
 
 
 @dataclass(frozen=True)
@@ -31,62 +48,91 @@ class Problem:
     clamp: float = 1.0
 
 
-def _script(code: str) -> str:
-    return (resources("comparisons.codes") / "scripts" / f"run_{code}.py").read_text(encoding="utf-8")
-
-
-def _json(value: Any) -> str:
-    return json.dumps(value, indent=1) + "\n"
-
-
-def _numbers(values: Any) -> str:
+def words(values: Any) -> str:
+    """Return numbers with all their digits, separated by spaces."""
     return " ".join(map(repr, np.asarray(values).ravel().tolist()))
 
 
-def python_files(code: str, of: Problem) -> dict[str, str]:
-    """sheet.json and the code's script."""
-    document = {
-        **of.mesh.document(),
-        "parameters": dict(of.keys),
-        "stretching": of.stretching,
-        "clamp": of.clamp,
-    }
-    return {JSON: _json(document), f"run_{code}.py": _script(code)}
+def script(name: str) -> str:
+    """Return the text of a program that goes with the files."""
+    return (resources("comparisons.codes") / "scripts" / name).read_text(encoding="utf-8")
 
 
-def obj(mesh: SheetMesh) -> str:
-    """Wavefront OBJ."""
-    lines = [f"v {_numbers(place)}" for place in mesh.vertices]
-    lines += ["f " + " ".join(str(1 + v) for v in t) for t in mesh.triangles.tolist()]
-    return "\n".join(lines) + "\n"
+def json_text(of: Problem) -> str:
+    """Return the mesh and the parameters, as the scripts read them."""
+    own = {"parameters": dict(of.keys), "stretching": of.stretching, "clamp": of.clamp}
+    return json.dumps({**of.mesh.document(), **own}, indent=1) + "\n"
 
 
-def mujoco(of: Problem) -> dict[str, str]:
-    """MJCF, sheet.json and the script."""
-    return {"mujoco.xml": sheet_mjcf(of.mesh, of.keys), **python_files("mujoco", of)}
+def mujoco(of: Problem) -> str:
+    """Return the MJCF."""
+    mesh, names = of.mesh, [f"mass{n}" for n in range(len(of.mesh.held))]
+    bodies = [_geom(one) for one in mesh.obstacles]
+    loads: dict[str, float] = {}
+    for name, place, mass, held, force in zip(
+        names, mesh.vertices, mesh.masses.tolist(), mesh.held, mesh.forces.tolist(), strict=True
+    ):
+        joints = ""
+        if not held:
+            axes = zip("xyz", ("1 0 0", "0 1 0", "0 0 1"), strict=True)
+            joints = "".join(JOINT.format(name=name, axis=axis, along=along) for axis, along in axes)
+            joints += SMALL.format(mass=mass)
+            loads |= {f"{name}{axis}": value for axis, value in zip("xyz", force, strict=True) if value}
+        bodies.append(f'<body name="{name}" pos="{words(place)}">{joints}<site name="{name}"/></body>')
+    motors = "".join(f'<motor joint="{joint}"/>\n' for joint in loads)
+    keyframe = f'<keyframe><key name="loaded" ctrl="{words([*loads.values()])}"/></keyframe>\n'
+    return MJCF.format(
+        gravity=words(mesh.gravity),
+        contact="enable" if mesh.obstacles else "disable",
+        bodies="\n".join(bodies),
+        radius=mesh.offset if mesh.obstacles else 1e-4,
+        names=" ".join(names),
+        element=words(mesh.triangles),
+        damping=f' damping="{of.keys["damping"]!r}"' if "damping" in of.keys else "",
+        loads=f"<actuator>\n{motors}</actuator>\n{keyframe}" if loads else "",
+        **{name: of.keys[name] for name in ("young", "poisson", "thickness")},
+    )
 
 
-def pybullet(of: Problem) -> dict[str, str]:
-    """VTK of tetrahedra, whose sides are the springs, beside sheet.json and the script."""
+def _geom(obstacle: Mapping[str, Any]) -> str:
+    """An obstacle as MuJoCo has it, its axis along z; a cylinder is FAR times as long as it is thick."""
+    along, radius = obstacle.get("normal", obstacle.get("axis")), obstacle.get("radius", 0.0)
+    size = {"plane": "0 0 1", "sphere": f"{radius!r}", "cylinder": f"{radius!r} {FAR * radius!r}"}
+    turned = "" if along is None else f' zaxis="{words(along)}"'
+    kind, at, friction = obstacle["kind"], words(obstacle["position"]), obstacle["friction"]
+    return (
+        f'<geom type="{kind}" size="{size[kind]}" pos="{at}"{turned} condim="{3 if friction else 1}" '
+        f'friction="{friction!r} 0 0"/>'
+    )
+
+
+def vtk(of: Problem) -> str:
+    """Return VTK of tetrahedra, whose sides are PyBullet's springs."""
     assert of.tetrahedra is not None
+    count = len(of.tetrahedra)
     lines = ["# vtk DataFile Version 2.0", "sheet", "ASCII", "DATASET UNSTRUCTURED_GRID"]
-    lines += [f"POINTS {len(of.mesh.vertices)} double", *map(_numbers, of.mesh.vertices)]
-    lines += [f"CELLS {len(of.tetrahedra)} {of.tetrahedra.size + len(of.tetrahedra)}"]
-    lines += [f"4 {_numbers(cell)}" for cell in of.tetrahedra]
-    lines += [f"CELL_TYPES {len(of.tetrahedra)}", *["10"] * len(of.tetrahedra)]
-    return {"sheet.vtk": "\n".join(lines) + "\n", **python_files("pybullet", of)}
+    lines += [f"POINTS {len(of.mesh.vertices)} double", *map(words, of.mesh.vertices)]
+    lines += [f"CELLS {count} {5 * count}", *(f"4 {words(cell)}" for cell in of.tetrahedra)]
+    return "\n".join([*lines, f"CELL_TYPES {count}", *["10"] * count]) + "\n"
 
 
-def genesis(of: Problem) -> dict[str, str]:
-    """OBJ, sheet.json and the script."""
-    return {OBJ: obj(of.mesh), **python_files("genesis", of)}
+def obj(of: Problem) -> str:
+    """Return Wavefront OBJ."""
+    corners = [f"f {words(triangle + 1)}" for triangle in of.mesh.triangles]
+    return "\n".join([*(f"v {words(place)}" for place in of.mesh.vertices), *corners]) + "\n"
 
 
 OWN_MASSES = ("newton", "mujoco", "genesis")  # those whose files give each vertex a mass of its own
 OBSTACLES = ("newton", "mujoco")  # those whose files have them
-WRITERS: Mapping[str, Callable[[Problem], dict[str, str]]] = {
-    "newton": lambda of: python_files("newton", of),
-    "mujoco": mujoco,
-    "pybullet": pybullet,
-    "genesis": genesis,
+WRITERS: Mapping[str, Mapping[str, Callable[[Problem], str]]] = {  # what each reads beside JSON and script
+    "newton": {},
+    "mujoco": {"mujoco.xml": mujoco},
+    "pybullet": {"sheet.vtk": vtk},
+    "genesis": {"sheet.obj": obj},
 }
+
+
+def files(code: str, of: Problem) -> dict[str, str]:
+    """Return the texts of a code's files by name."""
+    own = {name: write(of) for name, write in WRITERS[code].items()}
+    return {**own, JSON: json_text(of), f"run_{code}.py": script(f"run_{code}.py")}

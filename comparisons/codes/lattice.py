@@ -7,12 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from importlib.resources import files as resources
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.codes.arrays import arrays
-from comparisons.codes.mujoco import to_mjcf
+from comparisons.codes.files import script
 from comparisons.codes.page import page
 from comparisons.codes.sofa import to_sofa
 from comparisons.codes.tables import natural, plan, tables
@@ -27,9 +26,9 @@ from sheetbench.scenes.meaning.distances import require_no_obstacles
 if TYPE_CHECKING:
     from lumped import Calibration
 
-MODELS = {"mujoco": ("mujoco.xml", to_mjcf), "sofa": ("sofa.scn", to_sofa)}  # links alone
+SOFA = "sofa"  # has links alone
 READERS = {"numpy": "read_lattice.py", "cpp": "read_lattice.cpp", "matlab": "read_lattice.m"}
-CODES = (*MODELS, *READERS)
+CODES = (SOFA, *READERS)
 
 
 def lattice_files(
@@ -42,19 +41,15 @@ def lattice_files(
     """
     import lumped
 
-    if code in MODELS:
-        require_flat_at_rest(scene, f"--for {code}")
-        require_no_obstacles(scene, f"--for {code}")
+    if code == SOFA:
+        require_flat_at_rest(scene, "--for sofa")
+        require_no_obstacles(scene, "--for sofa")
     if code in ("cpp", "matlab"):
         require_no_obstacles(scene, f"the reader of --for {code}")
     lattice = lumped.describe(scene, calibration)
-    own = {}
-    if code in MODELS:
-        name, write = MODELS[code]
-        own[name] = write(lattice, scene)
-    elif code is not None:
-        name = READERS[code]
-        own[name] = (resources("comparisons.codes") / "scripts" / name).read_text(encoding="utf-8")
+    own = {} if code is None or code == SOFA else {READERS[code]: script(READERS[code])}
+    if code == SOFA:
+        own = {"sofa.scn": to_sofa(lattice, scene)}
     differing = {} if scene.uniform and not scene.pierced else {"plan.csv": plan(lattice, scene)}
     if scene.natural_by:
         differing["natural.csv"] = natural(lattice)

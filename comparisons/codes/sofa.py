@@ -11,91 +11,86 @@ Source: SOFA's component reference, `Sofa.Component.SolidMechanics.Spring`, and 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
-from xml.etree import ElementTree
 
 import numpy as np
 
-from comparisons.codes.links import held_masses, require_links, weight_and_rest, words
+from comparisons.codes.files import words
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
     from lumped import Description
 
-PLUGINS = (
-    "Sofa.Component.Constraint.Projective",
-    "Sofa.Component.LinearSolver.Direct",
-    "Sofa.Component.Mass",
-    "Sofa.Component.MechanicalLoad",
-    "Sofa.Component.ODESolver.Backward",
-    "Sofa.Component.SolidMechanics.Spring",
-    "Sofa.Component.StateContainer",
-    "Sofa.Component.Topology.Container.Constant",
-)
+SCENE = """\
+<?xml version="1.0"?>
+<Node name="root" dt="0.01" gravity="{gravity}">
+  <RequiredPlugin name="Sofa.Component.Constraint.Projective" />
+  <RequiredPlugin name="Sofa.Component.LinearSolver.Direct" />
+  <RequiredPlugin name="Sofa.Component.Mass" />
+  <RequiredPlugin name="Sofa.Component.MechanicalLoad" />
+  <RequiredPlugin name="Sofa.Component.ODESolver.Backward" />
+  <RequiredPlugin name="Sofa.Component.SolidMechanics.Spring" />
+  <RequiredPlugin name="Sofa.Component.StateContainer" />
+  <RequiredPlugin name="Sofa.Component.Topology.Container.Constant" />
+  <DefaultAnimationLoop />
+  <Node name="sheet">
+    <EulerImplicitSolver rayleighMass="{drag!r}" rayleighStiffness="0" />
+    <SparseLDLSolver template="CompressedRowSparseMatrixMat3x3" />
+    <MechanicalObject template="Vec3d" position="{places}" rest_position="{rest}" />
+    <MeshTopology edges="{edges}" />
+    <DiagonalMass template="Vec3d,Vec3d" vertexMass="{masses}" />
+{supports}    <SpringForceField template="Vec3d" spring="{springs}" />
+{loads}  </Node>
+</Node>
+"""
 
 
 def to_sofa(lattice: Description, scene: Scene) -> str:
-    """Return the scene's text. Raises BadInput for what SOFA's springs cannot say (`require_links`)."""
-    require_links(lattice, "sofa", means=False)
-    held = held_masses(lattice)
-    gravity, forces = weight_and_rest(lattice, scene)
-    places = lattice.positions.copy()
-    for number, axes in held.items():
-        places[number] += [axes[axis] for axis in range(3)]
-
-    root = ElementTree.Element("Node", name="root", dt="0.01", gravity=words(gravity))
-    for name in PLUGINS:
-        _put(root, "RequiredPlugin", name=name)
-    _put(root, "DefaultAnimationLoop")
-    sheet = _put(root, "Node", name="sheet")
-    _put(sheet, "EulerImplicitSolver", rayleighMass=repr(lattice.damping_rate), rayleighStiffness="0")
-    _put(sheet, "SparseLDLSolver", template="CompressedRowSparseMatrixMat3x3")
-    _put(
-        sheet,
-        "MechanicalObject",
-        template="Vec3d",
-        position=words(places.ravel()),
-        rest_position=words(lattice.positions.ravel()),
-    )
-    links = lattice.links
-    _put(sheet, "MeshTopology", edges=words(links.masses.ravel()))
-    _put(sheet, "DiagonalMass", template="Vec3d,Vec3d", vertexMass=words(lattice.mass))
-    _fix(sheet, {number: frozenset(axes) for number, axes in held.items()})
-    springs = zip(
-        links.masses.tolist(),
-        links.stiffness.tolist(),
-        links.damping.tolist(),
-        links.rest_length.tolist(),
-        strict=True,
-    )
-    _put(
-        sheet,
-        "SpringForceField",
-        template="Vec3d",
-        spring=" ".join(f"{a} {b} {k!r} {c!r} {length!r}" for (a, b), k, c, length in springs),
-    )
-    loaded = np.flatnonzero(forces.any(axis=1))
-    if len(loaded):
-        _put(
-            sheet,
-            "ConstantForceField",
-            template="Vec3d",
-            indices=words(loaded),
-            forces=words(forces[loaded].ravel()),
+    """Return the scene's text. Raises BadInput for springs that are not between two masses, loads that are
+    not dead, and supports that do not hold one mass each."""
+    if lattice.cells:
+        raise BadInput(
+            "--for sofa: has springs between two points alone, and these springs have "
+            f"{' and '.join(sorted({table.kind for table in lattice.cells}))} springs of cells; "
+            "take --calibration central"
         )
-    ElementTree.indent(root)
-    return '<?xml version="1.0"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+    if any(len(hold.masses) > 1 for hold in lattice.holds):
+        raise BadInput(
+            "--for sofa: hinged and held edges hold the mean of their layers, which has no plain "
+            "form there; clamped and curved edges only"
+        )
+    if len(lattice.pressure) or lattice.couples:
+        raise BadInput("--for sofa: pressure and edge moments follow the sheet; dead loads only")
+    places, held = lattice.positions.copy(), np.zeros(lattice.positions.shape, dtype=bool)
+    for hold in lattice.holds:
+        held[hold.masses[0], hold.axis] = True
+        places[hold.masses[0], hold.axis] += hold.displacement
+    gravity = np.zeros(3) if scene.gravity is None else np.array(scene.gravity.last_acceleration)
+    forces = lattice.dead - lattice.mass[:, None] * gravity
+    forces[np.abs(forces) < 1e-12 * np.abs(lattice.dead).max(initial=0.0)] = 0.0
+    loaded, links = np.flatnonzero(forces.any(axis=1)), lattice.links
+    columns = (links.masses, links.stiffness, links.damping, links.rest_length)
+    springs = zip(*(column.tolist() for column in columns), strict=True)
+    return SCENE.format(
+        gravity=words(gravity),
+        drag=lattice.damping_rate,
+        places=words(places),
+        rest=words(lattice.positions),
+        edges=words(links.masses),
+        masses=words(lattice.mass),
+        supports="".join(_fixed(held, axes) for axes in np.unique(held, axis=0)[::-1] if axes.any()),
+        springs=" ".join(f"{a} {b} {k!r} {c!r} {length!r}" for (a, b), k, c, length in springs),
+        loads=f'    <ConstantForceField template="Vec3d" indices="{words(loaded)}" '
+        f'forces="{words(forces[loaded])}" />\n'
+        if len(loaded)
+        else "",
+    )
 
 
-def _fix(sheet: ElementTree.Element, held: dict[int, frozenset[int]]) -> None:
+def _fixed(held: np.ndarray, axes: np.ndarray) -> str:
     """A constraint for all points that are held along the same axes."""
-    for axes in sorted(set(held.values()), key=sorted):
-        indices = words(np.array(sorted(n for n, own in held.items() if own == axes)))
-        if len(axes) == 3:
-            _put(sheet, "FixedProjectiveConstraint", indices=indices)
-        else:
-            directions = words(np.array([int(axis in axes) for axis in range(3)]))
-            _put(sheet, "PartialFixedProjectiveConstraint", indices=indices, fixedDirections=directions)
-
-
-def _put(parent: ElementTree.Element, tag: str, **data: str) -> ElementTree.Element:
-    return ElementTree.SubElement(parent, tag, data)
+    indices = words(np.flatnonzero((held == axes).all(axis=1)))
+    if axes.all():
+        return f'    <FixedProjectiveConstraint indices="{indices}" />\n'
+    along = words(axes.astype(int))
+    return f'    <PartialFixedProjectiveConstraint indices="{indices}" fixedDirections="{along}" />\n'

@@ -31,15 +31,6 @@ def tables(lattice: Description) -> dict[str, str]:
         "kind", corners, "rest_area", *(f"stiffness_{n}" for n in range(1, width + 1)),
         *(f"damping_{n}" for n in range(1, 4)),
     ]  # fmt: skip
-    beside = {}
-    if len(lattice.contact.kind):
-        beside = {
-            "obstacles.csv": _csv("kind,x,y,z,ax,ay,az,radius,stiffness", _obstacles(lattice)),
-            "contacts.csv": _csv(
-                f"obstacle,{corners},{corners.replace('corner', 'weight')},area,offset,stiffness",
-                _contacts(lattice),
-            ),
-        }
     loaded = np.flatnonzero(lattice.dead.any(axis=1))
     return {
         "nodes.csv": _csv(
@@ -65,7 +56,7 @@ def tables(lattice: Description) -> dict[str, str]:
             ),
         ),
         "states.csv": _csv("state,energy,meaning", ([s.name, s.energy, s.meaning] for s in lattice.states)),
-        **beside,
+        **(contacts(lattice) if len(lattice.contact["obstacle_kind"]) else {}),
     }
 
 
@@ -111,21 +102,21 @@ def natural(lattice: Description) -> str:
     return _csv("cell,aa,bb,ab", rows)
 
 
-def _obstacles(lattice: Description) -> Iterator[Row]:
-    """Yield kind, place, direction, radius and the largest stiffness of its points of every obstacle."""
-    contact = lattice.contact
-    for number, kind in enumerate(contact.kind.tolist()):
-        stiffness = contact.stiffness[contact.obstacle == number].max()
-        place = [*contact.position[number].tolist(), *contact.direction[number].tolist()]
-        yield [("plane", "sphere", "cylinder")[kind], *place, float(contact.radius[number]), float(stiffness)]
-
-
-def _contacts(lattice: Description) -> Iterator[Row]:
-    """Return obstacle, corners, weights, area, offset and stiffness of every point that may touch."""
-    contact = lattice.contact
-    corners = np.array([[*map(_joined, masses)] for masses in contact.corners.tolist()])
-    numbers = (contact.weights, contact.area, contact.offset, contact.stiffness)
-    return _rows(contact.obstacle, corners, *numbers)
+def contacts(lattice: Description) -> dict[str, str]:
+    """Return the tables of obstacles, with the largest stiffness of their points, and of the points."""
+    of, corners = lattice.contact, [f"corner_{n}" for n in range(1, 5)]
+    most = [
+        of["contact_stiffness"][of["contact_obstacle"] == n].max() for n in range(len(of["obstacle_kind"]))
+    ]
+    kinds = np.array(["plane", "sphere", "cylinder"])[of["obstacle_kind"]]
+    place = (of[f"obstacle_{name}"] for name in ("position", "direction", "radius"))
+    joined = np.array([[*map(_joined, masses)] for masses in of["contact_corners"].tolist()])
+    numbers = (of[f"contact_{name}"] for name in ("weights", "area", "offset", "stiffness"))
+    head = ["obstacle", *corners, *(f"weight_{n}" for n in range(1, 5)), "area", "offset", "stiffness"]
+    return {
+        "obstacles.csv": _csv("kind,x,y,z,ax,ay,az,radius,stiffness", _rows(kinds, *place, most)),
+        "contacts.csv": _csv(",".join(head), _rows(of["contact_obstacle"], joined, *numbers)),
+    }
 
 
 def _wide(values: np.ndarray, width: int) -> np.ndarray:

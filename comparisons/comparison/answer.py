@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.comparison.errors import Compared
-from comparisons.comparison.notes import notes
 from comparisons.models.expected_error import ExpectedError, NoEstimate
+from comparisons.models.grading import choice_notes
 from comparisons.pictures.plan import plan_mesh
 from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
@@ -30,6 +30,10 @@ from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.supports import named
 
+BUCKLED = (
+    "branch buckled: a model whose equilibrium under the whole load is unstable leaves it along its lowest "
+    "mode; what is shown is the stable equilibrium that it comes to, one of several."
+)
 MOVED = (
     *("probe", MILLIMETRES(".4g", "x", detail=True), MILLIMETRES(".4g", "y", detail=True), "model"),
     *(MILLIMETRES("z.3f", f"u{axis}") for axis in "xyz"),
@@ -55,7 +59,6 @@ class Comparison(Compared, Answer):
         return all(solution.status is Status.CONVERGED for solution in self.solutions[:2])
 
     def document(self) -> dict[str, Any]:
-        """Return the JSON document of `sheetbench compare`: metres, newtons, seconds."""
         return {
             "scene": self.scene.document(),
             "solutions": [self._solution_document(solution) for solution in self.solutions],
@@ -91,7 +94,6 @@ class Comparison(Compared, Answer):
         }
 
     def result(self) -> str:
-        """Return how far each model is from the reference, or how it ended."""
         return "; ".join(map(self._result, (one for one in self.solutions if one is not self.reference)))
 
     def _result(self, solution: Solution) -> str:
@@ -104,7 +106,6 @@ class Comparison(Compared, Answer):
         return f"{solution.label}: {few(100 * off)} % off {self.reference.label}{bar}{own}"
 
     def heading(self) -> tuple[str, str, str]:
-        """Return the scene, and its sheet."""
         return self.scene.name, self.scene.title, sheet_in_words(self.scene.sheet, self.scene.material)
 
     def tables(self) -> tuple[Table, ...]:
@@ -155,7 +156,6 @@ class Comparison(Compared, Answer):
         return Table.listed("Force of each support on the sheet", FORCES, rows, "reactions")
 
     def figures(self) -> tuple[Picture, ...]:
-        """Return the deformed sheets, and what every model is off by at the probes."""
         lattice, reference = self.solutions[:2]
         off = self.error(lattice)
         error_text = "" if off is None else f": error at the probes {100 * off:.2f} %"
@@ -188,7 +188,6 @@ class Comparison(Compared, Answer):
         write_mesh(path, plan)
 
     def choices(self) -> dict[str, Any]:
-        """Return the settings of every model."""
         return {solution.model: solution.settings for solution in self.solutions}
 
     def complaints(self) -> list[str]:
@@ -201,6 +200,37 @@ class Comparison(Compared, Answer):
         ]
 
     def notes(self) -> list[str]:
-        """Return what to know of the errors first, then the models and what was chosen for them, and what the
-        percentages mean."""
-        return notes(self)
+        ref, first = f"u_{self.reference.model}", self.solutions[0].model
+        return [
+            *([BUCKLED] if self.reference.settings.get("branch") == "buckled" else []),
+            *([f"{first}: {self.expected}"] if self.expected else []),
+            *self._bar_notes(),
+            *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
+            " · ".join(solution.label for solution in self.solutions),
+            f"difference: |u − {ref}| / |{ref}| at the probe. "
+            f"error: largest component of u − {ref} over the probes / largest component of {ref}."
+            + " ±: mesh or grid error of the model at the probe."
+            * bool(self.bars),
+        ]
+
+    def _bar_notes(self) -> list[str]:
+        """Return the reference's error bar in words, the models that differ from it by less, what is due to
+        laws of strain."""
+        found, model = [self.laws] if self.laws else [], self.reference.model
+        for solution in self.solutions:
+            if solution.bar is not None:
+                own = few(100.0 * (self.bar_of(solution) or 0.0))
+                found.append(f"{solution.model}: grid error ± {own} %, from its two grids.")
+        if self.bar is None:
+            return found
+        found.append(self.bar.note(model))
+        found += [f"{model}: {left_out}."] if (left_out := str(self.model_error or "")) else []
+        for solution in self.solutions:
+            close = [
+                d.probe for d in self.differences if d.of == solution.model and d.distinguishable is False
+            ]
+            if self.distinguishable(solution) is False:
+                found.append(f"{solution.model}: not distinguishable from {model}.")
+            elif close:
+                found.append(f"{solution.model}: not distinguishable from {model} at {', '.join(close)}.")
+        return found

@@ -58,7 +58,6 @@ class Crosscheck(Answer):
         return [pair for limits in self.limits.values() for pair in pairs(limits)]
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench crosscheck`: metres, seconds, fractions."""
         names = {"distinguishable_at": "apart"}
         return {
             "solutions": [_document(one) for one in self._each()],
@@ -85,13 +84,11 @@ class Crosscheck(Answer):
         return len(self.scenes) == 1
 
     def heading(self) -> tuple[str, str, str]:
-        """The scene, or how many there are."""
         if self._single:
             return self.scenes[0].name, self.scenes[0].title, ""
         return "crosscheck", f"{len(self.scenes)} scenes, every model on meshes of its own", ""
 
     def tables(self) -> tuple[Table, ...]:
-        """Limits, displacements, every two models, external codes."""
         limits, moved, *codes = self._shown()
         return (limits, moved, Table.of(Pair, self.pairs, "Every two models", "pairs"), *codes)
 
@@ -165,7 +162,6 @@ class Crosscheck(Answer):
         return [*self.failures, *unsound]
 
     def choices(self) -> dict[str, Any]:
-        """The scenes and the external codes."""
         codes = {one.code.name: one.version for one in self.codes}
         return {"scenes": [scene.name for scene in self.scenes], "judges": codes}
 

@@ -60,7 +60,6 @@ class MotionComparison(Answer):
 
     @property
     def succeeded(self) -> bool:
-        """Whether all runs reached their end."""
         return all(history.succeeded for history in self.histories.values())
 
     @property
@@ -104,7 +103,6 @@ class MotionComparison(Answer):
         )
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench compare --duration`: metres, newtons, seconds, joules."""
         truth = self.histories[self.reference]
         return {
             "scene": self.scene.document(),
@@ -140,7 +138,6 @@ class MotionComparison(Answer):
         return (drawn, film) if self.animate else (drawn,)
 
     def result(self) -> str:
-        """Return how far every model is from the reference."""
         bar = "" if self.bar is None else f" ± {few(100 * self.bar)} %"
         return "; ".join(
             f"{one['of']}: up to {few(100 * one['largest'])} % off the {self.reference}{bar}"

@@ -34,21 +34,17 @@ class Simulation(History):
         return self.scene
 
     def heading(self) -> tuple[str, str, str]:
-        """The scene, and how it was run."""
         scene = self.subject
         return scene.name, scene.title, f"{self.label}, {self.integrator}, {self.steps} steps"
 
     def document(self) -> dict[str, Any]:
-        """The history's, with its errors where it was measured."""
         errors = {name: m.error(self.time, self.probes[name]) for name, m in self.measured.items()}
         return {**super().document(), **({"measured_errors": errors} if errors else {})}
 
     def tables(self, measured: Mapping[str, Measured] | None = None) -> tuple[Table, ...]:
-        """The history's."""
         return super().tables(self.measured if measured is None else measured)
 
     def figures(self) -> tuple[Picture, ...]:
-        """Probes over time, and the sheet moving."""
         of = (self, self.subject.title or self.subject.name, self.measured)
         pictures = [Picture("history", "sheetbench.answers.history_figure:compose", of)]
         if self.animate:
@@ -70,7 +66,6 @@ class Simulation(History):
         return f"{probe} moves by up to {quantity(largest[probe], 'm', '.4g')} in {self.time[-1]:g} s"
 
     def notes(self) -> list[str]:
-        """What was chosen, and what the history says."""
         return [*choice_notes(self.settings), *super().notes()]
 
     def complaints(self) -> list[str]:

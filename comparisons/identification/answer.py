@@ -14,7 +14,7 @@ from comparisons.identification.residual_test import Runs
 from comparisons.models.grading import choice_notes
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture
-from sheetbench.answers.table import MILLIMETRES, NUMBER, SECONDS, Column, Table, Unit, quantity, unit
+from sheetbench.answers.table import MILLIMETRES, NUMBER, SECONDS, Column, Table, TableUnit, quantity, unit
 from sheetbench.scenes import Scene
 
 SHOWN = 20  # residuals on the terminal; all of them are in the files
@@ -43,7 +43,7 @@ class UnknownRow:
     """An unknown in its unit; nothing of what the data do not determine."""
 
     unknown: str
-    unit: Unit
+    unit: TableUnit
     value: Annotated[float | None, NUMBER(".6g")]
     low: Annotated[float | None, NUMBER(".6g", "from")]
     high: Annotated[float | None, NUMBER(".6g", "to")]

@@ -21,23 +21,22 @@ Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from math import prod
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from comparisons.identification import remarks
 from comparisons.identification.answer import Estimate, Identification
+from comparisons.identification.fit import Fit, Nearest
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
-from comparisons.identification.misfit import require_same_way
-from comparisons.identification.model import Model, lattice_model, reference_model
+from comparisons.identification.model import lattice_model, reference_model
 from comparisons.identification.outliers import Outlier, outliers
-from comparisons.identification.prediction import NotReached, Prediction, set_in
+from comparisons.identification.prediction import NotReached, set_in
 from comparisons.identification.refinement import GRID_ERROR, mesh_error, refined
 from comparisons.identification.residual_test import explained, runs
-from comparisons.identification.search import Nearest
-from comparisons.identification.starts import Fit, nearest
+from comparisons.identification.starts import nearest
 from comparisons.identification.unknowns import DAMPING, VISCOUS, Unknown
 from comparisons.identification.unknowns import unknown as unknown_of
 from comparisons.models.context import context
@@ -53,34 +52,6 @@ from sheetbench.scenes.meaning.region import off_sheet
 
 __all__ = ["NotReached", "identify"]
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold
-
-
-@dataclass(frozen=True)
-class _Question:
-    """The arguments of `identify`."""
-
-    scene: Scene
-    unknowns: tuple[Unknown, ...]
-    lattice: Lattice
-    reference: Elements | None  # in place of the lattice
-    offset: float
-    refine: bool
-
-    @property
-    def model(self) -> str:
-        return self.lattice.model if self.reference is None else self.reference.model
-
-    @property
-    def free_grid(self) -> bool:
-        """Whether the fit chooses the lattice's cells."""
-        own = isinstance(self.scene.springs, SpringTable) and self.scene.springs.grid
-        return self.lattice.grid is None and not own
-
-    def fitted(self) -> Model:
-        """Return the model that is fitted first."""
-        if self.reference is None:
-            return lattice_model(self.scene, self.lattice)
-        return reference_model(resolve(self.scene, self.reference))
 
 
 def identify(
@@ -116,64 +87,66 @@ def identify(
         reference = Elements.given(model, of_reference)
         require_choice("model", reference.kind, MODELS)
         require_effect(f"with the model {reference.kind}", lattice.settings)
+        fitted = reference_model(resolve(scene, reference))
     else:
         require_effect("with the model lumped", of_reference)
-    question = _Question(scene, unknowns, lattice, reference, offset, refine)
-    _check(measured, question)
-    return _answer(question, measured)
+        _require_springs(scene, lattice, [u.name for u in unknowns])
+        fitted = lattice_model(scene, lattice)
+    fit = Fit(measured, unknowns, fitted, offset)
+    _check(scene, fit)
+    return _answer(scene, fit, lattice if reference is None else reference, refine)
 
 
-def _answer(question: _Question, measured: Measured, find_outliers: bool = True) -> Identification:
-    """Return the answer; look: whether for rows that do not fit."""
-    unknowns, model = question.unknowns, question.fitted()
-    fit = Fit(measured, unknowns, model.axes, model.predictor, question.offset, context().progress)
+def _answer(
+    scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool, find_outliers: bool = True
+) -> Identification:
+    """Return the answer; spec: of the model, as it was requested; find_outliers: whether to look for
+    rows that do not fit."""
+    unknowns, measured, whole = fit.unknowns, fit.measured, fit
+    refine = refine and not _moving(measured)
     odd: tuple[Outlier, ...] = ()
-
-    def require_sense(part: Measured, predicted: Prediction) -> None:
-        if not any(u.turns for u in unknowns):
-            require_same_way(part, predicted, fit.axes)
 
     def enough(one: Nearest) -> bool:
         nonlocal odd
         odd = outliers(fit, one) if find_outliers else ()
-        return bool(odd) or explained(one.noise, runs(measured, fit.misfit().per_point(one.residuals)))
+        return bool(odd) or explained(one.noise, runs(measured, fit.per_point(one.residuals)))
 
-    best, starts = nearest(fit, require_sense, enough)
+    best, starts = nearest(fit, enough)
     step = bound = np.full(len(unknowns), np.nan)
-    grids = [model.settings.get("grid")]
-    if question.refine and question.model == "lumped" and not _moving(measured):
-        end = refined(question.scene, question.lattice, model, fit, best, question.free_grid)
-        model, fit, best, step, grids = end.model, end.fit, end.best, end.step, [*end.grids]
+    grids: list[Any] = [fit.model.settings.get("grid")]
+    if refine and isinstance(spec, Lattice):
+        own = isinstance(scene.springs, SpringTable) and scene.springs.grid
+        fit, best, step, grids = refined(scene, spec, fit, best, free=spec.grid is None and not own)
         bound = GRID_ERROR * np.abs(step)
-    elif question.refine and question.reference is not None and not _moving(measured):
-        bound = _of_mesh(question, fit, best)
+    elif refine and isinstance(spec, Elements):
+        bound = mesh_error(scene, spec, fit, best)
     known = identifiability([u.name for u in unknowns], best.slopes, best.residuals)
     found = {
         u.name: _estimate(u, x, known.half_widths[u.name], *steps)
         for u, x, *steps in zip(unknowns, best.x, bound.tolist(), step.tolist(), strict=True)
     }
-    residuals = fit.misfit().per_point(best.residuals)
+    residuals = fit.per_point(best.residuals)
     left = runs(measured, residuals)
     without: dict[str, Estimate] = {}
     if odd and isinstance(measured, Displacements):
         context().progress("without the rows that do not fit")
-        without = _answer(question, measured.without([one.row for one in odd]), find_outliers=False).unknowns
+        others = replace(whole, measured=measured.without([one.row for one in odd]))
+        without = _answer(scene, others, spec, refine, find_outliers=False).unknowns
     warnings = [
         *remarks.on_outliers(odd, without),
         *known.warnings,
         *([] if odd else remarks.on_residuals(fit, best, left, starts)),
         *remarks.on_bounds(fit, best),
-        *remarks.on_grid(found, question.model, question.refine and not _moving(measured)),
+        *remarks.on_grid(found, spec.model, refine),
     ]
-    if question.reference is not None and not _moving(measured):
-        last = set_in(question.scene, unknowns, best.x)
-        solved = solve(resolve(last, question.reference))
-        warnings += remarks.on_law(last, question.reference.law, solved.stretch)
+    if isinstance(spec, Elements) and not _moving(measured):
+        last = set_in(scene, unknowns, best.x)
+        warnings += remarks.on_law(last, spec.law, solve(resolve(last, spec)).stretch)
     return Identification(
-        scene=question.scene,
+        scene=scene,
         measured=measured,
-        model=question.model,
-        settings=model.settings,
+        model=spec.model,
+        settings=fit.model.settings,
         unknowns=found,
         residuals=residuals,
         noise=measured.scale * best.noise,
@@ -188,20 +161,6 @@ def _answer(question: _Question, measured: Measured, find_outliers: bool = True)
         outliers=odd,
         without=without,
     )
-
-
-def _of_mesh(question: _Question, fit: Fit, best: Nearest) -> np.ndarray:
-    """Return what the mesh does to x at most, by a look at elements twice as large; nan where that is not
-    known."""
-    assert question.reference is not None
-    elements = question.reference.counts(question.scene)[:2]
-    coarse = (elements[0] + 1) // 2, (elements[1] + 1) // 2
-    longer = (prod(elements) / prod(coarse)) ** 0.5
-    if longer == 1.0:
-        return np.full(len(best.x), np.nan)
-    context().progress(f"looking at larger elements, {coarse[0]} × {coarse[1]}")
-    other = reference_model(resolve(question.scene, question.reference.but(count=coarse)))
-    return mesh_error(fit, best, other.predictor, longer)
 
 
 def _estimate(u: Unknown, x: float, noise: float, bound: float, step: float) -> Estimate:
@@ -222,38 +181,36 @@ def _moving(measured: Measured) -> bool:
     return isinstance(measured, Displacements) and measured.time is not None
 
 
-def _check(measured: Measured, question: _Question) -> None:
-    names = [u.name for u in question.unknowns]
+def _require_springs(scene: Scene, lattice: Lattice, names: Sequence[str]) -> None:
+    """Raise BadInput for springs that do not depend on the unknowns."""
+    if resolve(scene, lattice, own=False).fitted:
+        raise BadInput(f"calibration = '{lattice.calibration}': its springs do not depend on the unknowns")
+    if lattice.k is not None and (fixed := [name for name in names if name in ("young", "poisson")]):
+        raise BadInput(
+            f"unknown = '{fixed[0]}': with k = {lattice.k:g} N/m given the springs do not depend on it; "
+            "leave k out"
+        )
+
+
+def _check(scene: Scene, fit: Fit) -> None:
+    """Raise BadInput for measurements that say nothing of the unknowns, or are of no place on the sheet."""
+    names, measured = [u.name for u in fit.unknowns], fit.measured
     repeated = {name for name in names if names.count(name) > 1}
     if not names or repeated:
         raise BadInput(f"unknown = '{','.join(names)}': name each once, and at least one")
-    if question.reference is None:
-        lattice = question.lattice
-        if resolve(question.scene, lattice, own=False).fitted:
-            raise BadInput(
-                f"calibration = '{lattice.calibration}': its springs do not depend on the unknowns"
-            )
-        if lattice.k is not None and (fixed := [name for name in names if name in ("young", "poisson")]):
-            raise BadInput(
-                f"unknown = '{fixed[0]}': with k = {lattice.k:g} N/m given the springs do not depend on it; "
-                "leave k out"
-            )
-    else:
-        resolve(question.scene, question.reference)
-    moving = _moving(measured)
     still = [name for name in names if name in DAMPING or name.startswith(VISCOUS)]
-    if still and not moving:
+    if still and not _moving(measured):
         raise BadInput(
             f"unknown = '{still[0]}': an equilibrium does not depend on it; measure a motion, "
             "a CSV with a column time [s]"
         )
-    if question.offset and not isinstance(measured, Surface):
+    if fit.offset and not isinstance(measured, Surface):
         raise BadInput(
-            f"offset = {question.offset:g} m: of a cloud's points from the mid-surface; displacements are "
+            f"offset = {fit.offset:g} m: of a cloud's points from the mid-surface; displacements are "
             "the mid-surface's"
         )
-    if question.scene.pierced:
-        _require_on_sheet(measured, question.scene)
+    if scene.pierced:
+        _require_on_sheet(measured, scene)
     count = int(measured.measured.sum()) if isinstance(measured, Displacements) else len(measured.points)
     if count <= len(names):
         raise BadInput(f"{count} measured numbers cannot give intervals of {len(names)} unknowns")

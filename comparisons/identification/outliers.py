@@ -6,13 +6,12 @@ the others' standard deviation off. Up to MOST rows are tried in turn, one in FE
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from comparisons.identification.fit import Fit, Nearest
 from comparisons.identification.measurements import MOVED, Displacements
-from comparisons.identification.search import Nearest
-from comparisons.identification.starts import Fit
 
 SUSPECT = 5.0  # times the residuals' standard deviation, judged by their median: a row that is looked at
 FAR = 8.0  # times the others' standard deviation
@@ -44,7 +43,7 @@ def outliers(fit: Fit, best: Nearest) -> tuple[Outlier, ...]:
     measured = fit.measured
     if not isinstance(measured, Displacements):
         return ()
-    residuals, x = fit.misfit().per_point(best.residuals), best.x
+    residuals, x = fit.per_point(best.residuals), best.x
     rows: list[int] = []
     found: tuple[Outlier, ...] = ()
     while len(rows) < min(MOST, len(residuals) // FEWEST):
@@ -55,8 +54,8 @@ def outliers(fit: Fit, best: Nearest) -> tuple[Outlier, ...]:
         size = np.nan_to_num(np.abs(residuals)).max(axis=1)
         size[rows] = 0.0
         rows.append(int(np.argmax(size)))
-        x = fit.search(x, measured.without(rows)).x
-        residuals = fit.residuals(x)
+        x = replace(fit, measured=measured.without(rows)).search(x).x
+        residuals = fit.per_point(fit.at(x)[0])
         spread = float(np.nanstd(np.delete(residuals, rows, axis=0)))
         if np.nan_to_num(np.abs(residuals[rows])).max(axis=1).min() > FAR * spread:
             found = tuple(_named(measured, residuals, row) for row in rows)

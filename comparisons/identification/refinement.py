@@ -11,19 +11,18 @@ take a second or two a solve. Where it ends the search, the next step is taken t
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from math import prod
 
 import numpy as np
 
-from comparisons.identification.measurements import Measured
-from comparisons.identification.model import Model, lattice_model
-from comparisons.identification.prediction import NotReached, Predictor
-from comparisons.identification.search import Nearest
-from comparisons.identification.starts import Fit
+from comparisons.identification.fit import Fit, Nearest
+from comparisons.identification.model import lattice_model, reference_model
+from comparisons.identification.prediction import NotReached
 from comparisons.models.context import context
+from comparisons.models.resolve import resolve
 from comparisons.models.sizes import has_room
-from comparisons.models.spec import Lattice
+from comparisons.models.spec import Elements, Lattice
 from lumped import Identifiability, identifiability
 from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.grading import of_settings
@@ -34,26 +33,17 @@ GRID_ERROR = 2.0
 FITTED, CHECKED = 20_000, 30_000  # unknowns of a lattice that is fitted, and of one that gives a step
 
 
-@dataclass(frozen=True)
-class Refined:
-    """The last fit, its model and the best of its searches; step: of x on cells half as large, nan where it
-    is not known; grids: all that were fitted, (nx, ny, layers) each."""
+def refined(
+    scene: Scene, lattice: Lattice, fit: Fit, best: Nearest, free: bool
+) -> tuple[Fit, Nearest, np.ndarray, list[tuple[int, ...]]]:
+    """Return the fit on cells that are small enough where the grid is free, else on those given, the best of
+    its searches, by how much x changes on cells half as large, nan where that is not known, and all grids
+    that were fitted, (nx, ny, layers) each.
 
-    model: Model
-    fit: Fit
-    best: Nearest
-    step: np.ndarray
-    grids: tuple[tuple[int, ...], ...]
-
-
-def refined(scene: Scene, lattice: Lattice, model: Model, fit: Fit, best: Nearest, free: bool) -> Refined:
-    """Return the fit on cells that are small enough where the grid is free, else on those given, with its
-    step.
-
-    lattice: as it was requested; model, fit, best: on the first grid.
+    lattice: as it was requested; fit, best: on the first grid.
     """
     names = [u.name for u in fit.unknowns]
-    grids = [tuple(model.settings["grid"])]
+    grids = [tuple(fit.model.settings["grid"])]
     step = np.full(len(names), np.nan)
     while True:
         nx, ny, layers = grids[-1]
@@ -64,39 +54,41 @@ def refined(scene: Scene, lattice: Lattice, model: Model, fit: Fit, best: Neares
         enough = np.maximum(SHARE * widths, NEGLIGIBLE)
         foretold = step / 2.0  # nan on the first grid
         if not room or (len(grids) > 1 and (unknowns > CHECKED or (np.abs(foretold) <= enough).all())):
-            return Refined(model, fit, best, foretold, tuple(grids))
-        settings = model.settings
+            return fit, best, foretold, grids
+        settings = fit.model.settings
         chosen = {"calibration": settings["calibration"], "grading": of_settings(settings)}
         halved = lattice_model(scene, replace(lattice, grid=finer, **chosen))
         context().progress(f"looking at cells half as large, {finer[0]} × {finer[1]} masses")
-        on_halved = replace(fit, axes=halved.axes, predictor=halved.predictor)
+        on_halved = replace(fit, model=replace(halved, settings={**settings, "grid": list(finer)}))
         step = _step(on_halved, best.x)
         small = (np.abs(step) <= enough).all()
         if not free or unknowns > FITTED or not np.isfinite(step).all() or small:
-            return Refined(model, fit, best, step, tuple(grids))
+            return fit, best, step, grids
         try:
-            best = on_halved.search(best.x + step)
+            fit, best = on_halved, on_halved.search(best.x + step)
         except NotReached:
-            return Refined(model, fit, best, step, tuple(grids))
-        model = replace(halved, settings={**settings, "grid": list(finer)})
-        fit = on_halved
+            return fit, best, step, grids
         grids.append(finer)
 
 
-def mesh_error(
-    fit: Fit, best: Nearest, predictor: Callable[[Measured], Predictor], longer: float
-) -> np.ndarray:
-    """Return what a reference's elements do to x at most, by a step on elements `longer` times as long: the
-    error is taken to fall in first order, the least that it does; nan where these have no answer."""
-    step: np.ndarray = _step(replace(fit, predictor=predictor), best.x)
+def mesh_error(scene: Scene, reference: Elements, fit: Fit, best: Nearest) -> np.ndarray:
+    """Return what a reference's elements do to x at most, by a step on elements twice as large: the error is
+    taken to fall in first order, the least that it does; nan where these have no answer."""
+    elements = reference.counts(scene)[:2]
+    coarse = (elements[0] + 1) // 2, (elements[1] + 1) // 2
+    longer = (prod(elements) / prod(coarse)) ** 0.5
+    if longer == 1.0:
+        return np.full(len(best.x), np.nan)
+    context().progress(f"looking at larger elements, {coarse[0]} × {coarse[1]}")
+    other = reference_model(resolve(scene, reference.but(count=coarse)))
+    step = _step(replace(fit, model=replace(fit.model, predictor=other.predictor)), best.x)
     return np.abs(step) / (longer - 1.0)
 
 
 def _step(fit: Fit, x: np.ndarray) -> np.ndarray:
     """Return the Gauss–Newton step of x, of what the data see; nan where the model has no answer."""
-    misfit = fit.misfit()
     try:
-        residuals, slopes = misfit.of(fit.predictor(fit.measured)(fit.unknowns, x, misfit.requested))
+        residuals, slopes = fit.at(x)
     except NotReached:
         return np.full(len(x), np.nan)
     step, *_ = np.linalg.lstsq(slopes, -residuals, rcond=Identifiability.threshold)

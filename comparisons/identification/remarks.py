@@ -7,10 +7,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from comparisons.identification.answer import Estimate
+from comparisons.identification.fit import Fit, Nearest
 from comparisons.identification.outliers import Outlier
 from comparisons.identification.residual_test import POOR, Runs, explained
-from comparisons.identification.search import Nearest
-from comparisons.identification.starts import Fit
 from fem_reference.pulled_strip import curving, laws_of
 from sheetbench.answers.table import quantity
 from sheetbench.choices import STRAIN_LAW
@@ -41,7 +40,7 @@ def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
     deviation = quantity(fit.measured.scale * best.noise, "m", ".3g")
     size = f"{tried} leaves residuals of {deviation}, {few(100 * best.noise)} % of the largest measurement"
     if best.noise > POOR:
-        turned = " and ".join(fit.misfit().turned(best.residuals))
+        turned = " and ".join(fit.turned(best.residuals))
         return [
             f"a poor fit: {size}: no value of {names} explains these data; look at frame, supports and model"
             + (f": the measured {turned} have the opposite sign of the model's" if turned else "")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 
@@ -65,7 +65,7 @@ AGAINST = (
 
 
 @dataclass(frozen=True, repr=False)
-class Spectra(Answer, Sequence[Spectrum]):
+class Spectra(Answer):
     """The spectra of a scene, the lattice's first, then that of each reference.
 
     about: "flat" or "deformed"; sag [m]: the largest displacement that the lattice's flat tangent gives under
@@ -80,13 +80,7 @@ class Spectra(Answer, Sequence[Spectrum]):
     sag: float | None = None
     buckling: tuple[Buckling, ...] = ()
 
-    @overload
-    def __getitem__(self, index: int) -> Spectrum: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[Spectrum]: ...
-
-    def __getitem__(self, index: int | slice) -> Spectrum | Sequence[Spectrum]:
+    def __getitem__(self, index: int) -> Spectrum:
         return self.found[index]
 
     def __len__(self) -> int:
@@ -100,7 +94,7 @@ class Spectra(Answer, Sequence[Spectrum]):
     @cached_property
     def _sampled(self) -> tuple[np.ndarray, ...]:
         """Shapes (count, n, 3) of every model on equal plan cells."""
-        return tuple(on_cells(self.scene, spectrum.shapes) for spectrum in self)
+        return tuple(on_cells(self.scene, spectrum.shapes) for spectrum in self.found)
 
     @cached_property
     def kinds(self) -> tuple[str | None, ...]:
@@ -112,7 +106,7 @@ class Spectra(Answer, Sequence[Spectrum]):
     @cached_property
     def pairs(self) -> tuple[Pair, ...]:
         """Every mode of the lattice with the mode of the same shape of each reference."""
-        models = zip(self, self._sampled, strict=True)
+        models = zip(self.found, self._sampled, strict=True)
         first, *others = (Shaped(one.model, one.frequencies, shapes) for one, shapes in models)
         return pairs_of(first, others, self.kinds)
 
@@ -135,7 +129,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         damps = material.dashpot_time or material.damping_rate or material.branches.times
         if self.about == "deformed" or self.scene.dampers is not None or not damps:
             return ()
-        return tuple(mode_damping(material, spectrum.frequencies) for spectrum in self)
+        return tuple(mode_damping(material, spectrum.frequencies) for spectrum in self.found)
 
     def against(self, model: str) -> tuple[Pair, ...]:
         """Return the pairs with one reference, in the order of the lattice's modes."""
@@ -144,13 +138,13 @@ class Spectra(Answer, Sequence[Spectrum]):
     def document(self) -> dict[str, Any]:
         damping = {
             spectrum.model: [asdict(mode) for mode in modes]
-            for spectrum, modes in zip(self, self.damping, strict=False)
+            for spectrum, modes in zip(self.found, self.damping, strict=False)
         }
         return {
             "scene": self.scene.document(),
             "about": self.about,
             "sag": self.sag,
-            "solutions": [spectrum.as_dict() for spectrum in self],
+            "solutions": [spectrum.as_dict() for spectrum in self.found],
             "pairs": [pair.as_dict() for pair in self.pairs],
             **({"damping": damping} if damping else {}),
             **({"buckling": self._buckling()} if self.buckling else {}),
@@ -178,7 +172,7 @@ class Spectra(Answer, Sequence[Spectrum]):
                 yield Table.listed(caption, (*BUCKLED, *AGAINST), rows, f"buckling-{one.model}")
 
     def tables(self) -> tuple[Table, ...]:
-        references = [(spectrum, self.against(spectrum.model)) for spectrum in self[1:]]
+        references = [(spectrum, self.against(spectrum.model)) for spectrum in self.found[1:]]
         count = len(self.frequencies)
         columns: list[tuple[Column, Sequence[Any]]] = [(NUMBER("d", "mode"), range(1, count + 1))]
         if any(self.kinds):
@@ -209,7 +203,7 @@ class Spectra(Answer, Sequence[Spectrum]):
                     f"damping-{spectrum.model}",
                     fields=fields,
                 )
-                for spectrum, modes in zip(self, self.damping, strict=False)
+                for spectrum, modes in zip(self.found, self.damping, strict=False)
             ),
         )
 
@@ -224,7 +218,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         tenth of the longer side; `displacement` is the first model's first mode."""
         plan = plan_mesh(self.scene)
         largest = 0.1 * max(self.scene.sheet.lengths)
-        for spectrum in self:
+        for spectrum in self.found:
             for mode, shape in enumerate(spectrum.shapes(plan.points[:, :2]), 1):
                 shape = largest / (abs(shape).max() or 1.0) * shape
                 plan.point_data.setdefault("displacement", shape)
@@ -232,7 +226,7 @@ class Spectra(Answer, Sequence[Spectrum]):
         write_mesh(path, plan)
 
     def choices(self) -> dict[str, Any]:
-        return {spectrum.model: spectrum.settings for spectrum in self}
+        return {spectrum.model: spectrum.settings for spectrum in self.found}
 
     def complaints(self) -> list[str]:
         """A complaint where the modes are the flat sheet's and its loads take it far from flat."""
@@ -245,16 +239,15 @@ class Spectra(Answer, Sequence[Spectrum]):
         ]
 
     def result(self) -> str:
-        """Return every model's lowest frequency."""
         return "; ".join(
             f"{one.label}: {number(float(one.frequencies[0]), '.4g')} Hz"
-            for one in self
+            for one in self.found
             if len(one.frequencies)
         )
 
     def notes(self) -> list[str]:
         """Return what the table does not say: labels, rigid motions left out, actuators left out."""
-        notes = [" · ".join(spectrum.label for spectrum in self), *choice_notes(self[0].settings)]
+        notes = [" · ".join(spectrum.label for spectrum in self.found), *choice_notes(self[0].settings)]
         known = [100.0 * error for error in self[0].expected if error is not None]
         if known:
             of, low, high = self[0].model, number(min(known), "+.2g"), number(max(known), "+.2g")
@@ -262,7 +255,7 @@ class Spectra(Answer, Sequence[Spectrum]):
                 f"{of}: expected grid error of the frequencies {low} to {high} %, from a second solve "
                 "on a finer grid"
             )
-        for spectrum in self[1:]:
+        for spectrum in self.found[1:]:
             notes += _pairing_notes(self.against(spectrum.model))
         if len(self) > 1:
             notes.append("MAC: modal assurance criterion of both models' shapes, 1 where they are the same")

@@ -34,8 +34,8 @@ def compose(found: Spectra, style: FigureStyle = PLAIN) -> Figure:
     size = (style.width, len(found) * rows * panel + (0.3 if style.titled else 0.05))
     figure = Figure(figsize=size, layout="constrained")
     panels = figure.subplots(len(found) * rows, across, squeeze=False).reshape(len(found), rows * across)
-    shapes = [spectrum.shapes(plan[there]) for spectrum in found]
-    for row, (spectrum, own) in enumerate(zip(found, shapes, strict=True)):
+    shapes = [spectrum.shapes(plan[there]) for spectrum in found.found]
+    for row, (spectrum, own) in enumerate(zip(found.found, shapes, strict=True)):
         matches = [pair.is_ for pair in found.against(spectrum.model)] if row else range(1, count + 1)
         for column, axis in enumerate(panels[row]):
             axis.set_axis_off()

@@ -189,7 +189,10 @@ def read(root: Path) -> FolderContents:
             claimed.update(names)
             studies.append(Study(folder, place, verb, names, run, record))
         if record:
-            beside = [path for path in sorted(folder.iterdir()) if _counts(path) and path.name not in claimed]
+            beside = [
+                path for path in sorted(folder.iterdir()) if path.is_file() and path.name not in claimed
+            ]
+            beside = [path for path in beside if path.name not in OURS and not path.name.startswith(".")]
             others += [(f"{place}/{path.name}".lstrip("/"), path.stat().st_size) for path in beside]
     return FolderContents(studies, others, troubles)
 
@@ -210,10 +213,6 @@ def _folders(root: Path, troubles: list[str]) -> Iterator[Path]:
             if path.name in series | kept or (path / "run.json").exists():
                 continue
             yield from _folders(path, troubles)
-
-
-def _counts(path: Path) -> bool:
-    return path.is_file() and path.name not in OURS and not path.name.startswith(".")
 
 
 def _manifest(folder: Path, place: str, troubles: list[str]) -> Mapping[str, Any]:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.pages.studies import Study
-from sheetbench.answers.table import Column, Table, Unit, unit
+from sheetbench.answers.table import Column, Table, TableUnit, unit
 
 MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folded
 
@@ -81,7 +81,7 @@ def _cell(column: Column, of_units: bool, value: Any) -> Any:
     if value in ("", None):
         return None
     if of_units:
-        return Unit(*value) if isinstance(value, list) else unit(str(value))
+        return TableUnit(*value) if isinstance(value, list) else unit(str(value))
     if not column.numeric:
         return str(value)
     found = _value(value)

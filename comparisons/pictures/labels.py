@@ -28,9 +28,13 @@ def place_labels(axis: Axes, pixels: np.ndarray, names: list[str]) -> None:
         labels.append(axis.annotate(shown, point, (0, 0), textcoords="offset points", fontsize=SIZE))
         labels[-1].set_path_effects([withStroke(linewidth=1.8, foreground="white")])
     axis.apply_aspect()
-    at, size = axis.transData.transform(pixels.reshape(-1, 2)), axis.figure.dpi / 36.0
-    marks = [Bbox.from_bounds(x - 0.5 * size, y - 0.5 * size, size, size) for x, y in at]
-    spread(labels, marks, frame=axis.get_window_extent())
+    spread(labels, marks(axis, pixels), frame=axis.get_window_extent())
+
+
+def marks(axis: Axes, points: np.ndarray) -> list[Bbox]:
+    """Return what the marks of points (n, 2) cover, in pixels."""
+    size, at = axis.figure.dpi / 36.0, axis.transData.transform(points.reshape(-1, 2))
+    return [Bbox.from_bounds(x - 0.5 * size, y - 0.5 * size, size, size) for x, y in at]
 
 
 def spread(

@@ -50,15 +50,18 @@ class Stage:
         linked = np.unique(pairs)  # those of absent cells are not
         masses = pyvista.PolyData(points[linked])
         masses["value"] = values[linked]
-        ball = pyvista.Sphere(radius=min(0.15 * self.size / np.sqrt(len(points)), 0.011 * self.size))
-        balls = masses.glyph(geom=ball, scale=False, orient=False)
-        self.plotter.add_mesh(balls, smooth_shading=True, specular=0.3, **_coloured(limits, colours))
+        radius = min(0.15 / np.sqrt(len(points)), 0.011)
+        self._balls(masses, radius, specular=0.3, **_coloured(limits, colours))
 
     def payloads(self, points: np.ndarray) -> None:
         """Balls at the places (n, 3) [m] of payloads."""
-        ball = pyvista.Sphere(radius=0.018 * self.size)
-        balls = pyvista.PolyData(points).glyph(geom=ball, scale=False, orient=False)
-        self.plotter.add_mesh(balls, color=DARK, smooth_shading=True, specular=0.3)
+        self._balls(pyvista.PolyData(points), 0.018, color=DARK, specular=0.3)
+
+    def _balls(self, at: pyvista.PolyData, radius: float, **shown: Any) -> None:
+        """Balls of a radius, as a share of the longer side."""
+        ball = pyvista.Sphere(radius=radius * self.size)
+        balls = at.glyph(geom=ball, scale=False, orient=False)
+        self.plotter.add_mesh(balls, smooth_shading=True, **shown)
 
     def obstacle(self, obstacle: AnyObstacle, time: float | None = None) -> np.ndarray:
         """The part of an obstacle that is near the sheet, at a time [s] or its last place; corners (n, 3) [m]
@@ -83,10 +86,7 @@ class Stage:
         """The axis of a chain through the ends of its segments (p, 3), with a ball at each."""
         line = pyvista.lines_from_points(points)
         self.plotter.add_mesh(line.tube(radius=0.006 * self.size), color=ROD, specular=0.2)
-        balls = pyvista.PolyData(points).glyph(
-            geom=pyvista.Sphere(radius=0.01 * self.size), scale=False, orient=False
-        )
-        self.plotter.add_mesh(balls, color=ROD, smooth_shading=True, specular=0.2)
+        self._balls(pyvista.PolyData(points), 0.01, color=ROD, specular=0.2)
 
     def surface(
         self, solution: Solution, values: np.ndarray, limits: tuple[float, float], colours: str, lines: int

@@ -30,6 +30,11 @@ class Work:
         """Whether it is expected to take long."""
         return self.size is not None and self.size.seconds >= LONG
 
+    @property
+    def at_once(self) -> bool:
+        """Whether it is told where there is no terminal, before it begins."""
+        return self.long and self.share is None
+
     def at(self, share: float) -> Work:
         """Return the same, so far on."""
         return replace(self, share=share)

@@ -18,14 +18,14 @@ from typing import Annotated, Any
 import numpy as np
 
 from comparisons.reproduction.findings import Finding
-from sheetbench.answers.table import MEGAPASCALS, MILLIMETRES, PERCENT, Column, Table, Unit
+from sheetbench.answers.table import MEGAPASCALS, MILLIMETRES, PERCENT, Column, Table, TableUnit
 
 SOUGHT = {
     "young": MEGAPASCALS(".3g", "E"),
-    "k": Unit("N/m", "N/m")(".3g", "k"),
+    "k": TableUnit("N/m", "N/m")(".3g", "k"),
     "layer_distance": MILLIMETRES(".3g", "lz"),
-    "tilt": Unit("rad", "°", 180.0 / np.pi)(".2g", "tilt"),
-    "curvature": Unit("1/m", "1/m")(".3g", "κ"),
+    "tilt": TableUnit("rad", "°", 180.0 / np.pi)(".2g", "tilt"),
+    "curvature": TableUnit("1/m", "1/m")(".3g", "κ"),
 }
 RODS = {0: "–", 1: "ends up", -1: "ends down"}
 TEXT = (

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.pictures.labels import spread
+from comparisons.pictures.labels import marks, spread
 from comparisons.scoring.score import Place, Score
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, GREY, plain
@@ -73,15 +74,11 @@ def _place(axis: Axes, score: Score) -> None:
 
 def _name(axis: Axes, timed: Sequence[Place]) -> None:
     """The models' names where they hide neither each other nor a point."""
-    figure = axis.figure
-    figure.draw_without_rendering()  # type: ignore[union-attr]
-    points = np.array([(1e3 * (one.seconds or 0.0), 100.0 * one.score) for one in timed]).reshape(-1, 2)
-    names = [re.sub(r"[:,]\w+=", " ", one.model) for one in timed]
-    per_point = figure.dpi / 72.0
-    extent = axis.get_window_extent()
-    left, bottom, right, top = (side / per_point for side in (extent.x0, extent.y0, extent.x1, extent.y1))
-    at = axis.transData.transform(points) / per_point
-    chosen = spread(at, names, (left, bottom, right, top), NAME)
-    for one, (x, y), name, (offset, side) in zip(timed, points.tolist(), names, chosen, strict=True):
-        colour = OWN if one.model == "answers" else DARK
-        axis.annotate(name, (x, y), offset, textcoords="offset points", ha=side, fontsize=NAME, color=colour)
+    axis.figure.draw_without_rendering()  # type: ignore[union-attr]
+    labels = []
+    for one in timed:
+        at, name = (1e3 * (one.seconds or 0.0), 100.0 * one.score), re.sub(r"[:,]\w+=", " ", one.model)
+        look: dict[str, Any] = {"fontsize": NAME, "color": OWN if one.model == "answers" else DARK}
+        labels.append(axis.annotate(name, at, (0, 0), textcoords="offset points", **look))
+    points = np.array([label.xy for label in labels])
+    spread(labels, marks(axis, points), frame=axis.get_window_extent())

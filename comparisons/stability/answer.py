@@ -10,11 +10,11 @@ from typing import Any
 from comparisons.stability.rows import LARGE, Row, broken, place, verdict, who
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
-from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, Unit, number
+from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, TableUnit, number
 from sheetbench.choices import VARIED
 from sheetbench.scenes import Scene
 
-MICROSECONDS = Unit("s", "µs", 1e6)
+MICROSECONDS = TableUnit("s", "µs", 1e6)
 
 
 ENDS = ("holds", "off", "refuses", "fails")
@@ -48,7 +48,6 @@ class Stability(Answer):
     rows: tuple[Row, ...]
 
     def document(self) -> dict[str, Any]:
-        """Return the JSON document: SI units, errors as fractions."""
         return {
             "scene": self.scene.document(),
             "reference": self.reference,

@@ -202,15 +202,13 @@ def _row(found: Solved, truth: Solved | None) -> Row:
     known = {name: found.row[name] for name in ("computed", "measured", "advised") if name in found.row}
     row: Row = {**found.ask.tags, "error": None, "iterations": steps, "seconds": found.run_seconds}
     row |= {"status": found.status, "message": found.message, **known}
-    if truth is None or not found.stable or not truth.stable or _alike(found.ask, truth.ask):
+    if truth is None or not found.stable or not truth.stable:
+        return row
+    if (found.ask.spec, found.ask.run) == (truth.ask.spec, truth.ask.run):
         return row
     if found.ask.duration is not None:
         return {**row, "error": _motion_error(found.row, truth.row)}
     return {**row, "error": error(found.u, truth.u)}
-
-
-def _alike(ask: Ask, truth: Ask) -> bool:
-    return ask.spec == truth.spec and ask.run == truth.run
 
 
 def _motion_error(row: Mapping[str, Any], truth: Mapping[str, Any]) -> float | None:

@@ -45,36 +45,33 @@ def outcome(row: Row) -> str:
     return "within 1 %" if error <= 0.01 else "within 5 %"
 
 
-def error_in_percent(row: Row) -> str:
-    """Return what is written in a tile."""
-    return percent(row.get("error"))
-
-
 def tiles(
     axis: Axes,
     rows: Sequence[Row],
     x: str | Callable[[Row], float],
     y: str | Callable[[Row], float],
     *,
-    text: Callable[[Row], str] = error_in_percent,
+    text: Callable[[Row], str] = lambda row: percent(row.get("error")),
     scale: tuple[str, str] = ("log", "log"),
 ) -> None:
     """Draw a tile a row at (x, y), reaching half-way to its neighbours; several rows at one place share it.
 
     x, y: keys of the cell, or functions of the row.
     """
-    x, y = (_of_cell(at) if isinstance(at, str) else at for at in (x, y))
+
+    def at(where: str | Callable[[Row], float], row: Row) -> float:
+        return float(row["cell"][where] if isinstance(where, str) else where(row))
+
     edges = []
-    for value, kind in ((x, scale[0]), (y, scale[1])):
-        places = np.unique([value(row) for row in rows])
-        at = np.log(places) if kind == "log" else places
-        middle = 0.5 * (at[1:] + at[:-1])
-        half = 0.5 * np.diff(at)[[0, -1]] if len(at) > 1 else np.array([0.5, 0.5])
-        ends = np.concatenate([[at[0] - half[0]], middle, [at[-1] + half[1]]])
+    for where, kind in ((x, scale[0]), (y, scale[1])):
+        places = np.unique([at(where, row) for row in rows])
+        on = np.log(places) if kind == "log" else places
+        half = 0.5 * np.diff(on)[[0, -1]] if len(on) > 1 else np.array([0.5, 0.5])
+        ends = np.concatenate([[on[0] - half[0]], 0.5 * (on[1:] + on[:-1]), [on[-1] + half[1]]])
         edges.append((places, np.exp(ends) if kind == "log" else ends))
     for row in rows:
         (xs, across), (ys, up) = edges
-        i, j = int(np.searchsorted(xs, x(row))), int(np.searchsorted(ys, y(row)))
+        i, j = int(np.searchsorted(xs, at(x, row))), int(np.searchsorted(ys, at(y, row)))
         corner, size = (across[i], up[j]), (across[i + 1] - across[i], up[j + 1] - up[j])
         axis.add_patch(Rectangle(corner, *size, facecolor=OUTCOMES[outcome(row)], edgecolor="white", lw=0.8))
         middle = _mid(across, i, scale[0]), _mid(up, j, scale[1])
@@ -88,10 +85,6 @@ def tiles(
 
 def _mid(edges: np.ndarray, i: int, scale: str) -> float:
     return float(np.sqrt(edges[i] * edges[i + 1]) if scale == "log" else 0.5 * (edges[i] + edges[i + 1]))
-
-
-def _of_cell(key: str) -> Callable[[Row], float]:
-    return lambda row: row["cell"][key]
 
 
 def strips(

@@ -27,6 +27,7 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any, TypedDict
 
+from comparisons.pictures.amounts import duration
 from comparisons.sweep import interrupts
 from comparisons.sweep.executors import Pool, Watched, processes, single_threaded
 from comparisons.sweep.store import FILE, Finished, Store
@@ -84,6 +85,18 @@ class Progress:
     status: str
     seconds_left: float | None
     going: tuple[str, ...] = ()
+
+    @property
+    def at_once(self) -> bool:
+        """Whether it is told where there is no terminal: of every run that has ended."""
+        return self.status != GOING
+
+    def __str__(self) -> str:
+        more = f", and {len(self.going) - 1} more" if len(self.going) > 1 else ""
+        parts = [f"{self.label}: {self.status}"] if self.at_once else []
+        parts += [f"going on: {self.going[0]}{more}"] if self.going else []
+        parts += [] if self.seconds_left is None else [f"{duration(self.seconds_left)} left"]
+        return f"{self.done}/{self.total} {', '.join(parts)}"
 
 
 @contextmanager

@@ -26,11 +26,6 @@ def field_points(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     return points[there], weights[there] / weights[there].sum()
 
 
-def _field(scene: Scene, answer: Solution) -> np.ndarray:
-    """Displacement (n, 3) [m] at the field's points."""
-    return answer.displacement(field_points(scene)[0])
-
-
 def _bar(scene: Scene, answer: Solution) -> float | None:
     """By how much the model says that it may be off at the probes, a fraction."""
     if answer.bar is None:
@@ -40,13 +35,8 @@ def _bar(scene: Scene, answer: Solution) -> float | None:
     return error(u + answer.bar(points), u)
 
 
-def _model_error(scene: Scene, answer: Solution) -> float | None:
-    """What a reference leaves out on every mesh, a fraction."""
-    return None if (left_out := model_error(scene, answer)) is None else left_out.value
-
-
 COLUMNS: dict[str, Callable[[Scene, Solution], Any]] = {
-    "field": _field,
+    "field": lambda scene, answer: answer.displacement(field_points(scene)[0]),
     "bar": _bar,
-    "model_error": _model_error,
+    "model_error": lambda scene, answer: left.value if (left := model_error(scene, answer)) else None,
 }

@@ -135,7 +135,6 @@ class Advice(Answer):
         return (Table.listed(caption, (*TRIED, status), rows, "tried", text=text),)
 
     def notes(self) -> list[str]:
-        """Return the advice and its reasons, a sentence a line, and the command that solves the choice."""
         scales, command = self.scales, self.command
         return [
             f"{self.reason} ({few(self.probing_seconds)} s of trial solves)",

@@ -14,9 +14,9 @@ from typing import Any, cast
 import numpy as np
 
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
-from fem_reference.discrete.static import Forces, State, Static
+from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.surface.balance import left_over
 from fem_reference.surface.location import interpolate
 from sheetbench.answers.contact import contact_notes
@@ -27,21 +27,20 @@ from sheetbench.numerics.continuation.path import Path
 EPSILON = float(np.finfo(float).eps)
 
 
-def sheet_of(path: Path[State, Forces]) -> DiscreteElements:
+def sheet_of(path: Path[StaticState, Forces]) -> DiscreteElements:
     """Return the sheet that a path is of."""
     return cast(Static, path.structure).sheet
 
 
-def judge(sheet: Discrete, path: Path[State, Forces]) -> tuple[Status, list[str]]:
+def judge(sheet: Discrete, path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
     """Return status and notes of a path that has ended, strains beyond the law among them."""
-    sheet.grow(path.load_factor)
-    outside = sheet.beyond(sheet.stretch(path.state.q))
+    outside = sheet.beyond(sheet.stretch(path.state.q, path.load_factor))
     if not outside or path.status is Status.NON_FINITE:
         return path.status, path.notes
     return Status.STRAIN_OUTSIDE_MODEL, [outside, *path.notes]
 
 
-def answered(path: Path[State, Forces], **own: Any) -> Solution:
+def answered(path: Path[StaticState, Forces], **own: Any) -> Solution:
     """Return the answer at the end of a path; own: the fields of it that are the model's own."""
     sheet, share = sheet_of(path), path.load_factor
     forces = path.structure.forces(path.state, share)
@@ -92,7 +91,7 @@ def answer(
     )
 
 
-def with_pressure(sheet: Discrete, shape: Shape, mesh: FieldMesh) -> FieldMesh:
+def with_pressure(sheet: Discrete, shape: SheetShape, mesh: FieldMesh) -> FieldMesh:
     """Return a mesh with the field "contact_pressure" [Pa] on it, where there are obstacles and it has the
     plan's nodes."""
     if sheet.contacts:

@@ -1,17 +1,13 @@
 """Contact of a reference with a rigid obstacle: penalty pressures at nodes, on the mid-surface of a shell
 with an offset of half the thickness, on the faces of a solid.
 
-A point x = φ + ζ d of the sheet, ζ = 0 or ±h/2, is at the distance r from an obstacle's middle, its normal
-line or its axis: with w = P (x − c), P the projector on what the distance is measured in,
+A point x = φ + ζ d of the sheet, ζ = 0 or ±h/2, at a distance r from the obstacle, whose gradient is n
+(`sheetbench.scenes.meaning.distances`), is o + δ₀ − r deep, o = h/2 of a mid-surface, 0 of faces. The work of
+the pressure p(depth) in sinking is its energy ψ per area, ½ k depth² at rest, and its force −∂/∂x gives
 
-    plane   depth = o − n·w                  sphere, cylinder   depth = R + o − |w|,   n = w/|w|
+    f = A p n on φ,  ζ f on d;      −∂f/∂x = A (p' n nᵀ − p ∇n).
 
-with o = h/2 of a mid-surface, 0 of faces. The work of the pressure p = k ⟨depth⟩ in sinking is its energy,
-½ k ⟨depth⟩² per area, and its force −∂/∂x gives
-
-    f = A p n on φ,  ζ f on d;      −∂f/∂x = A (k n nᵀ − (p/|w|) (P − n nᵀ)).
-
-A node's area is ∫ N dA, all positive on nine nodes, where it is Simpson's rule; those at Gauss points are
+A node's area is ∫N dA, all positive on nine nodes, where it is Simpson's rule; those at Gauss points are
 nine constraints on four nodes an element, whose pressures scatter. k = E/h; see
 `sheetbench.scenes.objects.obstacles` for what the words mean.
 """
@@ -20,226 +16,176 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.discrete.items import Item, Tangent
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.items import SheetItem, Tangent
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface.biquadratic import AT_GAUSS, areas
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan
 from sheetbench.answers.contact import ContactState
-from sheetbench.scenes import Plane, Scene
-from sheetbench.scenes.objects.obstacles import SLIP_SPEED, AnyObstacle
+from sheetbench.scenes import Scene
+from sheetbench.scenes.meaning.distances import Near, mean_normal, near, share_of_way
+from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
 
-TOUCH = 1e-9  # of the thickness, that a sheet which lies on a plane is held by it
-UNDECIDED = 1e-6
-CORE = 0.5  # of the radius: where no step may lead
 SOFTER, ROUNDED = 0.01, 0.3  # in motion: of k, and over which part of the thickness the law is rounded
 
 
-class Touching(Item):
-    """Contact with one obstacle. share: of its stiffness, as `soften` has it; faces: ζ of the points of a
-    node [m]."""
+class Touching(SheetItem):
+    """Contact with one obstacle. share: of its stiffness; levers: ζ (faces, n) of a node's points [m]."""
 
     def __init__(self, scene: Scene, plan: Plan, name: str, obstacle: AnyObstacle, moving: bool, solid: bool):
-        self.name, self.obstacle, self.moving = name, obstacle, moving
-        self.plane = isinstance(obstacle, Plane)
+        self.name, self.obstacle, self.moving, self.radius = name, obstacle, moving, obstacle.radius
         self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
-        self.radius = np.inf if isinstance(obstacle, Plane) else obstacle.radius
-        along = obstacle.direction
-        self._normal, self._across = along, np.eye(3) - (0.0 if self.plane else np.outer(along, along))
         on, count, corners = plan.elements, len(plan.nodes), plan.corners
-        constants = constants_of(scene, corners)
-        shape = areas(corners)
-        area = np.bincount(on.ravel(), (shape @ AT_GAUSS[0]).ravel(), count)
-        thickness, stiffness = (
-            np.bincount(on.ravel(), ((shape * part) @ AT_GAUSS[0]).ravel(), count) / area
-            for part in (constants.thickness, constants.stretching / constants.thickness**2)
-        )
+        constants, shape = constants_of(scene, corners), areas(corners)
+
+        def at_nodes(part: np.ndarray) -> np.ndarray:
+            return np.bincount(on.ravel(), ((shape * part) @ AT_GAUSS[0]).ravel(), count)
+
+        self.area = at_nodes(np.ones_like(shape))
+        self.thickness = at_nodes(constants.thickness) / self.area
+        self.full = at_nodes(constants.stretching / constants.thickness**2) / self.area
         self.elements, self.place = np.empty((2, count), int)  # of the elements of a node, the last has it
         for i in range(9):
             self.elements[on[:, i]], self.place[on[:, i]] = np.arange(len(on)), i
-        sides = (-0.5, 0.5) if solid else (0.0,)
-        self.levers = np.stack([side * thickness for side in sides])  # (faces, n)
-        self.offset = np.zeros(count) if solid else 0.5 * thickness
-        self.area, self.thickness, self.full = area, thickness, stiffness
+        self.levers = np.outer((-0.5, 0.5) if solid else (0.0,), self.thickness)
+        self.offset = (0.0 if solid else 0.5) * self.thickness
         self.share = SOFTER if moving else 1.0
-        self._rounded = ROUNDED * thickness if moving else np.zeros(count)
         self.resists = moving and bool(obstacle.friction or obstacle.contact_damping)
 
-    def _way(self, at: float) -> np.ndarray:
-        """How far the obstacle is (3,) [m] at a load factor or time."""
-        return self.obstacle.displacement(1.0, at) if self.moving else self.obstacle.displacement(at)
-
-    def points(self, vectors: np.ndarray) -> np.ndarray:
+    def _points(self, vectors: np.ndarray) -> np.ndarray:
         """Return x (faces, n, 3) [m] of vectors (m, 18, 3)."""
         middle, director = vectors[self.elements, self.place], vectors[self.elements, 9 + self.place]
-        return np.stack([middle + lever[:, None] * director for lever in self.levers])
+        x: np.ndarray = middle + self.levers[..., None] * director
+        return x
 
-    def _relative(self, shape: Shape) -> np.ndarray:
-        """Return w (faces, n, 3) [m]."""
-        return self._across_from(shape.vectors, shape.at)
+    def _near(self, vectors: np.ndarray, at: float) -> Near:
+        """Where points are beside the obstacle as it is at a load factor or time."""
+        drive = (1.0, at) if self.moving else (at, None)
+        return near(self.obstacle, self._points(vectors), *drive)
 
-    def _across_from(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        origin = self.obstacle.position + self._way(at)
-        w: np.ndarray = (self.points(vectors) - origin) @ self._across
-        return w
+    def _depth(self, found: Near) -> np.ndarray:
+        """Return depths (faces, n) [m], < 0 of a point that is clear."""
+        depth: np.ndarray = self.offset + TOUCH * self.thickness - found.distance
+        return depth
 
-    def _sunk(self, shape: Shape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return depth (faces, n) [m], < 0 where a point is clear, n (faces, n, 3) and 1/|w|."""
-        w = self._relative(shape)
-        offset = self.offset + TOUCH * self.thickness
-        if self.plane:
-            return offset - w @ self._normal, np.broadcast_to(self._normal, w.shape), np.zeros(w.shape[:2])
-        reach = np.linalg.norm(w, axis=2)
-        return self.radius + offset - reach, w / reach[..., None], 1.0 / reach
+    def _sunk(self, shape: SheetShape) -> tuple[np.ndarray, Near, np.ndarray, np.ndarray, np.ndarray]:
+        """Return depths (faces, n) [m], where points are, A ψ [J], A p [N] and A p' [N/m] (faces, n)."""
+        found = self._near(shape.vectors, shape.at)
+        depth = self._depth(found)
+        return depth, found, *self._pressures(depth)
 
     def _pressures(self, depth: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return A ψ [J], A p [N] and A dp/d(depth) [N/m] (faces, n) of a law rounded over `_rounded`."""
-        deep, over = np.maximum(depth, 0.0), self._rounded
-        scale = self.share * self.full * self.area
-        if not self.moving:
-            return 0.5 * scale * deep**2, scale * deep, scale * (depth > 0.0)
+        deep, scale = np.maximum(depth, 0.0), self.share * self.full * self.area
+        over = (ROUNDED if self.moving else 1e-100) * self.thickness
         curved, sure = np.minimum(deep, over), np.maximum(deep - over, 0.0)
         force = curved**2 / (2.0 * over) + sure
         energy = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over)
         return scale * energy, scale * force, scale * curved / over
 
-    def _pulled(self, shape: Shape) -> np.ndarray:
+    def _pulled(self, shape: SheetShape) -> np.ndarray:
         """Return forces at points (faces, n, 3) [N]."""
-        depth, normal, _ = self._sunk(shape)
-        return self._pressures(depth)[1][..., None] * normal + self._rubbed(shape, depth, normal)
+        _, found, _, load, _ = self._sunk(shape)
+        return load[..., None] * found.normal + self._rubbed(shape)
 
-    def force(self, shape: Shape) -> np.ndarray:
+    def force(self, shape: SheetShape) -> np.ndarray:
         return self._onto(shape, self._pulled(shape))
 
-    def mean_force(self, start: Shape, end: Shape, middle: Shape) -> np.ndarray:
+    def mean_force(self, start: SheetShape, end: SheetShape, middle: SheetShape) -> np.ndarray:
         """Return the force whose work in a step is the energy stored: of the mean pressure Δψ/Δdepth along
-        (w₀ + w₁)/(|w₀| + |w₁|), whose product with Δw is −Δdepth exactly."""
-        (before, normal, _), (after, *_) = (self._sunk(shape) for shape in (start, end))
-        sunk = after - before
-        far = np.abs(sunk) > 1e-7 * self.thickness
-        stored = self._pressures(after)[0] - self._pressures(before)[0]
-        load = np.where(far, stored / np.where(far, sunk, 1.0), self._pressures(0.5 * (before + after))[1])
-        if not self.plane:
-            w = [self._relative(shape) for shape in (start, end)]
-            normal = (w[0] + w[1]) / sum(np.linalg.norm(each, axis=2) for each in w)[..., None]
-        depth, across, _ = self._sunk(middle)
-        return self._onto(middle, load[..., None] * normal + self._rubbed(middle, depth, across))
+        the mean normal, whose product with Δx is −Δdepth exactly."""
+        (before, near0, had, *_), (after, near1, has, *_) = self._sunk(start), self._sunk(end)
+        far = np.abs(after - before) > 1e-7 * self.thickness
+        secant = (has - had) / np.where(far, after - before, 1.0)
+        load = np.where(far, secant, self._pressures(0.5 * (before + after))[1])
+        pulled = load[..., None] * mean_normal(self.obstacle, near0, near1)
+        return self._onto(middle, pulled + self._rubbed(middle))
 
-    def _onto(self, shape: Shape, pull: np.ndarray) -> np.ndarray:
+    def _onto(self, shape: SheetShape, pull: np.ndarray) -> np.ndarray:
         """Return forces on the coordinates (N,) of those at points (faces, n, 3)."""
         out = np.zeros_like(shape.vectors)
         out[self.elements, self.place] = pull.sum(axis=0)
         out[self.elements, 9 + self.place] = (self.levers[..., None] * pull).sum(axis=0)
         return shape.sheet.of_surface(np.arange(len(out)), out)
 
-    def tangent(self, shape: Shape) -> Tangent | None:
-        depth, normal, bend = self._sunk(shape)
-        _, load, slope = self._pressures(depth)
-        outer = normal[..., :, None] * normal[..., None, :]
-        blocks = -slope[..., None, None] * outer
-        if not self.plane:
-            blocks = blocks + (load * bend)[..., None, None] * (self._across - outer)
-        return self._between(blocks, depth)
+    def tangent(self, shape: SheetShape) -> Tangent | None:
+        _, found, _, load, slope = self._sunk(shape)
+        blocks = load[..., None, None] * found.curvature - slope[..., None, None] * found.outer
+        return self._between(blocks)
 
-    def _between(self, blocks: np.ndarray, depth: np.ndarray) -> Tangent | None:
+    def _between(self, blocks: np.ndarray) -> Tangent | None:
         """Return derivatives (faces, n, 3, 3) of points' forces by their places as the elements have them."""
-        touching = np.flatnonzero((depth > 0.0).any(axis=0))
+        touching = np.flatnonzero(blocks.any(axis=(0, 2, 3)))
         if not len(touching):
             return None
         on, rows = np.unique(self.elements[touching], return_inverse=True)
-        out = np.zeros((len(on), 18, 3, 18, 3))
-        at = self.place[touching]
-        for lever, block in zip(self.levers[:, touching], blocks[:, touching], strict=True):
-            for row, by_row in ((0, np.ones_like(lever)), (9, lever)):
-                for column, by_column in ((0, np.ones_like(lever)), (9, lever)):
-                    both = (by_row * by_column)[:, None, None] * block
-                    out[rows, row + at, :, column + at, :] += both  # no two of a place are the same
+        out, at = np.zeros((len(on), 18, 3, 18, 3)), self.place[touching]
+        by = np.stack([np.ones_like(self.levers), self.levers])[..., touching]  # of φ, and of d
+        of_nodes = np.einsum("rfn,cfn,fnij->rcnij", by, by, blocks[:, touching])
+        for row in (0, 1):
+            for column in (0, 1):  # no two of a place are the same
+                out[rows, 9 * row + at, :, 9 * column + at, :] += of_nodes[row, column]
         return on, out
 
-    def _speeds(self, shape: Shape, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return how fast points sink (faces, n) and slide (faces, n, 3) [m/s]."""
-        speed = self.points(shape.rates)
-        if self.obstacle.motion is not None:
-            speed = speed - self.obstacle.motion.course.slope(shape.at)
-        sinking = -(speed * normal).sum(axis=2)
-        return sinking, speed + sinking[..., None] * normal
+    def _speeds(self, shape: SheetShape) -> tuple[Near, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Return where points are, A p [N], how fast they sink (faces, n) and slide (faces, n, 3) [m/s], and
+        the root (faces, n) of the law of friction."""
+        _, found, _, load, _ = self._sunk(shape)
+        speed = self._points(shape.rates) - self.obstacle.velocity(shape.at)
+        sinking = -(speed * found.normal).sum(axis=2)
+        sliding = speed + sinking[..., None] * found.normal
+        return found, load, sinking, sliding, np.sqrt((sliding**2).sum(axis=2) + SLIP_SPEED**2)
 
-    def _rubbed(self, shape: Shape, depth: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    def _rubbed(self, shape: SheetShape) -> np.ndarray:
         """Return the forces (faces, n, 3) of the dashpot and of friction, in motion."""
-        obstacle = self.obstacle
         if not self.resists:
-            return np.zeros_like(normal)
-        load = self._pressures(depth)[1]
-        sinking, sliding = self._speeds(shape, normal)
-        pressed = load * np.maximum(obstacle.contact_damping * sinking, -1.0)
-        slip = np.sqrt((sliding**2).sum(axis=2) + SLIP_SPEED**2)
-        rubbed = (obstacle.friction * load / slip)[..., None] * sliding
-        return np.asarray(pressed[..., None] * normal - rubbed)
+            return np.zeros((*self.levers.shape, 3))
+        found, load, sinking, sliding, slip = self._speeds(shape)
+        pressed = load * np.maximum(self.obstacle.contact_damping * sinking, -1.0)
+        rubbed = self.obstacle.friction * load / slip
+        return np.asarray(pressed[..., None] * found.normal - rubbed[..., None] * sliding)
 
-    def damping(self, shape: Shape) -> Tangent | None:
-        obstacle = self.obstacle
+    def damping(self, shape: SheetShape) -> Tangent | None:
         if not self.resists:
             return None
-        depth, normal, _ = self._sunk(shape)
-        load = self._pressures(depth)[1]
-        sinking, sliding = self._speeds(shape, normal)
-        outer = normal[..., :, None] * normal[..., None, :]
-        slip = np.sqrt((sliding**2).sum(axis=2) + SLIP_SPEED**2)
-        unit = sliding / slip[..., None]
-        tau = obstacle.contact_damping * (obstacle.contact_damping * sinking > -1.0)
-        along = np.eye(3) - outer - unit[..., :, None] * unit[..., None, :]
-        rubbed = (obstacle.friction * load / slip)[..., None, None] * along
-        return self._between(-(tau * load)[..., None, None] * outer - rubbed, depth)
+        found, load, sinking, sliding, slip = self._speeds(shape)
+        unit, tau = sliding / slip[..., None], self.obstacle.contact_damping
+        pressed = tau * load * (tau * sinking > -1.0)
+        along = np.eye(3) - found.outer - unit[..., :, None] * unit[..., None, :]
+        rubbed = (self.obstacle.friction * load / slip)[..., None, None] * along
+        return self._between(-pressed[..., None, None] * found.outer - rubbed)
 
-    def potential(self, shape: Shape) -> float:
-        return float(self._pressures(self._sunk(shape)[0])[0].sum())
+    def potential(self, shape: SheetShape) -> float:
+        return float(self._sunk(shape)[2].sum())
 
-    def stored(self, shape: Shape) -> float:
-        return self.potential(shape)
+    stored = potential
 
-    def exchanged(self, shape: Shape, step: np.ndarray) -> tuple[float, float]:
-        depth, normal, _ = self._sunk(shape)
-        taken = -self._onto(shape, self._rubbed(shape, depth, normal)) @ step
-        work = 0.0
+    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
+        rubbed = self._rubbed(shape)
+        taken, work = -self._onto(shape, rubbed) @ step, 0.0
         if self.obstacle.motion is not None and shape.v is not None and step.any():
-            h = float(np.linalg.norm(step) / np.linalg.norm(shape.v))
-            velocity = self.obstacle.motion.course.slope(shape.at)
-            work = h * float(self.exerted(shape) @ velocity)
-            taken += h * float(self._rubbed(shape, depth, normal).sum(axis=(0, 1)) @ velocity)
+            moved = float(np.linalg.norm(step) / np.linalg.norm(shape.v)) * self.obstacle.velocity(shape.at)
+            work = float(self.exerted(shape) @ moved)
+            taken += float(rubbed.sum(axis=(0, 1)) @ moved)
         return float(taken), work
 
-    def holds(self, shape: Shape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        return {self.name: (self.points(shape.vectors), self._pulled(shape))}
+    def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        return {self.name: (self._points(shape.vectors), self._pulled(shape))}
 
-    def exerted(self, shape: Shape) -> np.ndarray:
+    def exerted(self, shape: SheetShape) -> np.ndarray:
         """Return its force (3,) [N] on the sheet."""
         total: np.ndarray = self._pulled(shape).sum(axis=(0, 1))
         return total
 
-    def leads_through(self, before: np.ndarray, since: float, after: np.ndarray, at: float) -> bool:
-        """Whether a straight way between vectors (m, 18, 3) at two load factors leads any point nearer to
-        the obstacle's middle than half its radius."""
-        if self.plane:
-            return False
-        x, end = (self._across_from(*each) for each in ((before, since), (after, at)))
-        way = end - x
-        nearest = np.clip(-(x * way).sum(axis=2) / np.maximum((way * way).sum(axis=2), 1e-300), 0.0, 1.0)
-        return bool((np.linalg.norm(x + nearest[..., None] * way, axis=2) < CORE * self.radius).any())
+    def leads_through(self, *ends: tuple[np.ndarray, float]) -> bool:
+        """Whether a straight way between vectors (m, 18, 3) at two load factors leads through."""
+        start, end = (self._near(*each) for each in ends)
+        return share_of_way(self.obstacle, start, end, self.offset) < 1.0
 
-    def report(self, shape: Shape) -> ContactState:
+    def report(self, shape: SheetShape) -> ContactState:
         """Return what there is to say of it."""
-        depth = self._sunk(shape)[0].max(axis=0)
-        over = depth / self.thickness - TOUCH
-        near = min(UNDECIDED, 1e-3 * float(over.max(initial=0.0)))
-        touching = depth > 0.0
-        return ContactState(
-            area=float(self.area[touching].sum()),
-            penetration=float(over.max(initial=0.0)),
-            points=int(touching.sum()),
-            undecided=int((np.abs(over) <= near).sum()),
-        )
+        return ContactState.of(self._sunk(shape)[0].max(axis=0) / self.thickness, self.area)
 
-    def pressure(self, shape: Shape) -> np.ndarray:
+    def pressure(self, shape: SheetShape) -> np.ndarray:
         """Return the pressure (n,) [Pa] at the nodes of the plan."""
-        pressures: np.ndarray = self._pressures(self._sunk(shape)[0])[1].sum(axis=0) / self.area
+        pressures: np.ndarray = self._sunk(shape)[3].sum(axis=0) / self.area
         return pressures

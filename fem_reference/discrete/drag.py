@@ -11,25 +11,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.discrete.items import Item, Tangent
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.items import SheetItem, Tangent
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS
 
 
-class Drag(Item):
+class Drag(SheetItem):
     """The drag of still air; coefficient: ½ ρ c_d [kg/m³]."""
 
     def __init__(self, coefficient: float):
         self._coefficient = coefficient
 
-    def force(self, shape: Shape) -> np.ndarray:
+    def force(self, shape: SheetShape) -> np.ndarray:
         area, _, speed = _flow(shape)
         pressure = -self._coefficient * np.abs(speed) * speed
         out = np.zeros_like(shape.vectors)
         out[:, :9] = np.einsum("g,gi,eg,egc->eic", GAUSS_WEIGHTS, AT_GAUSS[0], pressure, area, optimize=True)
         return shape.sheet.of_surface(np.arange(len(out)), out)
 
-    def damping(self, shape: Shape) -> Tangent | None:
+    def damping(self, shape: SheetShape) -> Tangent | None:
         area, size, speed = _flow(shape)
         share = -2.0 * self._coefficient * GAUSS_WEIGHTS * np.abs(speed) / size
         value = AT_GAUSS[0]
@@ -39,11 +39,11 @@ class Drag(Item):
         )
         return np.arange(len(out)), out
 
-    def exchanged(self, shape: Shape, step: np.ndarray) -> tuple[float, float]:
+    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
         return -float(self.force(shape) @ step), 0.0
 
 
-def _flow(shape: Shape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _flow(shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """a (m, g, 3), |a| and v_n (m, g) at the Gauss points."""
     value, slope = AT_GAUSS
     along, across = np.einsum("agi,eic->aegc", slope, shape.vectors[:, :9])

@@ -17,7 +17,7 @@ from scipy.sparse import csr_matrix
 
 from fem_reference.discrete.relaxation import Strained, gain, with_branches
 from fem_reference.discrete.rods import Rods
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.shell.element import Element, weighed
 from sheetbench.numerics.sparsity import Pattern, add_blocks
@@ -44,25 +44,25 @@ class DiscreteElements(Discrete):
 
     @abstractmethod
     def stiffness(
-        self, shape: Shape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
+        self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
         """Data of the elements' K and `by_a` times their M, and of what the constraints add under a residual
         (N,)."""
 
     @abstractmethod
-    def fold(self, shape: Shape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
+    def fold(self, shape: SheetShape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
         """Those (k, 18, 3, 18, 3) of forces on φ and d at elements `on`, by their unknowns, (k, b, b)."""
 
     @abstractmethod
-    def onto_rods(self, shape: Shape) -> np.ndarray:
+    def onto_rods(self, shape: SheetShape) -> np.ndarray:
         """∂Q/∂(unknowns) of the rods' sides (k, 3 a, b)."""
 
     @abstractmethod
-    def reduce(self, shape: Shape, force: np.ndarray) -> np.ndarray:
+    def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
         """Zᵀ f (unknowns,) of forces (N,)."""
 
     @abstractmethod
-    def expand(self, shape: Shape, step: np.ndarray) -> np.ndarray:
+    def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         """Z x (N,) of a step (unknowns,)."""
 
     @abstractmethod
@@ -70,35 +70,34 @@ class DiscreteElements(Discrete):
         """Those of forces (N,) on what is held of positions, (N,) or fewer."""
 
     @abstractmethod
-    def short(self, shape: Shape) -> np.ndarray:
+    def short(self, shape: SheetShape) -> np.ndarray:
         """The step (N,) to what is prescribed and onto the constraints, linear in both."""
 
-    def stress(self, shape: Shape) -> np.ndarray:
+    def stress(self, shape: SheetShape) -> np.ndarray:
         """s + τ D ė (m, k) and what the branches add."""
         stress = with_branches(shape.elastic, shape.branches)
         return stress + self.tau * weighed(shape.moduli, shape.rate) if self.tau else stress
 
-    def elements_internal(self, shape: Shape) -> np.ndarray:
+    def elements_internal(self, shape: SheetShape) -> np.ndarray:
         return self.scatter(self.element.forces(shape.operator, self.stress(shape)))
 
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        self.grow(time)
         before, after, element = self.gather(start), self.gather(end), self.element
-        first, last = element.strain(before), element.strain(after)
+        first, last = (element.strain(change, self.own_strain(time)) for change in (before, after))
         stress = element.stress(0.5 * (first + last))
         if self.tau:
             rate = (last - first) / h
             stress = stress + self.tau * weighed(element.moduli(0.5 * (first + last)), rate)
         return self.scatter(element.forces(element.operator(0.5 * (before + after)), stress))
 
-    def tangent(self, shape: Shape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
+    def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         moduli = (1.0 + by_v * self.tau + gain(shape.branches)) * shape.moduli
         on_rods = [body.stress(shape) for body in self.bodies]
         return self.system(shape, moduli, self.stress(shape), on_rods, residual, by_a, by_v)[0]
 
     def system(
         self,
-        shape: Shape,
+        shape: SheetShape,
         moduli: np.ndarray,
         stress: np.ndarray,
         on_rods: Sequence[np.ndarray],
@@ -133,21 +132,21 @@ class DiscreteElements(Discrete):
         return self.pattern.with_data(data), product
 
     def constraining(
-        self, shape: Shape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
+        self, shape: SheetShape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
     ) -> np.ndarray:
         """The residual (N,) that the constraints' own stiffness is of, where elements and rods have other
         stresses than that one is of."""
         return residual
 
-    def moduli(self, shape: Shape, pressure: np.ndarray | None) -> np.ndarray:
+    def moduli(self, shape: SheetShape, pressure: np.ndarray | None) -> np.ndarray:
         """D (m, k, k), of a law with a pressure of its own at that one."""
         return shape.moduli
 
-    def pressure(self, shape: Shape, by: np.ndarray) -> np.ndarray | None:
+    def pressure(self, shape: SheetShape, by: np.ndarray) -> np.ndarray | None:
         """Pressure, linear in a change of the strain (m, k), of a law that has one of its own."""
         return None
 
-    def dragged(self, shape: Shape, drag: float) -> Self:
+    def dragged(self, shape: SheetShape, drag: float) -> Self:
         """The sheet whose equilibrium is the end of a step of creep from a shape, against drag σ."""
         slow = copy(self)
         assert isinstance(self.element, Element)
@@ -155,14 +154,18 @@ class DiscreteElements(Discrete):
         slow.bodies = [body.dragged(shape, drag) for body in self.bodies]
         return slow
 
+    def strain(self, q: np.ndarray, at: float = 1.0) -> np.ndarray:
+        """Return the elements' strains (m, k) less the natural ones."""
+        return self.element.strain(self.gather(q), self.own_strain(at))
+
     def strains(self, q: np.ndarray) -> Strained:
-        strain = self.element.strain(self.gather(q))
+        strain = self.strain(q)
         return strain, self.element.stress(strain)
 
-    def energies_by_part(self, shape: Shape) -> dict[str, float]:
+    def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
         return self.element.energies(shape.strain)
 
-    def elastic(self, shape: Shape) -> float:
+    def elastic(self, shape: SheetShape) -> float:
         return sum(self.energies_by_part(shape).values())
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
@@ -178,7 +181,7 @@ class DiscreteElements(Discrete):
         """The scale of a body's vectors (k, a, 3)."""
         return self.scale[body.rows].reshape(body.elements.reference.shape)
 
-    def summed(self, shape: Shape) -> float:
+    def summed(self, shape: SheetShape) -> float:
         """Σ |B| |s| [N] of elements and rods, what forces are sums of, those on directors over the lever."""
         total = float(self.per_vector @ self.element.magnitudes(shape.operator, shape.elastic))
         for body in self.bodies:

@@ -1,7 +1,7 @@
 """What acts on a sheet: items that bring their own force and tangent, summed by one loop at rest, in motion
 and in modes.
 
-An item sees the sheet in a `Shape` and acts on all coordinates, or, as those of `surface.loads` do, on
+An item sees the sheet in a `SheetShape` and acts on all coordinates, or, as those of `surface.loads` do, on
 the position and director of the nodes of the plan's elements. Nothing but its class knows what it is.
 """
 
@@ -12,13 +12,13 @@ from typing import Protocol
 import numpy as np
 
 from fem_reference.discrete.course import Factor, factor_at
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface.loads import Follower
 
 Tangent = tuple[np.ndarray, np.ndarray]  # elements (k,) of the plan, and their matrices (k, 18, 3, 18, 3)
 
 
-class Item(Protocol):
+class SheetItem(Protocol):
     """An item. conservative: it has a potential, and so a symmetric tangent. One that inherits this leaves
     out what has a default here."""
 
@@ -26,58 +26,58 @@ class Item(Protocol):
     def conservative(self) -> bool:
         return True
 
-    def force(self, shape: Shape) -> np.ndarray:
+    def force(self, shape: SheetShape) -> np.ndarray:
         """On the coordinates (N,)."""
 
-    def mean_force(self, start: Shape, end: Shape, middle: Shape) -> np.ndarray:
+    def mean_force(self, start: SheetShape, end: SheetShape, middle: SheetShape) -> np.ndarray:
         """On the coordinates (N,) in a step of a conserving rule."""
         return self.force(middle)
 
-    def tangent(self, shape: Shape) -> Tangent | None:
+    def tangent(self, shape: SheetShape) -> Tangent | None:
         """Derivative of the force by the surface's vectors, None of one that does not depend on them."""
         return None
 
-    def damping(self, shape: Shape) -> Tangent | None:
+    def damping(self, shape: SheetShape) -> Tangent | None:
         """That by their rates."""
         return None
 
-    def holds(self, shape: Shape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Where, and with which forces (…, 3) [N], what is no load holds the sheet, by its name there."""
         return {}
 
-    def potential(self, shape: Shape) -> float:
+    def potential(self, shape: SheetShape) -> float:
         """Of a conservative item, 0 at the flat sheet [J]."""
         return 0.0
 
-    def stored(self, shape: Shape) -> float:
+    def stored(self, shape: SheetShape) -> float:
         """The part of it that a motion keeps as energy [J]; what is not kept is work."""
         return 0.0
 
-    def exchanged(self, shape: Shape, step: np.ndarray) -> tuple[float, float]:
+    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
         """Energy dissipated and work done [J] in a step (N,) of a motion, whose middle the shape is."""
         return 0.0, float(self.force(shape) @ step)
 
 
-class Dead(Item):
+class Dead(SheetItem):
     """A force (N,) that nothing but its factor changes."""
 
     def __init__(self, full: np.ndarray, factor: Factor):
         self._full, self._factor = full, factor
 
-    def force(self, shape: Shape) -> np.ndarray:
+    def force(self, shape: SheetShape) -> np.ndarray:
         return factor_at(self._factor, shape.at) * self._full
 
-    def potential(self, shape: Shape) -> float:
+    def potential(self, shape: SheetShape) -> float:
         return -float(self.force(shape) @ shape.q)
 
-    def stored(self, shape: Shape) -> float:
+    def stored(self, shape: SheetShape) -> float:
         return self.potential(shape) if self._factor is None else 0.0
 
-    def exchanged(self, shape: Shape, step: np.ndarray) -> tuple[float, float]:
+    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
         return 0.0, 0.0 if self._factor is None else float(self.force(shape) @ step)
 
 
-class Following(Item):
+class Following(SheetItem):
     """A load of `surface.loads` that follows the sheet, with its factor."""
 
     def __init__(self, load: Follower, factor: Factor):
@@ -87,15 +87,15 @@ class Following(Item):
     def conservative(self) -> bool:
         return self._load.conservative
 
-    def force(self, shape: Shape) -> np.ndarray:
+    def force(self, shape: SheetShape) -> np.ndarray:
         on = self._load.elements
         pull = factor_at(self._factor, shape.at) * self._load.force(shape.vectors[on])
         return shape.sheet.of_surface(on, pull)
 
-    def tangent(self, shape: Shape) -> Tangent | None:
+    def tangent(self, shape: SheetShape) -> Tangent | None:
         on = self._load.elements
         return on, factor_at(self._factor, shape.at) * self._load.tangent(shape.vectors[on])
 
-    def potential(self, shape: Shape) -> float:
+    def potential(self, shape: SheetShape) -> float:
         on = self._load.elements
         return -factor_at(self._factor, shape.at) * self._load.work(shape.vectors[on])

@@ -26,7 +26,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem_reference.discrete.course import Factor, factor_at
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface.biquadratic import SIDE_MASS
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.rod import INPLANE, NORMAL
@@ -81,7 +81,7 @@ class Rods:
         """The rods' mass (N, N)."""
         return self.matrix(self._inertia())
 
-    def stress(self, shape: Shape) -> np.ndarray:
+    def stress(self, shape: SheetShape) -> np.ndarray:
         """Elastic and viscous stresses (k, s)."""
         change = self.gather(shape.q)
         rate = 0.0 if shape.v is None else self._step(self._gradient(change), shape.v)
@@ -97,11 +97,13 @@ class Rods:
         """Bᵀ s (k, a, 3) on the sides' vectors at q (N,)."""
         return self.elements.force(self._gradient(self.gather(q)), stress)
 
-    def extrapolated(self, shape: Shape, stress: np.ndarray, move: np.ndarray) -> np.ndarray:
+    def extrapolated(self, shape: SheetShape, stress: np.ndarray, move: np.ndarray) -> np.ndarray:
         """Stresses (k, s) linear in a step (N,) from a shape with these."""
         return stress + self.elements.stiffness * self._step(self._gradient(self.gather(shape.q)), move)
 
-    def tangent(self, shape: Shape, stress: np.ndarray, by_a: float = 0.0, by_v: float = 0.0) -> np.ndarray:
+    def tangent(
+        self, shape: SheetShape, stress: np.ndarray, by_a: float = 0.0, by_v: float = 0.0
+    ) -> np.ndarray:
         """by_a M + by_v C + K of the sides under stresses, (k, 3 a, 3 a)."""
         stiff = replace(self.elements, stiffness=self.elements.stiffness + by_v * self._viscous)
         gradient = self._gradient(self.gather(shape.q))
@@ -112,7 +114,7 @@ class Rods:
         found: np.ndarray = np.einsum("eij,ejc->eic", self._mass, self.gather(a))
         return found
 
-    def driving(self, shape: Shape) -> np.ndarray:
+    def driving(self, shape: SheetShape) -> np.ndarray:
         """Force of the commands on the sides' vectors (k, a, 3)."""
         return self.pull(shape.q, self.elements.stiffness * self._intrinsic(shape.at))
 
@@ -130,7 +132,7 @@ class Rods:
         """Σ |B| |s| (k, a, 3), what forces on the sides' vectors are sums of."""
         return np.einsum("es,esic->eic", np.abs(stress), np.abs(self._gradient(self.gather(q))))
 
-    def dragged(self, shape: Shape, drag: float) -> Rods:
+    def dragged(self, shape: SheetShape, drag: float) -> Rods:
         """Rods of stresses (1 + σ) S e − σ S e_n − S e₀: a step of creep from strains e_n of a shape."""
         past = self._intrinsic(shape.at) + drag * self._strain(self.gather(shape.q))
         slow = copy(self)

@@ -10,7 +10,7 @@ import numpy as np
 from sheetbench.scenes.objects.relaxation import BranchStep
 
 
-class Shape:
+class SheetShape:
     """Coordinates q and rates v (N,), 0 where None, of a sheet (`discrete.sheet`), at a load factor or time
     [s] `at`; branches: the step of its Maxwell branches that ends there."""
 
@@ -54,8 +54,7 @@ class Shape:
     @cached_property
     def strain(self) -> Any:
         """(m, k), from the sheet's natural state."""
-        self.sheet.grow(self.at)
-        return self.sheet.element.strain(self.change)
+        return self.sheet.element.strain(self.change, self.sheet.own_strain(self.at))
 
     @cached_property
     def elastic(self) -> Any:

@@ -26,11 +26,11 @@ from scipy.sparse import csc_matrix, csr_matrix
 from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.course import Factor, commands_of, factor_at, loads_of
 from fem_reference.discrete.drag import Drag
-from fem_reference.discrete.items import Dead, Following, Item
+from fem_reference.discrete.items import Dead, Following, SheetItem
 from fem_reference.discrete.output import Output
 from fem_reference.discrete.relaxation import Strained
 from fem_reference.discrete.rods import Rods
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface import loads
 from fem_reference.surface.actuator_forces import OnEdge, exerted
 from fem_reference.surface.bound_rods import BoundRods
@@ -78,7 +78,7 @@ class Discrete(Output):
             )
         self.branches = material.branches if moving else Branches((), ())
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
-        self.items: list[Item] = []
+        self.items: list[SheetItem] = []
         self.contacts: list[Touching] = []
         self._weights: list[tuple[np.ndarray, Factor]] = []
 
@@ -158,10 +158,10 @@ class Discrete(Output):
         """Times [s] at which something prescribed bends its course."""
         return np.array(kinks(self.scene))
 
-    def grow(self, at: float) -> None:
-        """Set the sheet's natural state to that at a load factor or time [s], where it has one."""
-        if self.natural is not None:
-            self.natural.grow(*self.instant(at))
+    def own_strain(self, at: float) -> Any:
+        """What the model makes of the sheet's natural state at a load factor or time [s]; None where it has
+        none."""
+        return None if self.natural is None else self.natural.at(*self.instant(at))
 
     def jumps(self, time: float) -> bool:
         """Whether what is prescribed changes its velocity at once."""
@@ -203,24 +203,24 @@ class Discrete(Output):
     # forces
 
     @abstractmethod
-    def elements_internal(self, shape: Shape) -> np.ndarray:
+    def elements_internal(self, shape: SheetShape) -> np.ndarray:
         """Elastic and viscous forces (N,) of the sheet."""
 
     @abstractmethod
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        """Those (N,) of the mean strains of a step, whose middle is at a time [s], and their mean rate."""
+        """Those (N,) of the mean strains of a step and their mean rate, natural ones as at a time [s]."""
 
     def shape(
         self, q: np.ndarray, at: float, v: np.ndarray | None = None, branches: BranchStep | None = None
-    ) -> Shape:
+    ) -> SheetShape:
         """The sheet at coordinates and rates (N,), at the end of a step of its branches."""
-        return Shape(self, q, at, v, branches)
+        return SheetShape(self, q, at, v, branches)
 
-    def external(self, shape: Shape) -> np.ndarray:
+    def external(self, shape: SheetShape) -> np.ndarray:
         """Forces (N,) of all items."""
         return sum((item.force(shape) for item in self.items), np.zeros(self.size))
 
-    def internal(self, shape: Shape) -> np.ndarray:
+    def internal(self, shape: SheetShape) -> np.ndarray:
         """Forces (N,) of the sheet's elements and of its rods."""
         out = self.elements_internal(shape)
         for body in self.bodies:
@@ -228,7 +228,7 @@ class Discrete(Output):
         return out
 
     def wrenches(
-        self, shape: Shape, residual: np.ndarray, a: np.ndarray | None = None
+        self, shape: SheetShape, residual: np.ndarray, a: np.ndarray | None = None
     ) -> tuple[list[OnEdge], dict[str, np.ndarray], np.ndarray]:
         """What the rods exert on their edges; the force and moment (segments, 6) [N, N·m] of every actuator's
         segments on the sheet; the line force (n, 3) [N/m]. residual: M ü + g (N,); a: ü (N,), 0 unless given.
@@ -242,7 +242,7 @@ class Discrete(Output):
         held = self.exerted(shape.q, residual)
         return edges, *exerted(self.scene, edges, self.supports.moved, held)
 
-    def forces(self, shape: Shape) -> np.ndarray:
+    def forces(self, shape: SheetShape) -> np.ndarray:
         """g (N,): internal and viscous less external forces."""
         return self._damped(self.internal(shape) - self.external(shape), shape.v)
 
@@ -262,7 +262,7 @@ class Discrete(Output):
         return forces + self.alpha * (self.sheet_mass @ v) if damped else forces
 
     @abstractmethod
-    def tangent(self, shape: Shape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
+    def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         """Zᵀ (by_a M + by_v C + K) Z, and what the constraints add under a residual (N,)."""
 
     @abstractmethod
@@ -292,11 +292,11 @@ class Discrete(Output):
         """Strains, and the elastic stresses that go with them, as `relaxation` takes them."""
 
     @abstractmethod
-    def energies_by_part(self, shape: Shape) -> dict[str, float]:
+    def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
         """Strain energy [J] of the sheet by part."""
 
     @abstractmethod
-    def elastic(self, shape: Shape) -> float:
+    def elastic(self, shape: SheetShape) -> float:
         """Strain energy [J] of the sheet."""
 
     @abstractmethod
@@ -310,7 +310,7 @@ class Discrete(Output):
         return ""
 
     @abstractmethod
-    def stretch(self, q: np.ndarray) -> float:
+    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
         """How far the sheet is strained, as `beyond` takes it."""
 
     def beyond(self, stretch: float) -> str:

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.shell.element import weighed
 from sheetbench.numerics.continuation.structure import Creeping
 
@@ -26,7 +26,7 @@ OnRods = tuple[np.ndarray, ...]
 
 
 @dataclass(frozen=True)
-class State:
+class StaticState:
     """q (N,); extrapolated: stress (m, k) of the elements, their pressure, where the law has one of its own,
     and stresses (k, s) of the rods; the sheet's own where None."""
 
@@ -41,14 +41,14 @@ class Forces:
     """At a state: its shape, stresses (k, s) of the rods, residual (N,), size of the forces that balance [N],
     and the step (N,) to what is prescribed."""
 
-    shape: Shape
+    shape: SheetShape
     on_rods: OnRods
     residual: np.ndarray
     size: float
     short: np.ndarray
 
 
-class Static(Creeping[State, Forces]):
+class Static(Creeping[StaticState, Forces]):
     """A sheet of elements, ready for `trace_path`."""
 
     def __init__(self, sheet: DiscreteElements):
@@ -66,34 +66,34 @@ class Static(Creeping[State, Forces]):
     def prestrained(self) -> bool:
         return self.sheet.natural is not None
 
-    def rest(self) -> State:
+    def rest(self) -> StaticState:
         """Flat, and free of stress where nothing acts on it."""
-        return State(np.zeros(self.sheet.size))
+        return StaticState(np.zeros(self.sheet.size))
 
-    def unextrapolated(self, state: State) -> State:
-        return State(state.q)
+    def unextrapolated(self, state: StaticState) -> StaticState:
+        return StaticState(state.q)
 
-    def with_stresses(self, state: State, of: State) -> State:
+    def with_stresses(self, state: StaticState, of: StaticState) -> StaticState:
         return replace(of, q=state.q)
 
-    def potential(self, state: State, load_factor: float) -> tuple[float, float]:
+    def potential(self, state: StaticState, load_factor: float) -> tuple[float, float]:
         sheet = self.sheet
         shape = sheet.shape(state.q, load_factor)
         stored = sheet.elastic(shape) + sum(body.energy(state.q, load_factor) for body in sheet.bodies)
         of_items = sum(item.potential(shape) for item in sheet.items)
         return stored + of_items, stored + abs(of_items)
 
-    def dragged(self, state: State, load_factor: float, drag: float) -> Static:
+    def dragged(self, state: StaticState, load_factor: float, drag: float) -> Static:
         return Static(self.sheet.dragged(self.sheet.shape(state.q, load_factor), drag))
 
-    def forces(self, state: State, load_factor: float) -> Forces:
+    def forces(self, state: StaticState, load_factor: float) -> Forces:
         sheet = self.sheet
         shape = sheet.shape(state.q, load_factor)
         external = sheet.external(shape)
         residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
         size = sheet.measured(external, sheet.scale) + sheet.measured(sheet.of_held_positions(residual))
         if sheet.natural is not None:  # often all that loads it
-            pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.natural.now))
+            pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.own_strain(load_factor)))
             size += sheet.measured(sheet.scatter(pull), sheet.scale)
         residual -= external
         on_rods = tuple(body.stress(shape) for body in sheet.bodies)
@@ -102,19 +102,19 @@ class Static(Creeping[State, Forces]):
             size += sheet.measured((body.driving(shape) / sheet.scale_of(body)).ravel())
         return Forces(shape, on_rods, residual, size, sheet.short(shape))
 
-    def imbalance(self, state: State, forces: Forces) -> float:
+    def imbalance(self, state: StaticState, forces: Forces) -> float:
         sheet = self.sheet
         left = sheet.reduce(forces.shape, forces.residual / sheet.scale)
         return float(np.linalg.norm(left, sheet.norm))
 
-    def gap(self, state: State, load_factor: float) -> float:
+    def gap(self, state: StaticState, load_factor: float) -> float:
         """Largest distance from what is prescribed, relative to the sheet's size, or change of a director."""
         sheet = self.sheet
         step = sheet.short(sheet.shape(state.q, load_factor)) * sheet.scale
         return float(np.abs(step).max() / sheet.lever)
 
     def system(
-        self, state: State, forces: Forces, load_factor: float, mixed: bool = True
+        self, state: StaticState, forces: Forces, load_factor: float, mixed: bool = True
     ) -> tuple[csr_matrix, np.ndarray]:
         sheet, shape, residual = self.sheet, forces.shape, forces.residual
         stress, on_rods, pressure = shape.elastic, forces.on_rods, None
@@ -125,7 +125,9 @@ class Static(Creeping[State, Forces]):
         matrix, product = sheet.system(shape, moduli, stress, on_rods, residual, move=move)
         return matrix, -sheet.reduce(shape, forces.residual + product)
 
-    def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
+    def advance(
+        self, state: StaticState, forces: Forces, load_factor: float, step: np.ndarray
+    ) -> StaticState:
         sheet, shape = self.sheet, forces.shape
         move = sheet.expand(shape, step) + forces.short
         by = sheet.element.step(shape.operator, sheet.gather(move))
@@ -134,8 +136,8 @@ class Static(Creeping[State, Forces]):
             for body, own in zip(sheet.bodies, forces.on_rods, strict=True)
         )
         stress = shape.elastic + weighed(sheet.moduli(shape, state.pressure), by)
-        return State(state.q + move, stress, sheet.pressure(shape, by), tuple(on_rods))
+        return StaticState(state.q + move, stress, sheet.pressure(shape, by), tuple(on_rods))
 
-    def length(self, start: State, end: State) -> float:
+    def length(self, start: StaticState, end: StaticState) -> float:
         moved = self.sheet.displacement(end.q) - self.sheet.displacement(start.q)
         return float(np.abs(moved).max() / self.sheet.lever)

@@ -9,7 +9,7 @@ import numpy as np
 
 from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.static import Forces, State, Static
+from fem_reference.discrete.static import Forces, Static, StaticState
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Inspect, Path, Settle
@@ -17,7 +17,7 @@ from sheetbench.numerics.continuation.stiffening import Penalties, trace_stiffen
 from sheetbench.numerics.continuation.trace import trace_path
 
 
-def penalties(structure: Static) -> Penalties[State]:
+def penalties(structure: Static) -> Penalties[StaticState]:
     """Return the penalties of a sheet's contacts."""
     sheet = structure.sheet
     flat = sheet.shape(np.zeros(sheet.size), 1.0)
@@ -26,11 +26,11 @@ def penalties(structure: Static) -> Penalties[State]:
     flat_q = np.zeros(sheet.size)
     moved = np.abs(sheet.on_surface(sheet.placed(flat_q, 1.0)) - sheet.on_surface(flat_q)).max(axis=(0, 2))
 
-    def passes(start: State, since: float, end: State, load_factor: float) -> bool:
-        ways = sheet.on_surface(start.q), since, sheet.on_surface(end.q), load_factor
+    def passes(start: StaticState, since: float, end: StaticState, load_factor: float) -> bool:
+        ways = (sheet.on_surface(start.q), since), (sheet.on_surface(end.q), load_factor)
         return any(one.leads_through(*ways) for one in sheet.contacts)
 
-    def restart(state: State) -> Start[State]:
+    def restart(state: StaticState) -> Start[StaticState]:
         balanced = structure.potential(state, 1.0)[1]
         return Start(structure.unextrapolated(state), 1.0, 1.0, balanced)
 
@@ -41,11 +41,11 @@ def penalties(structure: Static) -> Penalties[State]:
 
 def trace(
     sheet: DiscreteElements,
-    inspect: Inspect[State, Forces],
-    settle: Settle[State, Forces] | None,
+    inspect: Inspect[StaticState, Forces],
+    settle: Settle[StaticState, Forces] | None,
     limits: Limits | None = None,
     **options: Any,
-) -> Path[State, Forces]:
+) -> Path[StaticState, Forces]:
     """Return the path of a sheet, as `trace_path` does with these options; with obstacles from rest, whatever
     is near."""
     structure, limits = Static(sheet), limits or Limits()
@@ -53,7 +53,7 @@ def trace(
         return trace_path(structure, sheet.solver(), inspect, settle, limits=limits, **options)
     buckled, from_rest = options.pop("buckled", False), options | {"near": None}
 
-    def soft(limits: Limits, inspect: Inspect[State, Forces]) -> Path[State, Forces]:
+    def soft(limits: Limits, inspect: Inspect[StaticState, Forces]) -> Path[StaticState, Forces]:
         return trace_path(structure, sheet.solver(), inspect, settle, limits=limits, **from_rest)
 
     path = Path(structure, sheet.solver(), structure.rest(), limits=limits, progress=options.get("progress"))

@@ -21,7 +21,8 @@ from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.discrete.energies import SheetMotion, spent
 from fem_reference.discrete.relaxation import remembered
-from fem_reference.motion.moving import MovingSheet
+from fem_reference.discrete.sheet import Discrete
+from fem_reference.sheets import start
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
@@ -64,7 +65,7 @@ class ConstrainedAlpha:
     state = SheetMotion
 
     def __init__(
-        self, model: MovingSheet, step: float | None, error: float, first: float, radius: float = RADIUS
+        self, model: Discrete, step: float | None, error: float, first: float, radius: float = RADIUS
     ):
         self._usual = generalised(radius)
         self.late = 1.0 - self._usual.af
@@ -109,7 +110,7 @@ class ConstrainedAlpha:
 
     def start(self) -> Advance[SheetMotion]:
         """Return the motion at t = 0, with the work of what moves at once."""
-        q = self._model.start()
+        q = start(self._model)
         return self._begun(0.0, q, np.zeros_like(q))
 
     def _branches(self, motion: SheetMotion, time: float) -> BranchStep | None:

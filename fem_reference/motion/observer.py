@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference.discrete.energies import energies
+from fem_reference.discrete.sheet import Discrete
 from fem_reference.motion.generalised_alpha import Sampled
-from fem_reference.motion.moving import MovingSheet
 from sheetbench.answers.history import ENERGIES
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
@@ -20,7 +20,7 @@ class ReferenceObserver:
 
     least_energy = 0.0
 
-    def __init__(self, model: MovingSheet, scene: Scene):
+    def __init__(self, model: Discrete, scene: Scene):
         self._model, self._points = model, scene.probe_points()
         nothing = np.zeros(model.size)
         self._reactions = list(model.reactions(nothing))
@@ -60,7 +60,7 @@ class ReferenceObserver:
 
     def stretches(self, samples: Sampled, count: int) -> np.ndarray:
         """Return how far the sheet is strained in the first samples, (count,)."""
-        return np.array([self._model.stretch(motion.q) for motion in samples.motions[:count]])
+        return np.array([self._model.stretch(motion.q, motion.time) for motion in samples.motions[:count]])
 
     def beyond(self, stretch: float) -> str:
         """Return a clause where the law of strain does not hold that far, else ""."""

@@ -8,9 +8,7 @@ their error allows; samples lie within them, cubic in time between their ends.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from inspect import signature
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,28 +17,20 @@ from fem_reference.defaults import with_defaults
 from fem_reference.discrete.energies import SheetMotion
 from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
-from fem_reference.motion.moving import MovingSheet
 from fem_reference.motion.observer import ReferenceObserver
-from fem_reference.motion.plate import MovingPlate
-from fem_reference.motion.shell import MovingShell
-from fem_reference.motion.solid import MovingSolid
+from fem_reference.sheets import SHEETS
 from fem_reference.vibration import modes
 from sheetbench.answers.contact import friction_notes
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE, STRAIN_LAW, listed
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.runs.record import Recipe, record
+from sheetbench.runs.record import Recipe, parted, record
 from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, require_error, sample_count
 from sheetbench.scenes import AnyScene, Scene, require_no_branches, scene_of
 from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.objects.quantities import require_positive
 
-MODELS: dict[str, Callable[..., MovingSheet]] = {
-    "plate": MovingPlate,
-    "shell": MovingShell,
-    "solid": MovingSolid,
-}
 INTEGRATORS = {"generalised-alpha": ConstrainedAlpha, "energy-momentum": EnergyMomentum}
 STEPS_PER_PERIOD = 200
 
@@ -54,9 +44,6 @@ def simulate(
     step: float | None = None,
     error: float = ERROR,
     every: float | None = None,
-    frames: int = 0,
-    store: Path | None = None,
-    progress: Callable[[float], None] | None = None,
     **options: Any,
 ) -> History:
     """Motion of a scene's sheet over `duration` [s] as a reference has it.
@@ -64,11 +51,8 @@ def simulate(
     integrator: "generalised-alpha", or "energy-momentum", which keeps energy and momenta to rounding in fixed
     steps, 1/200 of the lowest period unless given. step [s]: fixed; without it steps keep to an `error` each,
     of the displacement relative to the largest so far. every [s]: distance of samples, 1/100 of the lowest
-    period unless given. frames: whole displacements to keep, evenly over the run, in `extra`: "frames"
-    (f, n, 3), "frame_times" (f,), the "mesh" they belong to and "sample", which takes one and plan points
-    (p, 2) to displacements (p, 3). store: a folder to stream to, as of `lumped.simulate`: a run that was
-    stopped goes on from there. progress: called with the time reached. options: the model's own, `elements`
-    among them.
+    period unless given. options: the model's own, `elements` among them, and `store`, `frames` and `progress`
+    (`sheetbench.runs.record`).
 
     Raises NoEquilibrium where the shape to start from is no stable equilibrium, BadInput for a model that
     does not move, what a model cannot move, an error not below 0.1, and for a folder that holds
@@ -80,6 +64,7 @@ def simulate(
     >>> history.status, float(history.time[-1])
     (<Status.CONVERGED: 'converged'>, 0.01)
     """
+    keeping, options = parted(options)
     require_moving(scene_of(scene), model)
     for name, value in {"duration": duration, "step": step, "every": every}.items():
         require_positive(name, value, "s")
@@ -89,8 +74,8 @@ def simulate(
     if model == "plate":
         require_no_obstacles(requested, "the plate, which is linear,")
     require_choice("integrator", integrator, INTEGRATORS)
-    options = with_defaults(requested, signature(MODELS[model]).parameters, options)
-    moving = MODELS[model](requested, **options)
+    options = with_defaults(requested, signature(SHEETS[model]).parameters, options)
+    moving = SHEETS[model](requested, **options, moving=True)
     spacing = every or _lowest_period(requested) / SAMPLES_PER_PERIOD
     count = sample_count(duration, spacing, whole=every is not None)
     schedule = Schedule(count, duration / count, count)
@@ -122,7 +107,7 @@ def simulate(
         rows=len(flat),
         notes=tuple(friction_notes(requested)),
     )
-    history = record(recipe, frames, store, progress, began)
+    history = record(recipe, keeping, began)
     of_model = {"mesh": moving.mesh(flat), "sample": moving.sample, "unknowns": moving.unknowns}
     history.extra.update(of_model | {"axes": {}})
     return history
@@ -130,8 +115,8 @@ def simulate(
 
 def require_moving(scene: Scene, model: str) -> None:
     """Raise BadInput for a model that does not move, or a scene with what no reference moves."""
-    if model not in MODELS:
-        raise BadInput(f"reference = '{model}': {listed(MODELS)} can move")
+    if model not in SHEETS:
+        raise BadInput(f"reference = '{model}': {listed(SHEETS)} can move")
 
 
 def _lowest_period(scene: Scene) -> float:

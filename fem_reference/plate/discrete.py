@@ -17,7 +17,7 @@ from scipy.sparse import csc_matrix, csr_matrix, identity
 from skfem import MeshQuad
 
 from fem_reference.discrete.relaxation import Strained, gain, with_branches
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import TILT_X, PlateElements, W
 from fem_reference.plate.natural import OwnStrains, own_strains
@@ -89,9 +89,8 @@ class DiscretePlate(Discrete):
             self.natural = state.made(partial(own_strains, self.elements, self.section, self.size))
 
     def at_rest(self, at: float) -> OwnStrains:
-        """What it has at rest, at a load factor or time [s]."""
-        self.grow(at)
-        return OwnStrains() if self.natural is None else self.natural.now
+        """What it has without stress at a load factor or time [s]."""
+        return self.own_strain(at) or OwnStrains()
 
     @cached_property
     def stiffness(self) -> csr_matrix:
@@ -152,18 +151,18 @@ class DiscretePlate(Discrete):
 
     # forces
 
-    def elements_internal(self, shape: Shape) -> np.ndarray:
+    def elements_internal(self, shape: SheetShape) -> np.ndarray:
         out = with_branches(self.stiffness @ shape.q, shape.branches)
         viscous = 0.0 if shape.v is None else self.tau * (self.stiffness @ shape.v)
         return np.asarray(out + viscous - self.at_rest(shape.at).force)
 
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        return self.elements_internal(Shape(self, 0.5 * (start + end), time, (end - start) / h))
+        return self.elements_internal(SheetShape(self, 0.5 * (start + end), time, (end - start) / h))
 
-    def tangent(self, shape: Shape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
+    def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         return self.whole_tangent(shape, by_a, by_v)[self.free][:, self.free]
 
-    def whole_tangent(self, shape: Shape, by_a: float = 0.0, by_v: float = 0.0) -> csr_matrix:
+    def whole_tangent(self, shape: SheetShape, by_a: float = 0.0, by_v: float = 0.0) -> csr_matrix:
         """by_a M + by_v C + K of all coordinates."""
         whole = (1.0 + self.tau * by_v + gain(shape.branches)) * self.stiffness
         if by_a or by_v:
@@ -211,7 +210,7 @@ class DiscretePlate(Discrete):
     def strains(self, q: np.ndarray) -> Strained:
         return q, self.stiffness @ q
 
-    def energies_by_part(self, shape: Shape) -> dict[str, float]:
+    def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
         own = dict(zip(PARTS, self.at_rest(shape.at).strains, strict=False))
         nodal, out = shape.q[self.elements.unknowns], {}
         for name, operator, section in zip(PARTS, self._strains, self.section, strict=True):
@@ -220,7 +219,7 @@ class DiscretePlate(Discrete):
             out[name] = 0.5 * float(np.einsum("mq,mqi,mqi", self.elements.areas, strain, force))
         return out
 
-    def elastic(self, shape: Shape) -> float:
+    def elastic(self, shape: SheetShape) -> float:
         q, own = shape.q, self.at_rest(shape.at)
         return 0.5 * self.stiffness_of(q, q, q) - float(np.sum(own.force * q)) + own.stored
 
@@ -229,7 +228,7 @@ class DiscretePlate(Discrete):
 
     # what is shown
 
-    def stretch(self, q: np.ndarray) -> float:
+    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
         return strained(self.elements, q)
 
     def beyond(self, stretch: float) -> str:

@@ -18,7 +18,7 @@ from collections.abc import Callable
 import numpy as np
 from skfem import ElementQuad2
 
-from fem_reference.discrete.static import Forces, State, Static
+from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.shell.discrete import UP, DiscreteShell
 from fem_reference.shell.element import GRIDS, MEMBRANE
 from fem_reference.surface.biquadratic import interpolation, jacobians, product_grid, shape
@@ -51,16 +51,16 @@ def coarse(counts: tuple[int, int], scene: Scene) -> tuple[int, int] | None:
     return counts[0] // COARSER, counts[1] // COARSER
 
 
-def plain(path: Path[State, Forces]) -> bool:
+def plain(path: Path[StaticState, Forces]) -> bool:
     """Whether a path has led straight to the only stable equilibrium in sight."""
     straight = all(entry.load_factor == 1.0 for entry in path.history)
     return path.status is Status.CONVERGED and straight and not path.snaps and not path.notes
 
 
-def start(coarser: DiscreteShell, q: np.ndarray, sheet: DiscreteShell) -> Start[State]:
+def start(coarser: DiscreteShell, q: np.ndarray, sheet: DiscreteShell) -> Start[StaticState]:
     """The state of a shell from the coordinates (N,) of another."""
     plan, at, finer = coarser.plan, coarser.element.reference[:, :9, :2], sheet.element
-    strain = at_nodes(at, plan.elements, coarser.element.strain(coarser.gather(q))[:, MEMBRANE])
+    strain = at_nodes(at, plan.elements, coarser.strain(q)[:, MEMBRANE])
     changes = q[: 6 * coarser.nodes].reshape(2, -1, 3)
     every = np.concatenate([*changes, strain.reshape(-1, 4)], axis=1)
     found = interpolate(plan.mesh, plan.elements, every, sheet.plan.nodes)
@@ -72,7 +72,7 @@ def start(coarser: DiscreteShell, q: np.ndarray, sheet: DiscreteShell) -> Start[
     return _start(sheet, displacement, director - UP, stretched)
 
 
-def shaped(shape: Shape, sheet: DiscreteShell) -> Start[State]:
+def shaped(shape: Shape, sheet: DiscreteShell) -> Start[StaticState]:
     """The state of a shell without membrane stress in a shape: the displacement (k, 3) [m] of what lies at
     (k, 3) [m] in the flat sheet, on its normals."""
     nodes = sheet.plan.nodes
@@ -84,11 +84,11 @@ def shaped(shape: Shape, sheet: DiscreteShell) -> Start[State]:
 
 def _start(
     sheet: DiscreteShell, displacement: np.ndarray, turn: np.ndarray, strain: np.ndarray
-) -> Start[State]:
+) -> Start[StaticState]:
     """That of displacements and changes of directors (n, 3), its stresses those of strains (m, 54)."""
     q, static = sheet.of_vectors(displacement, turn), Static(sheet)
     no_rods = tuple(np.zeros_like(body.elements.stiffness) for body in sheet.bodies)
-    found = State(q, sheet.element.stress(strain), on_rods=no_rods)
+    found = StaticState(q, sheet.element.stress(strain), on_rods=no_rods)
     return Start(found, 1.0, static.length(static.rest(), found), static.potential(found, 1.0)[1])
 
 

@@ -22,7 +22,7 @@ from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.rods import components_of
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.mass import mass_matrix, products
@@ -131,7 +131,7 @@ class DiscreteShell(DiscreteElements):
         turns -= np.einsum("nc,nc->n", turns, directors)[:, None] * directors
         return rate.ravel()
 
-    def short(self, shape: Shape) -> np.ndarray:
+    def short(self, shape: SheetShape) -> np.ndarray:
         n, change = self.nodes, self.supports.change(*self.instant(shape.at))
         change -= shape.q[: 6 * n].reshape(2, n, 3)
         step = np.concatenate(
@@ -196,12 +196,12 @@ class DiscreteShell(DiscreteElements):
         turning = np.repeat(field >= 3, widths)
         return np.repeat(rows, widths) + within, starts, turning, node[field >= 3], field[field >= 3] - 3
 
-    def reduce(self, shape: Shape, force: np.ndarray) -> np.ndarray:
+    def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
         n = self.nodes
         couple = np.einsum("nc,nck->nk", force[3 * n :].reshape(-1, 3), shape.frame)
         return self._of_unknowns(force[: 3 * n], couple)
 
-    def expand(self, shape: Shape, step: np.ndarray) -> np.ndarray:
+    def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         every, n = np.zeros(3 * self.nodes + self.turns.size), self.nodes
         every[self._free] = step
         turned = np.einsum("nck,nk->nc", shape.frame, every[3 * n :].reshape(-1, 2))
@@ -248,7 +248,7 @@ class DiscreteShell(DiscreteElements):
         return np.flatnonzero(self.supports.position)
 
     def stiffness(
-        self, shape: Shape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
+        self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
         along = multiplier(self.directors(shape.q), residual[3 * self.nodes :].reshape(-1, 3))
         on_turns = self._of_unknowns(np.zeros(3 * self.nodes), np.repeat(along, 2))
@@ -265,17 +265,17 @@ class DiscreteShell(DiscreteElements):
         return data
 
     def constraining(
-        self, shape: Shape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
+        self, shape: SheetShape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
     ) -> np.ndarray:
         out = residual + self.scatter(self.element.forces(shape.operator, stress - shape.elastic))
         for body, own in zip(self.bodies, on_rods, strict=True):
             out += body.scatter(body.pull(shape.q, own - body.stress(shape)))
         return out
 
-    def fold(self, shape: Shape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
+    def fold(self, shape: SheetShape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
         return projected(tangent, shape.frame[self.plan.elements[on]])
 
-    def onto_rods(self, shape: Shape) -> np.ndarray:
+    def onto_rods(self, shape: SheetShape) -> np.ndarray:
         directors = self.rods.bound.sites[:, 3:] - self.nodes
         fixed = np.tile(np.eye(3), (len(directors), 1, 1))
         return block_diagonal([fixed] * 3 + [shape.frame[directors[:, i]] for i in range(6)])
@@ -305,8 +305,8 @@ class DiscreteShell(DiscreteElements):
     def inside_out(self, q: np.ndarray) -> str:
         return inverted(self.element, self.gather(q))
 
-    def stretch(self, q: np.ndarray) -> float:
-        return membrane_strain(self.element, self.gather(q))
+    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
+        return membrane_strain(self.element, self.strain(q, at))
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
         return q.reshape(-1, 3)[: self.nodes]

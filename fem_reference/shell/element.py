@@ -121,11 +121,11 @@ class Element:
         found: np.ndarray = np.linalg.norm(across, axis=2)
         return found
 
-    def strain(self, change: np.ndarray) -> np.ndarray:
+    def strain(self, change: np.ndarray, natural: np.ndarray | None = None) -> np.ndarray:
         """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors: its product with
         their derivatives half way, which keeps the digits of a small one; less the natural ones."""
         found = strain_of(self.reference + 0.5 * change, change)
-        return found if self.natural is None else found - self.natural.now
+        return found if natural is None else found - natural
 
     def operator(self, change: np.ndarray) -> np.ndarray:
         """Nodal vectors Q (m, 18, 3), which B = H Q is made of, at a change q (m, 18, 3)."""
@@ -176,7 +176,7 @@ class Element:
         """Elements of stresses (1 + σ) D e − σ D e_n: a step of creep from strains e_n (m, 54), drag σ."""
         past = strain * (drag / (1.0 + drag))
         slow = (1.0 + drag) * self.stiffness
-        return DraggedElement(self.reference, slow, self.areas, past, natural=self.natural)
+        return DraggedElement(self.reference, slow, self.areas, past)
 
 
 @dataclass(frozen=True)
@@ -186,9 +186,9 @@ class DraggedElement(Element):
 
     past: np.ndarray
 
-    def strain(self, change: np.ndarray) -> np.ndarray:
+    def strain(self, change: np.ndarray, natural: np.ndarray | None = None) -> np.ndarray:
         """e − past (m, 54)."""
-        return super().strain(change) - self.past
+        return super().strain(change, natural) - self.past
 
 
 def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:

@@ -1,34 +1,45 @@
-"""Natural strains of shell elements, where `element` samples membrane and bending ones; shear has none."""
+"""Shells that are not flat at rest: natural strains where elements sample membrane and bending ones, shear
+having none, and sections of the natural sides (`fem_reference.surface.natural`)."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.shell.element import GRIDS, STRAINS
-from fem_reference.surface.biquadratic import product_grid, shape
-from fem_reference.surface.natural import covariant, green
+from fem_reference.shell.element import BENDING, GRIDS, MEMBRANE, STRAINS, TABLES
+from fem_reference.surface.biquadratic import AT_GAUSS, product_grid, shape
+from fem_reference.surface.materials import Section, pulled_back
+from fem_reference.surface.natural import green
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
-COMPONENTS = {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}
-_VALUES, _SLOPES = zip(*(shape(*product_grid(*GRIDS[name])) for name in COMPONENTS), strict=True)
+_VALUES = np.concatenate([shape(*product_grid(*GRIDS[name]))[0] for name in ("rr", "ss", "rs")])
+IN_PLANE = ((0, 0), (1, 1), (0, 1))
 
 
 def natural_strains(scene: Scene, nodes: np.ndarray) -> NaturalState | None:
     """Return those (m, 54) of elements with nodes (m, 9, 2) [m], None of a sheet that is flat at rest."""
-    state = natural_at(scene, np.concatenate(_VALUES) @ nodes)
+    state = natural_at(scene, _VALUES @ nodes)
     if state is None:
         return None
-    sides = [
-        np.concatenate([slope[a] for slope, a in zip(_SLOPES, axes, strict=True)]) @ nodes
-        for axes in zip(*COMPONENTS.values(), strict=True)
-    ]
+    first, second = TABLES.T[MEMBRANE] @ nodes, TABLES.T[BENDING] @ nodes  # the sites' sides
 
-    def sample(strain: np.ndarray, curvature: np.ndarray) -> np.ndarray:
-        mixed = strain @ curvature
-        forms = green(strain), -curvature - 0.5 * (mixed + mixed.swapaxes(-1, -2))
-        parts = [covariant(form, *sides) for form in forms]
-        none = np.zeros((len(nodes), STRAINS - 2 * parts[0].shape[1]))
-        return np.concatenate([*parts, none], axis=1)
+    def sample(e: np.ndarray, k: np.ndarray) -> np.ndarray:
+        forms = green(e), 0.5 * (green(e - k) - green(e + k))
+        parts = [np.einsum("eki,ekij,ekj->ek", first, form, second) for form in forms]
+        return np.pad(np.concatenate(parts, axis=1), ((0, 0), (0, STRAINS - BENDING.stop)))
 
     return state.made(sample)
+
+
+def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:
+    """Return the section per area and strain of the sheet as drawn, of one per natural area and strain;
+    corners: the elements' nodes (m, 9, 2) [m]."""
+    state = natural_at(scene, AT_GAUSS[0] @ corners)
+    if state is None or not (strain := state.at()[0]).any():
+        return section
+    stretch = np.eye(2) + strain
+    inverse, area = np.linalg.inv(stretch), np.linalg.det(stretch)[..., None, None]
+    turn = pulled_back(inverse, IN_PLANE)
+    back = area * turn.swapaxes(-1, -2)
+    shear = area * inverse @ section.shear @ inverse
+    return Section(back @ section.membrane @ turn, back @ section.bending @ turn, shear)

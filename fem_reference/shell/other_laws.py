@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.discrete.static import State, Static
+from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell.discrete import UP
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
@@ -48,7 +48,7 @@ def shift(scene: Scene, answer: Solution) -> float | None:
         fields, element = answer.mesh.point_data, sheet.element
         if fields["displacement"].shape != (sheet.nodes, 3):
             return None
-        start = State(sheet.of_vectors(fields["displacement"], fields["director"] - UP))
+        start = StaticState(sheet.of_vectors(fields["displacement"], fields["director"] - UP))
         static = Static(sheet)
         rest = static.forces(start, 1.0)
         if not static.imbalance(start, rest) <= SAME * rest.size:
@@ -70,7 +70,7 @@ def shift(scene: Scene, answer: Solution) -> float | None:
                     shape = forces.shape
                     change = element.forces(shape.operator, other.stress(shape.strain) - shape.elastic)
                     step = -factor.solve(sheet.reduce(shape, left + sheet.scatter(change)))
-                    state = State(static.advance(state, forces, 1.0, step).q)
+                    state = StaticState(static.advance(state, forces, 1.0, step).q)
                     forces = static.forces(state, 1.0)
                     left = forces.residual
                 after = sheet.displacement(state.q - start.q)

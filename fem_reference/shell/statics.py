@@ -16,7 +16,7 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.discrete.answer import answered, judge
-from fem_reference.discrete.static import Forces, State
+from fem_reference.discrete.static import Forces, StaticState
 from fem_reference.discrete.tracing import trace
 from fem_reference.shell import coarse_start
 from fem_reference.shell.coarse_start import Shape
@@ -24,12 +24,11 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.natural import natural_strains
+from fem_reference.shell.natural import grown, natural_strains
 from fem_reference.shell.validity import STRETCHED, inspector
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.materials import Section, section_at
 from fem_reference.surface.mesh import Elements, Plan, divisions, has_lines, mesh_of, plan_of
-from fem_reference.surface.natural import grown
 from fem_reference.surface.rubber import limit_notes, require_law
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.choices import BRANCHES, STRAIN_LAW
@@ -103,7 +102,7 @@ class _Run(NamedTuple):
     """A traced path on a mesh, with the seconds that setting up and solving took."""
 
     sheet: DiscreteShell
-    path: Path[State, Forces]
+    path: Path[StaticState, Forces]
     setup_seconds: float
     solve_seconds: float
 
@@ -143,7 +142,7 @@ def _run(
     begin = now()
     sheet = discretise(mesh, scene, section, law)
     ready = now()
-    begin_at: Start[State] | None = None
+    begin_at: Start[StaticState] | None = None
     if callable(near):
         begin_at = coarse_start.shaped(near, sheet)
     elif near is not None:
@@ -184,19 +183,23 @@ def _solution(
         snaps=tuple(run.path.snaps),
         fallback=fallback,
         remarks=(*notes, *limit_notes(settings.get("law"), scene.material, status)),
-        stretch=run.sheet.stretch(run.path.state.q),
+        stretch=run.sheet.stretch(run.path.state.q, run.path.load_factor),
     )
 
 
 def discretise(
-    mesh: MeshQuad, scene: Scene, section: Section | None = None, law: str = STRAIN_LAW
+    mesh: MeshQuad,
+    scene: Scene,
+    section: Section | None = None,
+    law: str = STRAIN_LAW,
+    moving: bool = False,
 ) -> DiscreteShell:
-    """The discrete shell of a scene at rest, on a mesh."""
+    """The discrete shell of a scene, at rest unless it is moving, on a mesh."""
     plan = plan_of(mesh)
-    return DiscreteShell(plan, scene, elements_of(plan, scene, section, law), law == STRAIN_LAW)
+    return DiscreteShell(plan, scene, _elements_of(plan, scene, section, law), law == STRAIN_LAW, moving)
 
 
-def elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:
+def _elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:
     """The elements of a scene's shell on a plan, of a law of strain and, unless that is another than the
     default, of a section."""
     nodes = plan.corners

@@ -21,7 +21,7 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference.discrete.answer import sheet_of
-from fem_reference.discrete.static import Forces, State
+from fem_reference.discrete.static import Forces, StaticState
 from fem_reference.shell.element import BENDING, MEMBRANE, Element
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
 from sheetbench.answers.solution import Status
@@ -33,15 +33,16 @@ STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much 
 FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as turned inside out
 
 
-def inspector(graded: bool) -> Inspect[State, Forces]:
+def inspector(graded: bool) -> Inspect[StaticState, Forces]:
     """What `trace_path` is to look at; graded: elements are stretched, and may be without harm."""
 
-    def inspect(path: Path[State, Forces]) -> Fault | None:
+    def inspect(path: Path[StaticState, Forces]) -> Fault | None:
         sheet, q = sheet_of(path), path.state.q
         if found := sheet.inside_out(q):
             return Fault(Status.INVERTED, found)
         assert isinstance(sheet.element, Element)
-        bent = stretch(sheet.element, sheet.gather(q), sheet.scene.sheet.thickness) if graded else 0.0
+        thickness = sheet.scene.sheet.thickness
+        bent = stretch(sheet.element, sheet.strain(q, path.load_factor), thickness) if graded else 0.0
         return STRETCHED if bent > STRETCH_LIMIT and stability(path)[0] is not Status.CONVERGED else None
 
     return inspect
@@ -62,18 +63,19 @@ def inverted(element: Element, change: np.ndarray) -> str:
     return f"the element at x = {x:.4g} m, y = {y:.4g} m has turned inside out: use more elements"
 
 
-def stretch(element: Element, change: np.ndarray, thickness: float) -> float:
-    """The largest (h κ/2) (b/l)² of all elements, κ the curvature along their shorter side."""
-    sides = element.sides
-    strain = element.strain(change)[:, BENDING]
+def stretch(element: Element, strain: np.ndarray, thickness: float) -> float:
+    """The largest (h κ/2) (b/l)² of all elements of strains (m, 54), κ the curvature along their shorter
+    side."""
+    sides, strain = element.sides, strain[:, BENDING]
     bent = np.stack([np.abs(strain[:, part]).max(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
     surface = 0.5 * thickness * bent / (0.5 * sides) ** 2
     return float(np.max(surface * (sides[:, ::-1] / sides) ** 2))
 
 
-def membrane_strain(element: Element, change: np.ndarray) -> float:
-    """The mid-surface's largest stretching along an element's sides, √(1 + 2 E) − 1 of Green's strain E."""
-    strain = element.strain(change)[:, MEMBRANE]
+def membrane_strain(element: Element, strain: np.ndarray) -> float:
+    """The mid-surface's largest stretching along an element's sides, √(1 + 2 E) − 1 of Green's strain E, of
+    strains (m, 54)."""
+    strain = strain[:, MEMBRANE]
     along = np.stack([strain[:, part].mean(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
     green = along / (0.5 * element.sides) ** 2
     return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + 2.0 * green, 0.0)) - 1.0)))

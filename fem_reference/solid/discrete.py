@@ -19,7 +19,7 @@ from scipy.sparse import block_diag, bsr_matrix, csc_matrix, csr_matrix, identit
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.rods import components_of
-from fem_reference.discrete.shape import Shape
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.solid.element import Bricks, tangent
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
@@ -114,7 +114,7 @@ class DiscreteSolid(DiscreteElements):
         rate = self.column_supports.spread(self.supports.rate(time))
         return v + self._to_supports(self.frame(q, time), v, rate)
 
-    def short(self, shape: Shape) -> np.ndarray:
+    def short(self, shape: SheetShape) -> np.ndarray:
         target = self.column_supports.target(*self.instant(shape.at))
         return self._to_supports(shape.frame, shape.q, target)
 
@@ -142,12 +142,12 @@ class DiscreteSolid(DiscreteElements):
         aside = identity(len(self._held_aside), format="csc")
         return block_diag([of_columns, aside], format="csc")[:, self._free]
 
-    def reduce(self, shape: Shape, force: np.ndarray) -> np.ndarray:
+    def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
         on_components = into_forces(shape.frame, self._on_columns(force))
         found: np.ndarray = np.append(on_components, force[self._cut :])[self._free]
         return found
 
-    def expand(self, shape: Shape, step: np.ndarray) -> np.ndarray:
+    def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         every = np.zeros(self.size)
         every[self._free] = step
         return np.append(vectors(shape.frame, self._on_columns(every)), every[self._cut :])
@@ -178,24 +178,24 @@ class DiscreteSolid(DiscreteElements):
     def of_held_positions(self, force: np.ndarray) -> np.ndarray:
         return np.where(self.free.ravel(), 0.0, force[: self._cut])
 
-    def moduli(self, shape: Shape, pressure: np.ndarray | None) -> np.ndarray:
+    def moduli(self, shape: SheetShape, pressure: np.ndarray | None) -> np.ndarray:
         return shape.moduli if pressure is None else self.element.moduli(shape.strain, pressure)
 
-    def pressure(self, shape: Shape, by: np.ndarray) -> np.ndarray | None:
+    def pressure(self, shape: SheetShape, by: np.ndarray) -> np.ndarray | None:
         return None if self.element.law.quadratic else self.element.pressure(shape.strain, by)
 
     def stiffness(
-        self, shape: Shape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
+        self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
         stacks = self._stack(tangent(shape.operator, moduli, stress))
         if by_a:
             stacks += by_a * self._inertia
         return self.pattern.matrix(self._turn(stacks, shape.frame, np.arange(len(stacks)))).data
 
-    def fold(self, shape: Shape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
+    def fold(self, shape: SheetShape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
         return self._turn(self._of_columns(tangent), shape.frame, on)
 
-    def onto_rods(self, shape: Shape) -> np.ndarray:
+    def onto_rods(self, shape: SheetShape) -> np.ndarray:
         nodes = self.rods.bound.sites[:, : -DIRECTORS : self.columns.levels] // self.columns.levels
         directors = np.tile(np.eye(3 * DIRECTORS), (len(nodes), 1, 1))
         return block_diagonal([*(shape.frame[nodes[:, i]] for i in range(3)), directors])
@@ -260,7 +260,7 @@ class DiscreteSolid(DiscreteElements):
         ratio = self.element.volume_ratio(self.gather(q))
         return "a brick has turned inside out: use more elements" if np.any(ratio <= 0.0) else ""
 
-    def stretch(self, q: np.ndarray) -> float:
+    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
         return largest_stretch(*(self.on_surface(at)[:, :9] for at in (np.zeros_like(q), q)))
 
     def displacement(self, q: np.ndarray) -> np.ndarray:

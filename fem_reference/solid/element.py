@@ -135,11 +135,11 @@ class Bricks:
         """Λ [Pa], (1,) or (m, 1)."""
         return np.atleast_1d(self.law.bulk(self.material))
 
-    def strain(self, change: np.ndarray) -> np.ndarray:
+    def strain(self, change: np.ndarray, natural: np.ndarray | None = None) -> np.ndarray:
         """Sampled strains (m, k) of displacements (m, 27, 3), ½ (x H x − X H X) = ½ u H (2X + u), less the
         natural ones."""
         found = 0.5 * np.einsum("ekic,eic->ek", self.gradient(self.positions + change), change)
-        return found if self.natural is None else found - self.natural.now
+        return found if natural is None else found - natural
 
     def gradient(self, change: np.ndarray) -> np.ndarray:
         """B = ∂e/∂u (m, k, 27, 3) at displacements (m, 27, 3)."""

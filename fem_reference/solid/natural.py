@@ -10,7 +10,7 @@ import numpy as np
 from fem_reference.solid.element import SAMPLED, Bricks, reference, shape
 from fem_reference.solid.materials import PAIRS
 from fem_reference.surface.materials import pulled_back
-from fem_reference.surface.natural import covariant, green
+from fem_reference.surface.natural import green
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import of_sheet
 from sheetbench.scenes.meaning.natural_state import natural_at
@@ -18,29 +18,23 @@ from sheetbench.scenes.meaning.natural_state import natural_at
 
 def at_rest(plain: Bricks, scene: Scene) -> Bricks:
     """Return the bricks of a scene from those of the sheet as drawn."""
-    tables = [shape((np.array(sites).T + 1.0) / 2.0) for sites in SAMPLED]
-    sites = np.concatenate([value.T for value, _ in tables]) @ plain.positions  # (m, k, 3)
-    state = natural_at(scene, sites[..., :2])
-    if state is None:
+    sampled = np.concatenate([np.array(sites) for sites in SAMPLED]).T
+    sites = shape((sampled + 1.0) / 2.0)[0].T @ plain.positions  # (m, k, 3)
+    points = shape(reference().points)[0].T @ plain.positions[..., :2]
+    state, mid_surface = natural_at(scene, sites[..., :2]), natural_at(scene, points)
+    if state is None or mid_surface is None:
         return plain
-    sides = [
-        np.concatenate([slope[:, a].T for (_, slope), a in zip(tables, axes, strict=True)])
-        @ plain.positions[..., :2]
-        for axes in zip(*PAIRS, strict=True)
-    ]
-    twice = np.repeat([1.0 if a == b else 2.0 for a, b in PAIRS], [value.shape[1] for value, _ in tables])
     plies = of_sheet(scene).plies
     middle = -(plies[0].low + 0.5) * scene.sheet.thickness if plies else 0.0
     height = (sites[..., 2] - middle)[..., None, None]
+    centre = plain.positions.mean(axis=1, keepdims=True)  # about which no digits are lost
+    sides, plan = plain.gradient(-centre)[..., :2], (plain.positions - centre)[..., :2]
 
     def sample(strain: np.ndarray, curvature: np.ndarray) -> np.ndarray:
-        return twice * covariant(green(strain - height * curvature), *sides)
+        return np.einsum("ekic,ekcd,eid->ek", sides, green(strain - height * curvature), plan, optimize=True)
 
-    points = shape(reference().points)[0].T @ plain.positions[..., :2]
-    grown = natural_at(scene, points)
-    assert grown is not None
     stretch = np.tile(np.eye(3), (*points.shape[:2], 1, 1))
-    stretch[..., :2, :2] += grown.now[0]
+    stretch[..., :2, :2] += mid_surface.at()[0]
     on = pulled_back(np.linalg.inv(stretch), PAIRS) @ plain.to_strain
     volumes = np.linalg.det(stretch) * plain.volumes
     return replace(plain, to_strain=on, volumes=volumes, natural=state.made(sample))

@@ -21,7 +21,7 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.discrete.answer import answered, judge, sheet_of
-from fem_reference.discrete.static import Forces, State
+from fem_reference.discrete.static import Forces, StaticState
 from fem_reference.discrete.tracing import trace
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.materials import LAWS
@@ -111,7 +111,7 @@ def trace_on(sheet: DiscreteSolid) -> tuple[np.ndarray, Status, list[str]]:
     return path.state.q, *judge(sheet, path)
 
 
-def inspected(path: Path[State, Forces]) -> Fault | None:
+def inspected(path: Path[StaticState, Forces]) -> Fault | None:
     """Return why a step of the path is given up: a brick that has turned inside out."""
     found = sheet_of(path).inside_out(path.state.q)
     return Fault(Status.INVERTED, found) if found else None
@@ -184,17 +184,19 @@ def discretise(
     layers: int = 1,
     law: str = STRAIN_LAW,
     clamp: str = "shell-like",
+    moving: bool = False,
 ) -> DiscreteSolid:
-    """The discrete solid of a scene at rest, on a plan mesh of straight-sided quadrilaterals.
+    """The discrete solid of a scene, at rest unless it is moving, on a plan mesh of straight-sided
+    quadrilaterals.
 
     Supports and loads act on the mesh's boundaries of their edges' names; of the scene's sheet only the
     thickness is used. Raises BadInput for an unknown law or clamp, no layers or a folded element.
     """
-    columns, material = columns_of(mesh, scene, layers, law)
-    return DiscreteSolid(columns, scene, law, material, clamp)
+    columns, material = _columns_of(mesh, scene, layers, law)
+    return DiscreteSolid(columns, scene, law, material, clamp, moving)
 
 
-def columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Columns, Material | Constants]:
+def _columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Columns, Material | Constants]:
     """The columns of a scene's solid over a mesh, and what its bricks are made of."""
     require_upright(mesh)
     require_law(law, LAWS, scene.material)

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from skfem import MeshQuad
 
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.static import State, Static
+from fem_reference.discrete.static import Static, StaticState
 from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
@@ -93,7 +93,7 @@ def _plate_curvature(mesh: MeshQuad) -> float:
 
 def _residual(sheet: DiscreteElements, q: np.ndarray) -> np.ndarray:
     """Forces on the nodes' vectors."""
-    return Static(sheet).forces(State(q), 0.0).residual.reshape(-1, 3)
+    return Static(sheet).forces(StaticState(q), 0.0).residual.reshape(-1, 3)
 
 
 def _shell_stretch(mesh: MeshQuad) -> float:

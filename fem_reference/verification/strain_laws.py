@@ -22,7 +22,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fem_reference import solve
-from fem_reference.discrete.static import State, Static
+from fem_reference.discrete.static import Static, StaticState
 from fem_reference.pulled_strip import MATERIAL, SHEET, pulled
 from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
@@ -115,7 +115,7 @@ def _of_shell(material: Material, stretches: list[float]) -> float:
     sheet = shell.discretise(mesh_of(scene, (1, 1)), scene, law=str(material.law))
     nodes = sheet.plan.nodes
     moved = np.pad(nodes * (np.array(stretches[:2]) - 1.0), ((0, 0), (0, 1)))
-    residual = Static(sheet).forces(State(sheet.of_vectors(moved, np.zeros_like(moved))), 0.0).residual
+    residual = Static(sheet).forces(StaticState(sheet.of_vectors(moved, np.zeros_like(moved))), 0.0).residual
     pull = sheet.displacement(residual)[nodes[:, 0] == SHEET.length_x, 0]
     return float(pull.sum() / (SHEET.length_y * SHEET.thickness))
 
@@ -125,7 +125,7 @@ def _of_solid(material: Material, stretches: list[float]) -> float:
     sheet = solid.discretise(mesh_of(scene, (1, 1)), scene, law=str(material.law))
     positions = sheet.columns.positions
     displacement = positions * (np.array(stretches) - 1.0)
-    residual = Static(sheet).forces(State(displacement.ravel()), 0.0).residual.reshape(positions.shape)
+    residual = Static(sheet).forces(StaticState(displacement.ravel()), 0.0).residual.reshape(positions.shape)
     return float(residual[sheet.columns.edge("x1"), :, 0].sum() / (SHEET.length_y * SHEET.thickness))
 
 

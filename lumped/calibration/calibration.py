@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lumped.calibration import tables
-from lumped.sections import Section
+from lumped.sections import CellSection
 from lumped.spring_constants import Springs
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Table
@@ -41,7 +41,7 @@ class Calibration(Answer):
     masses: Distribution = "tributary"
     grading: Graded = 0.0
     half: tuple[bool, bool] = (False, False)
-    cells: Section | None = None
+    cells: CellSection | None = None
     of_material: bool = False
 
     @property

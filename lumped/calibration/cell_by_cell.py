@@ -13,7 +13,7 @@ import numpy as np
 
 from lumped.calibration.calibration import Calibration
 from lumped.grid_lines import Lines, grid_lines
-from lumped.sections import Section
+from lumped.sections import CellSection
 from lumped.spring_constants import Springs
 from sheetbench.scenes import Constants, Material, Sheet
 from sheetbench.scenes.objects.grading import Graded
@@ -27,12 +27,12 @@ class EachCell(NamedTuple):
     grid: Grid
     grading: Graded
     lines: tuple[Lines, Lines]
-    cells: Section | None
+    cells: CellSection | None
     sides: np.ndarray
-    section: Section
+    section: CellSection
     there: np.ndarray
 
-    def present(self) -> tuple[np.ndarray, Section]:
+    def present(self) -> tuple[np.ndarray, CellSection]:
         """Sides and section of the cells that there are, (m, 2) and (m, …)."""
         if self.there.all():
             count = self.there.size
@@ -54,7 +54,7 @@ class EachCell(NamedTuple):
 
 
 def each_cell(
-    sheet: Sheet, material: Material, grid: Grid, grading: Graded = 0.0, cells: Section | None = None
+    sheet: Sheet, material: Material, grid: Grid, grading: Graded = 0.0, cells: CellSection | None = None
 ) -> EachCell:
     """Return the cells. cells: the sections of all, where they differ. Raises BadInput for a grading outside
     0 to 1."""
@@ -63,7 +63,7 @@ def each_cell(
     shape = (1, 1) if even else (grid[1] - 1, grid[0] - 1)
     widths = [[across.mean] if even else across.widths for across in lines]
     if section is None:
-        plain = Section.of(Constants.of(sheet, material))
+        plain = CellSection.of(Constants.of(sheet, material))
         section = plain.each(
             lambda part: part[None, None] if even else np.broadcast_to(part, (*shape, *part.shape))
         )
@@ -73,9 +73,9 @@ def each_cell(
     return EachCell(grid, grading, lines, cells, sides, section, section.bending[..., 0, 0] > 0.0)
 
 
-def with_shares(found: Calibration, sheet: Sheet, material: Material, cells: Section) -> Calibration:
+def with_shares(found: Calibration, sheet: Sheet, material: Material, cells: CellSection) -> Calibration:
     """Return springs, alike in all cells, on a sheet with an outline or cutouts: a share for each cell.
     cells: the sections of all, which differ by a factor alone."""
-    whole = Section.of(Constants.of(sheet, material)).bending[0, 0]
+    whole = CellSection.of(Constants.of(sheet, material)).bending[0, 0]
     springs = Springs.read(found.springs).scaled(cells.bending[..., 0, 0] / whole)
     return replace(found, springs=springs.table(), cells=cells)

@@ -16,7 +16,7 @@ from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
 from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
-from lumped.sections import Section
+from lumped.sections import CellSection
 from lumped.spring_constants import Springs
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
@@ -45,7 +45,7 @@ def consistent(
     layer_distance: float | None = None,
     *,
     grading: Graded = 0.0,
-    cells: Cells | Section | None = None,
+    cells: Cells | CellSection | None = None,
     method: str = "consistent",
 ) -> Calibration:
     """The moduli of the sheet, and the twist of its edges: of second order in the size of the cells.

@@ -31,7 +31,7 @@ from lumped.calibration.closed_form import diagonals_for_waves, vertical
 from lumped.calibration.report import report
 from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
-from lumped.sections import Section
+from lumped.sections import CellSection
 from lumped.spring_constants import Springs, by_direction
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Sheet
@@ -47,7 +47,7 @@ def hyperelastic(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
-    cells: Section | None = None,
+    cells: CellSection | None = None,
     method: str = "hyperelastic",
 ) -> Calibration:
     """Layers of the material's law, of a material without one neo-Hooke's. cells: their sections, where they
@@ -92,7 +92,7 @@ def hyperelastic(
     return report(method, each, springs, notes, whole)
 
 
-def _require_one_thickness(cells: Section | None) -> None:
+def _require_one_thickness(cells: CellSection | None) -> None:
     """Raise BadInput where D/A differs: layers are one distance apart, and have no mid-surface to make up for
     it."""
     if cells is None:

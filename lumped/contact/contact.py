@@ -1,9 +1,9 @@
 """Contact of the sheet with one rigid obstacle: a penalty on the mid-surface, offset by half the thickness.
 
-With the distance φ from the obstacle (`lumped.contact.surface`), the gap g = φ − h/2 and the depth
-d = ⟨δ₀ − g⟩, δ₀ = 1e-9 h so that a sheet that lies on a plane is held by it, a point of area A has
+With its distance φ from the obstacle (`sheetbench.scenes.meaning.distances`) and depth d = ⟨h/2 + δ₀ − φ⟩,
+δ₀ = 1e-9 h so that a sheet that lies on a plane is held by it, a point of area A has
 
-    energy A ½ k d²,   pressure p = k d,   force A p n,   tangent A (k n nᵀ − p H) where p > 0.
+    energy A ψ(d),   force A p n,  p = ψ',   tangent A (p' n nᵀ − p ∇n);   ψ = ½ k d² at rest.
 
 k = E/h is the sheet's own give through its thickness, which neither model resolves: bending contact has p/E
 of 1e-6 to 1e-4, so that the depth p h/E is far below 1e-3 h. `share` scales k: statics begin with a soft one
@@ -15,10 +15,11 @@ l as far as it is across a cylinder's axis, and points are at their middles; at 
 them, of a sheet that rests on the obstacle, or nothing would hold it at the start. A point's force is shared
 as its position is made up, by the layers equally.
 
-In motion k is 0.1 ρ h ω_max² at most and the law is rounded over δ = 0.3 h, or every touch costs explicit
-steps energy: ψ = k d³/6δ up to δ, beyond k (d²/2 − δ d/2 + δ²/6). Conserving midpoint steps have the mean
-force −A (Δψ/Δφ) n̄ (Gonzalez, 1996). A dashpot p (1 + τ ḋ) ≥ 0 takes ∮ p τ ḋ² dt (Hunt and Crossley, 1975):
-m v dv = −p (1 + τ v) dd leads from a speed v to e v with, whatever the law p(d),
+In motion k is 0.05 ρ h ω_max² at most and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond
+k (d²/2 − δ d/2 + δ²/6). Velocity Verlet keeps H + h² (v·V''v/12 − F·M⁻¹F/24), so that its energy is off by
+up to h² k/(6 ρ h) of the kinetic energy of what touches, for a moment. Conserving midpoint steps have the
+mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996). A dashpot p (1 + τ ḋ) ≥ 0 takes ∮ p τ ḋ² dt (Hunt and Crossley,
+1975): m v dv = −p (1 + τ v) dd leads from a speed v to e v with, whatever the law p(d),
 
     v/τ − ln(1 + τ v)/τ² = −e v/τ − ln(1 − τ e v)/τ²,   e = 1 − 2 τ v/3 + O(τ²v²).
 
@@ -28,116 +29,137 @@ Friction is regularised Coulomb, −μ p A v_t/√(v_t² + v₀²), v₀ = 1 mm/
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.contact.law import rounded_law, side_rule
-from lumped.contact.surface import At, ObstacleSurface
+from lumped.items import LatticeItem
 from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, free_rigid_motions
+from sheetbench.scenes import Plane, Scene, free_rigid_motions
 from sheetbench.scenes.meaning.composition import constants_at
-from sheetbench.scenes.meaning.distances import obstacles_by_name
-from sheetbench.scenes.objects.obstacles import SLIP_SPEED, AnyObstacle
+from sheetbench.scenes.meaning.distances import (
+    Near,
+    mean_normal,
+    near,
+    obstacles_by_name,
+    projector,
+    share_of_way,
+)
+from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
 
-if TYPE_CHECKING:
-    from lumped.statics.problem import Problem
-
-TOUCH = 1e-9  # δ₀, of the thickness
-UNDECIDED = 1e-6  # of the thickness, or 1e-3 of the deepest: points as near as that to touching
 FINEST = 32  # points a side of a cell
-DEEPEST = 0.5  # of the radius: how deep no step may take a point
-MOVING = 0.13  # of ω_max², what contact in motion adds at most: 0.1 in the interior, where A ρ h is the mass
+MOVING = (
+    0.065  # of ω_max², what contact in motion adds at most: 0.05 in the interior, where A ρ h is the mass
+)
 ROUNDED = 0.3  # δ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
 
 
 class _Touching(NamedTuple):
-    """Where some patches of points are: which, their points, depth less than 0 included [m], A k [N/m], and
-    A ψ [J], A p [N] and A p' [N/m] (m, p)."""
+    """Where some patches of points are: which, beside the obstacle, their depth [m], < 0 of one that is
+    clear, and A ψ [J], A p [N] and A p' [N/m] (m, p)."""
 
     patches: np.ndarray
-    at: At
+    near: Near
     depth: np.ndarray
-    stiffness: np.ndarray
     energy: np.ndarray
     load: np.ndarray
     slope: np.ndarray
 
 
-class Contact:
+def side_rule(parts: int, ends: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return linear weights (n, 2) of a side's ends, and the weights (n,) of a rule, at the middles of its
+    parts or at their ends."""
+    at = np.arange(parts + 1) / parts if ends else (np.arange(parts) + 0.5) / parts
+    rule = np.full(len(at), 1.0 / parts)
+    if ends:
+        rule[[0, -1]] *= 0.5
+    return np.stack([1.0 - at, at], axis=1), rule
+
+
+class Contact(LatticeItem):
     """Contact of a lattice with an obstacle. Points are in patches of the same masses, cells or columns:
-    nodes (m, q), weights (p, q) of each of the p points of a patch."""
+    nodes (m, q), weights (p, q) of each of the p points of a patch. thin: whether the obstacle is thinner
+    than a cell. Raises BadInput for one too thin."""
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
-        self.name, self.obstacle, self.surface = name, obstacle, ObstacleSurface(obstacle)
-        self.moves, self.radius = obstacle.motion is not None, self.surface.radius
-        self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
+        self.name, self.obstacle, self.radius = name, obstacle, obstacle.radius
+        self.moves, self.moved = (
+            obstacle.motion is not None,
+            float(np.linalg.norm(obstacle.displacement(1.0))),
+        )
         lattice = assembly.lattice
         columns, areas = lattice.columns(), lattice.cell_areas
         # cells' sides as far as they are across the obstacle's axis
-        sides = [
-            line.widths.max() * np.linalg.norm(self.surface.projector[i])
-            for i, line in enumerate(lattice.lines)
-        ]
-        self.cell = float(max(sides))
-        per_side = [max(2, math.ceil(2.0 * side / self.surface.radius)) for side in sides]
+        across = np.linalg.norm(projector(obstacle), axis=1)
+        sides = [float(line.widths.max() * across[i]) for i, line in enumerate(lattice.lines)]
+        per_side = [max(2, math.ceil(2.0 * side / obstacle.radius)) for side in sides]
+        self.thin = obstacle.radius < max(sides)
         if max(per_side) > FINEST:
-            least = 2e3 * self.cell / FINEST
             raise BadInput(
-                f"{name}.radius = {self.surface.radius:g}: too thin for cells of {1e3 * self.cell:.3g} mm, "
-                f"which would step over it; {least:.3g} mm or more, or a finer grid"
+                f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * max(sides):.3g} mm, "
+                f"which would step over it; {2e3 * max(sides) / FINEST:.3g} mm or more, or a finer grid"
             )
-        if self.surface.flat:
+        if isinstance(obstacle, Plane):
             quarters = 0.25 * areas
             plan = sum(np.pad(quarters, ((1 - j, j), (1 - i, i))) for j in range(2) for i in range(2))
-            self.nodes, area = columns.reshape(-1, columns.shape[2]), np.asarray(plan).reshape(-1, 1)
-            self.weights = np.full((1, columns.shape[2]), 1.0 / columns.shape[2])
+            nodes, area, weights = (
+                columns.reshape(-1, columns.shape[2]),
+                np.ravel(plan)[:, None],
+                np.ones((1, 1)),
+            )
         else:
             corners = columns[:-1, :-1], columns[:-1, 1:], columns[1:, :-1], columns[1:, 1:]
-            self.nodes = np.concatenate(corners, axis=2).reshape(areas.size, -1)
+            nodes = np.concatenate(corners, axis=2).reshape(areas.size, -1)
             resting = bool(free_rigid_motions(scene))
             (along_x, width), (along_y, height) = (side_rule(parts, resting) for parts in per_side)
-            bilinear = np.einsum("ja,ib->jiab", along_y, along_x).reshape(-1, 4)
-            self.weights = np.repeat(bilinear, columns.shape[2], axis=1) / columns.shape[2]
+            weights = np.einsum("ja,ib->jiab", along_y, along_x).reshape(-1, 4)
             area = areas.reshape(-1, 1) * np.outer(height, width).ravel()
+        self.weights = np.repeat(weights, columns.shape[2], axis=1) / columns.shape[2]
         there = area[:, 0] > 0.0
-        self.nodes, self.area = np.ascontiguousarray(self.nodes[there]), area[there]
+        self.nodes, self.area = np.ascontiguousarray(nodes[there]), area[there]
         self._rest = lattice.positions[self.nodes]
-        plan_points = (self.weights @ self._rest)[..., :2].reshape(-1, 2)
-        constants = constants_at(scene, plan_points)
-        shape = self.area.shape
-        of_points = (constants.thickness, constants.stretching)
+        constants = constants_at(scene, (self.weights @ self._rest)[..., :2].reshape(-1, 2))
         self.thickness, stretching = (
-            np.broadcast_to(part, self.area.size).reshape(shape) for part in of_points
+            np.broadcast_to(part, self.area.size).reshape(self.area.shape)
+            for part in (constants.thickness, constants.stretching)
         )
         self.full = stretching / self.thickness**2
         self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
         self.slots = assembly.pattern.among(self.nodes)
         self._eps = assembly.rounding
 
-    def _origin(self, drive: Drive) -> np.ndarray:
-        return self.obstacle.position + self.obstacle.displacement(drive.load_factor, drive.time)
+    @property
+    def resists(self) -> bool:
+        return self.obstacle.friction > 0.0 or self.obstacle.contact_damping > 0.0
 
-    def _at(self, u: np.ndarray, drive: Drive, far: bool = False) -> _Touching:
+    def _law(
+        self, depth: np.ndarray, patches: np.ndarray | slice
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return A ψ [J], A p [N] and A p' [N/m] at depths (m, p) [m]."""
+        d, stiffness = np.maximum(depth, 0.0), self.share * self.full[patches] * self.area[patches]
+        over = max(self.rounded, 1e-100) * self.thickness[patches]
+        curved, sure = np.minimum(d, over), np.maximum(d - over, 0.0)
+        energy = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over)
+        return stiffness * energy, stiffness * (0.5 * curved**2 / over + sure), stiffness * curved / over
+
+    def _near(self, x: np.ndarray, drive: Drive) -> Near:
+        return near(self.obstacle, x, drive.load_factor, drive.time)
+
+    def _touching(self, u: np.ndarray, drive: Drive, everywhere: bool = False) -> _Touching:
         """Where patches are that may touch, or all."""
-        places = self._rest + u[self.nodes] - self._origin(drive)
-        which = np.arange(len(places))
-        if len(self.weights) > 1 and not far:  # no point is farther from the middle than the farthest mass
+        places, which = self._rest + u[self.nodes], np.arange(len(self.nodes))
+        if len(self.weights) > 1 and not everywhere:  # no point is farther from the middle than a mass
             middle = places.mean(axis=1, keepdims=True)
-            reach = np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1)) + 0.51 * self.thickness.max(
-                axis=1
-            )
-            which = np.flatnonzero(self.surface.at(middle[:, 0]).distance < reach)
-        at = self.surface.at(self.weights @ places[which])
-        thickness = self.thickness[which]
-        depth = (0.5 + TOUCH) * thickness - at.distance
-        stiffness = self.share * self.full[which] * self.area[which]
-        law = rounded_law(depth, self.rounded * thickness)
-        return _Touching(which, at, depth, stiffness, *(stiffness * part for part in law))
+            reach = np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1))
+            reach += 0.51 * self.thickness.max(axis=1)
+            which = np.flatnonzero(self._near(middle[:, 0], drive).distance < reach)
+        found = self._near(self.weights @ places[which], drive)
+        depth = (0.5 + TOUCH) * self.thickness[which] - found.distance
+        return _Touching(which, found, depth, *self._law(depth, which))
 
     def _spread(self, patches: np.ndarray, load: np.ndarray, out: np.ndarray) -> None:
         """Add forces of points (m, p, 3) [N] to those of the masses."""
@@ -152,186 +174,126 @@ class Contact:
         np.add.at(blocks, self.slots[patches[touched]], of_masses)
 
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
-        """Add the internal force (n, 3) [N] at u (n, 3) [m]; return the energy [J]."""
-        found = self._at(u, drive)
-        self._spread(found.patches, -found.load[..., None] * found.at.normal, force)
+        found = self._touching(u, drive)
+        self._spread(found.patches, -found.load[..., None] * found.near.normal, force)
         return float(found.energy.sum())
 
     def add_tangent(
         self, u: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray, definite: bool = False
     ) -> None:
-        """Add scale × the tangent; definite: without the obstacle's curvature."""
-        found = self._at(u, drive)
-        normal = found.at.normal
-        points = (scale * found.slope)[..., None, None] * normal[..., :, None] * normal[..., None, :]
+        found = self._touching(u, drive)
+        points = (scale * found.slope)[..., None, None] * found.near.outer
         if not definite:
-            points = points - (scale * found.load)[..., None, None] * self.surface.curvature(found.at)
+            points -= (scale * found.load)[..., None, None] * found.near.curvature
         self._spread_blocks(found.patches, points, blocks)
 
-    def _secant(
+    def _mean(
         self, start: np.ndarray, end: np.ndarray, drives: tuple[Drive, Drive]
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return A × the mean pressure −Δψ/Δφ (m, p) [N], A × its derivative by the depth at the end [N/m],
-        and n̄ (m, p, 3)."""
-        before, after = (self._at(u, drive, True) for u, drive in zip((start, end), drives, strict=True))
+    ) -> tuple[_Touching, np.ndarray]:
+        """Return where all are at the end, with A × the mean pressure −Δψ/Δφ (m, p) [N] in place of that
+        there, and its derivative by the depth at the end [N/m], and n̄ (m, p, 3)."""
+        before, after = (
+            self._touching(u, drive, True) for u, drive in zip((start, end), drives, strict=True)
+        )
         sunk = after.depth - before.depth
         far = np.abs(sunk) > SAME_DEPTH * self.thickness
         over = np.where(far, sunk, 1.0)
-        _, load, slope = (
-            after.stiffness * part
-            for part in rounded_law(0.5 * (before.depth + after.depth), self.rounded * self.thickness)
-        )
-        mean = np.where(far, (after.energy - before.energy) / over, load)
-        slope = np.where(far, (after.load - mean) / over, 0.5 * slope)
-        return mean, slope, self.surface.mean_normal(before.at, after.at)
+        _, load, slope = self._law(0.5 * (before.depth + after.depth), slice(None))
+        load = np.where(far, (after.energy - before.energy) / over, load)
+        slope = np.where(far, (after.load - load) / over, 0.5 * slope)
+        return after._replace(load=load, slope=slope), mean_normal(self.obstacle, before.near, after.near)
 
     def add_average_force(
         self, start: np.ndarray, end: np.ndarray, drives: tuple[Drive, Drive], force: np.ndarray
     ) -> None:
-        """Add the force whose work from start to end is the energy stored."""
-        load, _, normal = self._secant(start, end, drives)
-        self._spread(np.arange(len(self.nodes)), -load[..., None] * normal, force)
+        found, normal = self._mean(start, end, drives)
+        self._spread(found.patches, -found.load[..., None] * normal, force)
 
     def add_average_tangent(
         self, start: np.ndarray, end: np.ndarray, drives: tuple[Drive, Drive], blocks: np.ndarray
     ) -> None:
-        """Add its derivative by `end`, the symmetric part of it."""
-        load, slope, normal = self._secant(start, end, drives)
-        points = slope[..., None, None] * normal[..., :, None] * normal[..., None, :]
-        at = self._at(end, drives[1], True).at
-        points = points - (0.5 * load)[..., None, None] * self.surface.curvature(at)
-        self._spread_blocks(np.arange(len(self.nodes)), points, blocks)
-
-    @property
-    def resists(self) -> bool:
-        """Whether it takes energy."""
-        return self.obstacle.friction > 0.0 or self.obstacle.contact_damping > 0.0
+        found, normal = self._mean(start, end, drives)
+        points = found.slope[..., None, None] * normal[..., :, None] * normal[..., None, :]
+        points -= (0.5 * found.load)[..., None, None] * found.near.curvature
+        self._spread_blocks(found.patches, points, blocks)
 
     def _sliding(
         self, u: np.ndarray, v: np.ndarray, drive: Drive
     ) -> tuple[_Touching, np.ndarray, np.ndarray, np.ndarray]:
         """Where points are, how fast they leave the obstacle (m, p), slide (m, p, 3), and √(v_t² + v₀²)
         [m/s]."""
-        found = self._at(u, drive)
-        speed = self.weights @ (v[self.nodes[found.patches]] - self._velocity(drive.time))
-        leaving = (speed * found.at.normal).sum(axis=-1)
-        sliding = speed - leaving[..., None] * found.at.normal
+        found = self._touching(u, drive)
+        speed = self.weights @ (v[self.nodes[found.patches]] - self.obstacle.velocity(drive.time))
+        leaving = (speed * found.near.normal).sum(axis=-1)
+        sliding = speed - leaving[..., None] * found.near.normal
         return found, leaving, sliding, np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)
 
-    def _velocity(self, time: float | None) -> np.ndarray:
-        if self.obstacle.motion is None or time is None:
-            return np.zeros(3)
-        return np.asarray(self.obstacle.motion.course.slope(time))
-
     def add_resistance(self, u: np.ndarray, v: np.ndarray, drive: Drive, force: np.ndarray) -> float:
-        """Add dashpot and friction at velocity v (n, 3) [m/s]; return the power taken [W]."""
         if not self.resists:
             return 0.0
         found, leaving, sliding, size = self._sliding(u, v, drive)
-        load = found.load
-        damped = load * np.minimum(self.obstacle.contact_damping * leaving, 1.0)
-        rubbed = self.obstacle.friction * load / size
-        resisting = damped[..., None] * found.at.normal + rubbed[..., None] * sliding
-        self._spread(found.patches, resisting, force)
+        damped = found.load * np.minimum(self.obstacle.contact_damping * leaving, 1.0)
+        rubbed = self.obstacle.friction * found.load / size
+        self._spread(
+            found.patches, damped[..., None] * found.near.normal + rubbed[..., None] * sliding, force
+        )
         return float((damped * leaving).sum() + (rubbed * (size**2 - SLIP_SPEED**2)).sum())
 
     def add_resistance_tangent(
         self, u: np.ndarray, v: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray
     ) -> None:
-        """Add scale × its derivative by the velocity."""
         if not self.resists:
             return
         found, leaving, sliding, size = self._sliding(u, v, drive)
-        tau, load = self.obstacle.contact_damping, scale * found.load
-        outer = found.at.normal[..., :, None] * found.at.normal[..., None, :]
-        damped = tau * load * (tau * leaving < 1.0)
-        rubbed = self.obstacle.friction * load / size
-        unit = sliding / size[..., None]
-        plane = np.eye(3) - outer - unit[..., :, None] * unit[..., None, :]
-        points = damped[..., None, None] * outer + rubbed[..., None, None] * plane
+        tau, load, unit = self.obstacle.contact_damping, scale * found.load, sliding / size[..., None]
+        damped, rubbed = tau * load * (tau * leaving < 1.0), self.obstacle.friction * load / size
+        plane = np.eye(3) - found.near.outer - unit[..., :, None] * unit[..., None, :]
+        points = damped[..., None, None] * found.near.outer + rubbed[..., None, None] * plane
         self._spread_blocks(found.patches, points, blocks)
 
-    def exerted(self, u: np.ndarray, drive: Drive, v: np.ndarray | None = None) -> np.ndarray:
-        """Return its forces on the masses (n, 3) [N]."""
-        force = np.zeros_like(u)
-        self.add_force(u, drive, force)
-        if v is not None:
-            self.add_resistance(u, v, drive, force)
-        return -force
-
     def work(self, force: np.ndarray, start: float, end: float) -> float:
-        """Return the work [J] of a force (3,) [N] of the obstacle on the sheet between two times [s]."""
         moved = self.obstacle.displacement(1.0, end) - self.obstacle.displacement(1.0, start)
         return float(force @ moved)
 
     def power(self, force: np.ndarray, time: float) -> float:
-        """Return its power [W] at a time [s]."""
-        return float(force @ self._velocity(time))
+        return float(force @ self.obstacle.velocity(time))
 
     def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:
-        """Return the share of a move (n, 3) [m] that takes no point deeper than half a radius, nor through;
-        since: where the obstacle is as it begins."""
-        if self.surface.flat:
-            return 1.0
-        x = self._at(u, since or drive, True).at.across
-        moved = self._origin(drive) - self._origin(since or drive)
-        v = (self.weights @ move[self.nodes] - moved) @ self.surface.projector
-        core = DEEPEST * self.surface.radius + 0.5 * self.thickness
-        a, b, c = (v * v).sum(axis=-1), (x * v).sum(axis=-1), (x * x).sum(axis=-1) - core**2
-        hit = (b * b > a * c) & (b < 0.0) & (c > 0.0)
-        if not hit.any():
-            return 1.0
-        first = (-b[hit] - np.sqrt((b * b - a * c)[hit])) / a[hit]
-        return float(min(1.0, 0.99 * first.min()))
-
-    def _over_mass(self, mass: np.ndarray) -> float:
-        """Return k A/m at its largest [1/s²], of the whole stiffness."""
-        stiffness = np.zeros(self._masses)
-        np.add.at(stiffness, self.nodes, (self.area * self.full) @ self.weights)
-        return float((stiffness / mass).max())
+        """Return the share of a move that takes no point deeper than half a radius, nor through."""
+        start, end = (self._touching(u, since or drive, True), self._touching(u + move, drive, True))
+        return share_of_way(self.obstacle, start.near, end.near, 0.5 * self.thickness)
 
     def stiffest(self, mass: np.ndarray) -> float:
-        """Return by how much contact may raise ω² [1/s²]; mass: of the lumped masses (n,) [kg]."""
-        return self.share * self._over_mass(mass)
+        stiffness = np.zeros(self._masses)
+        np.add.at(stiffness, self.nodes, (self.area * self.share * self.full) @ self.weights)
+        return float((stiffness / mass).max())
 
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
-        """Take 0.1 ρ h ω² for k where it is less, so that steps need be no shorter than without."""
         self.rounded = ROUNDED
-        self.share = min(1.0, MOVING / self._over_mass(mass) * squared)
+        self.share = min(1.0, MOVING * squared / self.stiffest(mass) * self.share)
 
     def rounding(self) -> float:
-        """Return what rounding of positions leaves of its forces, as a norm [N]."""
-        return self._eps * float(
-            np.linalg.norm(self.area * self.share * self.full) * np.abs(self._rest).max()
-        )
+        largest = float(np.abs(self._rest).max())
+        return self._eps * largest * float(np.linalg.norm(self.area * self.share * self.full))
 
     def report(self, u: np.ndarray, drive: Drive) -> ContactState:
-        """Return the area in contact, the deepest penetration over the thickness, points touching and
-        undecided."""
-        found = self._at(u, drive)
-        over = found.depth / self.thickness[found.patches] - TOUCH
-        touching, area = found.depth > 0.0, self.area[found.patches]
-        near = np.minimum(UNDECIDED, 1e-3 * over.max(initial=0.0))
-        return ContactState(
-            area=float(area[touching].sum()),
-            penetration=float(over.max(initial=0.0)),
-            points=int(touching.sum()),
-            undecided=int((np.abs(over) <= near).sum()),
-        )
+        found = self._touching(u, drive)
+        return ContactState.of(found.depth / self.thickness[found.patches], self.area[found.patches])
+
+    def clearance(self, u: np.ndarray) -> np.ndarray:
+        """Return the way (3,) [m] that takes the nearest point to a depth of a tenth of the thickness."""
+        found = self._touching(u, Drive(), True)
+        least = np.unravel_index(found.depth.argmax(), found.depth.shape)
+        way: np.ndarray = (found.depth - 0.1 * self.thickness)[least] * found.near.normal[least]
+        return way
 
     def pressure(self, u: np.ndarray, drive: Drive) -> np.ndarray:
         """Return the pressure [Pa] of every mass's column (n,), of forces by tributary areas."""
-        found = self._at(u, drive)
+        found = self._touching(u, drive)
         load, area = np.zeros(self._masses), np.zeros(self._masses)
         np.add.at(load, self.nodes[found.patches], found.load @ self.weights)
         np.add.at(area, self.nodes, self.area @ self.weights)
         return np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
-
-
-def contact_pressure(problem: Problem, u: np.ndarray, drive: Drive) -> dict[str, np.ndarray]:
-    """Return the field "contact_pressure" (n,) [Pa] of all obstacles together, none where there are none."""
-    each = [item.pressure(u, drive) for item in problem.items if isinstance(item, Contact)]
-    return {"contact_pressure": np.sum(each, axis=0)} if each else {}
 
 
 def contacts(scene: Scene, assembly: Assembly) -> tuple[Contact, ...]:

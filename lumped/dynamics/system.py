@@ -149,12 +149,11 @@ class System:
 
     def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Elastic energy and internal force, actuators with their multipliers and branches included."""
-        self.assembly.grow(time=time)
         force = np.zeros_like(u)
         if self.maxwell is not None:
             energy = self.maxwell.add_force(u, force)
         elif self._elastic_separate:
-            energy, force = self.assembly.force(u)
+            energy, force = self.assembly.at(time=time).force(u)
         else:
             energy, _ = add_forces(u, u, True, False, self.packing, self.scratch, force)
         if self.coupling is not None:
@@ -197,8 +196,7 @@ class System:
     def average_elastic(self, start: State, end: np.ndarray, time: float) -> np.ndarray:
         """Internal force whose work from `start` to the displacement `end` is the energy stored or, by
         branches, taken; commands and natural state as at `time`."""
-        self.assembly.grow(time=time)
-        force = self.assembly.average_force(start.u, end)
+        force = self.assembly.at(time=time).average_force(start.u, end)
         if self.maxwell is not None and start.memory is not None:
             self.maxwell.add_mean_force(start.memory, 0.5 * (start.u + end), end, force)
         if self.coupling is not None:
@@ -223,7 +221,6 @@ class System:
     ) -> np.ndarray:
         """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once. ends: of a
         step of which the items have the average force's derivative by its end."""
-        self.assembly.grow(time=time)
         own = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
         both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
         share, stresses = own / both if both else 0.0, None
@@ -231,7 +228,7 @@ class System:
             each = self.maxwell.stresses(u, share, stiffness / both)
             stresses = self.assembly.all_families.arranged(each)
         inertia = mass * self.lattice_mass + damping * self.damping.rate
-        blocks = self.assembly.tangent(u, stresses, share, both, inertia)
+        blocks = self.assembly.at(time=time).tangent(u, stresses, share, both, inertia)
         self.problem.loads.add_tangent(u, stiffness, blocks, time)
         if self.shared_mass:
             blocks[self._bodies[0]] += mass * self._bodies[1]
@@ -271,7 +268,6 @@ class System:
         branches took in it."""
         if self.maxwell is None or before.memory is None:
             return after, 0.0
-        self.assembly.grow(time=after.time)
         memory = self.maxwell.step(before.memory, after.time - before.time).after(after.u)
         return replace(after, memory=memory), self.maxwell.branches.dissipated(before.memory, memory)
 
@@ -316,7 +312,6 @@ class System:
         """Energy [J] below which all is rounding: of a natural state, in whose shape there is none."""
         if self.natural is None:
             return 0.0
-        self.assembly.grow()
         return ROUNDED * self.assembly.force(np.zeros((self.assembly.pattern.size, 3)))[0]
 
 

@@ -71,7 +71,7 @@ def natural_work(system: System, u: np.ndarray, then: float, now: float) -> floa
     """Return the work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""
     if (state := system.growing) is None:
         return 0.0
-    return _gain(system, state, u, state.factors(then), state.factors(now))
+    return _gain(state, u, state.factors(then), state.factors(now))
 
 
 def natural_power(system: System, u: np.ndarray, time: float, before: bool = False) -> float:
@@ -80,13 +80,10 @@ def natural_power(system: System, u: np.ndarray, time: float, before: bool = Fal
     if (state := system.growing) is None or not (rate := state.rates(time, before)).any():
         return 0.0
     at, step = state.factors(time), NATURAL_STEP / np.abs(rate).max()
-    return _gain(system, state, u, at - step * rate, at + step * rate) / (2.0 * step)
+    return _gain(state, u, at - step * rate, at + step * rate) / (2.0 * step)
 
 
-def _gain(system: System, state: NaturalState, u: np.ndarray, *factors: np.ndarray) -> float:
+def _gain(state: NaturalState, u: np.ndarray, *factors: np.ndarray) -> float:
     """Return how much more energy [J] the springs have at the second factors of their state."""
-    energies = []
-    for each in factors:
-        state.set(each)
-        energies.append(system.assembly.force(u)[0])
-    return float(energies[1] - energies[0])
+    before, after = (state.of(each).force(u)[0] for each in factors)
+    return float(after - before)

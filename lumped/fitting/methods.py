@@ -8,7 +8,7 @@ from typing import Any
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.methods import MAKERS, described
 from lumped.fitting.fits import Target, fit_modal, fit_static
-from lumped.sections import Section
+from lumped.sections import CellSection
 from sheetbench import choices
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.threads import one_blas_thread
@@ -30,7 +30,7 @@ def calibrate(
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
     grading: Graded = 0.0,
-    cells: Cells | Section | None = None,
+    cells: Cells | CellSection | None = None,
 ) -> Calibration:
     """Springs of a grid for a sheet of this material, by a named method.
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.calibration import Calibration
-from lumped.contact import contact_pressure
+from lumped.contact import Contact
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
 from lumped.statics.balance import balance
@@ -61,6 +61,8 @@ def solution(
     touching = {item.name: item.exerted(u, drive) for item in problem.items}
     reactions |= {name: force.sum(axis=0) for name, force in touching.items()}
     contacts = {item.name: item.report(u, drive) for item in problem.items}
+    pressures = [item.pressure(u, drive) for item in problem.items if isinstance(item, Contact)]
+    pressed = {"contact_pressure": np.sum(pressures, axis=0)} if pressures else {}
     nx, ny, layers = lattice.grid
     settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
     settings |= {"layer_distance": calibration.layer_distance, **as_settings(calibration.grading)}
@@ -77,15 +79,7 @@ def solution(
         reactions=reactions,
         energies=energies,
         mesh=LatticeMesh(
-            partial(
-                field_mesh,
-                assembly,
-                u,
-                on_masses,
-                state.load_factor,
-                linear,
-                contact_pressure(problem, u, drive),
-            )
+            partial(field_mesh, assembly, u, on_masses, state.load_factor, linear, pressed),
         ),
         history=tuple(path.history),
         load_factor=state.load_factor,

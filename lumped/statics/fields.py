@@ -46,14 +46,13 @@ def field_mesh(
     reactions: np.ndarray,
     share: float = 1.0,
     linear: bool = False,
-    contact: Mapping[str, np.ndarray] = NO_FIELDS,
+    more: Mapping[str, np.ndarray] = NO_FIELDS,
 ) -> FieldMesh:
     """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N];
     rows of actuators after those of the masses are left out. share: of a natural state; linear: of a solution
-    for small displacements, of which the springs have a small part; contact: the pressure of obstacles (n,)
-    [Pa] as "contact_pressure", where there are any."""
+    for small displacements, of which the springs have a small part; more: fields of masses (n,)."""
     part = SMALL if linear else 1.0
-    assembly.grow(part * share)
+    assembly = assembly.at(part * share)
     small, links, lattice = part * u, assembly.links, assembly.lattice
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
     quads, masses = len(layer_cells), lattice.mass_count
@@ -78,7 +77,7 @@ def field_mesh(
             "displacement": u[:masses],
             "reaction": reactions[:masses],
             "mass_share": lattice.share,
-            **contact,
+            **more,
         },
         cell_data={
             "tension": [links.stiffness * elongation, np.zeros(quads)],

@@ -14,7 +14,7 @@ from numba import njit
 
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
-from lumped.items import Item
+from lumped.items import LatticeItem
 from lumped.loads import Loads
 from lumped.springs.all_families import Stresses
 from lumped.supports import Constraints
@@ -56,7 +56,7 @@ class Problem:
     constraints: Constraints
     loads: Loads
     size: float
-    items: tuple[Item, ...] = ()
+    items: tuple[LatticeItem, ...] = ()
 
     def __post_init__(self) -> None:
         self.conservative = self.assembly.conservative and self.loads.conservative
@@ -95,19 +95,17 @@ class Problem:
         """Norm of the forces [N] of the natural state on the flat sheet, often the only ones."""
         if self.assembly.natural is None:
             return 0.0
-        self.assembly.grow()
         return float(np.linalg.norm(self.assembly.force(np.zeros_like(self.loads.dead))[1]))
 
     def tangent(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> np.ndarray:
         """Blocks of the tangent of the residual, loads included."""
-        self.assembly.grow(load_factor)
-        blocks = self.assembly.tangent(u, stresses, extrapolated=stresses is not None)
+        blocks = self.assembly.at(load_factor).tangent(u, stresses, extrapolated=stresses is not None)
         return self._with_loads(blocks, u, load_factor)
 
     def nonnegative_tangent(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """Return blocks of the tangent less what could make that of the springs indefinite."""
-        self.assembly.grow(load_factor)
-        return self._with_loads(self.assembly.all_families.nonnegative_tangent(u), u, load_factor, True)
+        springs = self.assembly.at(load_factor).all_families
+        return self._with_loads(springs.nonnegative_tangent(u), u, load_factor, True)
 
     def _with_loads(
         self, blocks: np.ndarray, u: np.ndarray, load_factor: float, definite: bool = False
@@ -134,8 +132,7 @@ class Problem:
 
     def internal(self, u: np.ndarray, load_factor: float) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and internal force, actuators included."""
-        self.assembly.grow(load_factor)
-        energy, force = self.assembly.force(u)
+        energy, force = self.assembly.at(load_factor).force(u)
         if self.assembly.coupling is not None:
             energy += self.assembly.coupling.add_force(u, Drive(load_factor), force)
         for item in self.items:
@@ -145,8 +142,7 @@ class Problem:
     def energies(self, u: np.ndarray, load_factor: float) -> dict[str, float]:
         """Return the energy [J] of the springs under each name in the spring set, and of the items
         together."""
-        self.assembly.grow(load_factor)
-        found, force = self.assembly.energies(u), np.zeros_like(u)
+        found, force = self.assembly.at(load_factor).energies(u), np.zeros_like(u)
         stored = [item.add_force(u, Drive(load_factor), force) for item in self.items]
         return found | ({"contact": sum(stored)} if stored else {})
 
@@ -174,8 +170,7 @@ class Problem:
 
     def advance(self, u: np.ndarray, step: np.ndarray, load_factor: float) -> LatticeState:
         """Return where a step (n, 3) [m] from u leads, the residual and the predicted stresses there."""
-        self.assembly.grow(load_factor)
-        after, length, internal, stresses = self.assembly.advance(u, step, True)
+        after, length, internal, stresses = self.assembly.at(load_factor).advance(u, step, True)
         if self.assembly.coupling is not None:
             self.assembly.coupling.add_force(after, Drive(load_factor), internal)
         for item in self.items:

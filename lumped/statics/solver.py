@@ -170,8 +170,7 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
     except SingularMatrixError as error:
         return Outcome(Status.SINGULAR, path, (f"the flat sheet's tangent is singular: {error}",))
     path.state = LatticeState(u, 1.0)
-    links = problem.assembly.links
-    problem.assembly.grow(SMALL)
+    links = problem.assembly.at(SMALL).links
     strain = links.largest_strain(SMALL * u) / SMALL
     if outside := outside_model(scene, strain, STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, path, (outside,))
@@ -253,15 +252,15 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
         if problem.assembly.precision == "single" and (lost := _rounded(problem, path)):
             notes.append(lost)
         return Outcome(status, path, tuple(notes))
-    links = problem.assembly.links
-    problem.assembly.grow(state.load_factor)
+    assembly = problem.assembly.at(state.load_factor)
+    links = assembly.links
     elongations = links.elongations(state.u)
     outside = outside_model(scene, links.largest_strain(state.u), STRETCH)
     if outside and not problem.assembly.any_strain:
         status = Status.STRAIN_OUTSIDE_MODEL
         notes.insert(0, outside)
     energies = problem.energies(state.u, state.load_factor)
-    doubts = validity.layers(scene, problem.assembly, state.u, elongations, sum(energies.values()))
+    doubts = validity.layers(scene, assembly, state.u, elongations, sum(energies.values()))
     rounded = validity.digits(problem, state, path.factor)
     if rounded is not None and status is Status.CONVERGED:
         status = rounded.status

@@ -133,13 +133,12 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         return (end.length if known else float(np.abs(end.u - start.u).max())) / self.problem.size
 
     def has_meaning(self, state: LatticeState) -> bool:
-        links = self.problem.assembly.links
-        self.problem.assembly.grow(state.load_factor)
+        links = self.problem.assembly.at(state.load_factor).links
         return not outside_model(self.scene, links.largest_strain(state.u), STRETCH)
 
     def inspect(self, path: Path[LatticeState, LatticeForces]) -> Fault | None:
         """Return why the path's last equilibrium means nothing, if it does."""
-        return broken(self.problem.assembly, path.state.u[None])[1]
+        return broken(self.problem.assembly.at(path.state.load_factor), path.state.u[None])[1]
 
     def penalties(self) -> Penalties[LatticeState]:
         """Return the penalties of the problem's contacts."""
@@ -158,7 +157,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
             float(np.abs(problem.external(np.zeros_like(problem.loads.dead), 1.0)).sum()),
             max(float(np.abs(placed).max()), problem.size * turn),
             problem.size,
-            any(one.radius < one.cell for one in contacts),
+            any(one.thin for one in contacts),
             passes,
             lambda state: Start(LatticeState(state.u, 1.0), 1.0, 1.0, 0.0),
         )

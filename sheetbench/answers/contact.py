@@ -6,14 +6,17 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
+
 from sheetbench.answers.table import NUMBER
 from sheetbench.scenes.meaning.distances import obstacles_by_name
-from sheetbench.scenes.objects.obstacles import SLIP_SPEED
+from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
 
 DEEP = 1e-3  # penetration over the thickness from which on a note says so
+UNDECIDED = 1e-6  # of the thickness, or 1e-3 of the deepest: points as near as that to touching
 
 
 @dataclass(frozen=True)
@@ -26,6 +29,15 @@ class ContactState:
     points: int
     undecided: int
 
+    @classmethod
+    def of(cls, depth: np.ndarray, area: np.ndarray) -> ContactState:
+        """Return that of points with these depths over the thickness, δ₀ included, < 0 of one that is clear,
+        and areas."""
+        over, touching = depth - TOUCH, depth > 0.0
+        deepest = float(over.max(initial=0.0))
+        undecided = int((np.abs(over) <= min(UNDECIDED, 1e-3 * deepest)).sum())
+        return cls(float(area[touching].sum()), deepest, int(touching.sum()), undecided)
+
     def document(self) -> dict[str, Any]:
         """Return the JSON object."""
         return asdict(self)
@@ -33,24 +45,14 @@ class ContactState:
 
 def friction_notes(scene: Scene) -> list[str]:
     """Return what a model of friction cannot do, a clause an obstacle that rubs."""
-    return [
-        f"{name}: friction is regular below {1e3 * SLIP_SPEED:g} mm/s, so that what should stick creeps"
-        for name, obstacle in obstacles_by_name(scene).items()
-        if obstacle.friction > 0.0
-    ]
+    creeps = f"friction is regular below {1e3 * SLIP_SPEED:g} mm/s, so that what should stick creeps"
+    return [f"{name}: {creeps}" for name, one in obstacles_by_name(scene).items() if one.friction > 0.0]
 
 
 def contact_notes(contacts: Mapping[str, ContactState]) -> list[str]:
     """Return what is doubtful of contacts, a clause each."""
-    notes = []
-    for name, contact in contacts.items():
-        if contact.penetration > DEEP:
-            notes.append(
-                f"{name}: the sheet is pressed in by {contact.penetration:.2g} of its thickness, where a "
-                "point's force is spread by the grid alone"
-            )
-        if contact.undecided:
-            notes.append(
-                f"{name}: {contact.undecided} points are about to touch or to leave: stability undecided"
-            )
-    return notes
+    deep = "the sheet is pressed in by {:.2g} of its thickness, where a point's force is spread by the grid"
+    near = "{} points are about to touch or to leave: stability undecided"
+    found = [(name, one.penetration > DEEP, deep.format(one.penetration)) for name, one in contacts.items()]
+    found += [(name, one.undecided > 0, near.format(one.undecided)) for name, one in contacts.items()]
+    return [f"{name}: {words}" for name, there, words in found if there]

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import pandas
 
 
-class Unit(NamedTuple):
+class TableUnit(NamedTuple):
     """A unit in SI, as people read it, and the factor between. Called it is a column of numbers in it; as a
     cell it is the unit of its row's numbers."""
 
@@ -40,16 +40,16 @@ class Unit(NamedTuple):
         return Column(name, self.si, self.shown, self.scale, form, **options)
 
 
-NUMBER, PERCENT = Unit("", ""), Unit("", "%", 100.0)
-HERTZ, NEWTONS = Unit("Hz", "Hz"), Unit("N", "N")
-MILLIMETRES, MILLISECONDS, SECONDS = Unit("m", "mm", 1e3), Unit("s", "ms", 1e3), Unit("s", "s")
-MEGAPASCALS = Unit("Pa", "MPa", 1e-6)
+NUMBER, PERCENT = TableUnit("", ""), TableUnit("", "%", 100.0)
+HERTZ, NEWTONS = TableUnit("Hz", "Hz"), TableUnit("N", "N")
+MILLIMETRES, MILLISECONDS, SECONDS = TableUnit("m", "mm", 1e3), TableUnit("s", "ms", 1e3), TableUnit("s", "s")
+MEGAPASCALS = TableUnit("Pa", "MPa", 1e-6)
 _SHOWN = {unit.si: unit for unit in (MEGAPASCALS, MILLIMETRES, MILLISECONDS)}
 
 
-def unit(si: str) -> Unit:
+def unit(si: str) -> TableUnit:
     """Return a unit as a cell, shown as everywhere else: pressures in MPa, lengths in mm, times in ms."""
-    return _SHOWN.get(si, Unit(si, si))
+    return _SHOWN.get(si, TableUnit(si, si))
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class Column:
         between."""
         if isinstance(value, bool | np.bool_):
             return self.words[not value]
-        if isinstance(value, list | tuple) and not isinstance(value, Unit):
+        if isinstance(value, list | tuple) and not isinstance(value, TableUnit):
             whole = ("×" if all(isinstance(part, int) for part in value) else ", ").join(map(str, value))
             return whole or self.none
         return value.item() if isinstance(value, np.generic) else value
@@ -108,7 +108,7 @@ class Column:
         """
         if value is None or value != value:
             return "–"
-        if isinstance(value, Unit):
+        if isinstance(value, TableUnit):
             return value.shown
         if not self.numeric:
             return str(value)
@@ -213,7 +213,7 @@ class Table:
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(csv_cell(column.header(shown=False)) for column in self.columns)
         for row in self.rows:
-            writer.writerow(csv_cell(value.si if isinstance(value, Unit) else value) for value in row)
+            writer.writerow(csv_cell(value.si if isinstance(value, TableUnit) else value) for value in row)
         return text.getvalue()
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -223,7 +223,7 @@ class Table:
             import pandas
         except ModuleNotFoundError:
             raise BadInput("to_pandas needs pandas: pip install pandas") from None
-        rows = [[value.si if isinstance(value, Unit) else value for value in row] for row in self.rows]
+        rows = [[value.si if isinstance(value, TableUnit) else value for value in row] for row in self.rows]
         return pandas.DataFrame(rows, columns=[column.header(shown=False) for column in self.columns])
 
     def __repr__(self) -> str:
@@ -251,7 +251,7 @@ class Table:
     def words(self) -> dict[str, Any]:
         """Return what the CSV file does not say, ready for JSON; where there is none, the rows too."""
         known = {"name": self.name, "caption": self.caption, "text": self.text, "grouped": self.grouped}
-        units = [any(isinstance(row[i], Unit) for row in self.rows) for i in range(len(self.columns))]
+        units = [any(isinstance(row[i], TableUnit) for row in self.rows) for i in range(len(self.columns))]
         known |= {"columns": [{**asdict(c), "units": u} for c, u in zip(self.columns, units, strict=True)]}
         return known if self.name else {**known, "rows": [list(row) for row in self.rows]}
 
@@ -286,6 +286,6 @@ class Table:
         """Return the rows as people read them."""
         shown = []
         for row in self.rows:
-            scale = next((value.scale for value in row if isinstance(value, Unit)), 1.0)
+            scale = next((value.scale for value in row if isinstance(value, TableUnit)), 1.0)
             shown.append([c.show(value, scale) for c, value in zip(self.columns, row, strict=True)])
         return shown

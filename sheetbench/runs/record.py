@@ -6,7 +6,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, Generic
+from typing import Any, Generic, TypedDict, cast
 
 import numpy as np
 
@@ -39,19 +39,34 @@ class Recipe(Generic[AnyState]):
     notes: tuple[str, ...] = ()
 
 
-def record(
-    recipe: Recipe[AnyState],
-    frames: int,
-    store: Path | None,
-    progress: Callable[[float], None] | None,
-    began: float,
-) -> History:
-    """Run a motion, in memory or in a folder, from where that has come. frames: how many to keep, in `extra`
-    with their times; began: when its set-up did [s].
+class Keeping(TypedDict, total=False):
+    """What is kept of a motion, and where: keywords of both solvers' `simulate`.
+
+    store: a folder to stream to; a run that was stopped goes on from there, and one that is to last longer
+    now goes on, sampled as it was. frames: whole displacements to keep, evenly over the run, in `extra`:
+    "frames" (f, n, 3) [m], "frame_times" (f,) [s], the "mesh" they belong to, "sample", which takes one and
+    plan points (p, 2) [m] to displacements (p, 3), and "axes", of each edge with chains the rest places
+    (p, 3) and displacements (f, p, 3) [m] of its axis. progress: called with the time reached [s].
+    """
+
+    store: Path | None
+    frames: int
+    progress: Callable[[float], None] | None
+
+
+def parted(options: dict[str, Any]) -> tuple[Keeping, dict[str, Any]]:
+    """Return what options say of `Keeping`, and the others."""
+    keeping = {name: options[name] for name in Keeping.__annotations__ if name in options}
+    return cast(Keeping, keeping), {name: of for name, of in options.items() if name not in keeping}
+
+
+def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
+    """Run a motion, in memory or in a folder, from where that has come. began: when its set-up did [s].
 
     Raises BadInput for a folder that holds another run, or one of other code, that another process writes to
     or that cannot be written, and for damaged files.
     """
+    frames, store = keeping.get("frames", 0), keeping.get("store")
     columns, schedule = recipe.observer.columns, recipe.schedule
     described = [[kind, name, list(shape)] for kind, name, shape in columns]
     with ExitStack() as open_store:
@@ -64,7 +79,7 @@ def record(
             kept.begin(asdict(schedule))
         shown = schedule.shown(frames)
         method = recipe.method(schedule)
-        run = Run(method, recipe.observer, schedule, kept, shown, progress)
+        run = Run(method, recipe.observer, schedule, kept, shown, keeping.get("progress"))
         ready = now()
         with one_blas_thread():
             status, message = run.finish(lambda: recipe.start(method))

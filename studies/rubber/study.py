@@ -26,7 +26,7 @@ from comparisons.identification.tensile.curves import read
 from comparisons.identification.tensile.laws import Fit, stress
 from comparisons.identification.tensile.tensile import TensileFit, identify_tensile
 from sheetbench.answers.solution import Solution, Status
-from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, Column, Unit, unit
+from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, Column, TableUnit, unit
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Held, Material, Pressure, Scene, Sheet
 
@@ -47,7 +47,7 @@ class Constant:
     law: str
     misfit: Annotated[float, PERCENT(".1f")]
     constant: str
-    unit: Unit
+    unit: TableUnit
     value: Annotated[float, NUMBER(".3g")]
     least: Annotated[float, NUMBER(".3g", "from")]
     largest: Annotated[float, NUMBER(".3g", "to")]

@@ -171,7 +171,7 @@ def bent(length=0.2):
 def test_large_rotations_at_small_strain_know_no_law():
     scene = bent()
     tips = {
-        law: fem_reference.solve(scene, "shell", elements=3, law=law).displacement(scene.probe_points())
+        law: fem_reference.solve(scene, "shell", elements=2, law=law).displacement(scene.probe_points())
         for law in STRAIN_LAWS
     }
     size = np.abs(tips[STRAIN_LAW]).max()
@@ -233,10 +233,15 @@ def test_the_law_is_an_option_of_the_reference(capsys):
         fem_reference.solve(bent(), "shell", elements=2, section=section, law="biot")
 
 
-@pytest.mark.sweep
+@pytest.mark.sweep(4)
 @pytest.mark.parametrize(
     ("law", "elements", "found"),
-    [("neo-hookean", 4, 0.599), ("neo-hookean", 6, 0.594), ("mooney-rivlin", 6, 1.0)],
+    [
+        ("neo-hookean", 2, 0.627),
+        ("neo-hookean", 4, 0.599),
+        ("neo-hookean", 6, 0.594),
+        ("mooney-rivlin", 6, 1.0),
+    ],
 )
 def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law, elements, found):
     """Neo-Hooke's has a limit point of inflation, Mooney's with c2 = c1/4 none up to here. On 4 elements the

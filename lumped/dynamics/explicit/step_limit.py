@@ -27,22 +27,24 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.dynamics.system import System
 
-SAFETY = 0.9  # share of the limit
+SAFETY, TOUCHING = 0.9, 0.8  # share of the limit, and where obstacles are touched (`lumped.contact.contact`)
 
 
 @dataclass(frozen=True)
 class StepLimit:
-    """ω_max [rad/s], damping ratio ξ there, the largest stable step [s], and whether it is exact."""
+    """ω_max [rad/s], damping ratio ξ there, the largest stable step [s], whether it is exact, and which share
+    of it to take."""
 
     frequency: float
     damping_ratio: float
     step: float
     exact: bool = True
+    safety: float = SAFETY
 
     @property
     def advised(self) -> float:
         """A step with some distance to the limit [s]: large rotations and tension raise ω_max a little."""
-        return SAFETY * self.step
+        return self.safety * self.step
 
     def describe(self) -> str:
         """The limit and where it comes from."""
@@ -73,7 +75,8 @@ def step_limit(system: System, u: np.ndarray) -> StepLimit:
         damping = system.matrix(u, nothing, 0.0, 0.0, 1.0, 0.0)
         ratio = _largest(system, damping) / (2.0 * frequency) if damping.any() else 0.0
     exact = system.damping.proportional
-    return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact)
+    safety = TOUCHING if system.items else SAFETY
+    return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact, safety)
 
 
 def soften_items(system: System) -> None:

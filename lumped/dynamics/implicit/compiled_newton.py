@@ -48,6 +48,16 @@ class NewtonWorkspace(NamedTuple):
     right: np.ndarray
 
 
+class NewtonLimits(NamedTuple):
+    """Of a correction's largest component [m]: below which it is the last, and above which the iteration is
+    lost; its ratio to the one before above which factors are stale; corrections of an equation at most."""
+
+    tolerance: float
+    largest: float
+    stale: float
+    corrections: int
+
+
 class CompiledNewton:
     """The iteration for a system that `serves`. arrays, workspace, factors: what it takes."""
 
@@ -91,24 +101,6 @@ class CompiledNewton:
             self.factors = factors
         return bool(definite)
 
-    def iterate(
-        self,
-        first: int,
-        left: int,
-        u: np.ndarray,
-        base: tuple[np.ndarray, np.ndarray],
-        by: tuple[float, float],
-        external: np.ndarray,
-        tolerance: float,
-        stale: float,
-        corrections: int,
-    ) -> tuple[int, int, int]:
-        """Correct u (k, n, 3) from the `first` on in place with the factors kept, as `iterate_each` does."""
-        return iterate_each(
-            first, left, u, *base, *by, external, tolerance, self._system.problem.size, stale, corrections,
-            self.arrays, self.factors, self.workspace,
-        )  # fmt: skip
-
 
 @njit(cache=True)
 def add_forces_and_dampers(
@@ -129,88 +121,76 @@ def add_forces_and_dampers(
 
 
 @njit(cache=True)
-def iterate_each(
+def iterate(
     first: int,
     left: int,
     u: np.ndarray,
     base_u: np.ndarray,
     base_v: np.ndarray,
-    mass_coefficient: float,
-    damping_coefficient: float,
+    by: tuple[float, float],
     external: np.ndarray,
-    tolerance: float,
-    largest: float,
-    stale: float,
-    corrections: int,
+    limits: NewtonLimits,
     arrays: Arrays,
     factors: np.ndarray,
     workspace: NewtonWorkspace,
-) -> tuple[int, int, int]:
-    """Solve equations with û, v̂ (k, n, 3) and loads (k, n, 3), or (1, n, 3) if they are the same, for u from
-    the `first` on, which has corrections `left`: how that ended, the equation where it did, and what
-    corrections that one has left."""
+) -> tuple[int, int, int, int]:
+    """Solve equations with û, v̂ (k, n, 3), c₂ and c₁, and loads (k, n, 3), or (1, n, 3) if they are the same,
+    for u in place from the `first` on, which has corrections `left`: how that ended, the equation where it
+    did, what corrections that one has left, and how many were made in all."""
+    made = 0
     for i in range(first, len(u)):
-        load = external[min(i, len(external) - 1)]
-        status, done = iterate(
-            u[i], base_u[i], base_v[i], mass_coefficient, damping_coefficient, load, tolerance, largest,
-            stale, left, arrays, factors, workspace,
-        )  # fmt: skip
-        if status != CONVERGED:
-            return status, i, left - done
-        left = corrections
-    return CONVERGED, len(u), left
+        acting, last = external[min(i, len(external) - 1)], np.inf
+        while True:
+            if left == 0:
+                return STALE, i, left, made
+            length = correct(u[i], base_u[i], base_v[i], by, acting, arrays, factors, workspace)
+            left, made = left - 1, made + 1
+            if length < limits.tolerance:
+                break
+            if not length <= limits.largest:
+                return LOST, i, left, made
+            if length > limits.stale * last:
+                return STALE, i, left, made
+            last = length
+        left = limits.corrections
+    return CONVERGED, len(u), left, made
 
 
 @njit(cache=True)
-def iterate(
+def correct(
     u: np.ndarray,
     base_u: np.ndarray,
     base_v: np.ndarray,
-    mass_coefficient: float,
-    damping_coefficient: float,
+    by: tuple[float, float],
     external: np.ndarray,
-    tolerance: float,
-    largest: float,
-    stale: float,
-    corrections: int,
     arrays: Arrays,
     factors: np.ndarray,
     workspace: NewtonWorkspace,
-) -> tuple[int, int]:
-    """Correct u in place; how that ended, and after how many corrections."""
-    last = np.inf
+) -> float:
+    """Correct u (n, 3) in place; return the largest component of that [m], NaN if it is not finite."""
+    mass_coefficient, damping_coefficient = by
     force, velocity, right = workspace.force, workspace.velocity, workspace.right
     mass, free = arrays.mass, arrays.free
     moved, held, began = u.reshape(-1), base_u.reshape(-1), base_v.reshape(-1)
     pull, speed, acting = force.reshape(-1), velocity.reshape(-1), external.reshape(-1)
-    for done in range(1, corrections + 1):
-        for row in range(len(moved)):
-            speed[row] = began[row] + damping_coefficient * (moved[row] - held[row])
-            inertia = 0.0
-            for e in range(mass.pointers[row], mass.pointers[row + 1]):
-                inertia += mass.values[e] * (moved[mass.columns[e]] - held[mass.columns[e]])
-            pull[row] = mass_coefficient * inertia - acting[row]
-        add_forces_and_dampers(arrays, u, velocity, NUMBA_TRUE, force)
-        right[:] = 0.0
-        for row in range(len(moved)):
-            for e in range(free.pointers[row], free.pointers[row + 1]):
-                right[free.columns[e]] -= free.values[e] * pull[row]
-        banded.substitute(factors, arrays.unknowns, arrays.width, right)
-        length = total = 0.0
-        for row in range(len(moved)):
-            step = 0.0
-            for e in range(free.pointers[row], free.pointers[row + 1]):
-                step += free.values[e] * right[free.columns[e]]
-            moved[row] += step
-            total += step
-            length = max(length, abs(step))
-        if not np.isfinite(total):
-            return LOST, done
-        if length < tolerance:
-            return CONVERGED, done
-        if not length <= largest:
-            return LOST, done
-        if length > stale * last:
-            return STALE, done
-        last = length
-    return STALE, corrections
+    for row in range(len(moved)):
+        speed[row] = began[row] + damping_coefficient * (moved[row] - held[row])
+        inertia = 0.0
+        for e in range(mass.pointers[row], mass.pointers[row + 1]):
+            inertia += mass.values[e] * (moved[mass.columns[e]] - held[mass.columns[e]])
+        pull[row] = mass_coefficient * inertia - acting[row]
+    add_forces_and_dampers(arrays, u, velocity, NUMBA_TRUE, force)
+    right[:] = 0.0
+    for row in range(len(moved)):
+        for e in range(free.pointers[row], free.pointers[row + 1]):
+            right[free.columns[e]] -= free.values[e] * pull[row]
+    banded.substitute(factors, arrays.unknowns, arrays.width, right)
+    length = total = 0.0
+    for row in range(len(moved)):
+        step = 0.0
+        for e in range(free.pointers[row], free.pointers[row + 1]):
+            step += free.values[e] * right[free.columns[e]]
+        moved[row] += step
+        total += step
+        length = max(length, abs(step))
+    return length if np.isfinite(total) else np.nan

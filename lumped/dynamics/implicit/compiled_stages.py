@@ -17,6 +17,7 @@ from numba import njit
 from lumped.dynamics.implicit.compiled_newton import (
     CONVERGED,
     Arrays,
+    NewtonLimits,
     NewtonWorkspace,
     add_forces_and_dampers,
     iterate,
@@ -58,31 +59,28 @@ def solve_stages(
     left: int,
     step: Step,
     stages: Stages,
-    tolerance: float,
-    largest: float,
-    stale: float,
-    corrections: int,
+    limits: NewtonLimits,
     arrays: Arrays,
     factors: np.ndarray,
     workspace: NewtonWorkspace,
 ) -> tuple[int, int, int, int]:
     """Solve the stages from the `first` on; that one is begun if it has corrections `left`. How that ended,
     the stage where it did, what corrections that one has left, and how many were made in all."""
-    made = 0
+    made, by = 0, (step.mass_coefficient, step.damping_coefficient)
+    bases_u, bases_v = workspace.base_u, workspace.base_v
+    base_u, base_v = bases_u.reshape(-1), bases_v.reshape(-1)
     for i in range(first, len(stages.u)):
         u, v, a = stages.u[i].reshape(-1), stages.v[i].reshape(-1), stages.a[i].reshape(-1)
-        base_u, base_v = workspace.base_u.reshape(-1), workspace.base_v.reshape(-1)
         _begin(i, step, stages, base_u, base_v)
         if i > first or left == 0:
-            left = corrections
+            left = limits.corrections
             _guess(i, step, stages, base_u, u)
-        load = step.loads[min(i, len(step.loads) - 1)]
-        status, done = iterate(
-            stages.u[i], workspace.base_u, workspace.base_v, step.mass_coefficient, step.damping_coefficient,
-            load, tolerance, largest, stale, left, arrays, factors, workspace,
+        at = min(i, len(step.loads) - 1)
+        status, _, left, corrections = iterate(
+            0, left, stages.u[i : i + 1], bases_u.reshape(1, -1, 3), bases_v.reshape(1, -1, 3), by,
+            step.loads[at : at + 1], limits, arrays, factors, workspace,
         )  # fmt: skip
-        left -= done
-        made += done
+        made += corrections
         if status != CONVERGED:
             return status, i, left, made
         for row in range(len(u)):

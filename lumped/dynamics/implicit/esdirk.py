@@ -9,15 +9,9 @@ relative to the largest displacement so far, or to a tenth of where the forces a
 taken by dampers and put in by loads and supports are h Σ bᵢ Pᵢ. What supports prescribe is taken as it is
 prescribed, at every stage.
 
-Steps may be longer than the distance of samples. Between the ends of one the motion is the polynomial of
-fifth degree with their displacements, velocities and accelerations, û, v̂ and â, and then, as stiff springs
-magnify what it misses, the solution of
-
-    M (â + c₂ (u − û)) + f(u, v̂ + c₁ (u − û), t) = 0,   c₁ = 1/(γh),   c₂ = c₁²,
-
-which lies in equilibrium along stiff directions and on the polynomial along soft ones. Energies are
-polynomials through the stages' powers (`tableau.CUMULATIVE`). Steps end where something changes its course: a
-load's history, a support's motion. No chains: their constraints would lower the order.
+Steps may be longer than the distance of samples, which lie within them (`esdirk_step`). They end where
+something changes its course: a load's history, a support's motion. No chains: their constraints would lower
+the order.
 """
 
 from __future__ import annotations
@@ -27,11 +21,11 @@ from typing import Any
 
 import numpy as np
 
-from lumped.dynamics.implicit.compiled_stages import Stages, Step
+from lumped.dynamics.implicit.compiled_stages import Step
 from lumped.dynamics.implicit.energy_gain import EnergyGain
+from lumped.dynamics.implicit.esdirk_step import EsdirkStep
 from lumped.dynamics.implicit.newton import Newton, StepEquation
-from lumped.dynamics.implicit.polynomial import bubbles, polynomials
-from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
+from lumped.dynamics.implicit.tableau import ABSCISSAE, ERRORS, GAMMA, GUESSES, STAGES
 from lumped.dynamics.integrator import Integrator, LatticeSamples
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import kinetic_of, natural_power, obstacle_power
@@ -52,7 +46,6 @@ SHARE_WITH_DAMPERS = 0.1  # whose power is that of the square of what correction
 STALE = (
     1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
 )
-NODES = np.array([0.25, 0.5, 0.75])  # shares of a step
 KEEP_FACTORS_UP_TO = 14  # corrections of a step's stages up to which the next one keeps the factors: two each
 
 
@@ -111,7 +104,7 @@ class Esdirk(Integrator):
         Raises StepFailed."""
         if not self.adapts:
             try:
-                return self._advance(state, self._stages(state, at_most, None), at_most)
+                return self._advance(state, self._solved(state, at_most, None))
             except SingularMatrixError as failure:
                 raise StepFailed(str(failure)) from None
         if self._largest == 0.0:
@@ -119,22 +112,22 @@ class Esdirk(Integrator):
         state, at_most = self._from_kink(state, at_most)
         largest = self._largest
 
-        def attempt(h: float) -> tuple[Stages, float, float]:
+        def attempt(h: float) -> tuple[EsdirkStep, float, float]:
             nonlocal largest
-            stages = self._stages(state, h, self._enough)
-            error = h * float(np.abs(ERRORS @ stages.v.reshape(len(ERRORS), -1)).max())
-            error = max(error, self._largest * self._error_of_branches(h))
-            largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
+            step = self._solved(state, h, self._enough)
+            error = h * float(np.abs(ERRORS @ step.stages.v.reshape(len(ERRORS), -1)).max())
+            error = max(error, self._largest * step.error_of_branches())
+            largest = max(self._largest, float(np.abs(step.stages.u[-1]).max()))
             if self.system.items:  # which are touched within steps
-                found = self._advance(state, stages, h)
+                found = self._advance(state, step)
                 gained = self._gain.of(state, found.state, found.dissipated - found.work)
                 error = max(error, largest * gained * ENERGY)
-            return stages, error, self._error * largest
+            return step, error, self._error * largest
 
         shortest = 1e-6 * min(self._control.step, at_most)
-        stages, h = self._control.take(attempt, at_most, shortest)
+        step, _ = self._control.take(attempt, at_most, shortest)
         self._largest = largest
-        return self._advance(state, stages, h)
+        return self._advance(state, step)
 
     @property
     def _small(self) -> float:
@@ -177,22 +170,19 @@ class Esdirk(Integrator):
         ahead = system.kinks[system.kinks > now + near]
         return state, min([at_most, *(ahead[:1] - now)])
 
-    def _stages(self, state: State, h: float, tolerance: float | None) -> Stages:
-        """All stages of a step."""
-        by, times = 1.0 / (GAMMA * h), state.time + h * ABSCISSAE
-        u, v, a = np.empty((3, len(times), *state.u.shape))
-        u[0], v[0], a[0] = state.u, state.v, state.a
-        stages = Stages(times, u, v, a, np.zeros((len(times), 2)))
-        self._memories = [state.memory] * len(times)
+    def _solved(self, state: State, h: float, tolerance: float | None) -> EsdirkStep:
+        """A step with all its stages."""
+        by, step = 1.0 / (GAMMA * h), EsdirkStep(self.system, state, h)
         if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
-            middle, system = state.u + 0.5 * h * state.v, self._in_stage(0, h)
-            equation = StepEquation(system, state.time + 0.5 * h, middle, state.v, by * by, by)
+            middle = state.u + 0.5 * h * state.v
+            equation = StepEquation(step.in_stage(0), state.time + 0.5 * h, middle, state.v, by * by, by)
             self._newton.renew(equation, middle)
-        loads = self.system.loads(times.tolist())
-        step = Step(h, STAGES, GUESSES, by, by * by, *self._shifts(times, h), loads)
-        if not self._newton.solve_stages(step, stages, tolerance):
-            self._solve_one_by_one(step, stages, tolerance)
-        return stages
+        times = step.stages.time
+        shifts, turns = self._shifts(times, h)
+        given = Step(h, STAGES, GUESSES, by, by * by, shifts, turns, self.system.loads(times.tolist()))
+        if not self._newton.solve_stages(given, step.stages, tolerance):
+            self._solve_one_by_one(given, step, tolerance)
+        return step
 
     def _shifts(self, times: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray]:
         """How far supports are from where the stages' velocities lead, (7, n, 3) [m], and their velocities
@@ -206,142 +196,38 @@ class Esdirk(Integrator):
         places = np.array([motion.place(t) for t in (began, *later)])
         return places - places[0] - h * np.tensordot(STAGES, rates, 1), rates - rates[0]
 
-    def _solve_one_by_one(self, step: Step, stages: Stages, tolerance: float | None) -> None:
+    def _solve_one_by_one(self, given: Step, step: EsdirkStep, tolerance: float | None) -> None:
         """Fill the tables of stages by the general iteration."""
-        h, c1, c2 = step.length, step.damping_coefficient, step.mass_coefficient
+        stages, h, c1, c2 = step.stages, step.h, given.damping_coefficient, given.mass_coefficient
         for i in range(1, len(ABSCISSAE)):
             u = stages.u[0] + h * np.tensordot(STAGES[i, :i], stages.v[:i], 1)
             v = stages.v[0] + h * np.tensordot(STAGES[i, :i], stages.a[:i], 1)
-            if len(step.shifts):
-                u, v = u + step.shifts[i], v + step.turns[i]
-            system = self._in_stage(i, h)
+            if len(given.shifts):
+                u, v = u + given.shifts[i], v + given.turns[i]
+            system = step.in_stage(i)
             equation = StepEquation(system, float(stages.time[i]), u + v / c1, v, c2, c1)
             guess = equation.base_u + np.tensordot(GUESSES[i, :i], stages.a[:i], 1) / c1**2
-            u = self._newton.solve_equation(equation, guess, tolerance)
-            stages.u[i] = u
+            stages.u[i] = u = self._newton.solve_equation(equation, guess, tolerance)
             stages.v[i], stages.a[i] = self._newton.state(equation, u)
             if system.maxwell is not None:
-                self._memories[i] = system.maxwell.after(u)
-            stages.power[i, 0] = self.system.power(self._stage(stages, i))
-
-    def _stage(self, stages: Stages, i: int) -> State:
-        return State(float(stages.time[i]), stages.u[i], stages.v[i], stages.a[i], self._memories[i])
-
-    def _relaxed(self, weights: np.ndarray) -> np.ndarray:
-        """A weighted sum of what the branches kept at the first stages."""
-        parts = zip(weights, self._memories, strict=False)
-        return np.sum([weight * memory[1:] for weight, memory in parts if memory is not None], axis=0)
-
-    def _in_stage(self, i: int, h: float) -> System:
-        """The equations of stage i."""
-        if self.system.maxwell is None:
-            return self.system
-        return self._relaxing(h * self._relaxed(STAGES[i, : max(i, 1)]), GAMMA * h)
-
-    def _relaxing(self, relaxed: np.ndarray, own: float) -> System:
-        """The equations with the branches as `Maxwell.stage` has them."""
-        if self.system.maxwell is None or (start := self._memories[0]) is None:
-            return self.system
-        return self.system.with_branches(self.system.maxwell.stage(start, relaxed, own))
-
-    def _error_of_branches(self, h: float) -> float:
-        """Error of what the branches' springs remember in a step, relative to the largest strain."""
-        maxwell, start = self.system.maxwell, self._memories[0]
-        if maxwell is None or start is None:
-            return 0.0
-        strains = [np.abs(memory[0, 1]).max() for memory in self._memories if memory is not None]
-        largest = float(max(strains))
-        missed = self._relaxed(h * ERRORS)[:, 1] / maxwell.times[:, None]
-        return float(np.abs(missed).max()) / largest if largest else 0.0
+                step.memories[i] = system.maxwell.after(u)
+            stages.power[i, 0] = self.system.power(step.state(i))
 
     def at(self, times: np.ndarray, last: Advance[State]) -> LatticeSamples:
         """Return the states at times (k,) [s] within the last step; energies since it began."""
-        end = last.state
-        if end.time == times[0]:
+        if last.state.time == times[0]:
             return super().at(times, last)
-        stages, h = self._step
-        theta = (times - stages.time[0]) / h
-        u, v, a = self._within(stages, h, theta)
-        weights = h * (np.vander(theta, len(CUMULATIVE), increasing=True) @ CUMULATIVE)
-        taken, put_in = (weights @ stages.power).T
-        system, motion, start = self.system, self.system.prescribed, self._memories[0]
-        memories: list[np.ndarray | None] = [None] * len(times)
-        inside = [system] * len(times)
-        if system.maxwell is not None:
-            inside = [self._relaxing(self._relaxed(weight), 0.0) for weight in weights]
-        c1, within = 1.0 / (GAMMA * h), len(times) - (end.time == times[-1])
-        equations = [
-            StepEquation(*at, c1**2, c1)
-            for at in zip(inside, times.tolist(), u - a / c1**2, v - a / c1, strict=True)
-        ]
-        a -= c1**2 * u
-        self._correct(equations[:within], theta[:within], u[:within])
-        a += c1**2 * u
-        if end.time == times[-1]:
-            u[-1], v[-1], a[-1] = end.u, end.v, end.a
-        for i, maxwell in enumerate(one.maxwell for one in inside):
-            if maxwell is not None and start is not None:
-                memories[i] = memory = maxwell.after(u[i])
-                taken[i] -= maxwell.branches.stored(memory) - maxwell.branches.stored(start)
-        if motion.moving:
-            began = kinetic_of(system, motion.rate(float(stages.time[0])))
-            put_in += [kinetic_of(system, motion.rate(t, before=True)) - began for t in times.tolist()]
-        return LatticeSamples(times, u, v, a, memories, taken, put_in)
-
-    def _correct(self, equations: list[StepEquation], theta: np.ndarray, u: np.ndarray) -> None:
-        """Put the solutions of equations at shares θ (k,) of a step, inside it, in place of polynomials u
-        (k, n, 3): those nearest to some shares first. What corrects them is of the third order at the step's
-        ends; what passes through it corrects the others, to begin with, and for good where it is small."""
-        first = np.unique(np.abs(theta - NODES[:, None]).argmin(axis=1))
-        others = np.delete(np.arange(len(theta)), first)
-        moved = self._solve(equations, first, u)
-        if not len(others):
-            return
-        if moved is not None:
-            shares = bubbles(theta[first], theta[others])
-            u[others] += (shares @ moved.reshape(len(first), -1)).reshape(len(others), *moved.shape[1:])
-            if not self.system.items and np.abs(moved).max() < self._small:
-                return
-        self._solve(equations, others, u)
-
-    def _solve(self, equations: list[StepEquation], of: np.ndarray, u: np.ndarray) -> np.ndarray | None:
-        """Put the solutions of some of the equations in place of guesses; what that changed, or nothing if
-        some have none."""
-        found = u[of]
         tolerance = SHARE * self._small if self.adapts else None
-        failures = self._newton.solve_equations([equations[i] for i in of], found, tolerance)
-        moved: np.ndarray = found - u[of]
-        u[of] = found
-        return None if failures else moved
+        return self._step.at(times, last.state, self._newton, self._small, tolerance)
 
-    def _within(self, stages: Stages, h: float, theta: np.ndarray) -> np.ndarray:
-        """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step: polynomials,
-        and what is prescribed as it is prescribed."""
-        u, v, a = stages.u[[0, -1]], stages.v[[0, -1]], stages.a[[0, -1]]
-        motion = self.system.prescribed
-        if not motion.moving:
-            return polynomials(u, v, a, h, theta)
-        began, until = float(stages.time[0]), float(stages.time[-1])
-        times = (began + h * theta).tolist()
-        u -= np.array([motion.place(began), motion.place(until)])
-        v -= np.array([motion.rate(began), motion.rate(until, before=True)])
-        found = polynomials(u, v, a, h, theta)
-        found[0] += np.array([motion.place(time) for time in times])
-        found[1] += np.array([motion.rate(time, before=True) for time in times])
-        return found
-
-    def _advance(self, start: State, stages: Stages, h: float) -> Advance[State]:
-        system, motion, power = self.system, self.system.prescribed, stages.power
-        if self._end[0] is start:
-            power[0] = self._end[1]
-        else:
-            power[0] = self._power(start)
-        end = self._stage(stages, -1)
+    def _advance(self, start: State, step: EsdirkStep) -> Advance[State]:
+        system, motion, power = self.system, self.system.prescribed, step.stages.power
+        power[0] = self._end[1] if self._end[0] is start else self._power(start)
+        self._step, end = step, step.state(-1)
         if motion.moving or system.working or system.pushed:
             for i in range(1, len(power)):
-                power[i, 1] = self._put_in(self._stage(stages, i), before=True)
-        self._step = stages, h
-        taken, put_in = h * (STAGES[-1] @ power)
+                power[i, 1] = self._put_in(step.state(i), before=True)
+        taken, put_in = step.h * (STAGES[-1] @ power)
         if system.maxwell is not None and start.memory is not None and end.memory is not None:
             branches = system.maxwell.branches
             taken -= branches.stored(end.memory) - branches.stored(start.memory)

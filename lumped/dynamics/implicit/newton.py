@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from lumped.dynamics.implicit import compiled_newton
-from lumped.dynamics.implicit.compiled_newton import CONVERGED, CompiledNewton
+from lumped.dynamics.implicit.compiled_newton import CONVERGED, CompiledNewton, NewtonLimits, iterate
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.system import System
 from sheetbench.numerics.reduced import Factor, SingularMatrixError
@@ -157,8 +157,8 @@ class Newton:
             return False
         while True:
             status, first, left, made = solve_stages(
-                first, left, step, stages, small, self._system.problem.size, self._stale, CORRECTIONS,
-                compiled.arrays, compiled.factors, compiled.workspace,
+                first, left, step, stages, self._limits(small), compiled.arrays, compiled.factors,
+                compiled.workspace,
             )  # fmt: skip
             self.made += made
             if status == CONVERGED:
@@ -176,6 +176,9 @@ class Newton:
             )
             if not self._factorise(compiled, equation, stages.u[first]):
                 return False
+
+    def _limits(self, small: float) -> NewtonLimits:
+        return NewtonLimits(small, self._system.problem.size, self._stale, CORRECTIONS)
 
     def near(self, mass_coefficient: float) -> bool:
         """Whether the compiled iteration's factors serve an equation with this c₂."""
@@ -222,9 +225,10 @@ class Newton:
             if not self.near(by[0]) and not self._factorise(compiled, equations[i], u[i]):
                 u[i] = guesses[i]
                 return i
-            status, i, left = compiled.iterate(
-                i, left, u, base, by, external, small, self._stale, CORRECTIONS
-            )
+            status, i, left, _ = iterate(
+                i, left, u, *base, by, external, self._limits(small), compiled.arrays, compiled.factors,
+                compiled.workspace,
+            )  # fmt: skip
             if status == CONVERGED:
                 break
             self._factored = None

@@ -30,7 +30,6 @@ def initial_state(
             u = stable_equilibrium(still, build_problem(still, calibration, weights)).u
         except NoEquilibrium as error:
             raise NoEquilibrium(f"{NO_START}: {error}") from None
-    system.assembly.grow(time=0.0)
     memory = None if system.maxwell is None else system.maxwell.at_rest(u)
     v = system.prescribed.rate(0.0)
     v = v if system.prescribed.moving else np.zeros_like(u)

@@ -8,8 +8,6 @@ distance.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -32,7 +30,7 @@ from sheetbench.answers.history import History
 from sheetbench.choices import INTEGRATOR
 from sheetbench.clock import now
 from sheetbench.numerics.time.method import Advance
-from sheetbench.runs.record import Recipe, record
+from sheetbench.runs.record import Recipe, parted, record
 from sheetbench.runs.schedule import Schedule
 from sheetbench.scenes import AnyScene, scene_of
 from sheetbench.scenes.meaning.motion import let_go
@@ -50,10 +48,7 @@ def simulate(
     every: float | None = None,
     weights: Weights = "tributary",
     precision: Precision = "double",
-    store: Path | None = None,
-    frames: int = 0,
-    progress: Callable[[float], None] | None = None,
-    **options: float,
+    **options: Any,
 ) -> History:
     """Motion of the scene's sheet over `duration` [s].
 
@@ -62,14 +57,8 @@ def simulate(
     limit, `generalised-alpha` and `esdirk` adapt to their error, `midpoint` takes 1/200 of the lowest period.
     every [s]: distance of samples, 1/100 of the lowest period unless given; no step is longer, and what a
     load's history does within a step may go unseen, but for `esdirk`, whose adaptive steps may be longer and
-    end where a history bends. store: a folder to stream to; a run that was stopped goes on from there, and
-    one that is to last longer now goes on, sampled as it was. frames: whole displacements to keep, evenly
-    over the run, in `extra`: "frames" (n, masses, 3), "frame_times" (n,), the "mesh" they belong to,
-    "sample", which takes one and plan points (p, 2) [m] to displacements (p, 3), and "axes", of each edge
-    with chains the rest places (p, 3) and displacements (n, p, 3) [m] of its axis.
-    progress: called with the time reached.
-    precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
-    `error`).
+    end where a history bends. precision: of the internal force (see `lumped.assembly`). options: the
+    integrator's own (`radius`, `error`), and `store`, `frames` and `progress` (`sheetbench.runs.record`).
 
     Raises NoEquilibrium where the shape to start from is no stable equilibrium, BadInput for an unknown
     integrator, a step above the limit of an explicit one, more than ten
@@ -84,6 +73,7 @@ def simulate(
     >>> history.status, float(history.time[-1])
     (<Status.CONVERGED: 'converged'>, 0.02)
     """
+    keeping, options = parted(options)
     require_integrator(integrator)
     for name, value in {"duration": duration, "step": step, "every": every}.items():
         require_positive(name, value, "s")
@@ -132,7 +122,7 @@ def simulate(
         rows=len(drawn),
         notes=tuple(friction_notes(scene)),
     )
-    history = record(recipe, frames, store, progress, began)
+    history = record(recipe, keeping, began)
     history.settings.update({"largest_step": limit.step} if limit is not None else {})
     history.settings.update({"integrator_reason": why} if why else {})
     whole = history.extra["frames"]

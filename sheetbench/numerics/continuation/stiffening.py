@@ -28,7 +28,7 @@ from sheetbench.numerics.threads import one_blas_thread
 
 FIRST_FACTOR, SMALLEST_FACTOR = 1e3, 1.05  # of the penalties, from stage to stage
 EASIER = 10.0  # by which a stage's factor grows after one that went well
-CLOSE = 0.03  # residual at which a stage ends, but for the last
+CLOSE = 1e-6  # residual at which a stage ends, but for the last: looser ones may lead nowhere
 DEPTH = 0.015  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
@@ -63,20 +63,19 @@ class Penalties(Generic[State]):
     def soft(self) -> float:
         """The share of the stiffness to begin with: with it the load, or the pressure that bends a plate of
         this size by what is moved (8 D per size⁴), leaves points DEPTH deep."""
-        found = 1.0
+        shares = [1.0]
         for one in self.each:
             bending = float((one.full * one.thickness**4).max()) / 12.0
             bent = 8.0 * bending * max(self.travel, one.moved) / self.size**4
-            load = max(self.force / float(one.area.sum()), bent)
-            share = load / (DEPTH * min(self.size, 0.2 * one.radius) * float(one.full.min()))
-            found = min(found, share) if share > 0.0 else found
-        return found
+            deep = DEPTH * min(self.size, 0.2 * one.radius) * float(one.full.min())
+            shares.append(max(self.force / float(one.area.sum()), bent) / deep)
+        return min(share for share in shares if share > 0.0)
 
     @property
     def load_steps(self) -> int:
         """How many load steps from rest obstacles and supports come in, a quarter of a radius in each."""
         ways = (4.0 * (one.moved + self.travel) / one.radius for one in self.each)
-        return max(1, *(math.ceil(way) for way in ways))
+        return max(1, *map(math.ceil, ways))
 
     def soften(self, share: float) -> None:
         """Give the penalties a share of their stiffness, 1 for all of it."""
@@ -103,38 +102,34 @@ def trace_stiffening(
 
     def kept_out(path: Path[State, Forces]) -> Fault | None:
         nonlocal last
-        start, since = last if last[1] <= path.load_factor else (rest, 0.0)
+        start = last if last[1] <= path.load_factor else (rest, 0.0)
         last = path.state, path.load_factor
-        if penalties.passes(start, since, path.state, path.load_factor):
+        if penalties.passes(*start, *last):
             return Fault(Status.STEP_LIMIT, "a step led through an obstacle")
         return inspect(path)
 
     settles = settle is not None and path.structure.symmetric
-    ended: LoadStepFailed | Fault | None = None
-    if not (penalties.thin and settles):
-        share, spent = 1.0 if penalties.thin else penalties.soft, 0
-        while True:  # what leads through an obstacle is too soft, where nothing else is left
-            penalties.soften(share)
-            last = rest, 0.0
-            path = trace(loose, kept_out)
-            path.factorisations, spent = path.factorisations + spent, path.factorisations + spent
-            ended = path.fault
-            if ended is None or share == 1.0 or settles:
-                break
-            share = min(1.0, 30.0 * share)
-        path.limits = limits
+    share = 1.0 if penalties.thin else penalties.soft
+    ended: Fault | None = None
+    while not (penalties.thin and settles):  # what leads nowhere is too soft, where nothing else is left
+        penalties.soften(share)
+        spent, last = path.factorisations, (rest, 0.0)
+        path = trace(loose, kept_out)
+        path.factorisations, path.limits = path.factorisations + spent, limits
+        ended = path.fault
         if ended is None:
             path.snaps.clear()
             path.notes.clear()
             with one_blas_thread():
                 ended = _stiffened(path, penalties, share, kept_out)
-        penalties.soften(1.0)
+        if ended is None or share == 1.0 or settles:
+            break
+        share = min(1.0, 30.0 * share)
+    penalties.soften(1.0)
     with one_blas_thread():
         if settle is not None and settles and (penalties.thin or ended is not None):
             last = rest, 0.0
             ended = _settled(path, penalties.load_steps, kept_out, settle)
-        if isinstance(ended, LoadStepFailed):
-            ended = Fault(ended.status, f"contact could not be stiffened: {ended}")
         conclude(path, ended, settle, buckled)
         return path
 
@@ -160,7 +155,7 @@ def _settled(
 
 def _stiffened(
     path: Path[State, Forces], penalties: Penalties[State], share: float, inspect: Inspect[State, Forces]
-) -> LoadStepFailed | Fault | None:
+) -> Fault | None:
     """Raise the penalties from a share to all of them: what has ended it before, if anything."""
     factor, done = FIRST_FACTOR, False
     path.limit = path.factorisations + path.limits.factorisations
@@ -173,7 +168,7 @@ def _stiffened(
         except LoadStepFailed as failure:
             factor **= 0.5
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:
-                return failure
+                return Fault(failure.status, f"contact could not be stiffened: {failure}")
             continue
         done = target == 1.0
         share, factor = target, EASIER * factor

@@ -4,6 +4,7 @@ their own, which win where they are, and of [temperature]; each with its history
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from copy import copy
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
@@ -22,20 +23,20 @@ TENSOR = np.array([1.0, 1.0, 0.5])  # components over (xx, yy, 2xy)
 
 
 class Source(NamedTuple):
-    """strain, curvature: (3,), xx, yy, xy [-], [1/m]; where: the part of the plan that has them, `beyond` the
-    part that has not, None for all of it and none."""
+    """strain, curvature: (3,), xx, yy, xy [-], [1/m]; where: the part of the plan that has them or, if not
+    `within`, has not; None for all of it."""
 
     name: str
     of: Natural | Temperature
     strain: np.ndarray
     curvature: np.ndarray
     where: Polygon | None = None
-    beyond: Polygon | None = None
+    within: bool = True
 
 
 class NaturalState:
-    """Natural strains and curvatures at points or of cells (…), of which `now` is what a model makes (`made`)
-    at the share and time that `grow` sets; at first both themselves (…, 2, 2), in full."""
+    """Natural strains and curvatures (…, 2, 2) at points or of cells, or what a model makes of both (`made`),
+    as a function of the load's share and the time; the last value is kept."""
 
     def __init__(self, sources: list[Source], shape: tuple[int, ...], share: Callable[[Polygon], np.ndarray]):
         """shape: of the points or cells; share: of each of them that a part of the plan has."""
@@ -45,16 +46,15 @@ class NaturalState:
         self._weights = np.ones((len(sources), *shape))
         for weight, source in zip(self._weights, sources, strict=True):
             if source.where is not None:
-                weight[...] = share(source.where)
-            if source.beyond is not None:
-                weight -= share(source.beyond)
-        self.made(lambda *both: both)
+                weight[...] = share(source.where) if source.within else 1.0 - share(source.where)
+        self._make: Callable[[np.ndarray, np.ndarray], Any] = lambda *both: both
+        self._kept: tuple[np.ndarray, Any] | None = None
 
     def made(self, make: Callable[[np.ndarray, np.ndarray], Any]) -> Self:
-        """Return the state, with what this makes of strains and curvatures."""
-        self._make, self._factors = make, np.array([np.nan])
-        self.grow()
-        return self
+        """Return the state as what this makes of strains and curvatures."""
+        other = copy(self)
+        other._make, other._kept = make, None
+        return other
 
     def factors(self, time: float | None = None) -> np.ndarray:
         """Return the factor of every source at a time [s], without one the last."""
@@ -64,15 +64,17 @@ class NaturalState:
         """Return their derivatives [1/s] from a time on, or until then."""
         return np.array([course.slope(time, before) for course in self._courses])
 
-    def grow(self, share: float = 1.0, time: float | None = None) -> None:
-        """Set a share of the natural state at a time [s], without one the last."""
-        self.set(share * self.factors(time))
+    def at(self, share: float = 1.0, time: float | None = None) -> Any:
+        """Return a share of the natural state at a time [s], without one the last."""
+        return self.of(share * self.factors(time))
 
-    def set(self, factors: np.ndarray) -> None:
-        """Set so many times what each source has."""
-        if not np.array_equal(factors, self._factors):
+    def of(self, factors: np.ndarray) -> Any:
+        """Return so many times what each source has."""
+        kept = self._kept
+        if kept is None or not np.array_equal(factors, kept[0]):
             both = np.einsum("s,s...,skij->k...ij", factors, self._weights, self._forms)
-            self._factors, self.now = factors, self._make(*both)
+            self._kept = kept = factors, self._make(*both)
+        return kept[1]
 
 
 def natural_at(scene: SceneFields, points: np.ndarray) -> NaturalState | None:
@@ -100,10 +102,10 @@ def sources_of(scene: SceneFields) -> Iterator[Source]:
     for n, patch in reversed([*enumerate(scene.patches, start=1)]):
         if patch.natural is not None:
             area = patch.shape.area if taken is None else patch.shape.area.difference(taken)
-            yield Source(f"patch {n}", patch.natural, *_own(scene, patch.natural), where=area)
+            yield Source(f"patch {n}", patch.natural, *_own(scene, patch.natural), area)
             taken = area if taken is None else taken.union(area)
     if scene.natural is not None:
-        yield Source("natural", scene.natural, *_own(scene, scene.natural), beyond=taken)
+        yield Source("natural", scene.natural, *_own(scene, scene.natural), taken, within=False)
     if scene.temperature is not None:
         yield Source("temperature", scene.temperature, *thermal(scene, scene.temperature))
 
@@ -112,9 +114,9 @@ def growth_of_cells(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> np.ndar
     """Return how many times as long and as wide cells are at rest, (rows, columns, 2); None where all are
     alike (`sheet_at_rest`)."""
     parts = any(patch.natural is not None for patch in scene.patches)
-    if not parts or (state := natural_of_cells(scene, x, y)) is None or not state.now[0].any():
+    if not parts or (state := natural_of_cells(scene, x, y)) is None or not state.at()[0].any():
         return None
-    return 1.0 + np.diagonal(state.now[0], axis1=-2, axis2=-1)
+    return 1.0 + np.diagonal(state.at()[0], axis1=-2, axis2=-1)
 
 
 def sheet_at_rest(scene: SceneFields) -> Sheet:

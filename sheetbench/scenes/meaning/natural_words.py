@@ -21,7 +21,11 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
             source.of.last_factor * np.where(np.abs(part) > NONE * np.abs(part).max(), part, 0.0)
             for part in (source.strain, source.curvature)
         )
-        parts = [f"{100.0 * e:.3g} % longer along {axis}" for e, axis in zip(strain, "xy", strict=False) if e]
+        parts = [
+            f"{100.0 * abs(e):.3g} % {'longer' if e > 0.0 else 'shorter'} along {axis}"
+            for e, axis in zip(strain, "xy", strict=False)
+            if e
+        ]
         parts += [f"sheared by {strain[2]:.3g}"] if strain[2] else []
         parts += [
             f"an arc of radius {1e3 / abs(k):.4g} mm along {axis}, towards {'+z' if k > 0.0 else '−z'}"

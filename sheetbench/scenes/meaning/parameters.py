@@ -126,9 +126,8 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
         return [("masses", int(payload[1]) - 1, "mass")]
     if touched := re.fullmatch(r"obstacle(\d+)\.(x|y|z|radius|friction)", name):
         number, key = int(touched[1]), touched[2]
-        if not 1 <= number <= len(scene.obstacles) or not hasattr(
-            scene.obstacles[number - 1], "position" if key in "xyz" else key
-        ):
+        known = type(scene.obstacles[number - 1]).model_fields if 1 <= number <= len(scene.obstacles) else {}
+        if ("position" if key in "xyz" else key) not in known:
             raise BadInput(f"'{name}': the scene has {len(scene.obstacles)} obstacles, or not this key of it")
         place: Path = ("position", "xyz".index(key)) if key in "xyz" else (key,)
         return [("obstacles", number - 1, *place)]

@@ -6,15 +6,26 @@ sheet touches where φ = h/2. A plane that the flat sheet lies on is at z = −h
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, field_validator
+from pydantic import AfterValidator, Field
 
 from sheetbench.scenes.objects.quantities import Frozen, Length, NonNegative, Unit, Vector3
 from sheetbench.scenes.objects.supports import Motion
 
 SLIP_SPEED = 1e-3  # m/s, v₀ of the friction −μ p v/√(v² + v₀²)
+TOUCH = 1e-9  # δ₀, of the thickness: how far off a sheet touches, or an obstacle would not hold one that lies
+
+
+def _turned_somewhere(vector: Vector3) -> Vector3:
+    if not any(vector):
+        raise ValueError("needs a direction, not [0, 0, 0]")
+    return vector
+
+
+Direction = Annotated[Vector3, AfterValidator(_turned_somewhere)]
 
 
 class _Obstacle(Frozen):
@@ -44,21 +55,24 @@ class _Obstacle(Frozen):
         moved: np.ndarray = self.motion.course.at(last if time is None else time)
         return load_factor * moved if time is None else moved
 
-
-def _turned_somewhere(vector: Vector3) -> Vector3:
-    if not any(vector):
-        raise ValueError("needs a direction, not [0, 0, 0]")
-    return vector
+    def velocity(self, time: float | None) -> np.ndarray:
+        """Return its velocity (3,) [m/s] at a time [s], 0 without one."""
+        if self.motion is None or time is None:
+            return np.zeros(3)
+        return np.asarray(self.motion.course.slope(time))
 
 
 class Plane(_Obstacle):
     """A half space below a plane."""
 
     kind: Literal["plane"] = Field(default="plane", kw_only=True)
-    normal: Vector3 = (0.0, 0.0, 1.0)
+    normal: Direction = (0.0, 0.0, 1.0)
     """Out of the obstacle, towards the sheet, of any length."""
 
-    _direction = field_validator("normal")(_turned_somewhere)
+    @property
+    def radius(self) -> float:
+        """Infinite."""
+        return math.inf
 
 
 class Sphere(_Obstacle):
@@ -73,12 +87,10 @@ class Cylinder(_Obstacle):
     """A round bar without ends."""
 
     kind: Literal["cylinder"] = Field(default="cylinder", kw_only=True)
-    axis: Vector3
+    axis: Direction
     """Along the bar, of any length."""
     radius: Length
     """Of the bar."""
-
-    _direction = field_validator("axis")(_turned_somewhere)
 
 
 AnyObstacle = Plane | Sphere | Cylinder

@@ -9,7 +9,7 @@ from pathlib import Path
 import fake_solutions
 import numpy as np
 import pytest
-from commands import json_of, run
+from commands import run
 from scene_files import written
 
 from comparisons.cli import interruption
@@ -50,11 +50,6 @@ def test_without_arguments_it_prints_its_help(capsys):
     assert run() == run("--help") == 0
     first, second = capsys.readouterr().out.split("Usage:")[1:]
     assert first.split() == second.split()
-
-
-def test_version_is_said_alone(capsys):
-    assert run("--version") == 0
-    assert capsys.readouterr().out == f"sheetbench {version('sheetbench')}\n"
 
 
 def test_a_shell_can_complete_the_verbs(monkeypatch, capsys):
@@ -153,19 +148,7 @@ def test_a_long_version_says_what_is_installed(capsys):
     assert f"numpy {version('numpy')}" in said["packages"] and Path(said["kernels"].strip()).is_absolute()
 
 
-def test_calibrate_from_options_and_from_a_scene_agree(capsys):
-    options = ("--young", "54.5e6", "--poisson", "0.48", "--thickness", "0.003", "--side", "0.188")
-    by_options = json_of(capsys, "calibrate", *options, "--grid", "9")
-    by_scene = json_of(capsys, "calibrate", "two-edges-clamped")
-    assert by_scene == {**by_options, "expected_error": by_scene["expected_error"]}  # a scene has loads
-    assert by_options["method"] == "consistent"
-    assert set(by_options["springs"]) == {
-        "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area",
-        "edge_shear", "strip_shear",
-    }  # fmt: skip
-    assert {"D11", "D12", "D66", "A11", "A12", "A66", "S"} <= {row["name"] for row in by_options["moduli"]}
-
-
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("line", ["score", "score --json", "compare --help"])
 def test_an_output_that_nobody_reads_on_is_no_fault(line):
     """As `| head` leaves it: quiet, with the status of a program that SIGPIPE ends, for what is longer than a

@@ -21,7 +21,7 @@ def chatty(monkeypatch):
     monkeypatch.setattr(work, "LONG", 0.0)
 
     def command():
-        with console.campaign_progress() as show:
+        with console.progress() as show:
             show(Progress(1, 2, "a run", "converged", None))
         console.tell("kernels are compiled first")
         console.note("the result")
@@ -51,6 +51,6 @@ def test_a_quiet_comparison_prints_its_result_alone(monkeypatch, capsys):
 def test_quiet_is_quiet_of_what_the_packages_log(capsys):
     from comparisons.cli import messages
 
-    with messages.in_lines(), console.quietly():
+    with messages.in_lines(), console.speaking(quiet=True):
         logging.getLogger("sheetbench").info("compiling")
     assert capsys.readouterr().err == ""

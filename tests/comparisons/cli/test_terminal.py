@@ -32,13 +32,13 @@ def test_what_an_encoding_lacks_is_spelled(encoding, text, printed):
 
 
 @pytest.mark.parametrize("width", [50, 80, 160])
-def test_a_campaigns_bar_stands_before_its_first_run_is_done(monkeypatch, width):
+def test_a_campaign_says_how_far_it_is(monkeypatch, width):
     screen = io.StringIO()
     monkeypatch.setattr(console, "err", Console(file=screen, force_terminal=True, width=width))
-    with console.campaign_progress() as progress:
+    with console.progress() as progress:
         progress(Progress(1, 3, "shell [2]", "converged", None))
         progress(Progress(3, 3, "shell [4]", "converged", 0.0))
-    assert "starting" in screen.getvalue() and "3/3" in screen.getvalue() and "shell [4]" in screen.getvalue()
+    assert "3/3" in screen.getvalue() and "shell [4]" in screen.getvalue()
 
 
 COLOURLESS = f"import os; os.environ['NO_COLOR'] = '1'; {COMMAND}"

@@ -73,6 +73,7 @@ def of_json(folder):
     return [read[name] for name in ("vertices", "masses", "held", "gravity", "forces")]
 
 
+@pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize(
     ("code", "read"),
     [("mujoco", mujocos), *((code, of_json) for code in WRITERS)],
@@ -108,6 +109,7 @@ def test_mujocos_forces_are_our_energys_on_the_same_mesh(tmp_path):
         )
 
 
+@pytest.mark.usefixtures("coarse_limits")
 def test_two_layers_of_equal_springs_bend_as_a_sheet_of_a_third(tmp_path):
     """Springs along sides and both diagonals of squares, in turn: Cauchy's D12 = D66 = D11/3."""
     made = setup(SCENE, "pybullet", 4, best=False)
@@ -127,6 +129,7 @@ def test_genesis_reads_the_triangles(tmp_path):
     assert read.cells_dict["triangle"].tolist() == mesh.triangles.tolist()
 
 
+@pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize("code", WRITERS)
 def test_the_script_gets_the_numbers_that_are_shown(code, tmp_path):
     """With the membrane's C11, which bounds its steps, and the factor of hinges on a clamp."""
@@ -139,6 +142,7 @@ def test_the_script_gets_the_numbers_that_are_shown(code, tmp_path):
     assert scripts == [f"run_{code}.py"] and "sheet.json" in (tmp_path / scripts[0]).read_text()
 
 
+@pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize("code", WRITERS)
 def test_masses_and_loads_of_every_code_are_the_sheets(code):
     mesh = setup(SCENE, code, 4, best=False).mesh
@@ -148,6 +152,7 @@ def test_masses_and_loads_of_every_code_are_the_sheets(code):
     assert all(sum(shares) == pytest.approx(1.0) for _, shares in mesh.probes.values())
 
 
+@pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize("code", WRITERS)
 def test_a_payload_is_in_the_masses_of_codes_that_have_them(code):
     scene = SCENE.replace(masses=({"at": (0.11, 0.1), "mass": 0.02},))
@@ -194,6 +199,7 @@ def test_what_a_code_does_not_have_is_said():
         setup(SCENE, "unity")
 
 
+@pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize(("squares", "grid"), [(8, 28), (40, None)])
 def test_layers_too_shallow_for_the_load_are_told_with_the_mesh_that_bears_it(squares, grid):
     """Two layers of springs in a thin sheet: with 8 squares shear turns over 39 % of those between them."""
@@ -223,6 +229,7 @@ def test_mujocos_dampers_are_the_time_times_its_stiffness(tmp_path):
     assert np.abs(spring).max() > 0.0 and not none.any()
 
 
+@pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize("code", WRITERS)
 def test_dampers_stand_in_the_files_or_are_said_to_be_left_out(code):
     made = setup(DAMPED, code, 4, best=False)

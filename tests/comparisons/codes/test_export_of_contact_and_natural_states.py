@@ -38,13 +38,18 @@ def table(path):
     [
         ("bimetal-strip", (7, 3), True),
         ("muscle-bands", (7, 3), True),
-        ("strip-on-table", (9, 3), True),
-        ("finger-on-cylinder", (7, 3), True),
-        ("napkin-on-ball", (4, 4), False),
+        ("strip-on-table", (5, 3), True),
+        pytest.param("finger-on-cylinder", (7, 3), True, marks=pytest.mark.nightly),
+        ("finger-on-ball", (5, 3), True),
+        ("napkin-on-ball", (4, 4), False),  # unstable: no equilibrium in the folder
     ],
 )
 def test_numpy_alone_finds_our_forces_and_displacements(name, grid, solved):
-    scene = scenes.load(name)
+    scene = scenes.load(name.replace("finger-on-ball", "finger-on-cylinder"))
+    if name == "finger-on-ball":
+        (bar,) = scene.obstacles
+        ball = scenes.Sphere(position=(bar.position[0], 0.01, bar.position[2]), radius=bar.radius)
+        scene = scene.replace(obstacles=(ball,))
     lattice = arrays(lumped.describe(scene, spring_set(scene, grid)))
     along, states = NUMPY["differences"](lattice), lattice["state_name"].tolist()
     assert ("pressed" in states) == bool(scene.obstacles)
@@ -91,7 +96,7 @@ def test_tables_hold_obstacles_and_their_points(tmp_path):
     assert {p["weight_1"] for p in points} == {"1.0"} and points[0]["corner_1"] == "0+1"
     page = (tmp_path / "README.md").read_text(encoding="utf-8")
     assert "`contacts.csv`" in page and "natural.csv" not in page
-    for code in ("cpp", "matlab", "mujoco"):
+    for code in ("cpp", "matlab", "sofa"):
         with pytest.raises(BadInput, match="obstacle"):
             lattice_files(scene, spring_set(scene, 3), code)
 

@@ -9,6 +9,7 @@ from comparisons.codes.setup import setup
 from sheetbench.scenes import Plane, Sphere
 
 
+@pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize("code", ["mujoco", "newton"])
 def test_obstacles_are_written(code, tmp_path):
     scene = laid_strip(
@@ -27,6 +28,7 @@ def test_obstacles_are_written(code, tmp_path):
         assert not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CONTACT
 
 
+@pytest.mark.usefixtures("coarse_limits")
 def test_others_refuse_them():
     note = " ".join(setup(bent_over(), "genesis", 2, best=False).notes())
     assert "No files: obstacle: Genesis" in note

@@ -30,13 +30,14 @@ def moved(scene, model, duration, **options):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_a_sheet_too_heavy_for_its_law_is_outside_the_model_in_motion_too(model):
-    history = moved(Scene.model_validate(SOFT), model, 0.05)
+    history = moved(Scene.model_validate(SOFT), model, 0.01)
     assert history.status is Status.STRAIN_OUTSIDE_MODEL
     assert "ρ g a/E = 0.0981" in history.message and "from 0 s on" in history.message
-    assert history.time[-1] == 0.05
+    assert history.time[-1] == 0.01
 
 
-@pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
+@pytest.mark.sweep(2)
+@pytest.mark.parametrize("model", ["lumped", "solid", "shell"])
 def test_an_edge_torn_away_is_outside_the_model_from_when_it_is(model):
     """Pulled by three quarters of its length in 0.2 s: by more than half after about two thirds of it."""
     edge = {"edge": "x1", "kind": "clamped"}
@@ -50,8 +51,8 @@ def test_an_edge_torn_away_is_outside_the_model_from_when_it_is(model):
     assert 0.05 < since < 0.18
 
 
-@pytest.mark.sweep(2)
-@pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
+@pytest.mark.sweep
+@pytest.mark.parametrize("model", ["shell", "lumped", "solid"])
 def test_what_turns_inside_out_ends_a_run(model):
     """An edge pushed through the other."""
     edge = {"edge": "x1", "kind": "held", "components": ["x", "z"]}

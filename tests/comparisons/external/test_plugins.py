@@ -249,11 +249,3 @@ def test_compare_takes_a_plug_in_from_its_file(capsys):
     models_shown = [solution["model"] for solution in document["solutions"]]
     assert models_shown[-1] == "strip" and {"lumped", "shell"} < set(models_shown)
     assert {"strip"} == {d["of"] for d in document["differences"]} - {"lumped", "lumped-uniform"}
-
-
-@pytest.mark.parametrize("named", ["absent.py:Strip", f"{DOCS / 'plugin.py'}:Absent", "nobody"])
-def test_a_model_that_is_not_there_is_said_in_a_line(named, capsys):
-    arguments = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty")
-    assert run(*arguments, "--model", named) == 2
-    said = one_line(capsys)
-    assert any(part in said for part in named.split(":"))

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from comparisons.identification.fit import Fit
 from comparisons.identification.measurements import Displacements
-from comparisons.identification.misfit import Misfit, require_same_way
+from comparisons.identification.model import Model
 from comparisons.identification.prediction import Prediction
 from sheetbench.errors import BadInput
 
@@ -14,7 +15,8 @@ AXES = (np.linspace(0.0, 0.1, 3), np.linspace(0.0, 0.1, 3))
 
 
 def misfit(displacement):
-    return Misfit(Displacements(POINTS, np.asarray(displacement)), AXES)
+    """Of no unknown, for what does not ask the model."""
+    return Fit(Displacements(POINTS, np.asarray(displacement)), (), Model({}, AXES, lambda measured: None))
 
 
 def test_residuals_are_shares_of_the_largest_measurement_and_come_back_in_metres():
@@ -22,7 +24,7 @@ def test_residuals_are_shares_of_the_largest_measurement_and_come_back_in_metres
     measured[1, 2] = np.nan
     slope = np.arange(9.0).reshape(3, 3)
     one = misfit(measured)
-    residuals, slopes = one.of(Prediction(MODEL, [slope, 2.0 * slope]))
+    residuals, slopes = one.residuals(Prediction(MODEL, [slope, 2.0 * slope]))
     scale = 1.25 * 1.1e-2
     given = np.isfinite(measured)
     np.testing.assert_allclose(residuals, (MODEL - measured)[given] / scale)
@@ -44,12 +46,12 @@ def test_residuals_are_shares_of_the_largest_measurement_and_come_back_in_metres
 )
 def test_a_component_is_opposite_where_it_is_large_and_its_correlation_negative(factors, opposite):
     one = misfit(MODEL * factors)
-    residuals, _ = one.of(Prediction(MODEL, [np.zeros((3, 3))]))
+    residuals, _ = one.residuals(Prediction(MODEL, [np.zeros((3, 3))]))
     assert one.turned(residuals) == opposite
 
 
 def test_a_deflection_of_the_other_sign_is_refused_with_its_correlation():
-    require_same_way(Displacements(POINTS, 0.3 * MODEL), Prediction(MODEL, []), AXES)
-    require_same_way(Displacements(POINTS, -MODEL), Prediction(0.0 * MODEL, []), AXES)
+    misfit(0.3 * MODEL).require_same_way(Prediction(MODEL, []))
+    misfit(-MODEL).require_same_way(Prediction(0.0 * MODEL, []))
     with pytest.raises(BadInput, match=r"uz have the opposite sign of the model's \(correlation −1\.00"):
-        require_same_way(Displacements(POINTS, -2.0 * MODEL), Prediction(MODEL, []), AXES)
+        misfit(-2.0 * MODEL).require_same_way(Prediction(MODEL, []))

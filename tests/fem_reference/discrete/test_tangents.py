@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from rod_cases import SHEET, chain, driven
 
-from fem_reference.discrete.static import State, Static
+from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
 from fem_reference.surface.mesh import rectangle
@@ -64,14 +64,14 @@ def test_the_tangent_is_the_derivative_of_the_force(name):
     static, flat = Static(sheet), sheet.placed(np.zeros(sheet.size), at)
     move = sheet.expand(sheet.shape(flat, at), rng.normal(size=sheet.unknowns))
     q = sheet.moved(flat, np.where(sheet.scale == 1.0, 2e-3 * sheet.lever, 2e-2) * move)
-    forces = static.forces(State(q), at)
-    matrix, _ = static.system(State(q), forces, at, mixed=False)
+    forces = static.forces(StaticState(q), at)
+    matrix, _ = static.system(StaticState(q), forces, at, mixed=False)
     step = rng.normal(size=sheet.unknowns)
     along = sheet.expand(forces.shape, step)
 
     def rows(t):
         ahead = sheet.moved(q, t * along)
-        residual = static.forces(State(ahead), at).residual
+        residual = static.forces(StaticState(ahead), at).residual
         if sheet.model == "shell":
             on_directors, directors = residual[3 * sheet.nodes :].reshape(-1, 3), sheet.directors(ahead)
             on_directors -= np.einsum("nc,nc->n", on_directors, directors)[:, None] * directors

@@ -79,11 +79,14 @@ def test_solid_agrees_with_the_shell():
     assert solid.reactions["x0"][2] == pytest.approx(shell.reactions["x0"][2], rel=5e-3)
 
 
-def test_loop_pressed_between_plates():
-    """That a clamp turns, without loads, against a plane."""
-    solution = fem_reference.solve(pressed_loop(0.6), "shell", elements=(20, 1), graded=False)
+@pytest.mark.parametrize("gap", [0.6, 0.3])
+def test_loop_pressed_between_plates(gap):
+    """That a clamp turns, without loads, against a plane; nodes at a distance l leave 0.44 (l/s₁)² of the
+    force open by the phase of the lift-off s₁, κ s₁ = ½ Β(¼, ½) = 2.62205."""
+    solution = fem_reference.solve(pressed_loop(gap), "shell", elements=(20, 1), graded=False)
     assert solution.status is Status.CONVERGED
-    assert solution.reactions["obstacle 1"][2] == pytest.approx(-loop_force(0.6), rel=1e-3)
+    phase = 0.44 * (2.0 * 1.19814 / gap / 40.0 / 2.62205) ** 2
+    assert solution.reactions["obstacle 1"][2] == pytest.approx(-loop_force(gap), rel=phase)
 
 
 def test_sheet_that_lies_presses_evenly():
@@ -98,7 +101,7 @@ def test_shell_over_a_cylinder():
 
 
 def test_shell_over_a_ball_folds_one_way():
-    u = fem_reference.solve(draped_quarter(), "shell", elements=8).displacement([[0.1, 0.0], [0.0, 0.1]])
+    u = fem_reference.solve(draped_quarter(), "shell", elements=6).displacement([[0.1, 0.0], [0.0, 0.1]])
     assert np.sort(u[:, 2]) == pytest.approx([-0.0652, 0.0002], abs=1e-3)
 
 
@@ -107,6 +110,7 @@ def test_the_plate_refuses_obstacles():
         fem_reference.solve(laid_strip(0.1), "plate")
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(("integrator", "within"), [("generalised-alpha", 5e-3), ("energy-momentum", 1e-6)])
 def test_energy_of_a_shell_that_falls(integrator, within):
     scene = laid_strip(0.05).replace(length_x=0.2, thickness=0.002, young=5e6)

@@ -6,8 +6,7 @@ import pytest
 import fem_reference
 from fem_reference.discrete.energies import energies
 from fem_reference.motion.energy_momentum import EnergyMomentum
-from fem_reference.motion.shell import MovingShell
-from fem_reference.motion.solid import MovingSolid
+from fem_reference.sheets import SHEETS, start
 from fem_reference.verification import settling_strip
 from sheetbench.errors import BadInput
 
@@ -43,11 +42,11 @@ def test_a_hundred_periods_leave_the_energy_as_it_was(model, elements):
     assert drift(model, 0.0, elements, duration=32.1, step=1e-2) < 1e-8
 
 
-@pytest.mark.parametrize("kind", [MovingShell, MovingSolid])
+@pytest.mark.parametrize("kind", ["shell", "solid"])
 def test_a_sheet_thrown_and_spinning_keeps_both_momenta_and_its_energy(kind):
     """To what corrections leave, 1e-10 of the displacement at most; the plate, linear, does not turn."""
-    model = kind(STRIP.replace(supports=(), gravity=None, damping_time=0.0), (1, 1))
-    q = model.start()
+    model = SHEETS[kind](STRIP.replace(supports=(), gravity=None, damping_time=0.0), (1, 1), moving=True)
+    q = start(model)
     places = model.mesh(model.displacement(q)).points
     directors = np.tile([0.0, 0.0, 1.0], (len(q) // 3 - len(places), 1))  # of the shell
     rest = np.concatenate([places - [0.09, 0.045, 0.0], directors])

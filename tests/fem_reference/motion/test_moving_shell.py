@@ -5,8 +5,7 @@ import pytest
 
 import fem_reference
 from fem_reference.motion.generalised_alpha import ConstrainedAlpha
-from fem_reference.motion.plate import MovingPlate
-from fem_reference.motion.shell import MovingShell
+from fem_reference.sheets import SHEETS, start
 from fem_reference.verification import settling_strip
 from sheetbench.answers.history import History
 from sheetbench.errors import BadInput
@@ -26,9 +25,9 @@ def test_a_sheet_let_go_swings_at_its_lowest_frequency(strip):
     light = strip.replace(damping_time=0.0, gravity=Gravity(acceleration=(0.0, 0.0, -1e-4)))
     mode = fem_reference.modes(strip, "shell", (4, 2), count=1, graded=False)
     period = 1.0 / mode.frequencies[0]
-    model = MovingShell(light, (4, 2), graded=False)
+    model = SHEETS["shell"](light, (4, 2), graded=False, moving=True)
     method = ConstrainedAlpha(model, period / 200.0, 1e-6, 0.0)
-    motion = method.begin(0.0, model.start(), np.zeros(model.mass.shape[0]))
+    motion = method.begin(0.0, start(model), np.zeros(model.mass.shape[0]))
     shape = np.zeros((2, *mode.shapes[0].shape))
     shape[0, :, 2] = mode.shapes[0][:, 2]
     coordinate = [0.0]
@@ -72,8 +71,8 @@ def test_a_run_keeps_the_frames_asked_for():
     assert last == pytest.approx(motion.probes["P4"][-1], abs=1e-15)
 
 
-@pytest.mark.parametrize("model", [MovingPlate, MovingShell])
+@pytest.mark.parametrize("model", ["plate", "shell"])
 def test_a_mesh_of_the_sheets_own_is_not_graded(model):
     corners = [(0.0, 0.0), (0.188, 0.0), (0.188, 0.188), (0.0, 0.188)]
     own = load("one-edge-clamped").replace(mesh={"points": corners, "quads": [(0, 1, 2, 3)]})
-    assert model(own).settings["graded"] is False
+    assert SHEETS[model](own, moving=True).settings["graded"] is False

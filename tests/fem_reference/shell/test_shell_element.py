@@ -6,7 +6,7 @@ from cases import RUBBER, SHEET
 from scipy.spatial.transform import Rotation
 from skfem import Basis, ElementQuad2, MeshQuad
 
-from fem_reference.discrete.static import State, Static
+from fem_reference.discrete.static import Static, StaticState
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
 from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
@@ -52,7 +52,7 @@ def random_state(sheet, size=1.0, seed=1):
     moved = size * 0.02 * rng.uniform(-1, 1, (sheet.nodes, 3))
     director = np.array([0, 0, 1.0]) + size * 0.5 * rng.uniform(-1, 1, (sheet.nodes, 3))
     turned = director / np.linalg.norm(director, axis=1, keepdims=True) - [0, 0, 1.0]
-    return State(sheet.of_vectors(moved, turned))
+    return StaticState(sheet.of_vectors(moved, turned))
 
 
 def at_rest(sheet):
@@ -63,7 +63,7 @@ def at_rest(sheet):
 
 def residual(sheet, moved, turned=None):
     """Forces on positions and on directors (2, n, 3) of a shape."""
-    state = State(sheet.of_vectors(moved, np.zeros_like(moved) if turned is None else turned))
+    state = StaticState(sheet.of_vectors(moved, np.zeros_like(moved) if turned is None else turned))
     return Static(sheet).forces(state, 0.0).residual.reshape(2, -1, 3)
 
 
@@ -73,7 +73,7 @@ def test_the_internal_force_is_the_derivative_of_the_energy():
     step = np.random.default_rng(3).uniform(-1, 1, q.shape)
     t = 1e-6
     energy = [sheet.elastic(sheet.shape(q + s * t * step, 1.0)) for s in (1, -1)]
-    force = Static(sheet).forces(State(q), 0.0).residual
+    force = Static(sheet).forces(StaticState(q), 0.0).residual
     assert (energy[0] - energy[1]) / (2 * t) == pytest.approx(force @ step, rel=1e-7)
 
 
@@ -95,7 +95,7 @@ def test_the_tangent_is_symmetric_under_dead_loads_alone(loads):
 
 def test_the_linear_step_honours_constraints_and_extrapolates_the_stress():
     sheet = discretise(distorted(), make_scene(supports=(Clamped(edge="x0"),), loads=LOADS["pressure"]))
-    static, stretched = Static(sheet), State(random_state(sheet, 0.01).q * 1.01)
+    static, stretched = Static(sheet), StaticState(random_state(sheet, 0.01).q * 1.01)
     forces = static.forces(stretched, 1.0)
     matrix, rows = static.system(stretched, forces, 1.0)
     following = static.advance(stretched, forces, 1.0, np.linalg.solve(matrix.toarray(), rows)).q

@@ -11,7 +11,7 @@ import lumped
 from comparisons.comparison.comparison import error
 from fem_reference.discrete.course import Ramp
 from fem_reference.discrete.items import Dead
-from fem_reference.discrete.static import State, Static
+from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell import statics as shell
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle
@@ -117,7 +117,7 @@ def strip(at=0.5, shorter=SHORTER, bent=0.0):
     moved[:, 2] = high * np.sin(phase)
     slope = np.arctan(high * np.pi / SIDE * np.cos(phase))
     turned[:, 0], turned[:, 2] = -np.sin(slope), np.cos(slope) - 1.0
-    return Strip(sheet).from_state(State(sheet.of_vectors(moved, turned)))
+    return Strip(sheet).from_state(StaticState(sheet.of_vectors(moved, turned)))
 
 
 def heights(state):
@@ -135,7 +135,7 @@ def arch():
 def mirrored(state):
     """The same on the other side of z = 0."""
     change = state.q.reshape(2, -1, 3)
-    return State((change * np.array([[[1.0, 1.0, -1.0]], [[-1.0, -1.0, 1.0]]])).ravel())
+    return StaticState((change * np.array([[[1.0, 1.0, -1.0]], [[-1.0, -1.0, 1.0]]])).ravel())
 
 
 def pushed(arch, at=0.5, settles=True):
@@ -239,8 +239,10 @@ def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene
     q[: 6 * sheet.nodes] = generator.normal(0.0, 1e-3, 6 * sheet.nodes)
     sheet.displacement(way)[free] = generator.normal(0.0, 1.0, int(free.sum()))
     step = 1e-6
-    ahead, behind = (structure.potential(State(q + sign * step * way), factor)[0] for sign in (1.0, -1.0))
-    state = State(q)
+    ahead, behind = (
+        structure.potential(StaticState(q + sign * step * way), factor)[0] for sign in (1.0, -1.0)
+    )
+    state = StaticState(q)
     residual = structure.forces(state, factor).residual
     assert (ahead - behind) / (2.0 * step) == pytest.approx(residual @ way, rel=1e-6)
     slow = structure.dragged(state, factor, 3.0).forces(state, factor).residual

@@ -24,6 +24,7 @@ from fem_reference.verification.rows import absolutely, relatively
 from sheetbench.answers.layout import blocks
 
 ELSEWHERE = ("locking-plate", "locking-shell", "strain-laws", "rubber")  # test_locking, test_strain_laws
+HEAVIEST = ("disc-bending", "nafems-fv16", "end-shear")  # by night
 QUICK = [name for name, case in CASES.items() if case.quick and name not in ELSEWHERE]
 VALUES = {  # case → how many values, beside the changes from half the mesh
     "end-shear": 16, "roll-up": 6, "slit-annulus": 10, "heavy-elastica": 24, "settling-strip": 2,
@@ -48,7 +49,9 @@ def held(rows):
 
 
 @pytest.mark.sweep(2)
-@pytest.mark.parametrize("name", QUICK)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.nightly] * (name in HEAVIEST)) for name in QUICK]
+)
 def test_quick_cases_pass(name):
     rows = rows_of(name)
     held(rows)

@@ -51,6 +51,7 @@ def bent(scene, springs, twisting, small=1e-10):
     return energy / stored, np.abs(force[middle]).max() / np.abs(force).max()
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("fibres", [STRONG, ORDINARY], ids=["strong", "ordinary"])
 @pytest.mark.parametrize("cells, thicknesses", [(1, 2), (1, 20), (2, 60), (8, 5), (8, 60)])
 def test_a_moment_bends_a_strip_as_it_bends_the_sheet(fibres, cells, thicknesses):

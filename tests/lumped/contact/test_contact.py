@@ -26,6 +26,7 @@ from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Cylinder, Motion, Plane, SceneError, Sphere
+from sheetbench.scenes.objects.grading import Grading
 
 OBSTACLES = {
     "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),
@@ -37,8 +38,19 @@ OBSTACLES = {
 }
 
 
-def solve(scene, grid, **options):
-    return lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid), **options)
+def solve(scene, grid, grading=0.0, **options):
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=grid, grading=grading)
+    return lumped.solve(scene, springs, **options)
+
+
+def clamp(solution):
+    """A clamp's share of the weight and its M/w [m²]: of the moments of its forces, and w l²/12 of its cell,
+    that weight lumped at masses leaves out."""
+    mesh, reaction = solution.mesh, solution.mesh.point_data["reaction"]
+    cell = np.unique(mesh.points[:, 0])[1]
+    return solution.reactions["x0"][2] / WEIGHT, cell**2 / 12.0 - float(
+        mesh.points[:, 2] @ reaction[:, 0]
+    ) / WEIGHT
 
 
 @pytest.fixture(params=OBSTACLES)
@@ -126,16 +138,14 @@ def test_strip_that_lies_down_against_the_heavy_elastica(drop, masses):
     assert solution.status is Status.CONVERGED
     free = solve(laid_strip(drop, obstacles=()), (masses, 3, 2))
     assert solution.iterations <= 2 * free.iterations
-    clamp, plane = solution.reactions["x0"][2] / WEIGHT, solution.reactions["obstacle 1"][2] / WEIGHT
-    assert clamp == pytest.approx(carried, rel=within)
-    assert clamp + plane == pytest.approx(1.0, abs=1e-9)
+    (force, clamped), plane = clamp(solution), solution.reactions["obstacle 1"][2] / WEIGHT
+    assert force == pytest.approx(carried, rel=within)
+    assert force + plane == pytest.approx(1.0, abs=1e-9)
     contact = solution.contacts["obstacle 1"]
     assert contact.penetration < 1e-4
     assert contact.undecided == 0
     assert solution.energies["contact"] > 0.0
     mesh, field = solution.mesh, solution.mesh.point_data
-    # weight that is lumped at masses leaves out the moment w l²/12 of the clamped half cell's
-    clamped = (masses - 1.0) ** -2 / 12.0 - float(mesh.points[:, 2] @ field["reaction"][:, 0]) / WEIGHT
     assert clamped == pytest.approx(moment, rel=of_moment)
     assert moment == pytest.approx(np.sqrt(2 * 0.01 * drop), rel=1e-6)  # √(2 B w H), of any heavy elastica
     # the plane's force R, at x, is a point force at s₁ and the weight of what lies: R x = R s₁ + w (L −
@@ -146,6 +156,16 @@ def test_strip_that_lies_down_against_the_heavy_elastica(drop, masses):
     assert s1 == pytest.approx(lift_off, rel=0.01)
 
 
+@pytest.mark.parametrize(("drop", "by"), [(0.05, 0.5), (0.2, 0.5), (0.05, 0.8), (0.2, 0.8)])
+def test_cells_graded_towards_the_clamp_bring_its_force_within_a_thousandth(drop, by):
+    """As `--grading auto` does, by 0.5 towards the one edge that is held; by 0.8 its moment too."""
+    _, carried, moment = heavy_elastica(drop)
+    force, clamped = clamp(solve(laid_strip(drop), (41, 3, 2), Grading(by, ("x0",))))
+    assert force == pytest.approx(carried, rel=1e-3)
+    assert clamped == pytest.approx(moment, rel=1e-3 if by == 0.8 else 1.5e-3)
+
+
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(("gap", "masses"), [(0.6, 41), (0.6, 81), (0.3, 81)])
 def test_loop_pressed_between_plates(gap, masses):
     """The spring's sine takes κ²l²/6 of the force, the chord for the arc 1/12 of κ²l², the lift-off's phase
@@ -172,6 +192,7 @@ def test_strip_over_a_cylinder_against_the_elastica():
     assert solution.displacement([[1.0, 0.05]])[0, 2] == pytest.approx(CYLINDER_TIP, abs=1e-3)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("at", [0.3, 0.35, 0.45, 0.5])
 def test_strip_over_a_cylinder_at_other_places(at):
     assert bent_elastica(0.4) == pytest.approx(CYLINDER_FORCE, rel=1e-5)

@@ -5,7 +5,13 @@ import pytest
 from dynamic_cases import ROD, make_scene, run, system
 
 from lumped.dynamics import INTEGRATORS, State
-from lumped.dynamics.implicit.compiled_newton import CONVERGED, STALE, CompiledNewton
+from lumped.dynamics.implicit.compiled_newton import (
+    CONVERGED,
+    STALE,
+    CompiledNewton,
+    NewtonLimits,
+    iterate,
+)
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.runs.observer import LatticeObserver
 from sheetbench import scenes
@@ -50,10 +56,16 @@ def test_the_compiled_iteration_tells_how_many_corrections_it_made():
     compiled, by = CompiledNewton(equations), (1e6, 1e3)
     u, still, pulled = np.zeros((3, 2, *equations.lattice_mass.shape, 3))
     assert compiled.factorise(u[0], still[0], 0.0, *by)
-    assert compiled.iterate(0, 8, u, (still, still), by, still[:1], 1e-12, 0.5, 8) == (CONVERGED, 2, 8)
+
+    def iterated(loads, corrections):
+        limits = NewtonLimits(1e-12, equations.problem.size, 0.5, corrections)
+        kept = compiled.arrays, compiled.factors, compiled.workspace
+        return iterate(0, corrections, u, still, still, by, loads, limits, *kept)
+
+    assert iterated(still[:1], 8) == (CONVERGED, 2, 8, 2)
     pulled[1, :, 2] = 1e-3
     # the first of both needs no second correction, the other one has no second left
-    assert compiled.iterate(0, 1, u, (still, still), by, pulled, 1e-12, 0.5, 1) == (STALE, 1, 0)
+    assert iterated(pulled, 1) == (STALE, 1, 0, 2)
     assert not u[0].any() and u[1].any()
 
 

@@ -7,7 +7,7 @@ import pytest
 from dynamic_cases import ROD, make_scene, run, springs, system
 
 import lumped
-from lumped.dynamics.implicit import esdirk
+from lumped.dynamics.implicit import esdirk, esdirk_step
 from lumped.dynamics.implicit.esdirk import Esdirk
 from lumped.dynamics.implicit.polynomial import bubbles
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GUESSES, STAGES, WEIGHTS
@@ -87,7 +87,7 @@ def test_what_corrects_some_samples_of_a_step_corrects_the_others(monkeypatch):
     """All solved for, they differ by less than the error that a step may have, along stiff springs too."""
     scene = make_scene("two-edges-settling")
     few = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=1e-3)
-    monkeypatch.setattr(esdirk, "NODES", np.linspace(0.0, 1.0, 200))
+    monkeypatch.setattr(esdirk_step, "NODES", np.linspace(0.0, 1.0, 200))
     each = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=1e-3)
     assert few.steps == each.steps < 60
     largest = max(np.abs(u).max() for u in each.probes.values())

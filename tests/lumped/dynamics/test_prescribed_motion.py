@@ -41,6 +41,7 @@ def test_the_components_that_are_driven_are_those_that_are_put_elsewhere(moved):
     np.testing.assert_array_equal(equations.prescribed.components, np.ptp(places, axis=0) > 0.0)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", [name for name in INTEGRATORS if name != "esdirk"])
 @pytest.mark.parametrize("moved", MOVED)
 def test_at_every_step_an_edge_is_where_and_as_fast_as_prescribed(moved, name):

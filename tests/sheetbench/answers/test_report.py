@@ -16,7 +16,7 @@ from comparisons.sweep.folder import MANIFEST, Folder
 from sheetbench import scenes
 from sheetbench.answers import escape
 from sheetbench.answers.report import Picture, Report
-from sheetbench.answers.table import Column, Table, Unit, quantity, unit
+from sheetbench.answers.table import Column, Table, TableUnit, quantity, unit
 from sheetbench.errors import BadInput, Implausible
 
 pytestmark = pytest.mark.smoke
@@ -35,7 +35,7 @@ def test_a_row_with_a_unit_is_shown_in_it_and_kept_in_si():
     table = Table("", columns, (("young", unit("Pa"), 4.1e6, 0.5), ("poisson", unit(""), 0.3, 0.5)))
     assert table.shown_rows() == [["young", "MPa", "4.1", "50.0"], ["poisson", "", "0.3", "50.0"]]
     assert "young,Pa,4100000.0,0.5" in table.to_csv()
-    assert unit("kg/m³") == Unit("kg/m³", "kg/m³")
+    assert unit("kg/m³") == TableUnit("kg/m³", "kg/m³")
     assert [quantity(-4.1e6, "Pa"), quantity(0.3, "")] == ["−4.1 MPa", "0.3"]
 
 

@@ -4,7 +4,7 @@ import pytest
 from commands import run
 
 from sheetbench.answers.report import Report
-from sheetbench.answers.table import MILLIMETRES, Column, Table, Unit
+from sheetbench.answers.table import MILLIMETRES, Column, Table, TableUnit
 from studies import pages
 
 NAMES = sorted(path.stem for path in pages.RESULTS.glob("*.json") if path.stem != "promises")
@@ -28,7 +28,10 @@ def test_what_is_kept_is_shown_as_it_was(tmp_path, monkeypatch):
         Column("of"),
         Column("x", form="g"),
     )
-    rows = (("a | [b]", 1.5e-3, 3, Unit("Pa", "MPa", 1e-6), 2e6), ("c", None, 4, Unit("m", "mm", 1e3), 0.1))
+    rows = (
+        ("a | [b]", 1.5e-3, 3, TableUnit("Pa", "MPa", 1e-6), 2e6),
+        ("c", None, 4, TableUnit("m", "mm", 1e3), 0.1),
+    )
     table = Table("A caption", columns, rows, "t", True, "Some text.")
     report = Report("r", "Title", {}, "sub", tables=(table,), notes=("A note.",), complaints=("No.",))
     pages.keep(report, made="today")

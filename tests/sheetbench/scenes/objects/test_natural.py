@@ -39,10 +39,10 @@ def test_patches_win_over_the_sheet_and_later_ones_over_those_before():
         ),
     )
     state = natural_at(of, np.array([[0.02, 0.05], [0.07, 0.05], [0.12, 0.05], [0.18, 0.05]]))
-    strain, _ = state.now
+    strain, _ = state.at()
     np.testing.assert_allclose(strain[:, 0, 0], [0.02, 0.03, 0.03, 0.01])
     cells = natural_of_cells(of, np.array([0.0, 0.2]), np.array([0.0, 0.1]))
-    mean, _ = cells.now
+    mean, _ = cells.at()
     assert mean[0, 0, 0, 0] == pytest.approx(0.25 * 0.02 + 0.5 * 0.03 + 0.25 * 0.01)
     assert sheet_at_rest(of).lengths == (0.2, 0.1)  # cells have grown each by itself
     growth = growth_of_cells(of, np.array([0.0, 0.2]), np.array([0.0, 0.1]))
@@ -57,8 +57,7 @@ def test_histories_scale_each_source_of_its_own():
         natural=Natural(curvature=(1.0, 0.0, 0.5), history=grows), temperature=Temperature(change=10.0)
     )
     state = natural_at(of, np.zeros(2))
-    state.grow(time=0.25)
-    strain, curvature = state.now
+    strain, curvature = state.at(time=0.25)
     np.testing.assert_allclose(curvature, [[0.5, 0.25], [0.25, 0.0]])
     np.testing.assert_allclose(strain, 1e-3 * np.eye(2), rtol=1e-12)
     assert state.moves and state.rates(0.25, before=False).tolist() == [2.0, 0.0]
@@ -88,7 +87,7 @@ def test_a_gradient_of_temperature_bends_and_a_bimetal_is_timoshenkos():
 
 def test_pretension_is_the_strain_that_pulls_so_much():
     of = scene(natural=Natural(pretension=(2.0, 1.0)))
-    strain, _ = (part[0] for part in natural_at(of, np.zeros((1, 2))).now)
+    strain, _ = (part[0] for part in natural_at(of, np.zeros((1, 2))).at())
     stiffness = 1e6 * 0.002 / 0.91 * np.array([[1.0, 0.3], [0.3, 1.0]])
     np.testing.assert_allclose(-stiffness @ np.diag(strain), [2.0, 1.0])
 

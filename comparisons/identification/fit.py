@@ -1,0 +1,188 @@
+"""Model − measurement, and the search for the unknowns with which a model comes nearest to what was measured.
+
+Residuals are shares of the largest measurement: u_model − u_measured at every measured component, or the
+distances of a cloud's points from the model's surface, along its normals
+(`comparisons.identification.surface`). The search is least squares in the unknowns' x by a trust region
+(SciPy's `least_squares`), with a pull of PULL towards the scene's own values, x = 0, that holds what the data
+do not see at all. Where the model has no answer the residuals are REFUSED, and the step is shortened.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from comparisons.identification import surface
+from comparisons.identification.measurements import MOVED, Displacements, Measured, Surface
+from comparisons.identification.model import Model
+from comparisons.identification.prediction import NotReached, Prediction
+from comparisons.identification.unknowns import Unknown
+from comparisons.models.context import context
+from sheetbench.answers.table import number
+from sheetbench.errors import BadInput
+
+OPPOSITE = -0.5  # correlation with the model's displacement below which the measured one is turned round
+TELLING = 0.1  # of the largest measurement: what a component must reach for its sign to say something
+REFUSED = 1e3  # residual, in units of the data, where the model has no answer: the step is shortened
+SMALLEST = 1e-8  # change of x, or of the sum of squares, that ends the search
+PULL = 1e-6  # residual, in units of the data, that a unit of x is worth
+EVALUATIONS = 60
+
+
+@dataclass(frozen=True)
+class Nearest:
+    """Where a search ended: x (n,); residuals (m,) there, in units of the largest measurement, and their
+    slopes (m, n) by x; against_bounds: (n,), -1 or 1 where an unknown ended at its lower or upper bound;
+    converged: whether at a minimum."""
+
+    x: np.ndarray
+    residuals: np.ndarray
+    slopes: np.ndarray
+    against_bounds: np.ndarray
+    evaluations: int
+    converged: bool
+
+    @property
+    def noise(self) -> float:
+        """The standard deviation of the residuals, in units of the largest measurement."""
+        return float(np.sqrt(self.residuals @ self.residuals / max(len(self.residuals) - len(self.x), 1)))
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What is fitted: unknowns of a model to measurements; offset [m]: from the mid-surface, at which a cloud
+    was taken."""
+
+    measured: Measured
+    unknowns: tuple[Unknown, ...]
+    model: Model
+    offset: float = 0.0
+
+    def residuals(self, predicted: Prediction) -> tuple[np.ndarray, np.ndarray]:
+        """Residuals (m,) and their slopes (m, n) by the unknowns' x."""
+        measured, scale, axes = self.measured, self.measured.scale, self.model.axes
+        if isinstance(measured, Displacements):
+            given = measured.measured
+            slopes = [slope[given] for slope in predicted.slopes]
+            residuals = (predicted.displacement - measured.displacement)[given]
+        else:
+            found = surface.feet(axes, surface.Field(axes, predicted.displacement), measured.points)
+            slopes = [
+                np.einsum("nc,nc->n", found.normals, surface.Field(axes, slope).at(found.points))
+                for slope in predicted.slopes
+            ]
+            residuals = self.offset - found.distances
+        return residuals / scale, np.stack(slopes, axis=1) / scale
+
+    def predict(self, x: np.ndarray) -> Prediction:
+        """Return what the model has where it was measured. Raises NotReached where it has no answer."""
+        measured = self.measured
+        everywhere = isinstance(measured, Surface)
+        points = surface.plan_points(self.model.axes) if everywhere else measured.points
+        return self.model.predictor(measured)(self.unknowns, x, points)
+
+    def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Residuals and slopes at x. Raises NotReached where the model has no answer."""
+        return self.residuals(self.predict(x))
+
+    def per_point(self, residuals: np.ndarray) -> np.ndarray:
+        """Residuals [m] in the shape of the measurements, nan where nothing was measured."""
+        if isinstance(self.measured, Surface):
+            return residuals * self.measured.scale
+        out = np.full(self.measured.displacement.shape, np.nan)
+        out[self.measured.measured] = residuals * self.measured.scale
+        return out
+
+    def turned(self, residuals: np.ndarray) -> list[str]:
+        """Return the measured components that point the other way than the model's."""
+        if isinstance(self.measured, Surface):
+            return []
+        predicted = self.measured.displacement + self.per_point(residuals)
+        return [
+            name
+            for name, model, measured in zip(MOVED, predicted.T, self.measured.displacement.T, strict=True)
+            if _correlation(model, measured, self.measured.scale) < OPPOSITE
+        ]
+
+    def require_same_way(self, predicted: Prediction) -> None:
+        """Raise BadInput where the measured deflection points the other way than the predicted one, which
+        other values of the sheet cannot turn over."""
+        measured, axes = self.measured, self.model.axes
+        if any(unknown.turns for unknown in self.unknowns):
+            return
+        if isinstance(measured, Displacements):
+            name, deflection, model = "uz", measured.displacement[:, 2], predicted.displacement[:, 2]
+        else:
+            name, deflection = "heights", measured.points[:, 2]
+            model = surface.Field(axes, predicted.displacement).at(measured.points[:, :2])[:, 2]
+        correlation = _correlation(model, deflection, measured.scale)
+        if correlation < OPPOSITE:
+            raise BadInput(
+                f"{measured.source}: the measured {name} have the opposite sign of the model's (correlation "
+                f"{number(correlation, '.2f')} at the scene's own values); z points up"
+            )
+
+    def search(
+        self,
+        start: np.ndarray,
+        first: Callable[[Fit, Prediction], None] | None = None,
+        smallest: float = SMALLEST,
+        evaluations: int = EVALUATIONS,
+        pull: float = PULL,
+    ) -> Nearest:
+        """Return the unknowns' x with which the model comes nearest to the measurements.
+
+        start: x to begin at; first: called with this fit and what is predicted there, to refuse it;
+        smallest: change of x, or of the sum of squares, that ends the search, as do so many evaluations;
+        pull: towards the scene's own values. Raises NotReached where the model has no answer at the start.
+        """
+        kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
+
+        def at(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            key = x.tobytes()
+            if key not in kept:
+                predicted = self.predict(x)
+                if first and not kept:
+                    first(self, predicted)
+                kept[key] = self.residuals(predicted)
+                size = float(np.sqrt(np.mean(kept[key][0] ** 2)))
+                known = ", ".join(
+                    f"{u.name} = {u.value(z):.6g}" for u, z in zip(self.unknowns, x, strict=True)
+                )
+                context().progress(f"{known}: off by {100 * size:.3g} % of the largest measurement")
+            return kept[key]
+
+        def residuals(x: np.ndarray) -> np.ndarray:
+            try:
+                return np.concatenate([at(x)[0], pull * x])
+            except NotReached as error:
+                context().progress(f"no answer there: {error}")
+                return np.concatenate([np.full(count, REFUSED), pull * x])
+
+        low, high = np.array([u.bounds() for u in self.unknowns]).T
+        start = np.clip(start, low, high)
+        count = len(at(start)[0])
+        best = least_squares(
+            residuals,
+            start,
+            jac=lambda x: np.vstack([at(x)[1], pull * np.eye(len(x))]),
+            bounds=(low, high),
+            xtol=smallest,
+            ftol=smallest,
+            gtol=1e-12,
+            max_nfev=evaluations,
+        )
+        return Nearest(best.x, *at(best.x), best.active_mask, len(kept), best.status > 0)
+
+
+def _correlation(model: np.ndarray, measured: np.ndarray, scale: float) -> float:
+    """Σ model · measured over both norms, of what was measured; 0 where that is small or nothing moves."""
+    given = np.isfinite(measured)
+    model, measured = model[given], measured[given]
+    norms = float(np.linalg.norm(model) * np.linalg.norm(measured))
+    if norms == 0.0 or np.abs(measured).max() < TELLING * scale:
+        return 0.0
+    return float(model @ measured) / norms

@@ -1,0 +1,144 @@
+"""A step of `esdirk` beside this file: its stages, and the motion between its ends.
+
+Between the ends the motion is the polynomial of fifth degree with their displacements, velocities and
+accelerations, û, v̂ and â, and then, as stiff springs magnify what it misses, the solution of
+
+    M (â + c₂ (u − û)) + f(u, v̂ + c₁ (u − û), t) = 0,   c₁ = 1/(γh),   c₂ = c₁²,
+
+which lies in equilibrium along stiff directions and on the polynomial along soft ones. Energies are
+polynomials through the stages' powers (`tableau.CUMULATIVE`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from lumped.dynamics.implicit.compiled_stages import Stages
+from lumped.dynamics.implicit.newton import Newton, StepEquation
+from lumped.dynamics.implicit.polynomial import bubbles, polynomials
+from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, STAGES
+from lumped.dynamics.integrator import LatticeSamples
+from lumped.dynamics.system import State, System
+from lumped.dynamics.work import kinetic_of
+
+NODES = np.array([0.25, 0.5, 0.75])  # shares of a step
+
+
+class EsdirkStep:
+    """A step of length h [s] from a state. stages: tables of them, the first the start; memories: what the
+    branches keep at each."""
+
+    def __init__(self, system: System, start: State, h: float):
+        self.system, self.h, times = system, h, start.time + h * ABSCISSAE
+        u, v, a = np.empty((3, len(times), *start.u.shape))
+        u[0], v[0], a[0] = start.u, start.v, start.a
+        self.stages = Stages(times, u, v, a, np.zeros((len(times), 2)))
+        self.memories = [start.memory] * len(times)
+
+    def state(self, i: int) -> State:
+        """Return stage i."""
+        of = self.stages
+        return State(float(of.time[i]), of.u[i], of.v[i], of.a[i], self.memories[i])
+
+    def _relaxed(self, weights: np.ndarray) -> np.ndarray:
+        """A weighted sum of what the branches kept at the first stages."""
+        parts = zip(weights, self.memories, strict=False)
+        return np.sum([weight * memory[1:] for weight, memory in parts if memory is not None], axis=0)
+
+    def in_stage(self, i: int) -> System:
+        """Return the equations of stage i."""
+        if self.system.maxwell is None:
+            return self.system
+        return self._relaxing(self.h * self._relaxed(STAGES[i, : max(i, 1)]), GAMMA * self.h)
+
+    def _relaxing(self, relaxed: np.ndarray, own: float) -> System:
+        """The equations with the branches as `Maxwell.stage` has them."""
+        if self.system.maxwell is None or (start := self.memories[0]) is None:
+            return self.system
+        return self.system.with_branches(self.system.maxwell.stage(start, relaxed, own))
+
+    def error_of_branches(self) -> float:
+        """Return the error of what the branches' springs remember, relative to the largest strain."""
+        maxwell, start = self.system.maxwell, self.memories[0]
+        if maxwell is None or start is None:
+            return 0.0
+        strains = [np.abs(memory[0, 1]).max() for memory in self.memories if memory is not None]
+        largest = float(max(strains))
+        missed = self._relaxed(self.h * ERRORS)[:, 1] / maxwell.times[:, None]
+        return float(np.abs(missed).max()) / largest if largest else 0.0
+
+    def at(
+        self, times: np.ndarray, end: State, newton: Newton, small: float, tolerance: float | None
+    ) -> LatticeSamples:
+        """Return the states at times (k,) [s] within the step, which may take its end; energies since it
+        began. small: correction [m] below which that of others counts for a state; tolerance: as of
+        `Newton.solve_equations`."""
+        stages, h = self.stages, self.h
+        theta = (times - stages.time[0]) / h
+        u, v, a = self._within(theta)
+        weights = h * (np.vander(theta, len(CUMULATIVE), increasing=True) @ CUMULATIVE)
+        taken, put_in = (weights @ stages.power).T
+        system, motion, start = self.system, self.system.prescribed, self.memories[0]
+        memories: list[np.ndarray | None] = [None] * len(times)
+        inside = [system] * len(times)
+        if system.maxwell is not None:
+            inside = [self._relaxing(self._relaxed(weight), 0.0) for weight in weights]
+        c1, within = 1.0 / (GAMMA * h), len(times) - (end.time == times[-1])
+        base_u, base_v = u - a / c1**2, v - a / c1
+
+        def solve(of: np.ndarray, found: np.ndarray) -> bool:
+            some = [StepEquation(inside[i], float(times[i]), base_u[i], base_v[i], c1**2, c1) for i in of]
+            return not newton.solve_equations(some, found, tolerance)
+
+        a -= c1**2 * u
+        self._correct(solve, theta[:within], u[:within], small)
+        a += c1**2 * u
+        if end.time == times[-1]:
+            u[-1], v[-1], a[-1] = end.u, end.v, end.a
+        for i, maxwell in enumerate(one.maxwell for one in inside if start is not None):
+            if maxwell is not None and start is not None:
+                memories[i] = memory = maxwell.after(u[i])
+                taken[i] -= maxwell.branches.stored(memory) - maxwell.branches.stored(start)
+        if motion.moving:
+            began = kinetic_of(system, motion.rate(float(stages.time[0])))
+            put_in += [kinetic_of(system, motion.rate(t, before=True)) - began for t in times.tolist()]
+        return LatticeSamples(times, u, v, a, memories, taken, put_in)
+
+    def _correct(
+        self, solve: Callable[[np.ndarray, np.ndarray], bool], theta: np.ndarray, u: np.ndarray, small: float
+    ) -> None:
+        """Put the solutions at shares θ (k,) of a step, inside it, in place of polynomials u (k, n, 3): those
+        nearest to some shares first. What corrects them is of the third order at the step's ends; what passes
+        through it corrects the others, to begin with, and for good where it is small. solve: puts those of
+        some equations, by number, in place of guesses, and returns whether all have one."""
+        first = np.unique(np.abs(theta - NODES[:, None]).argmin(axis=1))
+        others = np.delete(np.arange(len(theta)), first)
+        for of in (first, others):
+            if not len(of):
+                return
+            found = u[of]
+            all_solved = solve(of, found)
+            moved, u[of] = found - u[of], found
+            if of is first and len(others) and all_solved:
+                shares = bubbles(theta[first], theta[others])
+                u[others] += (shares @ moved.reshape(len(first), -1)).reshape(len(others), *moved.shape[1:])
+                if not self.system.items and np.abs(moved).max() < small:
+                    return
+
+    def _within(self, theta: np.ndarray) -> np.ndarray:
+        """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step: polynomials,
+        and what is prescribed as it is prescribed."""
+        stages, motion = self.stages, self.system.prescribed
+        u, v, a = stages.u[[0, -1]], stages.v[[0, -1]], stages.a[[0, -1]]
+        if not motion.moving:
+            return polynomials(u, v, a, self.h, theta)
+        began, until = float(stages.time[0]), float(stages.time[-1])
+        times = (began + self.h * theta).tolist()
+        u -= np.array([motion.place(began), motion.place(until)])
+        v -= np.array([motion.rate(began), motion.rate(until, before=True)])
+        found = polynomials(u, v, a, self.h, theta)
+        found[0] += np.array([motion.place(time) for time in times])
+        found[1] += np.array([motion.rate(time, before=True) for time in times])
+        return found

@@ -11,7 +11,13 @@ from lumped.grid_lines import grid_lines
 from lumped.supports import constrain
 from sheetbench.scenes import Sheet, load
 from sheetbench.scenes.meaning.region import sides_of_shapes
-from sheetbench.scenes.objects.grading import as_settings, of_settings, places_with_lines, through
+from sheetbench.scenes.objects.grading import (
+    as_settings,
+    lines_for_all,
+    of_settings,
+    places_with_lines,
+    through,
+)
 from sheetbench.scenes.objects.shapes import Shape
 
 SHEET = Sheet(length_x=0.16, length_y=0.04, thickness=1e-3)
@@ -134,3 +140,12 @@ def test_a_slit_that_is_not_open_is_named_with_the_grid_that_opens_it():
 )
 def test_places_that_have_a_line(places, lines, kept):
     assert places_with_lines(places, 4.0, lines) == kept
+
+
+@pytest.mark.parametrize(
+    ("places", "lines"),
+    [([0.08, 1.9], 6), ([0.08, 2.0, 3.92], 7), ([1.0, 2.0, 3.0], 5)],  # one in the middle: an odd number
+)
+def test_lines_that_are_enough_for_all_places(places, lines):
+    assert lines_for_all(places, 4.0) == lines
+    assert places_with_lines(places, 4.0, lines) == places

@@ -10,7 +10,7 @@ relative error is of order 1e-8.
 Parameters: the spring constants of `scenes.SpringSet` by name (axial_x, axial_y, … where a direction has its
 own), layer_distance; young, poisson, density, thickness (springs calibrated again by the same method);
 curvature_EDGE, of the curved support or the actuator on that edge; tilt_EDGE, of the clamp on it;
-patchN.young, … (`scenes.parameters`).
+patchN.young, … obstacleN.z, … (`scenes.parameters`).
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from sheetbench.scenes.meaning.parameters import FIBRES, parameter, put
 STEP = 1e-4  # of a parameter, for the difference of residuals
 CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
 STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
-STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6}
+STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-11}  # m, of what presses in by 1e-8 m
 PATCH, PAYLOAD = "patch", "mass"  # with which names of a patch's constants begin, and those of payloads
 
 

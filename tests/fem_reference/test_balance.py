@@ -92,6 +92,7 @@ SHARP = 1e-5  # of all forces, above which no tolerance is: rods are 10⁵ times
 CASES = [(m, n) for m in MODELS for n in SCENES if m != "linear lattice" or not SCENES[n].actuators]
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(("model", "name"), CASES)
 def test_forces_and_moments_are_in_balance(name, model):
     scene = SCENES[name]

@@ -22,6 +22,7 @@ def pulled(**material):
     )
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["shell", "solid"])
 def test_statics_modes_and_motion_take_the_rubbers_law(model):
     scene = pulled()

@@ -105,7 +105,7 @@ def test_a_bimetal_bends_alike_in_all_models():
         Layer(thickness=0.002, young=3e6, poisson=0.3, expansion=0.0),
     )
     of = scene(0.2, 0.02, 0.003, [Clamped(edge="x0")], layers=layers, temperature=Temperature(change=10.0))
-    shell, solid = (1e3 * tip(of, model, 4)[0][2] for model in ("shell", "solid"))
+    shell, solid = (1e3 * tip(of, model, 3)[0][2] for model in ("shell", "solid"))
     assert shell == pytest.approx(solid, rel=2e-3)
     k = 0.320474778
     assert shell == pytest.approx(1e3 * (0.5 * k * 0.2**2 + 0.3 * 0.3 * k * 0.02 * 0.2), rel=5e-3)
@@ -143,9 +143,10 @@ def test_frequencies_of_a_stretched_square():
 CONSERVING = {"integrator": "energy-momentum", "step": 2e-3}
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("model", "how"),
-    [("plate", {}), ("shell", {}), ("solid", {}), ("plate", CONSERVING), ("shell", CONSERVING)],
+    [("plate", CONSERVING), ("solid", {}), ("plate", {}), ("shell", {}), ("shell", CONSERVING)],
 )
 def test_a_curvature_that_grows_moves_every_reference_as_it_does_the_lattice(model, how):
     """By the energy-momentum rule a plate stood still."""

@@ -128,7 +128,7 @@ def test_meshes():
     assert coarser((16, 40)) == [(16, 40), (12, 30), (8, 20)]
 
 
-@pytest.mark.sweep(2)
+@pytest.mark.sweep(4)
 @pytest.mark.parametrize(
     ("name", "model"),
     [

@@ -79,7 +79,7 @@ def test_a_number_out_of_range_is_told_with_its_place(problem):
     assert fault is not None and fault.status is Status.NON_FINITE and "x = 0.188 m" in fault.message
 
 
-@pytest.mark.sweep(2)
+@pytest.mark.sweep
 @pytest.mark.parametrize("share", [1.0, 5.0, 50.0])
 def test_a_crushed_sheet_ends_in_a_status(share):
     scene = pressed(share)

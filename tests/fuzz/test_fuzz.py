@@ -35,7 +35,7 @@ def test_a_scenes_file_is_read_or_refused_in_a_line(folder, text):
     trials.reads(folder, text)
 
 
-@tries(20)
+@tries(10)
 @given(text=texts())
 def test_a_scene_is_checked_and_written_only_where_asked(folder, text):
     place = folder / "check"
@@ -49,13 +49,13 @@ def test_a_sound_scene_is_solved_and_what_converges_is_in_balance(folder, data):
     trials.compares(folder, data)
 
 
-@tries(60)
+@tries(40)
 @given(data=shaped())
 def test_a_scene_of_shapes_is_refused_or_solved_in_balance(folder, data):
     trials.solves_shapes(folder, data)
 
 
-@tries(30)
+@tries(20)
 @given(arguments=command_lines())
 def test_a_command_line_is_obeyed_or_refused(folder, arguments):
     place = folder / "commands"
@@ -63,7 +63,7 @@ def test_a_command_line_is_obeyed_or_refused(folder, arguments):
     trials.obeys(place, arguments)
 
 
-@tries(30)
+@tries(20)
 @given(example=measured())
 def test_a_measured_file_is_read_or_refused(folder, example):
     trials.measures(folder, example)

@@ -101,6 +101,7 @@ def test_folders_of_kernels_are_the_users_alone_whatever_the_umask(tmp_path):
     assert {stat.S_IMODE(path.stat().st_mode) for path in made} == {0o700}
 
 
+@pytest.mark.nightly
 def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled_and_what_came_with_it(tmp_path):
     unneeded = shutil.ignore_patterns("__pycache__")
     copy, cache, empty = tmp_path / "copy", tmp_path / "cache", tmp_path / "empty"

@@ -226,6 +226,9 @@ if __name__ == "__main__":
     along, states, forces = differences(lattice), lattice["state_displacement"], lattice["state_force"]
     found = np.array([gradient(lattice, along, state)[1] for state in states])
     largest = np.abs(found - forces).max() / np.abs(forces).max()
+    if lattice["state_name"][-1] != "equilibrium":
+        print(f"forces of {len(states)} states off by {largest:.1e}; the folder has no equilibrium")
+        sys.exit(not largest < 1e-9)
     u, truth = equilibrium(lattice, along, int([*sys.argv, 1][2])), states[-1]
     off = np.abs(u - truth).max() / np.abs(truth).max()
     print(f"forces of {len(states)} states off by {largest:.1e}, displacements at rest by {off:.1e}")

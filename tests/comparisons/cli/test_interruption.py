@@ -25,6 +25,7 @@ COMPARE = ["compare", "two-edges-clamped", "--out", "kept"]
 TRADEOFF = ["tradeoff", "two-edges-clamped", "--solid", "48", "--workers", "2", "--out", "kept"]
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(("code", "arguments", "begun", "left"), [
     (COMMAND, SIMULATE, "simulated", "the same command goes on"),
     (COMMAND, TRADEOFF, "0/", "the same command goes on"),

@@ -40,11 +40,16 @@ def table(path):
         ("muscle-bands", (7, 3), True),
         ("strip-on-table", (5, 3), True),
         pytest.param("finger-on-cylinder", (7, 3), True, marks=pytest.mark.nightly),
-        ("napkin-on-ball", (4, 4), False),
+        ("finger-on-ball", (5, 3), True),
+        ("napkin-on-ball", (4, 4), False),  # unstable: no equilibrium in the folder
     ],
 )
 def test_numpy_alone_finds_our_forces_and_displacements(name, grid, solved):
-    scene = scenes.load(name)
+    scene = scenes.load(name.replace("finger-on-ball", "finger-on-cylinder"))
+    if name == "finger-on-ball":
+        (bar,) = scene.obstacles
+        ball = scenes.Sphere(position=(bar.position[0], 0.01, bar.position[2]), radius=bar.radius)
+        scene = scene.replace(obstacles=(ball,))
     lattice = arrays(lumped.describe(scene, spring_set(scene, grid)))
     along, states = NUMPY["differences"](lattice), lattice["state_name"].tolist()
     assert ("pressed" in states) == bool(scene.obstacles)

@@ -48,6 +48,14 @@ def test_exact_data_give_the_value_back(truth):
     assert np.abs(found.residuals).max() < 1e-9
 
 
+@pytest.mark.parametrize(("name", "true"), [("obstacle1.z", -0.024), ("obstacle1.radius", 0.0165)])
+def test_where_an_obstacle_is_and_how_thick_are_found_again(name, true):
+    scene, points = scenes.load("finger-on-cylinder"), np.array([[0.03, 0.005], [0.06, 0.015], [0.1, 0.01]])
+    measured = Displacements(points, lattice(put(scene, name, true), (9, 3)).displacement(points))
+    found = identify(scene, measured, [name], Lattice((9, 3, 2)), refine=False)
+    assert found.converged and found.unknowns[name].value == pytest.approx(true, rel=1e-6)
+
+
 def test_the_interval_holds_the_true_value_in_17_of_20_draws():
     """1 % of the largest displacement as noise in every component; the search starts up to 65 % away."""
     rng = np.random.default_rng(11)

@@ -89,6 +89,7 @@ def test_a_lost_scheduler_is_said_and_the_rows_are_kept(store, monkeypatch):
     assert len(rows_in(store.path)) == 1
 
 
+@pytest.mark.nightly
 def test_dask_cluster_loses_a_worker_mid_run_and_finishes(store, tmp_path):
     task_file = str(HERE / "campaign_tasks.py")
     with LocalCluster(

@@ -182,7 +182,7 @@ def test_the_thick_sheet_with_four_clamps_is_within_what_is_said():
     assert found.value > (1.669 - 1.635) / 1.635
 
 
-@pytest.mark.sweep(4)
+@pytest.mark.sweep(6)
 @pytest.mark.parametrize("clamped", [("x0",), ("x0", "x1"), ("x0", "x1", "y0", "y1")], ids=len)
 @pytest.mark.parametrize("poisson", [-0.3, 0.0, 0.3, 0.45, 0.49])
 @pytest.mark.parametrize("slenderness", [0.15, pytest.param(0.06, marks=pytest.mark.nightly)])

@@ -110,6 +110,7 @@ def test_the_plate_refuses_obstacles():
         fem_reference.solve(laid_strip(0.1), "plate")
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(("integrator", "within"), [("generalised-alpha", 5e-3), ("energy-momentum", 1e-6)])
 def test_energy_of_a_shell_that_falls(integrator, within):
     scene = laid_strip(0.05).replace(length_x=0.2, thickness=0.002, young=5e6)

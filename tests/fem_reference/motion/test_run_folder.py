@@ -15,6 +15,7 @@ from sheetbench.scenes.objects.tables import FactorTable
 BENT = FactorTable(time=(0.0, 0.013, 0.05), factor=(0.0, 1.0, 0.5))
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("options", [{}, {"integrator": "energy-momentum", "step": 1e-3}])
 def test_a_killed_run_goes_on_to_the_last_bit(tmp_path, options):
     """From a copy of its folder between two samples, which is what kill -9 leaves there; with a bend of a
@@ -28,7 +29,7 @@ def test_a_killed_run_goes_on_to_the_last_bit(tmp_path, options):
         if len(after) == 3:
             shutil.copytree(whole, killed)
 
-    def run(folder, duration=0.04, progress=None):
+    def run(folder, duration=0.07, progress=None):
         return fem_reference.simulate(
             scene,
             "shell",
@@ -45,11 +46,11 @@ def test_a_killed_run_goes_on_to_the_last_bit(tmp_path, options):
     for name in ("samples.bin", "frames.bin"):
         assert (killed / name).read_bytes() == (whole / name).read_bytes()
     assert (resumed.steps, resumed.status) == (at_once.steps, Status.CONVERGED)
-    assert 0.0 < resumed.resumed_from < 0.04 and at_once.resumed_from == 0.0
+    assert 0.0 < resumed.resumed_from < 0.07 and at_once.resumed_from == 0.0
     assert np.array_equal(resumed.extra["frames"], at_once.extra["frames"])
-    assert len(run(killed, duration=0.05).time) == 51
+    assert len(run(killed, duration=0.08).time) == 81
     with pytest.raises(BadInput, match="another run"):
-        fem_reference.simulate(scene, "plate", 0.04, elements=2, store=killed)
+        fem_reference.simulate(scene, "plate", 0.07, elements=2, store=killed)
 
 
 def test_a_fixed_step_that_fails_is_halved_and_said(monkeypatch):

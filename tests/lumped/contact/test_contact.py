@@ -165,6 +165,7 @@ def test_cells_graded_towards_the_clamp_bring_its_force_within_a_thousandth(drop
     assert clamped == pytest.approx(moment, rel=1e-3 if by == 0.8 else 1.5e-3)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(("gap", "masses"), [(0.6, 41), (0.6, 81), (0.3, 81)])
 def test_loop_pressed_between_plates(gap, masses):
     """The spring's sine takes κ²l²/6 of the force, the chord for the arc 1/12 of κ²l², the lift-off's phase
@@ -191,6 +192,7 @@ def test_strip_over_a_cylinder_against_the_elastica():
     assert solution.displacement([[1.0, 0.05]])[0, 2] == pytest.approx(CYLINDER_TIP, abs=1e-3)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("at", [0.3, 0.35, 0.45, 0.5])
 def test_strip_over_a_cylinder_at_other_places(at):
     assert bent_elastica(0.4) == pytest.approx(CYLINDER_FORCE, rel=1e-5)

@@ -36,6 +36,7 @@ def drift(history):
 
 # ten touches, seen by the millisecond, on a fine and a coarse grid; the conserving steps keep energy to their
 # iteration's tolerance, at any length
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("integrator", "duration", "options", "within"),
     [
@@ -106,6 +107,7 @@ def test_friction_slows_a_slide():
     assert history.energies["dissipated"][-1] > 0.0
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("integrator", ["auto", "midpoint", "esdirk"])
 def test_a_press_does_its_work(integrator):
     """A hanging strip that a plane lifts gains what the plane gives."""

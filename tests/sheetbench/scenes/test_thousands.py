@@ -60,7 +60,7 @@ MANY = {
 }  # fmt: skip
 
 
-@pytest.mark.sweep(2)
+@pytest.mark.sweep
 @pytest.mark.parametrize("parts", MANY)
 def test_a_thousand_parts_take_seconds(parts):
     began = process_time()

@@ -41,6 +41,7 @@ def written(folder, file, text):
     return folder / "own.toml"
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("file", "text", "said"),
     [

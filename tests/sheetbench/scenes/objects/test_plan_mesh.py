@@ -81,6 +81,7 @@ WRONG = {
 }  # fmt: skip
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("kind", WRONG)
 def test_what_is_no_mesh_of_a_sheet_is_refused(tmp_path, kind):
     points, cells, said = WRONG[kind]

@@ -18,8 +18,8 @@ from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.spec import Lattice
 from comparisons.modes import figure as swinging
 from comparisons.modes import state_figure as responding
-from comparisons.modes.linear import linearise
 from comparisons.modes.spectra import spectra
+from comparisons.modes.state_space import linearise
 from comparisons.sweep.solved import Ask
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff
